@@ -66,8 +66,7 @@ static void render_pixel(pass *p, int x, int y, path_counts *counts)
     for (uint64_t i = 0; i < p->samples; i++) {
         float rgb[3];
         path_trace(p->plan, x, y, p->first + i, p->run->seed, counts, rgb);
-        double light = luminance(rgb);
-        square += light * light;
+        square += luminance(rgb) * luminance(rgb);
         for (int k = 0; k < 3; k++)
             sum[k] += (double)rgb[k];
     }
@@ -80,28 +79,22 @@ static void add_counts(path_counts *to, const path_counts *more)
     to->paths += more->paths;
     to->segments += more->segments;
     to->shadow_rays += more->shadow_rays;
-    to->samples_lost += more->samples_lost;
+    to->lost += more->lost;
 }
 
-/* Only the thread that called film_render reports. */
-static void report(pass *p, int row)
-{
-    double done = p->done + p->part * (row + 1) / p->height;
-    if (!p->run->progress || !p->run->progress(done, p->run->user))
-        return;
-    lock(p);
-    p->stopped = 1;
-    unlock(p);
-}
-
-static void render_rows(pass *p, int reports)
+/* Only the thread that called film_render tells how far it is. */
+static void render_rows(pass *p, int tells)
 {
     path_counts counts = {0, 0, 0, 0};
     for (int row; (row = take_row(p)) >= 0;) {
         for (int x = 0; x < p->width; x++)
             render_pixel(p, x, row, &counts);
-        if (reports)
-            report(p, row);
+        if (!tells || !p->run->progress ||
+            !p->run->progress(p->done + p->part * (row + 1) / p->height, p->run->user))
+            continue;
+        lock(p);
+        p->stopped = 1;
+        unlock(p);
     }
     lock(p);
     add_counts(&p->counts, &counts);
@@ -153,32 +146,24 @@ uint64_t film_pass_samples(const film *f)
     return samples > 1 ? samples : 1;
 }
 
-static uint64_t samples_of_pass(const film *f, uint64_t left)
-{
-    uint64_t samples = film_pass_samples(f);
-    return samples < left ? samples : left;
-}
-
 /* The part of the samples or seconds that is done. */
 static double done_part(const film_run *run, uint64_t samples, double seconds)
 {
-    double part = run->samples ? (double)samples / (double)run->samples : 0;
-    double of_time = run->seconds > 0 ? seconds / run->seconds : 0;
-    return part > of_time ? part : of_time;
+    double part = (double)samples / (double)run->samples;
+    return run->seconds > 0 ? fmin(fmax(part, seconds / run->seconds), 1) : part;
 }
 
 static int render_passes(film *f, pass *p)
 {
     const film_run *run = p->run;
-    uint64_t start = f->samples;
-    double spent = 0, begun = clock_seconds(), before = f->seconds;
-    double processor = f->processor - clock_processor_seconds();
-    while (f->samples - start < run->samples && !(run->seconds > 0 && spent >= run->seconds)) {
+    const uint64_t start = f->samples, end = start + run->samples, most = film_pass_samples(f);
+    const double begun = clock_seconds(), before = f->seconds,
+                 processor = f->processor - clock_processor_seconds();
+    for (double spent = 0; f->samples < end && !(run->seconds > 0 && spent >= run->seconds);) {
         p->first = f->samples;
-        p->samples = samples_of_pass(f, run->samples - (f->samples - start));
+        p->samples = most < end - f->samples ? most : end - f->samples;
         p->done = done_part(run, f->samples - start, spent);
-        uint64_t passes = (f->samples - start) / p->samples;
-        p->part = passes ? p->done / (double)passes : done_part(run, p->samples, 0);
+        p->part = done_part(run, f->samples - start + p->samples, spent) - p->done;
         p->next_row = 0;
         p->counts = (path_counts){0, 0, 0, 0};
         render_pass(p);
@@ -231,12 +216,33 @@ void film_free(film *f)
     f->sum = f->square = NULL;
 }
 
+double film_light(const film *f, size_t pixel)
+{
+    const double *sum = f->sum + 3 * pixel;
+    return (0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / (double)f->samples;
+}
+
+double film_variance(const film *f, size_t pixel)
+{
+    double n = (double)f->samples, mean = film_light(f, pixel);
+    return f->samples < 2 ? (double)NAN : fmax(f->square[pixel] / n - mean * mean, 0) / (n - 1);
+}
+
 int film_image(const film *f, image *made)
 {
-    size_t count = 3 * film_pixels(f);
     if (!image_make(made, f->width, f->height))
         return 0;
-    for (size_t i = 0; i < count && f->samples; i++)
+    for (size_t i = 0; i < 3 * film_pixels(f) && f->samples; i++)
         made->rgb[i] = (float)(f->sum[i] / (double)f->samples);
+    return 1;
+}
+
+int film_from_image(film *f, const image *from)
+{
+    if (!film_make(f, from->width, from->height))
+        return 0;
+    f->samples = 1;
+    for (size_t i = 0; i < 3 * film_pixels(f); i++)
+        f->sum[i] = (double)from->rgb[i];
     return 1;
 }
