@@ -20,6 +20,7 @@ static const struct {
     {"camera from 0 0 5 to 0 0 0 from 1 2 3\n", ":1:28: 'from' stands in this statement twice"},
     {"camera from 0 0 5 to 0 0\n", ":1:19: the statement ends before all of 'to X Y Z' was there"},
     {"camera from 0 0 nan to 0 0 0\n", ":1:17: 'nan' is no number"},
+    {"camera from 0 0 1-2 to 0 0 0\n", ":1:17: '1-2' is no number"},
     {"camera from 0 0 1e7 to 0 0 0\n", ":1:17: from is 10000000, it must be from -1000000 to 1000000"},
     {"camera from 0 0 5 to 0 0 5\n", ":1:19: 'from' and 'to' are the same place"},
     {"camera from 0 5 0 to 0 0 0\n", ":1:1: 'up' is the direction of the view"},

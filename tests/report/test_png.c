@@ -277,7 +277,7 @@ int main(void)
         return test_done();
     test_deflate(bytes, out);
     test_png("studio", 200, 100, 0.5f, bytes, out);
-    test_png("blots", 131, 77, 1.0f, bytes, out);
+    test_png("grid", 131, 77, 1.0f, bytes, out);
     test_png("tiles", 1, 1, 1.0f, bytes, out);
     test_full_disk();
     free(bytes);

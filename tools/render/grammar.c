@@ -29,7 +29,6 @@ const char scene_grammar[] =
     "  image NAME pattern PATTERN [width PIXELS] [height PIXELS] (512 512)\n"
     "      tiles, grid      16 x 16 checks, two greys; 48 x 24 black lines on white, some red\n"
     "      studio           an environment: soft boxes in a grey room\n"
-    "      blots, brushed   for roughness, 0.1 to 1: polished with rough blots; streaks along u\n"
     "\n"
     "Materials:\n"
     "  material NAME conductor of gold|silver|copper|aluminium ROUGH    or: eta R G B k R G B\n"

@@ -20,7 +20,7 @@
 #include "cli/files.h"
 
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
-enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22, WORD_LENGTH_MAX = 63 };
+enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
 
 /* Rows of three numbers. */
 typedef struct table {
@@ -32,7 +32,9 @@ typedef struct table {
 typedef struct reader {
     const char *name, *at; /* at: the rest of the text */
     unsigned long long line;
-    char word[WORD_LENGTH_MAX + 1]; /* the last one; unprintable letters as '?' */
+    const char *word; /* the last one, of so many letters, and how many of them messages quote */
+    size_t letters;
+    int quoted;
     table v, vt, vn;
     size_t triangles;
     const placement *where;
@@ -42,6 +44,7 @@ typedef struct reader {
     size_t size;
 } reader;
 
+/* Returns 0. Bytes that cannot be printed become '?'. */
 PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
 {
     const int head = snprintf(r->message, r->size, "%s:%llu: ", r->name, r->line);
@@ -50,6 +53,8 @@ PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
     if (head >= 0 && (size_t)head < r->size)
         vsnprintf(r->message + head, r->size - (size_t)head, format, values);
     va_end(values);
+    for (char *c = r->message; *c; c++)
+        *c = *c >= ' ' && *c < 127 ? *c : '?';
     return 0;
 }
 
@@ -58,7 +63,6 @@ PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
 /* Reads the next word of the line: 1; 0 where the line has no more, -1 after a complaint. */
 static int next_word(reader *r)
 {
-    size_t letters = 0;
     for (;;) {
         r->at += strspn(r->at, " \t\r\v\f");
         if (*r->at != '\\')
@@ -69,33 +73,29 @@ static int next_word(reader *r)
         r->at += end + 1;
         r->line++;
     }
-    if (*r->at == '#')
-        return 0;
-    for (; *r->at && !strchr(" \t\r\v\f\n\\", *r->at); r->at++, letters++)
-        if (letters < WORD_LENGTH_MAX)
-            r->word[letters] = *r->at;
-    r->word[letters < WORD_LENGTH_MAX ? letters : WORD_LENGTH_MAX] = '\0';
-    for (char *c = r->word; *c; c++)
-        *c = *c > ' ' && *c < 127 ? *c : '?';
-    if (letters > WORD_LENGTH_MAX)
-        return complain_at(r, "'%.20s...' is longer than %d letters", r->word, WORD_LENGTH_MAX) - 1;
-    return letters > 0;
+    r->word = r->at;
+    r->letters = *r->at == '#' ? 0 : strcspn(r->at, " \t\r\v\f\n\\");
+    r->quoted = r->letters < 40 ? (int)r->letters : 40;
+    r->at += r->letters;
+    return r->letters > 0;
 }
 
-/* Reads the numbers up to the end of the line, `least` at least, and keeps the first three; 0 after a complaint.
- */
-static int read_numbers(reader *r, int least, double values[3])
+static int is_word(const reader *r, const char *word)
 {
-    const char what[3] = {r->word[0], r->word[1], '\0'};
+    return r->letters == strlen(word) && memcmp(r->word, word, r->letters) == 0;
+}
+
+/* Reads the numbers up to the end of the line, `least` at least, and keeps the first three; 0 after a complaint. */
+static int read_numbers(reader *r, const char *what, int least, double values[3])
+{
     int count = 0, is_there;
     while ((is_there = next_word(r)) == 1) {
-        char *end = r->word;
-        const int is_decimal = strspn(r->word, "0123456789+-.eE") == strlen(r->word); /* strtod takes nan too */
-        const double value = is_decimal ? strtod(r->word, &end) : 0;
-        if (end == r->word || *end)
-            return complain_at(r, "'%s' should be a number", r->word);
+        char *end;
+        const double value = strtod(r->word, &end); /* which takes nan too */
+        if (strspn(r->word, "0123456789+-.eE") < r->letters || end != r->word + r->letters)
+            return complain_at(r, "'%.*s' should be a number", r->quoted, r->word);
         if (!(fabs(value) <= 1e30))
-            return complain_at(r, "'%s' is too large a number", r->word);
+            return complain_at(r, "'%.*s' is too large a number", r->quoted, r->word);
         if (count < 3)
             values[count] = value;
         count++;
@@ -133,7 +133,7 @@ static vec3 turned(const placement *where, vec3 p)
 static int read_v(reader *r)
 {
     double p[3];
-    if (!read_numbers(r, 3, p))
+    if (!read_numbers(r, "v", 3, p))
         return 0;
     const vec3 placed = along(r->where->move, r->where->scale, turned(r->where, vec(p[0], p[1], p[2])));
     const double reach = 1e7;
@@ -146,7 +146,7 @@ static int read_vt(reader *r)
 {
     const double reach = 1e6; /* beyond it, float has no digits for the place in a texture */
     double p[3] = {0, 0, 0};
-    if (!read_numbers(r, 1, p))
+    if (!read_numbers(r, "vt", 1, p))
         return 0;
     if (!(fabs(p[0]) <= reach && fabs(p[1]) <= reach))
         return complain_at(r, "a texture coordinate is beyond %g", reach);
@@ -156,7 +156,7 @@ static int read_vt(reader *r)
 static int read_vn(reader *r)
 {
     double p[3];
-    if (!read_numbers(r, 3, p))
+    if (!read_numbers(r, "vn", 3, p))
         return 0;
     const double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
     const vec3 n = turned(r->where, vec(p[0], p[1], p[2]));
@@ -175,36 +175,32 @@ static int read_index(reader *r, const char **at, const table *of, size_t *index
     char *end;
     const long long given = strtoll(*at, &end, 10); /* a number too large becomes the largest */
     const long long count = (long long)of->count;
-    if (end == *at)
-        return complain_at(r, "'%s' should be v, v/vt, v//vn or v/vt/vn, in numbers", r->word);
+    if (end == *at || end > r->word + r->letters)
+        return complain_at(r, "'%.*s' should be v, v/vt, v//vn or v/vt/vn, in numbers", r->quoted, r->word);
     *at = end;
     if (given == 0)
-        return complain_at(r, "'%s': %s are counted from 1", r->word, of->name);
+        return complain_at(r, "'%.*s': %s are counted from 1", r->quoted, r->word, of->name);
     if (given > count || given < -count)
-        return complain_at(r, "'%s': there are %lld %s so far", r->word, count, of->name);
+        return complain_at(r, "'%.*s': there are %lld %s so far", r->quoted, r->word, count, of->name);
     *index = (size_t)(given > 0 ? given : count + 1 + given);
     return 1;
 }
 
 static int read_corner(reader *r, corner *c)
 {
-    const char *at = r->word;
+    const char *at = r->word, *end = at + r->letters;
     *c = (corner){0, 0, 0};
     if (!read_index(r, &at, &r->v, &c->v))
         return 0;
-    if (at[0] == '/' && at[1] != '/') {
-        at++;
-        if (!read_index(r, &at, &r->vt, &c->vt))
-            return 0;
-    } else if (at[0] == '/') {
-        at++;
-    }
-    if (at[0] == '/') {
+    if (*at == '/' && *++at != '/' && !read_index(r, &at, &r->vt, &c->vt))
+        return 0;
+    if (*at == '/') {
         at++;
         if (!read_index(r, &at, &r->vn, &c->vn))
             return 0;
     }
-    return *at == '\0' || complain_at(r, "'%s' should end after '%.*s'", r->word, (int)(at - r->word), r->word);
+    return at == end ||
+           complain_at(r, "'%.*s' should end after '%.*s'", r->quoted, r->word, (int)(at - r->word), r->word);
 }
 
 static vec3 row_of(const table *t, size_t index)
@@ -274,11 +270,11 @@ static int read_line(reader *r)
     const int is_there = next_word(r);
     if (is_there != 1)
         return is_there == 0;
-    return strcmp(r->word, "v") == 0    ? read_v(r)
-           : strcmp(r->word, "f") == 0  ? read_f(r)
-           : strcmp(r->word, "vt") == 0 ? read_vt(r)
-           : strcmp(r->word, "vn") == 0 ? read_vn(r)
-                                        : 1;
+    return is_word(r, "v")    ? read_v(r)
+           : is_word(r, "f")  ? read_f(r)
+           : is_word(r, "vt") ? read_vt(r)
+           : is_word(r, "vn") ? read_vn(r)
+                              : 1;
 }
 
 static int read_all(reader *r, size_t length)

@@ -1,6 +1,5 @@
-/* Patterns: images by formulas of (u, v), from the left and the top, averaged over each pixel: noise, maps for
- * roughness, fine detail, a studio as an environment (longitude across, latitude down; the zenith is the top row).
- */
+/* Patterns: images by formulas of (u, v), from the left and the top, averaged over each pixel: fine detail, and a
+ * studio as an environment (longitude across, latitude down; the zenith is the top row). */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -23,48 +22,6 @@ static float smooth(float from, float to, float x)
 {
     float t = fminf(fmaxf((x - from) / (to - from), 0.0f), 1.0f);
     return t * t * (3.0f - 2.0f * t);
-}
-
-/* ---- noise ---- */
-
-/* A number in [0, 1) for each point of a lattice that repeats after `nx` and `ny`, by the finaliser of SplitMix64.
- */
-static float lattice(uint32_t x, uint32_t y, uint32_t nx, uint32_t ny)
-{
-    uint64_t h = ((uint64_t)(x % nx) << 32 | y % ny) + 0x9E3779B97F4A7C15u * nx;
-    h = (h ^ h >> 30) * 0xBF58476D1CE4E5B9u;
-    h = (h ^ h >> 27) * 0x94D049BB133111EBu;
-    return (float)((h ^ h >> 31) >> 40) * 0x1p-24f;
-}
-
-/* Smooth noise with `nx` x `ny` cells in the unit square. */
-static float noise(float u, float v, uint32_t nx, uint32_t ny)
-{
-    float x = u * (float)nx, y = v * (float)ny;
-    uint32_t i = (uint32_t)x, k = (uint32_t)y;
-    float a = smooth(0.0f, 1.0f, x - (float)i), b = smooth(0.0f, 1.0f, y - (float)k);
-    float upper = (1.0f - a) * lattice(i, k, nx, ny) + a * lattice(i + 1, k, nx, ny);
-    float lower = (1.0f - a) * lattice(i, k + 1, nx, ny) + a * lattice(i + 1, k + 1, nx, ny);
-    return upper + b * (lower - upper);
-}
-
-/* Octaves of noise, in (0, 1). */
-static float cloud(float u, float v, uint32_t nx, uint32_t ny)
-{
-    float sum = 0.0f, weight = 0.5f;
-    for (int octave = 0; octave < 5; octave++, weight *= 0.5f)
-        sum += weight * noise(u, v, nx << octave, ny << octave);
-    return sum / (1.0f - 2.0f * weight);
-}
-
-static void shade_brushed(float u, float v, float rgb[3])
-{
-    grey(0.25f + 0.75f * cloud(u, v, 3, 48), rgb);
-}
-
-static void shade_blots(float u, float v, float rgb[3])
-{
-    grey(0.1f + 0.9f * smooth(0.52f, 0.54f, cloud(u, v, 8, 8)), rgb);
 }
 
 /* ---- fine detail ---- */
@@ -129,8 +86,9 @@ typedef struct pattern {
 } pattern;
 
 static const pattern patterns[] = {
-    {"tiles", shade_tiles}, {"grid", shade_grid},       {"studio", shade_studio},
-    {"blots", shade_blots}, {"brushed", shade_brushed},
+    {"tiles", shade_tiles},
+    {"grid", shade_grid},
+    {"studio", shade_studio},
 };
 enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
 
@@ -160,7 +118,7 @@ int image_make_pattern(image *made, const char *name, int width, int height, ima
     if (!p) {
         const char *near = nearest_word(name, names, PATTERNS);
         snprintf(error->message, sizeof error->message, "there is no pattern '%.64s'; %s%s", name,
-                 near ? "did you mean " : "there are tiles, grid, studio, blots and brushed", near ? near : "");
+                 near ? "did you mean " : "there are tiles, grid and studio", near ? near : "");
         return 0;
     }
     if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height)) {
