@@ -210,10 +210,12 @@ static void print_json_agreement(const agreement *a)
     print_json_number("mean_square", a->mean_square);
 }
 
-static void print_json(const comparison *c, const noise *noises, const agreement *agrees, int has_agreement)
+static void print_json(const comparison *c, const noise *noises, const agreement *agrees, int has_agreement,
+                       int is_whole)
 {
     const film *first = &c->way[0].film;
-    printf("{\"width\": %d, \"height\": %d, \"pictures\": [", first->width, first->height);
+    printf("{\"width\": %d, \"height\": %d, \"interrupted\": %s, \"pictures\": [", first->width, first->height,
+           is_whole ? "false" : "true");
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
         printf("%s\n  {\"sampler\": \"%s\"", i ? "," : "", path_sampler_names[c->way[i].sampler]);
@@ -251,7 +253,7 @@ static int tell(const comparison *c, const render_choice *r, const film *against
     if (!good)
         return complain(name, "no memory for figures");
     if (r->has_json) {
-        print_json(c, noises, agrees, against != NULL);
+        print_json(c, noises, agrees, against != NULL, is_whole);
         return status;
     }
     if (r->compares)
