@@ -17,32 +17,33 @@ static const char help[] =
     "       vndf render SCENE --compare LIST [-o SHEET.png] [options]\n"
     "       vndf render --grammar\n"
     "\n"
-    "Renders a scene file by path tracing. The picture is the same for any number of threads. An interrupt (^C)\n"
-    "saves the samples so far; the exit status is then 130.\n"
+    "Renders a scene file by path tracing. The picture is the same for any number of threads. An\n"
+    "interrupt (^C) saves the samples so far; the exit status is then 130.\n"
     "\n"
-    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout, in\n"
-    "                  place of the text, and an interrupt then leaves nothing\n"
+    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout,\n"
+    "                  in place of the text, and an interrupt then leaves nothing\n"
     "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
     "  --seconds S     stop after S seconds; without --spp takes as many samples as fit\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
-    "  --sampler NAME  how rough materials draw directions: by visible normals (the default), by all normals, or\n"
-    "                  perfect: in proportion to the BSDF, a yardstick that is slow\n"
+    "  --sampler NAME  how rough materials draw directions: by visible normals (the default), by all\n"
+    "                  normals, or perfect: in proportion to the BSDF, a yardstick that is slow\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, in place of the exposure of the scene\n"
-    "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of each, the\n"
-    "                  samples it needs for that of the first, its efficiency, and whether all show the same\n"
-    "                  picture; OUT has the pictures side by side, and their noise below\n"
+    "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of\n"
+    "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
+    "                  show the same; OUT has the pictures side by side, and their noise below\n"
     "  --equal WHAT    the others get the time of the first, or its samples (default: time)\n"
-    "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as noisy\n"
+    "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
+    "                  noisy\n"
     "  --json          prints figures as JSON\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
     "\n"
     "example: vndf render tools/scenes/metal.scene -o metal.png --spp 64\n"
-    "         vndf render tools/scenes/metal.scene --compare visible,all,perfect --width 240 -o sheet.png\n";
+    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n";
 
 typedef struct render_words {
     words output, format, spp, seconds, threads, seed, sampler, width, exposure, compare, equal, against, json,
@@ -150,15 +151,14 @@ static void print_film(const film *f, const render_choice *r, int is_whole)
 
 static void print_agreement(const char *what, const char *with, const agreement *a, int is_read)
 {
-    printf("%s beside %s: %+.3f%% light, ", what, with, 100 * (a->ratio - 1));
-    if (a->is == VERDICT_UNKNOWN) {
-        printf("which may be chance: fewer than %d samples a pixel have no variance to judge by\n",
-               VERDICT_SAMPLES);
-        return;
-    }
-    printf("%+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d): %s%s\n", a->whole,
-           a->mean_square, a->worst, a->x, a->y, a->is == VERDICT_SAME ? "the same" : "they differ",
-           is_read ? ", if it is as noisy" : "");
+    static const char *const said[3] = {"the same", "they differ", "unknown"};
+    printf("%s beside %s: %s%s\n    light %+.3f%%", what, with, said[a->is],
+           is_read && a->is != VERDICT_UNKNOWN ? ", if it is as noisy" : "", 100 * (a->ratio - 1));
+    if (a->is == VERDICT_UNKNOWN)
+        printf("; fewer than %d samples a pixel have no variance to judge by\n", VERDICT_SAMPLES);
+    else
+        printf(", %+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d)\n", a->whole,
+               a->mean_square, a->worst, a->x, a->y);
 }
 
 static void print_ways(const comparison *c, const noise *noises)
@@ -186,10 +186,10 @@ static void print_ways(const comparison *c, const noise *noises)
                      of[2 * k + 1].value);
         printf(" %18s %25s %25s\n", text[0], text[1], text[2]);
     }
-    printf(
-        "noise: of a pixel, beside its light; samples needed for the noise of %s, in its own; efficiency: one over\n"
-        "squared noise and seconds of processors; trimmed: without the worst thousandth of the pixels\n",
-        path_sampler_names[c->way[0].sampler]);
+    printf("noise: of a pixel, beside its light; samples needed for the noise of %s, in its own;\n"
+           "efficiency: one over squared noise and seconds of processors; trimmed: without the worst\n"
+           "thousandth of the pixels\n",
+           path_sampler_names[c->way[0].sampler]);
 }
 
 /* JSON has no NaN. */
