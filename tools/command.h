@@ -25,7 +25,6 @@ int command_albedo(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_explore(int argc, char **argv);
 int command_render(int argc, char **argv);
-int command_compare(int argc, char **argv);
 int command_help(int argc, char **argv);
 
 typedef struct subcommand {

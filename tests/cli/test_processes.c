@@ -206,13 +206,14 @@ static void test_interrupted_render(void)
 
 static void test_interrupted_compare(void)
 {
-    static const char *const words[] = {"compare", "ball.scene", "page", "--spp", "1e8", "--threads", "1", NULL};
+    static const char *const words[] = {"render",    "ball.scene", "--compare", "visible,all", "--spp", "1e8",
+                                        "--threads", "1",          "-o",        "sheet.png",   NULL};
     const run_outcome *o = NULL;
     TEST(run_put("ball.scene", run_scene));
     for (long delay = 100; delay < 5000 && (!o || !o->text[0]); delay *= 2)
         o = interrupt(null, words, SIGINT, delay, 0);
-    if (!(TEST(o->signal == SIGINT) & TEST_HAS(o->text, "vndf compare: interrupted; nothing was written") &
-          TEST(rmdir("page") != 0 && errno == ENOENT)))
+    if (!(TEST(o->signal == SIGINT) & TEST_HAS(o->text, "vndf render: interrupted; nothing was written") &
+          TEST(remove("sheet.png") != 0 && errno == ENOENT) & TEST(temporaries() == 0)))
         fprintf(stderr, "  status %d, %s\n", o->status, o->text);
     remove("ball.scene");
 }

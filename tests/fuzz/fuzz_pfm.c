@@ -3,13 +3,13 @@
 #include <math.h>
 
 #include "fuzz/fuzz.h"
-#include "render/image/image.h"
+#include "render/image.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     image made;
     image_error error = {""};
-    float rgb[3];
+    float between[3];
     uint8_t *exact = (uint8_t *)fuzz_text(data, size);
     int good = image_read_pfm_bytes(&made, "fuzz.pfm", exact, size, &error);
 
@@ -21,12 +21,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fuzz_require((size_t)made.width * (size_t)made.height * 4 < size, "an image is not larger than its file");
     for (int y = 0; y < made.height; y++)
         for (int x = 0; x < made.width; x++) {
-            image_at(&made, x, y, rgb);
+            const float *rgb = image_pixel(&made, x, y);
             fuzz_require(isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]), "pixels are finite");
         }
     for (int i = -8; i < 8; i++) {
-        image_bilinear(&made, (float)i * 0.37f, (float)i * 1.71f, rgb);
-        fuzz_use((double)rgb[0]);
+        image_bilinear(&made, i * 0.37, i * 1.71, between);
+        fuzz_use((double)between[0]);
     }
     image_free(&made);
     return 0;

@@ -1,96 +1,88 @@
-/* What the tests of the renderer's geometry share: random directions and shapes, and rays. */
+/* Scenes from text for tests of the renderer, and the mean over all samples of a film with its standard deviation:
+ * for films all of whose pixels see the same. */
 #ifndef TESTS_RENDER_RENDER_CASE_H
 #define TESTS_RENDER_RENDER_CASE_H
 
-#include <math.h>
-#include <stdlib.h>
-
-#include "harness/constants.h"
-#include "render/geometry/geometry.h"
 #include "harness/test.h"
+#include "render/compare.h"
 
-/* How many of them, less in quick mode. */
-static inline int rays(int most)
+enum { CASE_TEXT = 8192 };
+
+/* Reads text as the file tests/x.scene; NULL and a message. */
+static inline scene *case_read(const char *text, char message[1024])
 {
-    return test_quick() ? most / 10 : most;
+    char copy[CASE_TEXT];
+    snprintf(copy, sizeof copy, "%s", text);
+    message[0] = '\0';
+    return scene_read_text(VNDF_SOURCE_DIR "/tests/x.scene", copy, strlen(copy), message, 1024);
 }
 
-static inline float between(unsigned long long *state, float low, float high)
+/* A scene that has to be good. */
+static inline scene *case_scene(const char *text)
 {
-    return low + (high - low) * test_uniform(state);
+    char message[1024];
+    scene *s = case_read(text, message);
+    if (!TEST(s != NULL))
+        fprintf(stderr, "    %s\n", message);
+    return s;
 }
 
-static inline vndf_vec3 point_in_box(unsigned long long *state, float half)
+/* The same seen through a field so narrow that all 16 x 16 pixels see one point. */
+static inline scene *case_point(const char *text)
 {
-    const float x = between(state, -half, half), y = between(state, -half, half);
-    return vec(x, y, between(state, -half, half));
-}
-
-static inline vndf_vec3 random_direction(unsigned long long *state)
-{
-    for (;;) {
-        const vndf_vec3 p = point_in_box(state, 1.0f);
-        if (dot(p, p) > 1e-3f && dot(p, p) <= 1.0f)
-            return unit(p);
+    scene *s = case_scene(text);
+    if (s) {
+        s->field = 1e-6;
+        s->width = s->height = 16;
     }
+    return s;
 }
 
-static inline ray ray_along(vndf_vec3 origin, vndf_vec3 direction)
+/* Adds samples to a film, which is made if it has no pixels. */
+static inline void case_render(film *f, const scene *s, path_sampler sampler, uint64_t samples, uint64_t seed)
 {
-    const ray r = {origin, direction, 0.0f, HUGE_VALF};
-    return r;
+    char message[512] = "";
+    const film_run run = {.samples = samples, .threads = 2, .seed = seed};
+    path_plan *plan = path_prepare(s, sampler, message, sizeof message);
+    if (!TEST(plan != NULL))
+        fprintf(stderr, "    %s\n", message);
+    else if (TEST(f->sum || film_make(f, s->width, s->height)))
+        TEST(film_render(f, plan, &run));
+    path_free(plan);
 }
 
-static inline triangle bare_triangle(vndf_vec3 a, vndf_vec3 b, vndf_vec3 c)
-{
-    const triangle t = {{a, b, c}, {{0.0f, 0.0f, 0.0f}}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-    return t;
-}
+typedef struct case_mean {
+    double value, sigma, variance; /* variance: of one sample */
+} case_mean;
 
-/* Corner of a sphere of `radius` about the origin, cut into rows x 2 rows: the same bits for all neighbours. */
-static inline vndf_vec3 globe_corner(int rows, int row, int column, float radius)
+static inline case_mean case_mean_of(const film *f)
 {
-    const double theta = PI * row / rows;
-    const double phi = PI * (column % (2 * rows)) / rows, s = row % rows == 0 ? 0.0 : sin(theta);
-    const double r = (double)radius;
-    return vec((float)(r * s * sin(phi)), (float)(r * cos(theta)), (float)(r * s * cos(phi)));
-}
-
-static inline int add_globe(geometry *g, int rows, float radius)
-{
-    int is_added = 1;
-    for (int row = 0; row < rows; row++)
-        for (int column = 0; column < 2 * rows; column++) {
-            const vndf_vec3 a = globe_corner(rows, row, column, radius);
-            const vndf_vec3 b = globe_corner(rows, row + 1, column, radius);
-            const vndf_vec3 c = globe_corner(rows, row + 1, column + 1, radius);
-            const vndf_vec3 d = globe_corner(rows, row, column + 1, radius);
-            triangle t = bare_triangle(a, b, c);
-            if (row < rows - 1)
-                is_added &= geometry_add_triangle(g, &t, 0);
-            t.corner[1] = c;
-            t.corner[2] = d;
-            if (row > 0)
-                is_added &= geometry_add_triangle(g, &t, 0);
-        }
-    return is_added;
-}
-
-/* `spread`: of places; `size`: of shapes. */
-static inline int add_random(geometry *g, unsigned long long *state, int count, float spread, float size)
-{
-    int is_added = 1;
-    for (int i = 0; i < count; i++) {
-        const vndf_vec3 at = point_in_box(state, spread), u = scale(random_direction(state), size);
-        const vndf_vec3 across = scale(unit(cross(u, random_direction(state))), between(state, 0.2f, 2.0f) * size);
-        const sphere s = {at, between(state, 0.1f, 1.0f) * size};
-        const rectangle r = {at, u, across};
-        const triangle t = bare_triangle(at, add(at, u), add(at, across));
-        is_added &= i % 3 == 0   ? geometry_add_sphere(g, s, i)
-                    : i % 3 == 1 ? geometry_add_rectangle(g, r, i)
-                                 : geometry_add_triangle(g, &t, i);
+    double sum = 0, square = 0, count = (double)film_pixels(f) * (double)f->samples;
+    for (size_t i = 0; i < film_pixels(f); i++) {
+        sum += film_light(f, i) * (double)f->samples;
+        square += f->square[i];
     }
-    return is_added;
+    double variance = fmax(square / count - sum * sum / (count * count), 0);
+    const case_mean mean = {sum / count, sqrt(variance / count), variance};
+    return mean;
+}
+
+/* The mean light of a point. */
+static inline case_mean case_light(const scene *s, path_sampler sampler, uint64_t samples)
+{
+    film f = {.sum = NULL};
+    case_render(&f, s, sampler, samples, 1);
+    case_mean mean = case_mean_of(&f);
+    TEST(f.counts.lost == 0);
+    film_free(&f);
+    return mean;
+}
+
+/* 4.5 sigma: 7e-6 by chance. */
+static inline int case_agrees(case_mean mean, double want, double slack)
+{
+    int good = TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
+    return good;
 }
 
 #endif

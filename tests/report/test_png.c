@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "draw/deflate.h"
-#include "render/image/image.h"
+#include "render/image.h"
 
 enum { ROOM = 1 << 20 };
 
@@ -277,8 +277,8 @@ int main(void)
         return test_done();
     test_deflate(bytes, out);
     test_png("studio", 200, 100, 0.5f, bytes, out);
-    test_png("noise", 131, 77, 1.0f, bytes, out);
-    test_png("checks", 1, 1, 1.0f, bytes, out);
+    test_png("grid", 131, 77, 1.0f, bytes, out);
+    test_png("tiles", 1, 1, 1.0f, bytes, out);
     test_full_disk();
     free(bytes);
     free(out);

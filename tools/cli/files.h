@@ -5,6 +5,8 @@
 #ifndef TOOLS_CLI_FILES_H
 #define TOOLS_CLI_FILES_H
 
+#include <stddef.h>
+
 /* Opens something for each of the descriptors 0 to 2 that is closed, so that no file gets its number and is
  * taken for stdin, stdout or stderr: reading and writing there fails as before. Notes what stdout is. To be
  * called before anything is opened; 0 if it cannot be done. */
@@ -19,5 +21,9 @@ const char *files_note_stdin(void);
 
 /* Whether two paths lead to one file, be it there already or not. */
 int files_same(const char *a, const char *b);
+
+/* All bytes of a file that is not trusted, noted as an input, with a 0 behind them; to be freed. NULL and the reason if
+ * it cannot be read, has more than `most` bytes, or there is no memory. */
+char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size);
 
 #endif

@@ -21,8 +21,7 @@ const subcommand subcommands[] = {
     {"albedo", command_albedo, "what single scattering keeps of the light, for energy compensation"},
     {"export", command_export, "the sampler with your tables as one file for C, CUDA, GLSL and other languages"},
     {"explore", command_explore, "a page that draws tables, GGX and Beckmann side by side in a browser"},
-    {"render", command_render, "a picture of a scene, with only the effects that it calls for"},
-    {"compare", command_compare, "a scene by several ways of drawing normals, in equal time: a page"},
+    {"render", command_render, "a picture of a scene, by one sampler or several side by side"},
     {"help", command_help, "the help of a command; the manual page and completions of shells"},
 };
 

@@ -1,256 +1,374 @@
-/* vndf render: a scene file into a picture. Reads the words, prepares the scene, renders in passes, saves what is
- * there - also when it is interrupted. */
-#include "render/film.h"
-
+/* vndf render: a scene file into a picture, by one sampler or by several side by side. Reads the words, prepares
+ * the scene, renders, saves the picture, prints figures. */
 #include <math.h>
 #include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
-#include "command.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "commands/parts/render_against.h"
-#include "commands/parts/render_explain.h"
+#include "command.h"
+#include "render/compare.h"
 
 static const char name[] = "vndf render";
 
 static const char help[] =
     "usage: vndf render SCENE -o OUT.png|OUT.pfm [options]\n"
-    "       vndf render SCENE --explain\n"
+    "       vndf render SCENE --compare LIST [-o SHEET.png] [options]\n"
     "       vndf render --grammar\n"
     "\n"
-    "Renders a scene file by path tracing, only with the effects that the scene calls for. The image is the same\n"
-    "for any number of threads. An interrupt (^C) saves the samples so far; the exit status is then 130.\n"
+    "Renders a scene file by path tracing. The picture is the same for any number of threads. An\n"
+    "interrupt (^C) saves the samples so far; the exit status is then 130.\n"
     "\n"
-    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout, in place\n"
-    "                  of the text, and an interrupt then leaves nothing\n"
+    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout,\n"
+    "                  in place of the text, and an interrupt then leaves nothing\n"
     "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
     "  --seconds S     stop after S seconds; without --spp takes as many samples as fit\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
-    "  --sampler NAME  how rough materials draw normals: all, visible, bounded, or material, as each says (the\n"
-    "                  default). With perfect they draw directions, from tables made for the whole of each BSDF\n"
+    "  --sampler NAME  how rough materials draw directions: by visible normals (the default), by all\n"
+    "                  normals, or perfect: in proportion to the BSDF, a yardstick that is slow\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, in place of the exposure of the scene\n"
-    "  --against F     prints how far the picture is from F, a PFM of the same size\n"
-    "  --explain       lists the effects that the scene calls for and the cost of each, measured in some seconds on\n"
-    "                  one thread\n"
+    "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of\n"
+    "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
+    "                  show the same; OUT has the pictures side by side, and their noise below\n"
+    "  --equal WHAT    the others get the time of the first, or its samples (default: time)\n"
+    "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
+    "                  noisy\n"
+    "  --json          prints figures as JSON\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
+    "The exit status is 1 where pictures differ by more than chance.\n"
+    "\n"
     "example: vndf render tools/scenes/metal.scene -o metal.png --spp 64\n"
-    "         vndf render tools/scenes/glass.scene -o glass.pfm --seconds 20 --sampler visible --explain\n";
+    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n";
 
 typedef struct render_words {
-    words output, format, spp, seconds, threads, seed, sampler, width, exposure, against, explain, grammar;
+    words output, format, spp, seconds, threads, seed, sampler, width, exposure, compare, equal, against, json,
+        grammar;
 } render_words;
 
 typedef struct render_choice {
     unsigned long long spp, threads, seed, width;
     double seconds, exposure;
-    path_sampler sampler;
-    const char *against; /* NULL: nothing */
-    image other;         /* the picture of that name */
+    const char *output, *format, *against; /* NULL: none */
+    int compares, has_json;
 } render_choice;
 
 /* ---- words ---- */
 
-static int read_sampler(const words *given, path_sampler *sampler)
+static int read_sampler(const char *what, const char *word, size_t letters, comparison *c)
 {
-    const char *word = only_word(given);
-    for (size_t i = 0; word && i < SAMPLERS; i++)
-        if (strcmp(word, path_sampler_names[i]) == 0) {
-            *sampler = (path_sampler)i;
-            return 1;
-        }
-    if (!word)
+    char copy[32];
+    snprintf(copy, sizeof copy, "%.*s", (int)(letters < sizeof copy ? letters : sizeof copy - 1), word);
+    for (size_t i = 0; i < SAMPLERS; i++) {
+        if (strcmp(copy, path_sampler_names[i]) != 0)
+            continue;
+        for (size_t k = 0; k < c->count; k++)
+            if (c->way[k].sampler == (path_sampler)i)
+                return complain(name, "%s: '%s' stands there twice", what, copy), 0;
+        c->way[c->count++].sampler = (path_sampler)i;
         return 1;
-    const char *hint = nearest_word(word, path_sampler_names, SAMPLERS);
-    complain(name, "--sampler: '%s' is none of all, visible, bounded, perfect and material%s%s%s", word,
+    }
+    const char *hint = nearest_word(copy, path_sampler_names, SAMPLERS);
+    complain(name, "%s: '%s' is none of visible, all and perfect%s%s%s", what, copy,
              hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
     return 0;
 }
 
-static int read_choice(const render_words *given, render_choice *c)
+/* A list separated by commas, or one word. */
+static int read_samplers(const render_words *given, comparison *c)
 {
-    *c = (render_choice){.threads = film_processors(), .sampler = SAMPLER_MATERIAL};
-    c->against = only_word(&given->against);
-    return option_count(name, "--spp", &given->spp, 1, 1e9, &c->spp) &&
-           option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &c->seconds) &&
-           option_count(name, "--threads", &given->threads, 1, 256, &c->threads) &&
-           option_count(name, "--seed", &given->seed, 0, 0x1p53, &c->seed) &&
-           option_count(name, "--width", &given->width, 1, IMAGE_SIDE_MAX, &c->width) &&
-           option_number(name, "--exposure", &given->exposure, 1e-6, 1e6, &c->exposure) &&
-           read_sampler(&given->sampler, &c->sampler);
+    const char *list = only_word(&given->compare), *one = only_word(&given->sampler),
+               *equal = only_word(&given->equal);
+    if (list && one)
+        return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
+    if (equal && (!list || (strcmp(equal, "time") != 0 && strcmp(equal, "samples") != 0)))
+        return complain(name, "--equal %s: it is time or samples, beside --compare", equal), 0;
+    c->has_equal_time = !equal || strcmp(equal, "time") == 0;
+    if (!list)
+        return read_sampler("--sampler", one ? one : "visible", strlen(one ? one : "visible"), c);
+    for (const char *at = list;; at++) {
+        size_t letters = strcspn(at, ",");
+        if (!read_sampler("--compare", at, letters, c))
+            return 0;
+        at += letters;
+        if (!*at)
+            return c->count > 1 || (complain(name, "--compare takes two samplers at least"), 0);
+    }
 }
 
-typedef int image_writer(FILE *file, const image *made, float exposure);
-
-static int write_pfm(FILE *file, const image *made, float exposure)
+static int read_choice(const render_words *given, render_choice *r, comparison *c)
 {
-    (void)exposure;
-    return image_write_pfm(file, made);
+    *r = (render_choice){.threads = film_processors(),
+                         .output = only_word(&given->output),
+                         .format = only_word(&given->format),
+                         .against = only_word(&given->against),
+                         .compares = given->compare.count > 0,
+                         .has_json = given->json.count > 0};
+    *c = (comparison){.count = 0};
+    return option_count(name, "--spp", &given->spp, 1, 1e9, &r->spp) &&
+           option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &r->seconds) &&
+           option_count(name, "--threads", &given->threads, 1, 256, &r->threads) &&
+           option_count(name, "--seed", &given->seed, 0, 0x1p53, &r->seed) &&
+           option_count(name, "--width", &given->width, 1, IMAGE_SIDE_MAX, &r->width) &&
+           option_number(name, "--exposure", &given->exposure, 1e-6, 1e6, &r->exposure) && read_samplers(given, c);
 }
 
-static image_writer *writer_of(const char *path, const char *format)
+/* Whether OUT is a PNG (0) or a PFM (1); -1 after a complaint. */
+static int form_of(const render_choice *r)
 {
     static const char *const forms[2] = {"png", "pfm"};
-    int form = output_form(name, path, format, forms);
-    return form < 0 ? NULL : form == 0 ? image_write_png : write_pfm;
+    return output_form(name, r->output, r->format, forms);
 }
 
-/* ---- progress ---- */
-
-typedef struct watch {
-    progress line;
-    double seconds; /* the limit; 0: none */
-} watch;
-
-static int show_progress(double done, void *user)
+/* Before anything is read or rendered; 0 after a complaint. */
+static int is_output_usable(const render_choice *r)
 {
-    watch *w = user;
-    if (w->seconds > 0)
-        done = fmax(done, fmin((clock_seconds() - w->line.begun) / w->seconds, 1));
-    return progress_tell(done, &w->line);
+    if (!r->output)
+        return r->compares || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
+    if (output_is_stdout(r->output) && (r->compares || r->against || r->has_json))
+        return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
+    return form_of(r) >= 0 && output_replaceable(name, r->output);
+}
+
+/* ---- figures ---- */
+
+static void print_film(const film *f, const render_choice *r, int is_whole)
+{
+    double rays = (double)(f->counts.segments + f->counts.shadow_rays), seconds = fmax(f->seconds, 1e-9);
+    double paths = (double)f->counts.paths;
+    printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
+           is_whole ? "" : " (interrupted)");
+    printf("%.3g s on %llu thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
+           seconds, r->threads, r->threads == 1 ? "" : "s", paths / seconds, rays / seconds,
+           (double)f->counts.segments / paths, (double)f->counts.shadow_rays / paths);
+    if (f->counts.lost)
+        printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
+}
+
+static void print_agreement(const char *what, const char *with, const agreement *a, int is_read)
+{
+    static const char *const said[3] = {"the same", "they differ", "unknown"};
+    printf("%s beside %s: %s%s\n    light %+.3f%%", what, with, said[a->is],
+           is_read && a->is != VERDICT_UNKNOWN ? ", if it is as noisy" : "", 100 * (a->ratio - 1));
+    if (a->is == VERDICT_UNKNOWN)
+        printf("; fewer than %d samples a pixel have no variance to judge by\n", VERDICT_SAMPLES);
+    else
+        printf(", %+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d)\n", a->whole,
+               a->mean_square, a->worst, a->x, a->y);
+}
+
+static void print_ways(const comparison *c, const noise *noises)
+{
+    const film *first = &c->way[0].film;
+    printf("%-8s %8s %8s %18s %25s %25s\n", "sampler", "samples", "seconds", "noise (trimmed)",
+           "samples needed (trimmed)", "efficiency (trimmed)");
+    for (size_t i = 0; i < c->count; i++) {
+        const film *f = &c->way[i].film;
+        char text[3][64];
+        const measured of[4] = {samples_ratio(noises[0].all, noises[i].all, first, f),
+                                samples_ratio(noises[0].trimmed, noises[i].trimmed, first, f),
+                                efficiency(noises[0].all, noises[i].all, first, f),
+                                efficiency(noises[0].trimmed, noises[i].trimmed, first, f)};
+        printf("%-8s %8llu %8.2f", path_sampler_names[c->way[i].sampler], (unsigned long long)f->samples,
+               f->processor);
+        if (f->samples < 2) {
+            puts("  one sample a pixel has no variance");
+            continue;
+        }
+        snprintf(text[0], sizeof text[0], "%.2f%% (%.2f%%)", 100 * sqrt(noises[i].all.value),
+                 100 * sqrt(noises[i].trimmed.value));
+        for (size_t k = 0; k < 2; k++)
+            snprintf(text[1 + k], sizeof text[1 + k], "%.3f +- %.3f (%.3f)", of[2 * k].value, of[2 * k].spread,
+                     of[2 * k + 1].value);
+        printf(" %18s %25s %25s\n", text[0], text[1], text[2]);
+    }
+    printf("noise: of a pixel, beside its light; samples needed for the noise of %s, in its own;\n"
+           "efficiency: one over squared noise and seconds of processors; trimmed: without the worst\n"
+           "thousandth of the pixels\n",
+           path_sampler_names[c->way[0].sampler]);
+}
+
+/* JSON has no NaN. */
+static void print_json_number(const char *key, double x)
+{
+    if (isfinite(x))
+        printf(", \"%s\": %.9g", key, x);
+    else
+        printf(", \"%s\": null", key);
+}
+
+static void print_json_agreement(const agreement *a)
+{
+    printf(", \"verdict\": \"%s\"", verdict_names[a->is]);
+    print_json_number("light_ratio", a->ratio);
+    print_json_number("deviations", a->whole);
+    print_json_number("worst_block", a->worst);
+    print_json_number("mean_square", a->mean_square);
+}
+
+static void print_json(const comparison *c, const noise *noises, const agreement *agrees, int has_agreement,
+                       int is_whole)
+{
+    const film *first = &c->way[0].film;
+    printf("{\"width\": %d, \"height\": %d, \"interrupted\": %s, \"pictures\": [", first->width, first->height,
+           is_whole ? "false" : "true");
+    for (size_t i = 0; i < c->count; i++) {
+        const film *f = &c->way[i].film;
+        printf("%s\n  {\"sampler\": \"%s\"", i ? "," : "", path_sampler_names[c->way[i].sampler]);
+        print_json_number("samples", (double)f->samples);
+        print_json_number("seconds", f->seconds);
+        print_json_number("processor_seconds", f->processor);
+        print_json_number("lost", (double)f->counts.lost);
+        print_json_number("noise", sqrt(noises[i].all.value));
+        print_json_number("noise_trimmed", sqrt(noises[i].trimmed.value));
+        print_json_number("samples_needed", samples_ratio(noises[0].all, noises[i].all, first, f).value);
+        print_json_number("efficiency", efficiency(noises[0].all, noises[i].all, first, f).value);
+        if (has_agreement || i)
+            print_json_agreement(&agrees[i]);
+        printf("}");
+    }
+    printf("\n]}\n");
+}
+
+/* What the films say; STATUS_NO if one shows something else. `against` may be NULL. */
+static int tell(const comparison *c, const render_choice *r, const film *against, int is_whole)
+{
+    const film *other = against ? against : &c->way[0].film;
+    noise noises[SAMPLERS];
+    agreement agrees[SAMPLERS];
+    film all;
+    int status = STATUS_GOOD, good = comparison_mean(c, &all);
+    for (size_t i = 0; i < c->count && good; i++) {
+        const film *f = &c->way[i].film;
+        good = noise_of(f, &all, &noises[i]);
+        agrees[i] = agreement_between(f, other, against != NULL);
+        if (agrees[i].is == VERDICT_DIFFERS && f != other)
+            status = STATUS_NO;
+    }
+    film_free(&all);
+    if (!good)
+        return complain(name, "no memory for figures");
+    if (r->has_json) {
+        print_json(c, noises, agrees, against != NULL, is_whole);
+        return status;
+    }
+    if (r->compares)
+        print_ways(c, noises);
+    else
+        print_film(&c->way[0].film, r, is_whole);
+    for (size_t i = against ? 0 : 1; i < c->count; i++)
+        print_agreement(path_sampler_names[c->way[i].sampler],
+                        against ? r->against : path_sampler_names[c->way[0].sampler], &agrees[i], against != NULL);
+    return status;
 }
 
 /* ---- rendering ---- */
 
-static void print_summary(const film *f, const render_choice *c, int whole)
+/* `held` are the signals that wait. 0 if it was stopped, or there is no memory. */
+static int render_ways(comparison *c, const scene *s, unsigned held)
 {
-    double rays = (double)(f->counts.segments + f->counts.shadow_rays), seconds = fmax(f->seconds, 1e-9);
-    printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
-           whole ? "" : " (interrupted)");
-    printf("%.3g s on %llu thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
-           seconds, c->threads, c->threads == 1 ? "" : "s", (double)f->counts.paths / seconds, rays / seconds,
-           (double)f->counts.segments / (double)f->counts.paths,
-           (double)f->counts.shadow_rays / (double)f->counts.paths);
-    if (f->counts.samples_lost)
-        printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.samples_lost);
-    fflush(stdout); /* a signal that waits ends the program when the image is saved */
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", held);
+    line.tells_left = 1;
+    c->progress = progress_tell;
+    c->user = &line;
+    int is_whole = 1;
+    for (size_t i = 0; i < c->count && is_whole; i++)
+        is_whole = film_make(&c->way[i].film, s->width, s->height);
+    const film_run run = {.samples = c->samples,
+                          .seconds = c->seconds,
+                          .threads = c->threads,
+                          .seed = c->seed,
+                          .progress = progress_tell,
+                          .user = &line};
+    if (is_whole)
+        is_whole = c->count > 1 ? comparison_run(c) : film_render(&c->way[0].film, c->way[0].plan, &run);
+    progress_end(&line);
+    return is_whole;
 }
 
-static int save(output_file *output, image_writer *write, const film *f, float exposure)
+static int save(output_file *output, const comparison *c, const render_choice *r, float exposure)
 {
     image made;
-    if (!film_image(f, &made))
-        return output_give_up(output, "no memory for the image");
-    int written = write(output->file, &made, exposure);
+    const int is_pfm = form_of(r) == 1;
+    const float scale_by = r->exposure > 0 ? (float)r->exposure : exposure;
+    if (!(c->count > 1 ? comparison_image(c, is_pfm ? 1.0f : scale_by, &made)
+                       : film_image(&c->way[0].film, &made)))
+        return output_give_up(output, "no memory for the picture");
+    int is_written = is_pfm ? image_write_pfm(output->file, &made)
+                            : image_write_png(output->file, &made, c->count > 1 ? 1.0f : scale_by);
     image_free(&made);
-    if (written || ferror(output->file)) /* which is told by closing */
+    if (is_written || ferror(output->file)) /* which is told by closing */
         return output_commit(output);
-    return output_give_up(output, "no memory for the image");
+    return output_give_up(output, "no memory for the picture");
 }
 
-static int render_film(output_file *output, image_writer *write, const path_plan *plan, const scene *s,
-                       const render_choice *c)
+/* Figures alone: no file is open, and signals wait for the end of a pass. */
+static int render_figures(comparison *c, const render_choice *r, const scene *s, const film *against)
 {
-    film f;
-    watch w = {progress_begin("rendering", output->held), c->seconds};
-    film_run run = {.samples = c->spp ? c->spp : s->integrator.samples,
-                    .seconds = c->seconds,
-                    .seed = c->seed,
-                    .threads = (unsigned)c->threads,
-                    .progress = show_progress,
-                    .user = &w};
-    if (!c->spp && c->seconds > 0)
-        run.samples = 1000000000;
-    w.line.tells_left = 1;
-    if (!film_make(&f, s->width, s->height))
-        return output_give_up(output, "no memory for the film");
-    int whole = film_render(&f, plan, &run), status;
-    progress_end(&w.line);
-    if (f.samples) {
-        if (output->path)
-            print_summary(&f, c, whole);
-        if (output->path && c->against)
-            render_against_print(&f, &c->other, c->against);
-        status = save(output, write, &f, c->exposure > 0 ? (float)c->exposure : s->integrator.exposure);
-    } else {
-        status = output_give_up(output, output_interrupted(output) ? "interrupted before every pixel had a sample"
-                                                                   : "no memory for a pass");
-    }
-    film_free(&f);
+    const unsigned held = output_hold_signals();
+    int status = STATUS_USE;
+    if (render_ways(c, s, held))
+        status = tell(c, r, against, 1);
+    else
+        complain(name, output_stopping(held) ? "interrupted; nothing was written" : "no memory for the films");
+    output_release_signals(held);
     return status;
 }
 
-static int render_to_file(const render_words *given, const path_plan *plan, const scene *s, const render_choice *c)
+static int render_picture(comparison *c, const render_choice *r, const scene *s, const film *against)
 {
     output_file output;
-    image_writer *write = writer_of(only_word(&given->output), only_word(&given->format));
-    if (!write || !output_open(&output, name, only_word(&given->output)))
+    if (!output_open(&output, name, r->output))
         return STATUS_USE;
-    return render_film(&output, write, plan, s, c);
+    const int is_whole = render_ways(c, s, output.held);
+    if (!is_whole && (r->compares || !c->way[0].film.samples))
+        return output_give_up(&output, !output_interrupted(&output) ? "no memory for the films"
+                                       : r->compares                ? "interrupted; nothing was written"
+                                                     : "interrupted before every pixel had a sample");
+    const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
+    fflush(stdout); /* a signal that waits ends the program when the picture is saved */
+    const int saved = save(&output, c, r, s->exposure);
+    return saved != STATUS_GOOD ? saved : verdict_is;
 }
 
-/* Signals end the program as long as this goes on. */
-static int make_albedos(scene *s)
+static int read_against(const render_choice *r, const scene *s, film *made)
+{
+    image_error error;
+    image of;
+    if (!image_read_pfm(&of, r->against, &error))
+        return complain(name, "--against: %s", error.message), 0;
+    int fits = of.width == s->width && of.height == s->height;
+    if (!fits)
+        complain(name, "--against: %s has %d x %d pixels, this picture has %d x %d", r->against, of.width,
+                 of.height, s->width, s->height);
+    else if (!film_from_image(made, &of))
+        fits = (complain(name, "no memory for %s", r->against), 0);
+    image_free(&of);
+    return fits;
+}
+
+static int render_scene(comparison *c, const render_choice *r, scene *s)
 {
     char message[640];
-    progress line = progress_begin("albedos", 0);
-    int good = scene_make_albedos(s, progress_show, &line, message, sizeof message);
-    progress_end(&line);
-    return good || (complain(name, "%s", message), 0);
-}
-
-static void print_precomputed(const scene *s, const path_plan *plan)
-{
-    path_precomputed cost = path_perfect_cost(plan);
-    if (s->albedo_count)
-        printf("energy compensation: %zu table%s of albedos built, %.3g KiB, %.3g s\n", s->albedo_count,
-               s->albedo_count == 1 ? "" : "s", (double)scene_albedo_bytes(s) / 1024, s->albedo_seconds);
-    if (cost.count)
-        printf("perfect sampling: %zu BSDF%s precomputed, %.3g MiB, %.3g s\n", cost.count,
-               cost.count == 1 ? "" : "s", (double)cost.bytes / 1048576, cost.seconds);
-}
-
-static int render_scene(const render_words *given, scene *s, const render_choice *c)
-{
-    char message[512];
-    if (!make_albedos(s))
+    film against = {.sum = NULL};
+    if (r->width && !scene_resize(s, (int)r->width, message, sizeof message))
+        return complain(name, "--width: %s", message);
+    c->samples = r->spp ? r->spp : r->seconds > 0 ? 1000000000 : s->samples;
+    c->seconds = r->seconds;
+    c->threads = (unsigned)r->threads;
+    c->seed = r->seed;
+    for (size_t i = 0; i < c->count; i++)
+        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
+            return complain(name, "%s", message);
+    if (r->against && !read_against(r, s, &against))
         return STATUS_USE;
-    path_plan *plan = path_prepare(s, c->sampler, 0, message, sizeof message);
-    int status = STATUS_GOOD;
-    if (!plan)
-        return complain(name, "%s", message);
-    if (!given->output.count || !output_is_stdout(only_word(&given->output)))
-        print_precomputed(s, plan);
-    if (given->explain.count)
-        status = render_explain(name, s, c->sampler);
-    if (status == STATUS_GOOD && given->output.count)
-        status = render_to_file(given, plan, s, c);
-    path_free(plan);
-    return status;
-}
-
-/* Before anything is read or rendered; 0 after a complaint. */
-static int is_output_usable(const render_words *given)
-{
-    const char *path = only_word(&given->output);
-    if (path && given->explain.count && output_is_stdout(path))
-        return complain(name, "--explain prints to stdout, where -o - puts the picture; give one of them"), 0;
-    if (given->against.count && (!path || output_is_stdout(path)))
-        return complain(name, "--against prints to stdout how far the picture in -o OUT is; give -o a file"), 0;
-    return !path || (writer_of(path, only_word(&given->format)) && output_replaceable(name, path));
-}
-
-static int read_and_render(const render_words *given, const char *path)
-{
-    render_choice c;
-    scene s;
-    char message[1024];
-    if (!read_choice(given, &c) || !is_output_usable(given))
-        return STATUS_USE;
-    if (!scene_read(&s, path, message, sizeof message))
-        return complain(name, "%s", message);
-    int fits = !c.width || scene_resize(&s, (int)c.width, message, sizeof message), status = STATUS_USE;
-    if (!fits)
-        complain(name, "--width: %s", message);
-    else if (!c.against || render_against_read(name, c.against, s.width, s.height, &c.other))
-        status = render_scene(given, &s, &c);
-    image_free(&c.other);
-    scene_free(&s);
+    const film *other = r->against ? &against : NULL;
+    int status = r->output ? render_picture(c, r, s, other) : render_figures(c, r, s, other);
+    film_free(&against);
     return status;
 }
 
@@ -263,21 +381,33 @@ int command_render(int argc, char **argv)
         {"--spp", 1, 1, &given.spp},           {"--seconds", 1, 1, &given.seconds},
         {"--threads", 1, 1, &given.threads},   {"--seed", 1, 1, &given.seed},
         {"--sampler", 1, 1, &given.sampler},   {"--width", 1, 1, &given.width},
-        {"--exposure", 1, 1, &given.exposure}, {"--explain", 0, 1, &given.explain},
-        {"--against", 1, 1, &given.against},   {"--grammar", 0, 1, &given.grammar},
+        {"--exposure", 1, 1, &given.exposure}, {"--compare", 1, 1, &given.compare},
+        {"--equal", 1, 1, &given.equal},       {"--against", 1, 1, &given.against},
+        {"--json", 0, 1, &given.json},         {"--grammar", 0, 1, &given.grammar},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed == PARSE_GO_ON && given.grammar.count) {
-        for (size_t i = 0; i < SCENE_GRAMMAR_PARTS; i++)
-            fputs(scene_grammar[i], stdout);
+    char message[1024];
+    render_choice r;
+    comparison c;
+    int status = parse_arguments(&form, argc, argv, &positional);
+    if (status != PARSE_GO_ON)
+        return status;
+    if (given.grammar.count) {
+        fputs(scene_grammar, stdout);
         return STATUS_GOOD;
     }
-    if (parsed != PARSE_GO_ON)
-        return parsed;
     if (!positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
-    if (!given.output.count && !given.explain.count)
-        return complain(name, "-o OUT.png or -o OUT.pfm is missing");
-    return read_and_render(&given, only_word(&positional));
+    if (!read_choice(&given, &r, &c) || !is_output_usable(&r))
+        return STATUS_USE;
+    scene *s = scene_read(only_word(&positional), message, sizeof message);
+    if (!s)
+        return complain(name, "%s", message);
+    status = render_scene(&c, &r, s);
+    for (size_t i = 0; i < c.count; i++) {
+        path_free(c.way[i].plan);
+        film_free(&c.way[i].film);
+    }
+    scene_free(s);
+    return status;
 }

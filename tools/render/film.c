@@ -5,6 +5,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -22,52 +23,29 @@ typedef struct pass {
     const path_plan *plan;
     const film_run *run;
     int width, height;
-    double *sum, *square;    /* of this pass */
-    uint64_t first, samples; /* a pixel */
-    double done, part;       /* of the run: before this pass, and this pass */
-    int next_row, stopped;   /* shared by the threads */
-    path_counts counts;
-#ifdef VNDF_TOOLS_PTHREADS
-    pthread_mutex_t lock;
-#endif
+    double *sum, *square;         /* of this pass */
+    uint64_t first, samples;      /* a pixel */
+    double done, part;            /* of the run: before this pass, and this pass */
+    atomic_int next_row, stopped; /* shared by the threads */
 } pass;
 
-static void lock(pass *p)
-{
+typedef struct worker {
+    pass *of;
+    path_counts counts;
+    int tells; /* how far it is: the thread that called film_render */
 #ifdef VNDF_TOOLS_PTHREADS
-    pthread_mutex_lock(&p->lock);
-#else
-    (void)p;
+    pthread_t thread;
 #endif
-}
+} worker;
 
-static void unlock(pass *p)
-{
-#ifdef VNDF_TOOLS_PTHREADS
-    pthread_mutex_unlock(&p->lock);
-#else
-    (void)p;
-#endif
-}
-
-/* The next row to render; -1 if no row is left or the run was stopped. */
-static int take_row(pass *p)
-{
-    lock(p);
-    int row = p->stopped || p->next_row >= p->height ? -1 : p->next_row++;
-    unlock(p);
-    return row;
-}
-
-static void render_pixel(pass *p, int x, int y, path_counts *counts)
+static void render_pixel(const pass *p, int x, int y, path_counts *counts)
 {
     size_t at = (size_t)y * (size_t)p->width + (size_t)x;
     double sum[3] = {0, 0, 0}, square = 0;
     for (uint64_t i = 0; i < p->samples; i++) {
         float rgb[3];
         path_trace(p->plan, x, y, p->first + i, p->run->seed, counts, rgb);
-        double light = luminance(rgb);
-        square += light * light;
+        square += luminance(rgb) * luminance(rgb);
         for (int k = 0; k < 3; k++)
             sum[k] += (double)rgb[k];
     }
@@ -75,68 +53,52 @@ static void render_pixel(pass *p, int x, int y, path_counts *counts)
     p->square[at] = square;
 }
 
+static void *render_rows(void *user)
+{
+    worker *w = user;
+    pass *p = w->of;
+    for (int row; !p->stopped && (row = atomic_fetch_add(&p->next_row, 1)) < p->height;) {
+        for (int x = 0; x < p->width; x++)
+            render_pixel(p, x, row, &w->counts);
+        if (w->tells && p->run->progress)
+            p->stopped = p->run->progress(p->done + p->part * (row + 1) / p->height, p->run->user) != 0;
+    }
+    return NULL;
+}
+
 static void add_counts(path_counts *to, const path_counts *more)
 {
     to->paths += more->paths;
     to->segments += more->segments;
     to->shadow_rays += more->shadow_rays;
-    to->samples_lost += more->samples_lost;
+    to->lost += more->lost;
 }
-
-/* Only the thread that called film_render reports. */
-static void report(pass *p, int row)
-{
-    double done = p->done + p->part * (row + 1) / p->height;
-    if (!p->run->progress || !p->run->progress(done, p->run->user))
-        return;
-    lock(p);
-    p->stopped = 1;
-    unlock(p);
-}
-
-static void render_rows(pass *p, int reports)
-{
-    path_counts counts = {0, 0, 0, 0};
-    for (int row; (row = take_row(p)) >= 0;) {
-        for (int x = 0; x < p->width; x++)
-            render_pixel(p, x, row, &counts);
-        if (reports)
-            report(p, row);
-    }
-    lock(p);
-    add_counts(&p->counts, &counts);
-    unlock(p);
-}
-
-#ifdef VNDF_TOOLS_PTHREADS
-static void *other_thread(void *of)
-{
-    render_rows(of, 0);
-    return NULL;
-}
-#endif
 
 /* Goes on with fewer threads if the system gives no more. */
-static void render_pass(pass *p)
+static path_counts render_pass(pass *p)
 {
+    worker workers[THREADS_MAX] = {{.of = p, .tells = 1}};
 #ifdef VNDF_TOOLS_PTHREADS
-    pthread_t others[THREADS_MAX];
-    unsigned count = 0, wanted = p->run->threads < THREADS_MAX ? p->run->threads : THREADS_MAX;
-    pthread_mutex_init(&p->lock, NULL);
-    while (count + 1 < wanted && pthread_create(&others[count], NULL, other_thread, p) == 0)
-        count++;
-    render_rows(p, 1);
-    while (count)
-        pthread_join(others[--count], NULL);
-    pthread_mutex_destroy(&p->lock);
+    unsigned count = 1, wanted = p->run->threads < THREADS_MAX ? p->run->threads : THREADS_MAX;
+    for (; count < wanted; count++) {
+        workers[count].of = p;
+        if (pthread_create(&workers[count].thread, NULL, render_rows, &workers[count]) != 0)
+            break;
+    }
+    render_rows(&workers[0]);
+    while (--count) {
+        pthread_join(workers[count].thread, NULL);
+        add_counts(&workers[0].counts, &workers[count].counts);
+    }
 #else
-    render_rows(p, 1);
+    render_rows(&workers[0]);
 #endif
+    return workers[0].counts;
 }
 
 /* ---- passes ---- */
 
-static void add_pass(film *f, const pass *p)
+static void add_pass(film *f, const pass *p, const path_counts *counts)
 {
     size_t count = film_pixels(f);
     for (size_t i = 0; i < 3 * count; i++)
@@ -144,7 +106,7 @@ static void add_pass(film *f, const pass *p)
     for (size_t i = 0; i < count; i++)
         f->square[i] += p->square[i];
     f->samples += p->samples;
-    add_counts(&f->counts, &p->counts);
+    add_counts(&f->counts, counts);
 }
 
 uint64_t film_pass_samples(const film *f)
@@ -153,38 +115,29 @@ uint64_t film_pass_samples(const film *f)
     return samples > 1 ? samples : 1;
 }
 
-static uint64_t samples_of_pass(const film *f, uint64_t left)
-{
-    uint64_t samples = film_pass_samples(f);
-    return samples < left ? samples : left;
-}
-
 /* The part of the samples or seconds that is done. */
 static double done_part(const film_run *run, uint64_t samples, double seconds)
 {
-    double part = run->samples ? (double)samples / (double)run->samples : 0;
-    double of_time = run->seconds > 0 ? seconds / run->seconds : 0;
-    return part > of_time ? part : of_time;
+    double part = (double)samples / (double)run->samples;
+    return run->seconds > 0 ? fmin(fmax(part, seconds / run->seconds), 1) : part;
 }
 
 static int render_passes(film *f, pass *p)
 {
     const film_run *run = p->run;
-    uint64_t start = f->samples;
-    double spent = 0, begun = clock_seconds(), before = f->seconds;
-    double processor = f->processor - clock_processor_seconds();
-    while (f->samples - start < run->samples && !(run->seconds > 0 && spent >= run->seconds)) {
+    const uint64_t start = f->samples, end = start + run->samples, most = film_pass_samples(f);
+    const double begun = clock_seconds(), before = f->seconds,
+                 processor = f->processor - clock_processor_seconds();
+    for (double spent = 0; f->samples < end && !(run->seconds > 0 && spent >= run->seconds);) {
         p->first = f->samples;
-        p->samples = samples_of_pass(f, run->samples - (f->samples - start));
+        p->samples = most < end - f->samples ? most : end - f->samples;
         p->done = done_part(run, f->samples - start, spent);
-        uint64_t passes = (f->samples - start) / p->samples;
-        p->part = passes ? p->done / (double)passes : done_part(run, p->samples, 0);
+        p->part = done_part(run, f->samples - start + p->samples, spent) - p->done;
         p->next_row = 0;
-        p->counts = (path_counts){0, 0, 0, 0};
-        render_pass(p);
+        const path_counts counts = render_pass(p);
         if (p->stopped)
             return 0;
-        add_pass(f, p);
+        add_pass(f, p, &counts);
         spent = clock_seconds() - begun;
         f->seconds = before + spent;
         f->processor = processor + clock_processor_seconds();
@@ -231,12 +184,33 @@ void film_free(film *f)
     f->sum = f->square = NULL;
 }
 
+double film_light(const film *f, size_t pixel)
+{
+    const double *sum = f->sum + 3 * pixel;
+    return (0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / (double)f->samples;
+}
+
+double film_variance(const film *f, size_t pixel)
+{
+    double n = (double)f->samples, mean = film_light(f, pixel);
+    return f->samples < 2 ? (double)NAN : fmax(f->square[pixel] / n - mean * mean, 0) / (n - 1);
+}
+
 int film_image(const film *f, image *made)
 {
-    size_t count = 3 * film_pixels(f);
     if (!image_make(made, f->width, f->height))
         return 0;
-    for (size_t i = 0; i < count && f->samples; i++)
+    for (size_t i = 0; i < 3 * film_pixels(f) && f->samples; i++)
         made->rgb[i] = (float)(f->sum[i] / (double)f->samples);
+    return 1;
+}
+
+int film_from_image(film *f, const image *from)
+{
+    if (!film_make(f, from->width, from->height))
+        return 0;
+    f->samples = 1;
+    for (size_t i = 0; i < 3 * film_pixels(f); i++)
+        f->sum[i] = (double)from->rgb[i];
     return 1;
 }

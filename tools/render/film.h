@@ -1,17 +1,17 @@
-/* All pixels, rendered by threads: sums of samples, whose mean is the image. The sums do not depend on the number
- * of threads. */
-#ifndef RENDER_FILM_H
-#define RENDER_FILM_H
+/* All pixels, rendered by threads: sums of samples, whose mean is the picture. The sums do not depend on the
+ * number of threads, to the bit. */
+#ifndef TOOLS_RENDER_FILM_H
+#define TOOLS_RENDER_FILM_H
 
-#include "render/path/path.h"
+#include "render/path.h"
 
 typedef struct film {
     int width, height;
-    double *sum;      /* width * height * 3 */
-    double *square;   /* of the luminance: its variance; width * height */
+    double *sum;      /* width * height * 3, owned */
+    double *square;   /* of the luminance: for its variance; width * height, owned */
     uint64_t samples; /* a pixel, so far */
-    double seconds;   /* spent rendering, all threads at once */
-    double processor; /* processor time of all threads together */
+    double seconds;   /* that passed while it was rendered */
+    double processor; /* that processors worked for it, all threads together */
     path_counts counts;
 } film;
 
@@ -26,7 +26,7 @@ void film_free(film *f);
 
 typedef struct film_run {
     uint64_t samples; /* a pixel, to add */
-    double seconds;   /* stop after so many, between passes; 0: no limit */
+    double seconds;   /* stops after so many, between passes; 0: no limit */
     unsigned threads;
     uint64_t seed;
     int (*progress)(double done, void *user); /* a result other than 0 stops between rows; may be NULL */
@@ -42,7 +42,14 @@ uint64_t film_pass_samples(const film *f);
 /* The number of threads that the machine runs at once, 1 to 256. */
 unsigned film_processors(void);
 
+/* The luminance of a pixel, and the variance of that mean: not known (NaN) of less than two samples. */
+double film_light(const film *f, size_t pixel);
+double film_variance(const film *f, size_t pixel);
+
 /* The mean. 0 if there is no memory. */
 int film_image(const film *f, image *made);
+
+/* An image as a film of one sample. 0 if there is no memory. */
+int film_from_image(film *f, const image *from);
 
 #endif

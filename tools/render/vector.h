@@ -1,45 +1,63 @@
-/* Vectors of the renderer: vndf_vec3, in float; and colours. */
-#ifndef RENDER_VECTOR_H
-#define RENDER_VECTOR_H
+/* Vectors of the renderer. Places and rays are in double, so that a ray that leaves a surface does not meet it
+ * again; the library takes directions in float, in the frame of a hit. */
+#ifndef TOOLS_RENDER_VECTOR_H
+#define TOOLS_RENDER_VECTOR_H
 
 #include <math.h>
 
 #include "vndf.h"
 
-static inline vndf_vec3 vec(float x, float y, float z)
+#define PI 3.14159265358979323846
+
+typedef struct vec3 {
+    double x, y, z;
+} vec3;
+
+static inline vec3 vec(double x, double y, double z)
 {
-    vndf_vec3 v = {x, y, z};
+    const vec3 v = {x, y, z};
     return v;
 }
 
-static inline vndf_vec3 add(vndf_vec3 a, vndf_vec3 b)
+static inline vec3 add(vec3 a, vec3 b)
 {
     return vec(a.x + b.x, a.y + b.y, a.z + b.z);
 }
 
-static inline vndf_vec3 subtract(vndf_vec3 a, vndf_vec3 b)
+static inline vec3 subtract(vec3 a, vec3 b)
 {
     return vec(a.x - b.x, a.y - b.y, a.z - b.z);
 }
 
-static inline vndf_vec3 scale(vndf_vec3 a, float by)
+static inline vec3 scale(vec3 a, double by)
 {
     return vec(by * a.x, by * a.y, by * a.z);
 }
 
-static inline float dot(vndf_vec3 a, vndf_vec3 b)
+/* a + by b */
+static inline vec3 along(vec3 a, double by, vec3 b)
+{
+    return vec(a.x + by * b.x, a.y + by * b.y, a.z + by * b.z);
+}
+
+static inline double dot(vec3 a, vec3 b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-static inline vndf_vec3 cross(vndf_vec3 a, vndf_vec3 b)
+static inline vec3 cross(vec3 a, vec3 b)
 {
     return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 }
 
-static inline vndf_vec3 unit(vndf_vec3 a)
+static inline double length(vec3 a)
 {
-    return scale(a, 1.0f / sqrtf(dot(a, a)));
+    return sqrt(dot(a, a));
+}
+
+static inline vec3 unit(vec3 a)
+{
+    return scale(a, 1 / length(a));
 }
 
 /* The luminance of linear light (ITU-R BT.709). */
@@ -48,19 +66,33 @@ static inline double luminance(const float rgb[3])
     return 0.2126 * (double)rgb[0] + 0.7152 * (double)rgb[1] + 0.0722 * (double)rgb[2];
 }
 
-/* An orthonormal right-handed frame, z the normal: the directions of a material are in it. */
+/* An orthonormal right-handed frame: z is the normal. */
 typedef struct frame {
-    vndf_vec3 x, y, z;
+    vec3 x, y, z;
 } frame;
 
-static inline vndf_vec3 to_frame(const frame *f, vndf_vec3 w)
+/* The frame about the unit vector z with x towards `to`; any x if `to` has no part across z. */
+static inline frame frame_about(vec3 z, vec3 to)
 {
-    return vec(dot(f->x, w), dot(f->y, w), dot(f->z, w));
+    vec3 x = along(to, -dot(to, z), z);
+    if (!(dot(x, x) > 1e-12 * dot(to, to)))
+        x = fabs(z.x) < 0.6 ? vec(z.y * z.y + z.z * z.z, -z.x * z.y, -z.x * z.z) : vec(-z.y, z.x, 0);
+    x = unit(x);
+    const frame f = {x, cross(z, x), z};
+    return f;
 }
 
-static inline vndf_vec3 from_frame(const frame *f, vndf_vec3 w)
+/* A unit vector, in float and unit again. */
+static inline vndf_vec3 to_frame(const frame *f, vec3 w)
 {
-    return add(add(scale(f->x, w.x), scale(f->y, w.y)), scale(f->z, w.z));
+    const vec3 l = unit(vec(dot(f->x, w), dot(f->y, w), dot(f->z, w)));
+    const vndf_vec3 v = {(float)l.x, (float)l.y, (float)l.z};
+    return v;
+}
+
+static inline vec3 from_frame(const frame *f, vndf_vec3 w)
+{
+    return unit(along(along(scale(f->z, (double)w.z), (double)w.y, f->y), (double)w.x, f->x));
 }
 
 #endif

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/source_words.h"
 #include "command.h"
@@ -13,7 +14,6 @@
 #include "measured/rgl/rgl.h"
 #include "measured/surface/heights.h"
 #include "measured/surface/maps.h"
-#include "render/whole_file.h"
 
 enum { BYTES_MAX = 1 << 28, DESCRIPTION_MAX = VNDF_LIMIT_NAME_LENGTH };
 
@@ -340,7 +340,7 @@ vndf_source *measured_source(const char *command, const measured_words *given, n
     const kind *of = kind_given(given);
     measured_file file = {command, only_word(at(given, of->file)), NULL, 0};
     char reason[128];
-    file.bytes = whole_file(file.path, BYTES_MAX, &file.size, reason, sizeof reason);
+    file.bytes = files_read(file.path, BYTES_MAX, &file.size, reason, sizeof reason);
     if (!file.bytes) {
         complain(command, "%s: %s", file.path, reason);
         return NULL;

@@ -8,7 +8,7 @@
 #include "measured/surface/grey.h"
 #include "measured/surface/grid_text.h"
 #include "measured/surface/heights.h"
-#include "render/image/image.h"
+#include "render/image.h"
 
 /* ---- numbers between blanks ---------------------------------------------------------------------- */
 

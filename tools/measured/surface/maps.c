@@ -5,7 +5,7 @@
 
 #include "measured/surface/grey.h"
 #include "measured/surface/heights.h"
-#include "render/image/image.h"
+#include "render/image.h"
 
 /* Pixels of either kind as normals. */
 typedef struct normal_map {

@@ -1,0 +1,95 @@
+/* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2
+ * before it writes anything, and ends with 1 where pictures differ. Notices options that are not read, a picture
+ * that is half written, text mixed into JSON, and a comparison that alarms about one sample a pixel. */
+#if defined(__unix__) || defined(__APPLE__)
+#  define _XOPEN_SOURCE 700
+#  include "harness/run_program.h"
+
+static const run_outcome *run(const char *const *words, int status)
+{
+    const run_outcome *o = run_program(&run_plain, words);
+    if (!TEST(o->status == status))
+        run_tell(words, o);
+    return o;
+}
+
+#  define RUN(status, ...) run((const char *const[]){"render", __VA_ARGS__, NULL}, status)
+
+static void test_refusals(void)
+{
+    static const struct {
+        const char *words[8], *says;
+    } bad[] = {
+        {{"ball.scene"}, "-o OUT.png or -o OUT.pfm is missing"},
+        {{"-o", "x.png"}, "SCENE is missing"},
+        {{"ball.scene", "-o", "x.jpg"}, "the name must end in .png or .pfm"},
+        {{"ball.scene", "-o", "x.png", "--sampler", "visibel"}, "did you mean 'visible'?"},
+        {{"ball.scene", "--compare", "visible"}, "--compare takes two samplers at least"},
+        {{"ball.scene", "--compare", "all,all"}, "'all' stands there twice"},
+        {{"ball.scene", "--compare", "all,visible", "--sampler", "all"}, "leave one out"},
+        {{"ball.scene", "-o", "x.png", "--equal", "time"},
+         "--equal time: it is time or samples, beside --compare"},
+        {{"ball.scene", "-o", "-", "--json"}, "figures go to stdout, where -o - puts the picture"},
+        {{"ball.scene", "-o", "x.png", "--spp", "0"}, "--spp"},
+        {{"ball.scene", "-o", "x.png", "--width", "16384"}, "--width: 16384 x 16384 pixels"},
+        {{"ball.scene", "-o", "x.png", "--against", "none.pfm"}, "--against: none.pfm: No such file"},
+        {{"ball.scene", "-o", "x.png", "--against", "other.pfm"},
+         "other.pfm has 4 x 4 pixels, this picture has 8 x 8"},
+        {{"bad.scene", "-o", "x.png"}, "vndf render: bad.scene:2:1: 'speed' is no statement"},
+        {{"walk.scene", "--compare", "visible,all"}, "material 'm' cannot have the sampler 'all'"},
+        {{"no.scene", "-o", "x.png"}, "no.scene: No such file"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const char *words[10] = {"render"};
+        memcpy(words + 1, bad[i].words, sizeof bad[i].words);
+        TEST_HAS(run(words, 2)->text, bad[i].says);
+    }
+    TEST(run_count(".", "x.") == 0 && run_count(".", ".tmp") == 0);
+}
+
+int main(void)
+{
+    char folder[] = "render.XXXXXX";
+    if (!TEST(mkdtemp(folder) && chdir(folder) == 0))
+        return test_done();
+    TEST(run_put("ball.scene", run_scene) && run_put("bad.scene", "film width 8 height 8\nspeed 3\n"));
+    TEST(run_put("walk.scene", "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+                               "material m shape distribution ggx alpha 1 scattering multiple\n"));
+    TEST_HAS(RUN(0, "ball.scene", "-o", "a.pfm", "--spp", "64", "--threads", "1")->text,
+             "8 x 8 pixels, 64 samples each");
+    RUN(0, "ball.scene", "-o", "b.pfm", "--spp", "64", "--threads", "3");
+    TEST(run_same("a.pfm", "b.pfm"));
+    RUN(0, "ball.scene", "-o", "other.pfm", "--spp", "4", "--width", "4");
+    test_refusals();
+    TEST_HAS(RUN(0, "ball.scene", "-o", "c.png", "--spp", "64", "--seed", "5", "--against", "a.pfm")->text,
+             ": the same");
+    TEST(run_put("dark.scene", "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+                               "material gold conductor of copper distribution ggx alpha 0.2\n"
+                               "sphere centre 0 0 0 radius 1 material gold\n"));
+    TEST_HAS(RUN(1, "dark.scene", "-o", "d.png", "--spp", "64", "--against", "a.pfm")->text, ": they differ");
+    TEST(run_count(".", "d.png") == 1);
+    TEST_HAS(RUN(0, "ball.scene", "--compare", "visible,all,perfect", "--spp", "32", "-o", "s.png")->text,
+             "perfect beside visible: ");
+    const run_outcome *o =
+        RUN(0, "ball.scene", "--compare", "visible,all", "--spp", "1", "--equal", "samples", "--json");
+    TEST(o->text[0] == '{' && strcmp(o->text + strlen(o->text) - 4, "\n]}\n") == 0);
+    TEST_HAS(o->text, "\"interrupted\": false, ");
+    TEST_HAS(o->text, "\"samples\": 1, ");
+    TEST_HAS(o->text, "\"noise\": null");
+    TEST_HAS(o->text, "\"verdict\": \"unknown\"");
+    TEST_HAS(o->text, "\"deviations\": null");
+    TEST_HAS(RUN(0, "ball.scene", "--compare", "visible,all", "--spp", "1", "--equal", "samples")->text,
+             "one sample a pixel has no variance");
+    TEST_HAS(RUN(0, "--grammar")->text, "distribution ggx | beckmann");
+    TEST(system("rm *.scene *.pfm *.png") == 0 && chdir("..") == 0 && rmdir(folder) == 0);
+    return test_done();
+}
+#else
+#  include <stdio.h>
+
+int main(void)
+{
+    puts("SKIPPED: there are no processes as POSIX has them");
+    return 0;
+}
+#endif

@@ -1,0 +1,114 @@
+/* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes as vt say;
+ * a map of roughness multiplies alpha; look-ups blend four pixels and repeat. Notices u and v exchanged or
+ * flipped, a map that is not read, and half a pixel. */
+#include "render_case.h"
+
+static const float quarters[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
+
+/* A PFM of 2 x 2 pixels, rows from the top. */
+static int put_quarters(const char *name, const float (*pixels)[3])
+{
+    image of;
+    FILE *file = fopen(name, "wb");
+    if (!file || !image_make(&of, 2, 2))
+        return 0;
+    memcpy(of.rgb, pixels, 12 * sizeof(float));
+    int good = image_write_pfm(file, &of);
+    image_free(&of);
+    return fclose(file) == 0 && good;
+}
+
+/* The colours seen in the corners: 0 to 2, or 3 for none. */
+static void test_upright(const char *shapes, const char *camera, const int want[4])
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "film width 4 height 4\n%s\nintegrator depth 1\nenvironment constant 1 1 1\n"
+             "image q file \"render_quarters.pfm\"\nmaterial m matte colour 1 1 1 colour-map q\n%s",
+             camera, shapes);
+    char message[1024], copy[2048];
+    memcpy(copy, text, sizeof copy);
+    scene *s = scene_read_text("here", copy, strlen(copy), message, sizeof message);
+    film f = {.sum = NULL};
+    if (!TEST(s != NULL)) {
+        fprintf(stderr, "    %s\n", message);
+        return;
+    }
+    case_render(&f, s, SAMPLER_VISIBLE, 64, 1);
+    for (int i = 0; i < 4; i++) {
+        static const size_t pixels[4] = {0, 3, 12, 15};
+        const double *rgb = f.sum + 3 * pixels[i], most = 0.4 * 64;
+        int colour = rgb[0] > most ? 0 : rgb[1] > most ? 1 : rgb[2] > most ? 2 : 3;
+        if (!TEST(colour == want[i]))
+            fprintf(stderr, "    %s    corner %d: %g %g %g\n", shapes, i, rgb[0] / 64, rgb[1] / 64, rgb[2] / 64);
+    }
+    film_free(&f);
+    scene_free(s);
+}
+
+static void test_roughness(void)
+{
+#define ROUGH                                                        \
+  "camera from 0 1 2 to 0 0 0\nmaterial lamp light radiance 9 9 9\n" \
+  "sphere centre 0 2 -2 radius 0.3 material lamp\n"
+#define FLAT "rectangle corner -1 0 1 edge-u 2 0 0 edge-v 0 0 -2 material m\n"
+    static const float half[4][3] = {{0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}};
+    char message[1024], text[2][1024];
+    scene *s[2];
+    snprintf(text[0], sizeof text[0], ROUGH "material m conductor of gold distribution ggx alpha 0.2 0.1\n" FLAT);
+    snprintf(text[1], sizeof text[1],
+             ROUGH "image h file render_half.pfm\n"
+                   "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h\n" FLAT);
+    TEST(put_quarters("render_half.pfm", half));
+    for (int i = 0; i < 2; i++)
+        s[i] = scene_read_text("here", text[i], strlen(text[i]), message, sizeof message);
+    if (TEST(s[0] && s[1])) {
+        for (int i = 0; i < 2; i++)
+            s[i]->width = s[i]->height = 8;
+        TEST_RELATIVE(case_light(s[1], SAMPLER_VISIBLE, 64).value, case_light(s[0], SAMPLER_VISIBLE, 64).value,
+                      1e-6);
+    }
+    scene_free(s[0]);
+    scene_free(s[1]);
+    remove("render_half.pfm");
+}
+
+static void test_bilinear(void)
+{
+    image of;
+    float rgb[3];
+    if (!TEST(image_make(&of, 2, 2)))
+        return;
+    memcpy(of.rgb, quarters, sizeof quarters);
+    image_bilinear(&of, 0.25, 0.25, rgb);
+    TEST(rgb[0] == 1.0f && rgb[1] == 0.0f && rgb[2] == 0.0f);
+    image_bilinear(&of, 0.375, 0.25, rgb);
+    TEST_NEAR((double)rgb[0], 0.75, 1e-6);
+    TEST_NEAR((double)rgb[1], 0.25, 1e-6);
+    image_bilinear(&of, -2.75, 7.75, rgb);
+    TEST(rgb[2] == 1.0f);
+    image_free(&of);
+}
+
+int main(void)
+{
+    static const int upright[4] = {0, 1, 2, 3};
+    FILE *mesh = fopen("render_quarters.obj", "w");
+    if (!TEST(mesh && put_quarters("render_quarters.pfm", quarters)))
+        return test_done();
+    fputs("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n", mesh);
+    fclose(mesh);
+    const char *camera = "camera from 0 0 5 to 0 0 0 field 22";
+    test_upright("rectangle corner -1 -1 0 edge-u 2 0 0 edge-v 0 2 0 material m\n", camera, upright);
+    test_upright("mesh file render_quarters.obj material m\n", camera, upright);
+    /* around the sphere u goes from +z by way of +x: seen from -x its first half is behind, the seam at -z left */
+    static const int from_x[4] = {0, 0, 2, 2}, from_minus_x[4] = {1, 1, 3, 3};
+    test_upright("sphere centre 0 0 0 radius 1 material m\n", "camera from 5 0 0 to 0 0 0 field 18", from_x);
+    test_upright("sphere centre 0 0 0 radius 1 material m\n", "camera from -5 0 0 to 0 0 0 field 18",
+                 from_minus_x);
+    test_roughness();
+    test_bilinear();
+    remove("render_quarters.pfm");
+    remove("render_quarters.obj");
+    return test_done();
+}

@@ -1,0 +1,45 @@
+/* Images of three floats a pixel, rows from the top, linear light: read from PFM, made by a named pattern, written
+ * as PFM and as PNG (8 bits, sRGB). */
+#ifndef TOOLS_RENDER_IMAGE_H
+#define TOOLS_RENDER_IMAGE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef struct image {
+    int width, height;
+    float *rgb; /* width * height * 3, owned */
+} image;
+
+enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
+
+/* What is wrong with a file or a pattern, and where. */
+typedef struct image_error {
+    char message[512];
+} image_error;
+
+/* A black image. 0 if there is no memory, or a side is not within 1 to IMAGE_SIDE_MAX. */
+int image_make(image *made, int width, int height);
+void image_free(image *image);
+
+static inline float *image_pixel(const image *of, int x, int y)
+{
+    return of->rgb + 3 * ((size_t)y * (size_t)of->width + (size_t)x);
+}
+
+/* Interpolates between the centres of pixels; u, v in [0, 1) from the left and the top, repeated outside. */
+void image_bilinear(const image *of, double u, double v, float rgb[3]);
+
+/* Reads a PFM, colour ("PF") or grey ("Pf"), of either byte order. Numbers must be finite. Returns 1, or 0 and an
+ * error; bytes that are not trusted are safe. Errors call the file `name`. */
+int image_read_pfm(image *made, const char *path, image_error *error);
+int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
+
+/* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
+int image_make_pattern(image *made, const char *name, int width, int height, image_error *error);
+
+/* Writes to an open file; 0 if that fails. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */
+int image_write_pfm(FILE *file, const image *image);
+int image_write_png(FILE *file, const image *image, float exposure);
+
+#endif

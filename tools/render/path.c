@@ -1,0 +1,360 @@
+/* A path: from the eye through surfaces to light. At each surface it draws a light and weighs it against the
+ * material; then the material draws the direction in which the path goes on, and light that this direction meets
+ * is weighed against the lights: by the squares of the two densities (Veach & Guibas, "Optimally Combining
+ * Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995). Lights are drawn for directions to the outside
+ * of a surface only: inside a closed body its own surface hides them, and the material alone finds their light.
+ *
+ * Perfect sampling draws directions in proportion to f |cos|, the aim that others are measured by, whatever it
+ * costs: it takes CANDIDATES samples of visible normals and keeps one in proportion to its weight (resampling:
+ * Talbot, Cline & Egbert, EGSR 2005). The weight of that is the mean of all weights, whose variance is that of
+ * visible normals over CANDIDATES; no table is made, and any material has it. */
+#include "render/path.h"
+
+#include <float.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "cli/random.h"
+#include "render/light.h"
+
+enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
+
+const char *const path_sampler_names[SAMPLERS] = {"visible", "all", "perfect"};
+
+struct path_plan {
+    const scene *scene;
+    path_sampler sampler;
+    vndf_material *materials;
+    vec3 corner, right, down; /* of the film at distance 1 from the eye: pixels are at corner + x right + y down */
+};
+
+/* ---- a material at a hit ---- */
+
+typedef struct surface {
+    const path_plan *plan;
+    const material *is;
+    frame frame;  /* of shading; geometric where the two differ about the side of the ray */
+    vndf_vec3 wi; /* in that frame */
+    float colour[3];
+    vndf_bsdf bsdf; /* of rough materials */
+} surface;
+
+typedef struct bounce {
+    vndf_vec3 wo;    /* in the frame */
+    float weight[3]; /* f |cos| / density */
+    double density;  /* 0: a Dirac, which nothing else finds */
+    double carried;  /* the factor of refraction in the weight: 1 or 1/eta^2 */
+} bounce;
+
+/* The product of a number and a map at the hit. */
+static void multiply(float *number, int count, const image *map, const hit *h)
+{
+    float rgb[3];
+    if (!map)
+        return;
+    image_bilinear(map, h->u, h->v, rgb);
+    for (int i = 0; i < count; i++)
+        number[i] *= rgb[i];
+}
+
+/* 0: the material scatters nothing. */
+static int begin(surface *s, const path_plan *plan, const hit *h, vec3 direction)
+{
+    const vec3 wi = scale(direction, -1);
+    s->plan = plan;
+    s->is = &plan->scene->materials[h->shape->material];
+    s->frame = h->shading;
+    if (!(dot(wi, h->shading.z) * dot(wi, h->normal) > 0))
+        s->frame = frame_about(h->normal, h->shading.x);
+    s->wi = to_frame(&s->frame, wi);
+    for (int i = 0; i < 3; i++)
+        s->colour[i] = s->is->colour[i];
+    multiply(s->colour, 3, s->is->colour_map, h);
+    if (s->is->kind != MATERIAL_ROUGH)
+        return s->wi.z > 0.0f;
+    vndf_roughness r = {s->is->is.alpha_x, s->is->is.alpha_y, 1.0f, 0.0f};
+    float factor = 1.0f;
+    multiply(&factor, 1, s->is->alpha_map, h);
+    r.alpha_x *= factor;
+    r.alpha_y *= factor;
+    return vndf_bsdf_rough(&s->bsdf, &plan->materials[h->shape->material], s->is->alpha_map ? &r : NULL, s->wi);
+}
+
+/* f |cos| without the colour; returns the density with which the material draws wo. Perfect sampling of an albedo
+ * near 1 has the density f |cos|; random walks know f by chance only, which no weight may depend on. */
+static double evaluate(const surface *s, vndf_vec3 wo, uint64_t seed, float value[3])
+{
+    if (s->is->kind == MATERIAL_MATTE) {
+        const float cosine = fmaxf(wo.z, 0.0f) / (float)PI;
+        value[0] = value[1] = value[2] = cosine;
+        return (double)cosine;
+    }
+    float pdf;
+    vndf_bsdf_eval_pdf(&s->bsdf, wo, seed, value, &pdf);
+    for (int i = 0; i < 3; i++)
+        value[i] *= fabsf(wo.z);
+    const int is_walk = s->is->is.effects.scattering == VNDF_SCATTERING_MULTIPLE;
+    return s->plan->sampler == SAMPLER_PERFECT && !is_walk ? fmax(luminance(value), DBL_MIN) : (double)pdf;
+}
+
+static int sample_matte(random_stream *random, bounce *b)
+{
+    const float u = random_float(random), turn = 2.0f * (float)PI * random_float(random), radius = sqrtf(u);
+    *b = (bounce){{radius * cosf(turn), radius * sinf(turn), sqrtf(1.0f - u)}, {1.0f, 1.0f, 1.0f}, 0, 1};
+    b->density = (double)b->wo.z / PI;
+    return b->wo.z > 0.0f;
+}
+
+/* A sample of the library: 0 if it is lost. */
+static int sample_normals(const surface *s, random_stream *random, bounce *b)
+{
+    float u[3];
+    vndf_scattered drawn;
+    for (int i = 0; i < 3; i++)
+        u[i] = random_float(random);
+    vndf_bsdf_sample(&s->bsdf, u, &drawn);
+    if (drawn.lobe == VNDF_LOBE_NONE)
+        return 0;
+    const double eta = (double)s->is->is.eta, square = s->wi.z > 0.0f ? eta * eta : 1 / (eta * eta);
+    *b = (bounce){drawn.wo,
+                  {drawn.weight[0], drawn.weight[1], drawn.weight[2]},
+                  drawn.lobe == VNDF_LOBE_STRAIGHT ? 0 : (double)drawn.density,
+                  drawn.lobe == VNDF_LOBE_TRANSMISSION ? 1 / square : 1};
+    return 1;
+}
+
+/* Keeps one of the candidates with the probability of its weight, seen one after the other. */
+static int sample_perfect(const surface *s, random_stream *random, bounce *b)
+{
+    double sum = 0, kept = 0;
+    float value[3];
+    for (int i = 0; i < CANDIDATES; i++) {
+        bounce one;
+        const double worth = sample_normals(s, random, &one) ? luminance(one.weight) / one.carried : 0;
+        sum += worth;
+        if (worth > 0 && random_double(random) * sum < worth) {
+            *b = one;
+            kept = worth;
+        }
+    }
+    if (!(kept > 0))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        b->weight[i] *= (float)(sum / (CANDIDATES * kept));
+    if (b->density > 0 && s->is->is.effects.scattering == VNDF_SCATTERING_SINGLE)
+        b->density = evaluate(s, b->wo, 0, value);
+    return 1;
+}
+
+static int sample(const surface *s, random_stream *random, bounce *b)
+{
+    int good = s->is->kind == MATERIAL_MATTE         ? sample_matte(random, b)
+               : s->plan->sampler == SAMPLER_PERFECT ? sample_perfect(s, random, b)
+                                                     : sample_normals(s, random, b);
+    for (int i = 0; i < 3 && good; i++)
+        b->weight[i] *= s->colour[i];
+    return good;
+}
+
+/* ---- the path ---- */
+
+typedef struct walk {
+    const path_plan *plan;
+    path_counts *counts;
+    random_stream random;
+    ray ray;
+    double throughput[3], radiance[3];
+    double carried; /* the factor of refraction in the throughput */
+    double density; /* of the direction, if lights could have drawn it from `place`; else 0 */
+    vec3 place;
+} walk;
+
+static void gain(walk *w, const float radiance[3], double weight)
+{
+    for (int i = 0; i < 3; i++)
+        w->radiance[i] += w->throughput[i] * (double)radiance[i] * weight;
+}
+
+/* The weight of an estimate of density `mine` beside another of density `other`. */
+static double share(double mine, double other)
+{
+    const double ratio = other / mine;
+    return 1 / (1 + ratio * ratio);
+}
+
+static void meet_environment(walk *w)
+{
+    const scene *s = w->plan->scene;
+    float rgb[3];
+    environment_radiance(&s->environment, w->ray.direction, rgb);
+    gain(w, rgb, w->density > 0 ? share(w->density, environment_density(s, w->place, w->ray.direction)) : 1);
+}
+
+static void meet_light(walk *w, const hit *h)
+{
+    const scene *s = w->plan->scene;
+    if (dot(w->ray.direction, h->normal) < 0)
+        gain(w, s->materials[h->shape->material].colour,
+             w->density > 0 ? share(w->density, lights_density(s, w->place, w->ray.direction, h)) : 1);
+}
+
+/* Draws a light; the cheap tests come first. */
+static void reach_light(walk *w, const surface *p, const hit *h)
+{
+    const scene *s = w->plan->scene;
+    light_sample l;
+    double u[3];
+    float value[3];
+    for (int i = 0; i < 3; i++)
+        u[i] = random_double(&w->random);
+    if (!lights_draw(s, h->place, u, &l) || !(dot(l.direction, h->normal) > 0))
+        return;
+    const vndf_vec3 wo = to_frame(&p->frame, l.direction);
+    if (!(wo.z > 0.0f))
+        return;
+    const double density = evaluate(p, wo, random_bits(&w->random), value);
+    if (!(value[0] + value[1] + value[2] > 0.0f))
+        return;
+    ray r = ray_from(h, l.direction);
+    r.to = l.distance * (1 - 1e-9); /* the light itself hides nothing */
+    w->counts->shadow_rays++;
+    if (geometry_blocked(&s->geometry, &r))
+        return;
+    for (int i = 0; i < 3; i++)
+        value[i] *= l.radiance[i] * p->colour[i];
+    gain(w, value, share(l.density, density) / l.density);
+}
+
+/* 0: the path ends. */
+static int go_on(walk *w, const surface *p, const hit *h)
+{
+    bounce b;
+    if (!sample(p, &w->random, &b))
+        return 0;
+    const vec3 direction = from_frame(&p->frame, b.wo);
+    const double side = dot(direction, h->normal);
+    if (!(side * (double)b.wo.z > 0)) /* the shading normal and the geometric one disagree */
+        return 0;
+    for (int i = 0; i < 3; i++)
+        w->throughput[i] *= (double)b.weight[i];
+    w->carried *= b.carried;
+    w->density = side > 0 && lights_any(w->plan->scene) ? b.density : 0;
+    w->place = h->place;
+    w->ray = ray_from(h, direction);
+    return 1;
+}
+
+/* Leaves out the factor of refraction, which the way out undoes: it says nothing about the worth of a path. */
+static int survives(walk *w)
+{
+    const double worth = fmax(fmax(w->throughput[0], w->throughput[1]), w->throughput[2]) / w->carried;
+    if (worth >= 1)
+        return 1;
+    if (!(random_double(&w->random) < worth))
+        return 0;
+    for (int i = 0; i < 3; i++)
+        w->throughput[i] /= worth;
+    return 1;
+}
+
+static void trace(walk *w)
+{
+    const scene *s = w->plan->scene;
+    const int is_lit = lights_any(s);
+    surface p;
+    hit h;
+    for (unsigned count = 1;; count++) {
+        w->counts->segments++;
+        if (!geometry_hit(&s->geometry, &w->ray, &h)) {
+            meet_environment(w);
+            return;
+        }
+        if (s->materials[h.shape->material].kind == MATERIAL_LIGHT) {
+            meet_light(w, &h);
+            return;
+        }
+        if (count > s->depth || !begin(&p, w->plan, &h, w->ray.direction))
+            return;
+        if (is_lit)
+            reach_light(w, &p, &h);
+        if (!go_on(w, &p, &h) || (count >= ROULETTE && !survives(w)))
+            return;
+    }
+}
+
+/* The random numbers of a path are a stream of their own: a hash of seed, pixel and index. */
+static random_stream stream_of(uint64_t seed, uint64_t pixel, uint64_t index)
+{
+    const uint64_t of_pixel = random_from(random_from(seed).start ^ pixel).start;
+    return random_from(of_pixel ^ index);
+}
+
+void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
+                float rgb[3])
+{
+    const uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
+    walk w = {.plan = plan, .counts = counts, .throughput = {1, 1, 1}, .carried = 1};
+    w.random = stream_of(seed, pixel, index);
+    const double dx = random_double(&w.random), dy = random_double(&w.random);
+    w.ray = (ray){plan->scene->from, unit(along(along(plan->corner, x + dx, plan->right), y + dy, plan->down)),
+                  HUGE_VAL};
+    trace(&w);
+    const int is_good = fabs(w.radiance[0]) + fabs(w.radiance[1]) + fabs(w.radiance[2]) < (double)FLT_MAX;
+    counts->paths++;
+    counts->lost += !is_good;
+    for (int i = 0; i < 3; i++)
+        rgb[i] = is_good ? (float)w.radiance[i] : 0.0f;
+}
+
+/* ---- preparing ---- */
+
+static void place_film(path_plan *plan)
+{
+    const scene *s = plan->scene;
+    const vec3 forward = unit(subtract(s->to, s->from)), right = unit(cross(forward, s->up));
+    const double step = 2 * tan(0.5 * s->field) / s->height;
+    plan->right = scale(right, step);
+    plan->down = scale(cross(forward, right), step);
+    plan->corner = along(along(forward, -0.5 * s->width, plan->right), -0.5 * s->height, plan->down);
+}
+
+static int resolve_all(path_plan *plan, char *message, size_t size)
+{
+    static const vndf_normals_drawn normals[SAMPLERS] = {VNDF_NORMALS_VISIBLE, VNDF_NORMALS_ALL,
+                                                         VNDF_NORMALS_VISIBLE};
+    for (size_t i = 0; i < plan->scene->material_count; i++) {
+        const material *m = &plan->scene->materials[i];
+        vndf_description is = m->is;
+        vndf_error error = {VNDF_OK, ""};
+        is.effects.normals = normals[plan->sampler];
+        if (m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &plan->materials[i], &error) == VNDF_OK)
+            continue;
+        snprintf(message, size, "material '%s' cannot have the sampler '%s': %s", m->name,
+                 path_sampler_names[plan->sampler], error.message);
+        return 0;
+    }
+    return 1;
+}
+
+path_plan *path_prepare(const scene *s, path_sampler sampler, char *message, size_t size)
+{
+    path_plan *plan = calloc(1, sizeof *plan);
+    if (plan)
+        *plan = (path_plan){
+            .scene = s, .sampler = sampler, .materials = calloc(s->material_count + 1, sizeof *plan->materials)};
+    if (!plan || !plan->materials) {
+        snprintf(message, size, "no memory for %zu materials", s->material_count);
+    } else if (resolve_all(plan, message, size)) {
+        place_film(plan);
+        return plan;
+    }
+    path_free(plan);
+    return NULL;
+}
+
+void path_free(path_plan *plan)
+{
+    if (plan)
+        free(plan->materials);
+    free(plan);
+}

@@ -1,0 +1,78 @@
+/* A scene: the contents of a scene file, ready for rendering. scene_grammar has the language. */
+#ifndef TOOLS_RENDER_SCENE_H
+#define TOOLS_RENDER_SCENE_H
+
+#include "render/geometry.h"
+#include "render/image.h"
+#include "vndf_bsdf.h"
+
+typedef enum material_kind {
+    MATERIAL_ROUGH, /* vndf_bsdf.h */
+    MATERIAL_MATTE, /* Lambert's */
+    MATERIAL_LIGHT  /* emits, reflects nothing */
+} material_kind;
+
+typedef struct material {
+    char *name; /* owned */
+    material_kind kind;
+    vndf_description is;                 /* ROUGH: the library takes it */
+    float colour[3];                     /* LIGHT: radiance; others: multiplies what is scattered */
+    const image *colour_map, *alpha_map; /* multiply colour and alpha, by their red; NULL: none */
+} material;
+
+/* A shape that emits, from its front: a sphere or a rectangle. */
+typedef struct emitter {
+    uint32_t shape; /* index in the geometry */
+    float radiance[3];
+    vec3 centre;
+    double radius, area,
+        power; /* radius: of a sphere about it; power: radiance times the area seen from far away */
+} emitter;
+
+/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
+ * drawn from its pixels, by their light: `rows` has sums over rows, `cells` in each row sums over pixels, each up
+ * to 1. */
+typedef struct environment {
+    float constant[3];
+    const image *map; /* NULL: the constant */
+    float scale;
+    double turn; /* a part of a full turn */
+    float *rows, *cells;
+} environment;
+
+enum { SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
+
+typedef struct scene {
+    vec3 from, to, up; /* of the camera */
+    double field;      /* of view, radians, across the height of the film */
+    int width, height;
+    unsigned depth, samples; /* the most surfaces on a path; a pixel */
+    float exposure;          /* of the PNG */
+    environment environment;
+    geometry geometry;
+    emitter lights[SCENE_LIGHTS_MAX];
+    size_t light_count;
+    material *materials; /* owned, as are all below */
+    size_t material_count;
+    image images[SCENE_IMAGES_MAX];
+    char *image_names[SCENE_IMAGES_MAX];
+    size_t image_count;
+    vndf_distribution *tables[SCENE_TABLES_MAX];
+    char *table_names[SCENE_TABLES_MAX];
+    size_t table_count;
+} scene;
+
+/* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE:COLUMN: what is wrong, and what
+ * would be right". Files that are not trusted are safe. */
+scene *scene_read(const char *path, char *message, size_t size);
+void scene_free(scene *s);
+
+/* The same from `length` bytes with a 0 behind them, which it changes; messages call them `name`. */
+scene *scene_read_text(const char *name, char *text, size_t length, char *message, size_t size);
+
+/* Sets the pixels across; the height follows. 0 and a message if no row is left, or they are too many. */
+int scene_resize(scene *s, int width, char *message, size_t size);
+
+extern const char scene_grammar[];
+
+#endif
