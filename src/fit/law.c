@@ -120,15 +120,15 @@ unsigned vndf_laws_cell(const vndf_laws *laws, double r)
 static double turn_of(const vndf_laws *laws, unsigned i)
 {
     double here = laws->cell[i].r, before = laws->cell[i - 1].r;
-    return i == 1 ? 0.75 * here : fmin(here, fmax(before / 0.8, sqrt(before * here)));
+    return i == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
 }
 
 /* Rho as the run time rounds it to find the switch (table.h). */
 static double rounded(double rho)
 {
     int exponent;
-    double part = frexp(rho, &exponent), quarter = 4 * (exponent - 1 + 16) + floor(8 * part) - 4;
-    return vndf_rounded_rho((int)fmin(fmax(quarter, 0), VNDF_RHO_PARTS - 1));
+    double part = frexp(rho, &exponent), eighth = 8 * (exponent - 1 + 13) + floor(16 * part) - 8;
+    return vndf_rounded_rho((int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1));
 }
 
 static unsigned first_above(const vndf_laws *laws, double rho)

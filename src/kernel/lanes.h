@@ -351,15 +351,15 @@ HERE quad look_rows(table t, int group, whole i)
     return transposed(row);
 }
 
-HERE whole look_first(table t, whole quarter)
+HERE whole look_first(table t, whole eighth)
 {
     int32_t at[LANES];
-    memcpy(at, &quarter, sizeof at);
+    memcpy(at, &eighth, sizeof at);
     LANES_UNROLLED
     for (int l = 0; l < LANES; l++)
         at[l] = t.first[at[l]];
-    memcpy(&quarter, at, sizeof at);
-    return quarter;
+    memcpy(&eighth, at, sizeof at);
+    return eighth;
 }
 
 #if VNDF_LANES == 16

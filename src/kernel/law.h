@@ -83,10 +83,10 @@ HERE real law_sum(weights w, quad tail)
     return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
 }
 
-/* The quarter of an octave that rho lies in (table/table.h). */
-HERE whole law_quarter(real rho)
+/* The eighth of an octave that rho lies in (table/table.h). */
+HERE whole law_eighth(real rho)
 {
-    return least_whole(most_whole((bits(rho) >> 21) - VNDF_RHO_FIRST, set_whole(0)),
+    return least_whole(most_whole((bits(rho) >> 20) - VNDF_RHO_FIRST, set_whole(0)),
                        set_whole(VNDF_RHO_PARTS - 1));
 }
 
@@ -97,7 +97,7 @@ HERE seen law_see_above(table t, real s, real c, real rho)
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.first = look_first(t, law_quarter(rho));
+    v.first = look_first(t, law_eighth(rho));
     quad tail = look(t, VNDF_TAIL, v.first);
     real reach = least(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);

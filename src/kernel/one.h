@@ -227,9 +227,9 @@ HERE table table_of(const vndf_distribution *d)
     return t;
 }
 
-HERE whole look_first(table t, whole quarter)
+HERE whole look_first(table t, whole eighth)
 {
-    return t.first[quarter];
+    return t.first[eighth];
 }
 
 /* Row i of a group. */

@@ -8,15 +8,15 @@
 
 enum { VNDF_COLUMNS = 5, VNDF_COLUMN_STEP = 8 };
 
-/* Floats of a column, and of the pivots of a column: multiples of four. */
+/* Floats of a column: up to the end of the last block. Pivots of a column: a multiple of four. */
 VNDF_INLINE int vndf_column_size(int cells)
 {
-    return cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 4;
+    return cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 1;
 }
 
 VNDF_INLINE int vndf_pivot_count(int cells)
 {
-    return (cells / VNDF_COLUMN_STEP + 4) / 4 * 4;
+    return (cells / VNDF_COLUMN_STEP + 3) / 4 * 4;
 }
 
 #endif

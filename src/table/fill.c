@@ -6,10 +6,10 @@
 #include "table/columns.h"
 #include "table/file.h"
 
-/* The law of k~ begins at knot i for the rho of its cell if that is less than NEAR times R_i, or nearer to R_i than to
- * the next knot. Down to 0.8 rho k~ is within 1.3% of k, for 2, 3 and 4 moments. In cell 0 there is no R_i to compare
- * with, and k~ has another form (kernel/law.h). */
-static const double NEAR = 1.25, NEAR_FIRST = 0.75;
+/* The law of k~ begins at knot i for the rounded rho of its cell if that is less than NEAR times R_i, or nearer to R_i
+ * than to the next knot. Down to 0.8 rho k~ is within 1.3% of k, for 2, 3 and 4 moments. In cell 0 there is no R_i to
+ * compare with, and k~ has another form (kernel/law.h). */
+static const double NEAR = 1.18, NEAR_FIRST = 0.75;
 
 static float *row(vndf_distribution *table, int group, size_t i)
 {

@@ -24,9 +24,9 @@ enum {
     VNDF_HEAD = 8           /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
 };
 
-/* Where the law of k~ begins is looked up by rho, rounded to the middle of a quarter of an octave from 2^-16 to 2^16.
- * Quarter i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
-enum { VNDF_RHO_PARTS = 128, VNDF_RHO_FIRST = (127 - 16) * 4 };
+/* Where the law of k~ begins is looked up by rho, rounded to the middle of an eighth of an octave from 2^-13 to 2^15.
+ * Eighth i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
+enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = (127 - 13) * 8 };
 
 /* The rounded rho of a part; more than all turns in the last. */
 VNDF_INLINE float vndf_rounded_rho(int i)
@@ -34,7 +34,7 @@ VNDF_INLINE float vndf_rounded_rho(int i)
     union {
         int32_t bits;
         float rho;
-    } middle = {((VNDF_RHO_FIRST + i) << 21) + (1 << 20)};
+    } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
     return i < VNDF_RHO_PARTS - 1 ? middle.rho : 3e38f;
 }
 
@@ -59,7 +59,7 @@ struct vndf_distribution {
     size_t number_count;
     float *columns;                 /* slopes and sums beyond them once more, each in a column (table/columns.h) */
     int32_t column, pivots;         /* vndf_column_size, vndf_pivot_count */
-    uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of an octave of rho */
+    uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of rho */
     double normalization;           /* the source was multiplied by it */
     double scale;                   /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;

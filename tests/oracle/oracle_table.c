@@ -240,14 +240,14 @@ double oracle_circle(double c, double s)
 static double turn(const oracle_table *t, size_t j)
 {
     double here = t->knot[j], before = j > 0 ? t->knot[j - 1] : 0;
-    return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(before / 0.8, sqrt(before * here)));
+    return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
 }
 
-/* Rho in the middle of its quarter of an octave, from 2^-16 on; infinite from the last one below 2^16. */
+/* Rho in the middle of its eighth of an octave, from 2^-13 on; infinite from the last one below 2^15. */
 static double rounded(double rho)
 {
-    double octave = floor(log2(fmax(rho, 0x1p-16))), part = floor(4 * (fmax(rho, 0x1p-16) / exp2(octave) - 1));
-    return octave + part / 4 >= 15.75 ? HUGE_VAL : exp2(octave) * (1 + (part + 0.5) / 4);
+    double octave = floor(log2(fmax(rho, 0x1p-13))), part = floor(8 * (fmax(rho, 0x1p-13) / exp2(octave) - 1));
+    return octave + part / 8 >= 14.875 ? HUGE_VAL : exp2(octave) * (1 + (part + 0.5) / 8);
 }
 
 static void look_above(oracle_law *l)

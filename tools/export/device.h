@@ -60,14 +60,14 @@ HERE whole most_whole(whole a, whole b)
     return b;
 }
 
-enum { VNDF_RHO_PARTS = 128, VNDF_RHO_FIRST = 444 };
+enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 };
 
-/* Where the law begins for a quarter of an octave of rho: the last knot with a turn below the middle of it. */
-HERE whole look_first(table t, whole quarter)
+/* Where the law begins for an eighth of an octave of rho: the last knot with a turn below the middle of it. */
+HERE whole look_first(table t, whole eighth)
 {
-    const real rho = of_bits(((VNDF_RHO_FIRST + quarter) << 21) + 1048576);
+    const real rho = of_bits(((VNDF_RHO_FIRST + eighth) << 20) + 524288);
     int first = 0, step = t.highest;
-    if (quarter == VNDF_RHO_PARTS - 1)
+    if (eighth == VNDF_RHO_PARTS - 1)
         return t.cells;
     for (int n = 0; n < t.steps; n++) {
         const whole next = least_whole(first + step, t.cells);
