@@ -429,6 +429,8 @@ typedef struct vndf_affine_batch {
 /* As vndf_sample_n and the others. */
 VNDF_API void vndf_affine_sample_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
                                    vndf_normals wm, float *pdf);
+VNDF_API void vndf_affine_sample_weight_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
+                                          vndf_normals wm, float *pdf, float *weight);
 VNDF_API void vndf_affine_pdf_n(const vndf_affine_batch *batch, vndf_normals wm, float *pdf);
 VNDF_API void vndf_affine_visible_n(const vndf_affine_batch *batch, vndf_normals wm, float *visible);
 VNDF_API void vndf_affine_invert_n(const vndf_affine_batch *batch, vndf_normals wm, float *u1, float *u2);

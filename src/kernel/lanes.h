@@ -274,7 +274,7 @@ enum { FIRST_LEVELS = 1, LEVELS = 3, COPIES = LANES };
 
 enum { COPIED = 128 }; /* tables of fewer cells have columns, with 16 lanes */
 
-/* What searches compare: R^2, the rho^2 from which on the law begins at the knot, R, sums beyond the knot. */
+/* What searches compare: R^2, R, sums beyond the knot. */
 enum { AT_KNOT, AT_R, AT_T1, AT_T0, AT_TQ, AT_T4, AT_N1, AT_N2, SEARCHED };
 
 /* Entries 2^l to 2^(l+1) - 1 of `level` are the knots that the step l of a search compares with, in ascending order. */
@@ -282,6 +282,7 @@ typedef struct table_copies {
     float level[SEARCHED][COPIES << LEVELS];
 #if VNDF_LANES == 16
     float column[VNDF_GROUPS][4][COPIED];
+    float first[256]; /* bits of whole numbers */
 #endif
 } table_copies __attribute__((aligned(64)));
 
@@ -351,17 +352,6 @@ HERE quad look_rows(table t, int group, whole i)
     return transposed(row);
 }
 
-HERE whole look_first(table t, whole eighth)
-{
-    int32_t at[LANES];
-    memcpy(at, &eighth, sizeof at);
-    LANES_UNROLLED
-    for (int l = 0; l < LANES; l++)
-        at[l] = t.first[at[l]];
-    memcpy(&eighth, at, sizeof at);
-    return eighth;
-}
-
 #if VNDF_LANES == 16
 
 /* Entry i of 32 numbers; of 64, which bit 5 of i halves. */
@@ -398,6 +388,23 @@ HERE void copy_columns(table t, table_copies *copies)
 }
 
 #endif
+
+/* Where the law begins, by the eighth of an octave of rho. */
+HERE whole look_first(table t, whole eighth)
+{
+#if VNDF_LANES == 16
+    const float *c = t.copies->first;
+    mask odd = _mm512_test_epi32_mask((__m512i)eighth, _mm512_set1_epi32(64)), high;
+    high = _mm512_test_epi32_mask((__m512i)eighth, _mm512_set1_epi32(128));
+    return bits(pick(high, pick(odd, look_64(c + 192, eighth), look_64(c + 128, eighth)),
+                     pick(odd, look_64(c + 64, eighth), look_64(c, eighth))));
+#else
+    LANES_UNROLLED
+    for (int l = 0; l < LANES; l++)
+        eighth[l] = t.first[eighth[l]];
+    return eighth;
+#endif
+}
 
 /* Row i of a group. */
 HERE quad look(table t, int group, whole i)
@@ -451,6 +458,10 @@ HERE table table_of(const vndf_distribution *d, table_copies *copies)
 #if VNDF_LANES == 16
     t.copied = t.cells < 64 ? 2 : t.cells < COPIED ? 4 : 0;
     copy_columns(t, copies);
+    for (int i = 0; i < VNDF_RHO_PARTS; i++) {
+        int32_t first = d->first[i];
+        memcpy(&copies->first[i], &first, sizeof first);
+    }
 #endif
     return t;
 }

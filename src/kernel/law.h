@@ -387,8 +387,8 @@ HERE real law_area_above(table t, seen v, whole cell)
 }
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
- * digits, and the area that is drawn where it does not. */
-HERE real law_area_at(table t, seen v, whole cell)
+ * digits, and the area that is drawn where it does not. `cell` is that of rho. */
+HERE real law_area_in(table t, seen v, whole cell)
 {
     real above = law_area_above(t, v, cell), sampled = v.s * v.total * 0.318309886f;
     real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
@@ -399,7 +399,7 @@ HERE real law_area_at(table t, seen v, whole cell)
 
 HERE real law_area(table t, seen v)
 {
-    return law_area_at(t, v, find_knot(t, v.rho * v.rho, set(1.0f)));
+    return law_area_in(t, v, find_knot(t, v.rho * v.rho, set(1.0f)));
 }
 
 #endif

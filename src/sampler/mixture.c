@@ -33,12 +33,12 @@ static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_L
 
 /* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone
  * count. */
-static void set_shares(vndf_mixture_view *view, vndf_vec3 wi)
+static void set_shares(vndf_mixture_view *view)
 {
     float sum = 0.0f, total = 0.0f;
     for (int i = 0; i < view->count; i++) {
         vndf_mixture_part *part = &view->part[i];
-        part->share = part->weight * vndf_view_area(&part->view, wi);
+        part->share = part->weight * vndf_view_own_area(&part->view);
         sum += part->share;
         total += part->weight;
     }
@@ -68,7 +68,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         part->weight = weight[i];
         view.count++;
     }
-    set_shares(&view, wi);
+    set_shares(&view);
     return view;
 }
 

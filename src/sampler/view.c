@@ -271,11 +271,10 @@ VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
         return beckmann_area(f->ux, f->uy, f->uz);
     table t = table_of(d);
     table_direction w = table_direction_of(*f);
-    whole cell = find_knot(t, w.square, w.under);
     seen v = {.s = w.s, .c = w.c, .rho = w.rho};
     if (f->uz < 0.0f)
-        v = law_see_below(t, w.s, w.c, w.rho, cell);
-    return law_area_at(t, v, cell) * frame_reach(*f);
+        v = law_see_below(t, w.s, w.c, w.rho, find_knot(t, w.square, w.under));
+    return law_area(t, v) * frame_reach(*f);
 }
 
 static look_at look_along(const vndf_distribution *d, const affine_map *m, vndf_vec3 w)

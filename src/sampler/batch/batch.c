@@ -154,6 +154,12 @@ void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const flo
     run_sample(affine_call(VNDF_TASK_SAMPLE, b), b->limit, u1, u2, wm, pdf, NULL);
 }
 
+void vndf_affine_sample_weight_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
+                                 float *pdf, float *weight)
+{
+    run_sample(affine_call(VNDF_TASK_SAMPLE, b), b->limit, u1, u2, wm, pdf, weight);
+}
+
 void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
 {
     run_given(plain_call(VNDF_TASK_PDF, b), b->limit, wm, pdf, NULL);

@@ -108,7 +108,7 @@ HERE whole step_slope(table t, real square, real under, whole at, int level)
     return follow(at, at_most(look_level(t, AT_KNOT, at, level) * under, square));
 }
 
-/* Cells of slopes whose squares have these parts. */
+/* The cells of slopes whose squares have these two parts. */
 HERE void find_slopes(table t, int groups, const float *square, const float *under, whole *i)
 {
     for (int g = 0; g < groups; g++) {
@@ -133,18 +133,18 @@ HERE void find_slopes(table t, int groups, const float *square, const float *und
         }
 }
 
-/* What is seen of a side; `cell`, that of rho, is set below the horizon or for `areas`. */
-HERE void see_side(table t, int groups, const side *s, seen *v, whole *cell, const int areas, const int below)
+HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
 {
-    if (below || areas)
+    whole cell[GROUPS];
+    if (below)
         find_slopes(t, groups, s->read[SQUARE], s->read[UNDER], cell);
     for (int g = 0; g < groups; g++) {
         const float *at = s->read[0] + g * LANES;
-        real sine = load(at + S * BLOCK), c = load(at + C * BLOCK), rho = load(at + RHO * BLOCK);
+        real height = load(at + C * BLOCK), across = load(at + S * BLOCK), rho = load(at + RHO * BLOCK);
         if (below)
-            v[g] = law_see_below(t, sine, c, rho, cell[g]);
+            v[g] = law_see_below(t, across, height, rho, cell[g]);
         else
-            v[g] = law_see_above(t, sine, c, rho);
+            v[g] = law_see_above(t, across, height, rho);
     }
 }
 
@@ -195,6 +195,20 @@ HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int be
     return r;
 }
 
+/* Areas of what is seen. */
+HERE void find_areas(table t, int groups, const seen *v, real *area)
+{
+    row square, under;
+    whole cell[GROUPS];
+    for (int g = 0; g < groups; g++)
+        store(square + g * LANES, v[g].rho * v[g].rho);
+    for (int g = 0; g < GROUPS; g++)
+        store(under + g * LANES, set(1.0f));
+    find_slopes(t, groups, square, under, cell);
+    for (int g = 0; g < groups; g++)
+        area[g] = law_area_in(t, v[g], cell[g]);
+}
+
 /* Cells of samples. */
 HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
 {
@@ -232,14 +246,14 @@ HERE void draw_azimuths(int groups, const arc *k, const float *u1, bearing *a, c
 HERE void draw_side(table t, int groups, side *s, const int weigh, const int below)
 {
     seen v[GROUPS];
-    whole cell[GROUPS];
     aim a[GROUPS];
     reached r[GROUPS];
     found f[GROUPS];
     drawn_length d[GROUPS];
     arc k[GROUPS];
     bearing turned[GROUPS];
-    see_side(t, groups, s, v, cell, weigh, below);
+    real area[GROUPS];
+    see_side(t, groups, s, v, below);
     for (int g = 0; g < groups; g++)
         a[g] = table_aim(v[g], load(s->read[GIVEN_B] + g * LANES), below);
     find_cells(t, groups, v, a, r, below);
@@ -257,10 +271,11 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
         store(s->write[RESULT_C] + g * LANES, n.z);
         store(s->write[RESULT_D] + g * LANES, n.density);
     }
+    if (weigh)
+        find_areas(t, groups, v, area);
     for (int g = 0; weigh && g < groups; g++) {
         place in = law_invert(f[g].at, f[g].before);
-        real area = law_area_at(t, v[g], cell[g]),
-             weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area, below);
+        real weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
         store(s->write[RESULT_E] + g * LANES, weight);
     }
 }
@@ -285,9 +300,8 @@ HERE void place_given(table t, int groups, const side *s, given *n)
 HERE void density_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
-    whole cell[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, cell, 0, below);
+    see_side(t, groups, s, v, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES,
@@ -297,9 +311,8 @@ HERE void density_side(table t, int groups, side *s, const int below)
 HERE void invert_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
-    whole cell[GROUPS];
     given n[GROUPS];
-    see_side(t, groups, s, v, cell, 0, below);
+    see_side(t, groups, s, v, below);
     place_given(t, groups, s, n);
     for (int g = 0; g < groups; g++) {
         real x = load(s->read[GIVEN_A] + g * LANES), y = load(s->read[GIVEN_B] + g * LANES);
@@ -312,10 +325,11 @@ HERE void invert_side(table t, int groups, side *s, const int below)
 HERE void area_side(table t, int groups, side *s, const int below)
 {
     seen v[GROUPS];
-    whole cell[GROUPS];
-    see_side(t, groups, s, v, cell, 1, below);
+    real area[GROUPS];
+    see_side(t, groups, s, v, below);
+    find_areas(t, groups, v, area);
     for (int g = 0; g < groups; g++)
-        store(s->write[RESULT_A] + g * LANES, law_area_at(t, v[g], cell[g]));
+        store(s->write[RESULT_A] + g * LANES, area[g]);
 }
 
 /* What a side does, above and below the horizon. */
@@ -568,7 +582,7 @@ HERE unit_normal normal_at(const block *b, int g, frame f)
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
 }
 
-/* What of frames and normals a density needs to the end: f has `determinant` and `rarest` alone. */
+/* What of frames and normals a density needs to the end: f has `determinant` and `densest` alone. */
 typedef struct densities {
     frame f[GROUPS];
     mask seen[GROUPS];
@@ -799,19 +813,23 @@ typedef struct copies {
     row read[VNDF_READS], write[VNDF_WRITES], valid[VNDF_READ_A];
 } copies;
 
-/* Where a block reads from: in place, or copies that go on, with the last element, to the last lane. What all elements
- * share is copied to `fresh` copies. */
+static const row zeros;
+
+/* Where a block reads from: zeros, in place, or copies that go on, with the last element, to the last lane. What all
+ * elements share is copied to `fresh` copies. */
 HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
 {
     const vndf_call *call = b->call;
     for (int r = 0; r < VNDF_READS; r++) {
         const float *from = call->read[r];
-        int one = !from || (call->shared >> r & 1), whole_block = count == b->groups * LANES;
-        b->read[r] = !one && whole_block ? from + first : c->read[r];
-        if (one ? !fresh : whole_block)
+        int one = (int)(call->shared >> r & 1), in_place = !one && count == b->groups * LANES;
+        b->read[r] = !from ? zeros : in_place ? from + first : c->read[r];
+        if (!from || in_place)
             continue;
-        for (int i = 0; i < BLOCK; i++)
-            c->read[r][i] = one ? (from ? *from : 0.0f) : from[first + (size_t)(i < count ? i : count - 1)];
+        for (int g = 0; one && fresh && g < GROUPS; g++)
+            store(c->read[r] + g * LANES, set(*from));
+        for (int i = 0; !one && i < b->groups * LANES; i++)
+            c->read[r][i] = from[first + (size_t)(i < count ? i : count - 1)];
     }
 }
 
@@ -823,10 +841,11 @@ HERE mask is_plain(const block *b, int g)
     real sum = (size(x) + size(y)) + size(z), means = size(m.mean_x) + size(m.mean_y);
     real entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
     mask plain = both(less(most(sum, entries + means), set(1e6f)), less(set(1e-9f), sum)), regular;
+    real along = m.xx * m.yy, across = m.xy * m.yx;
     if (b->call->diagonal)
         regular = less(set(1e-12f), least(m.xx, m.yy));
     else
-        regular = less(set(1e-24f), affine_determinant(m));
+        regular = less(1e-4f * (size(along) + size(across)) + 1e-24f, size(along - across));
     return both(plain, regular);
 }
 

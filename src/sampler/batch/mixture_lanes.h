@@ -56,7 +56,7 @@ STEP void run_some(const mixed *m, int l, vndf_task task, some *e, const float *
         return;
     enter_lobe(m, l, task, &b, &c);
     for (int r = 0; r < VNDF_READ_A; r++)
-        if (b.call->read[r] && !(b.call->shared >> r & 1)) {
+        if (b.call->read[r] && !(b.call->shared >> r & 1)) { /* others are the same for all */
             gather(e, m->groups, b.read[r], own.read[r]);
             b.read[r] = own.read[r];
         }
