@@ -282,7 +282,7 @@ typedef struct table_copies {
     float level[SEARCHED][COPIES << LEVELS];
 #if VNDF_LANES == 16
     float column[VNDF_GROUPS][4][COPIED];
-    float first[256]; /* bits of whole numbers */
+    float first[(VNDF_RHO_PARTS + 63) / 64 * 64]; /* bits of whole numbers */
 #endif
 } table_copies __attribute__((aligned(64)));
 
@@ -389,15 +389,15 @@ HERE void copy_columns(table t, table_copies *copies)
 
 #endif
 
-/* Where the law begins, by the eighth of an octave of rho. */
+/* The knot where the law begins, by the eighth of an octave of rho. */
 HERE whole look_first(table t, whole eighth)
 {
 #if VNDF_LANES == 16
-    const float *c = t.copies->first;
-    mask odd = _mm512_test_epi32_mask((__m512i)eighth, _mm512_set1_epi32(64)), high;
-    high = _mm512_test_epi32_mask((__m512i)eighth, _mm512_set1_epi32(128));
-    return bits(pick(high, pick(odd, look_64(c + 192, eighth), look_64(c + 128, eighth)),
-                     pick(odd, look_64(c + 64, eighth), look_64(c, eighth))));
+    real first = look_64(t.copies->first, eighth);
+    LANES_UNROLLED
+    for (int n = 64; n < VNDF_RHO_PARTS; n += 64)
+        first = pick(less_whole(eighth, set_whole(n)), first, look_64(t.copies->first + n, eighth));
+    return bits(first);
 #else
     LANES_UNROLLED
     for (int l = 0; l < LANES; l++)
@@ -458,10 +458,9 @@ HERE table table_of(const vndf_distribution *d, table_copies *copies)
 #if VNDF_LANES == 16
     t.copied = t.cells < 64 ? 2 : t.cells < COPIED ? 4 : 0;
     copy_columns(t, copies);
-    for (int i = 0; i < VNDF_RHO_PARTS; i++) {
-        int32_t first = d->first[i];
-        memcpy(&copies->first[i], &first, sizeof first);
-    }
+    memset(copies->first, 0, sizeof copies->first);
+    for (int i = 0; i < VNDF_RHO_PARTS; i++)
+        memcpy(&copies->first[i], &(int32_t){d->first[i]}, sizeof(int32_t));
 #endif
     return t;
 }
