@@ -28,6 +28,7 @@ typedef struct builder {
 
 /* ---- tables ---- */
 
+/* Of a table with so few cells, 2 or 3, that its numbers are here. */
 static size_t bytes_for(const builder *b, unsigned cells)
 {
     float zero[CELLS_LEAST + 2] = {0};
@@ -103,11 +104,17 @@ static void search(const builder *b, unsigned least, unsigned most, vndf_draft *
         try_knots(b, enough, draft);
 }
 
+static size_t bytes_of_knots(const builder *b, size_t knots)
+{
+    size_t two = bytes_for(b, CELLS_LEAST), each = bytes_for(b, CELLS_LEAST + 1) - two;
+    return two + each * knots - each * (CELLS_LEAST + 1);
+}
+
 /* The largest number of knots that fits into bytes. */
 static unsigned knots_in(const builder *b, size_t bytes)
 {
-    size_t two = bytes_for(b, CELLS_LEAST), each = bytes_for(b, CELLS_LEAST + 1) - two;
-    size_t base = two - (CELLS_LEAST + 1) * each, knots = bytes > base ? (bytes - base) / each : 0;
+    size_t base = bytes_of_knots(b, 0), each = bytes_of_knots(b, 1) - base;
+    size_t knots = bytes > base ? (bytes - base) / each : 0;
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
@@ -118,7 +125,7 @@ static vndf_distribution *make_table(const builder *b, vndf_error *error)
     if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
-                  (unsigned long)b->max_bytes, (unsigned long)bytes_for(b, least - 1));
+                  (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
         return NULL;
     }
     vndf_draft draft;
