@@ -124,7 +124,7 @@ HERE void find_slopes(table t, int groups, const float *square, const float *und
         for (int g = 0; level < t.levels && g < groups; g++)
             i[g] = step_slope(t, load(square + g * LANES), load(under + g * LANES), i[g], level);
     for (int g = 0; g < groups; g++)
-        i[g] = (i[g] - (1 << t.levels)) * t.stride;
+        i[g] = (i[g] - set_whole(1 << t.levels)) * set_whole(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++) {
             whole next = least_whole(i[g] + step, set_whole(t.cells));
@@ -224,7 +224,7 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *
         for (int g = 0; level < t.levels && g < groups; g++)
             r[g] = step_cell(t, v[g], a[g], r[g], level, below);
     for (int g = 0; g < groups; g++)
-        r[g].i = (r[g].i - (1 << t.levels)) * t.stride;
+        r[g].i = (r[g].i - set_whole(1 << t.levels)) * set_whole(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
             r[g] = step_rows(t, v[g], a[g], r[g], step, below);
