@@ -60,19 +60,18 @@ HERE whole most_whole(whole a, whole b)
     return b;
 }
 
-enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 };
+enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 }; /* of table/table.h */
 
 /* Where the law begins for an eighth of an octave of rho: the last knot with a turn below the middle of it. */
 HERE whole look_first(table t, whole eighth)
 {
-    const real rho = of_bits(((VNDF_RHO_FIRST + eighth) << 20) + 524288);
-    int first = 0, step = t.highest;
-    if (eighth == VNDF_RHO_PARTS - 1)
-        return t.cells;
+    whole last = set_whole(VNDF_RHO_PARTS - 1);
+    real rho = pick(same(eighth, last), set(3e38f), of_bits(((eighth + VNDF_RHO_FIRST) << 20) + 524288));
+    whole first = set_whole(0);
+    int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        const whole next = least_whole(first + step, t.cells);
-        if (look(t, VNDF_KNOT, next).d <= rho)
-            first = next;
+        whole next = least_whole(first + step, set_whole(t.cells));
+        first = pick_whole(at_most(look(t, VNDF_KNOT, next).d, rho), next, first);
         step = step / 2;
     }
     return first;
