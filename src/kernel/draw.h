@@ -73,9 +73,8 @@ typedef struct drawn_length {
     real density; /* over x total */
 } drawn_length;
 
-HERE drawn_length table_length(table t, seen v, found f, const int below)
+HERE drawn_length table_length(table t, seen v, found f, place in, const int below)
 {
-    place in = law_invert(f.at, f.before);
     drawn_length d;
     d.r = law_length(t, v, f.at, in, below);
     d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
@@ -109,9 +108,8 @@ HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length
         over = under - rest;
     }
     real below_all = law_below(all, over, rest),
-         f_mass = law_of_f(all, over, rest, r.x, r.z) / (below_all * below_all);
-    return f_mass * part * in.below / (f.at.mass * in.root) * (v.total / area) * (k.mass * k.sum) /
-           (3.14159265f * r.z);
+         f_mass = law_of_f(all, over, rest, r.x, r.z) * f.at.per / (below_all * below_all);
+    return f_mass * part * ((in.below * v.total) / (in.root * area)) * (0.318309886f * k.mass * k.sum / r.z);
 }
 
 /* ---- given normals ---- */

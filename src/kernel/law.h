@@ -374,7 +374,7 @@ HERE real law_width(table t, piece at, place in)
 
 /* ---- area ---- */
 
-/* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). */
+/* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). `cell` is that of rho. */
 HERE real law_area_above(table t, seen v, whole cell)
 {
     mask last = same(cell, t.cells);
@@ -387,19 +387,21 @@ HERE real law_area_above(table t, seen v, whole cell)
 }
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
- * digits, and the area that is drawn where it does not. `cell` is that of rho. */
-HERE real law_area_in(table t, seen v, whole cell)
+ * digits, and the area that is drawn where it does not. */
+HERE real law_area_in(table t, seen v, whole cell, const int below)
 {
-    real above = law_area_above(t, v, cell), sampled = v.s * v.total * 0.318309886f;
+    real above = law_area_above(t, v, cell);
+    if (!below)
+        return above;
+    real sampled = v.s * v.total * 0.318309886f;
     real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
-    real below = sampled + mixed * ((above - size(v.c)) - sampled);
-    below = pick(less(set(2e-15f), v.s), below, set(0.0f)); /* straight from below nothing is seen */
-    return pick(less(v.c, set(0.0f)), below, above);
+    real area = sampled + mixed * ((above - size(v.c)) - sampled);
+    return pick(less(set(2e-15f), v.s), area, set(0.0f)); /* straight from below nothing is seen */
 }
 
-HERE real law_area(table t, seen v)
+HERE real law_area(table t, seen v, const int below)
 {
-    return law_area_in(t, v, find_knot(t, v.rho * v.rho, set(1.0f)));
+    return law_area_in(t, v, find_knot(t, v.rho * v.rho, set(1.0f)), below);
 }
 
 #endif

@@ -16,7 +16,8 @@ HERE drawn table_draw(table t, table_view view, real u1, real u2, const int belo
 {
     aim a = table_aim(view.v, u2, below);
     reached at = table_find(t, view.v, a, below);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, at, below), below);
+    found f = table_cell(t, view.v, a, at, below);
+    drawn_length d = table_length(t, view.v, f, law_invert(f.at, f.before), below);
     arc k = table_arc(view.v, d.r, below);
     return table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
 }
@@ -26,10 +27,11 @@ HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, cons
     aim a = table_aim(view.v, u2, below);
     reached at = table_find(t, view.v, a, below);
     found f = table_cell(t, view.v, a, at, below);
-    drawn_length d = table_length(t, view.v, f, below);
+    place in = law_invert(f.at, f.before);
+    drawn_length d = table_length(t, view.v, f, in, below);
     arc k = table_arc(view.v, d.r, below);
     weighed s;
-    s.weight = table_weight(t, view.v, at.i, f, law_invert(f.at, f.before), d.r, k, law_area(t, view.v), below);
+    s.weight = table_weight(t, view.v, at.i, f, in, d.r, k, law_area(t, view.v, below), below);
     s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
     return s;
 }
@@ -60,7 +62,8 @@ HERE any_slope table_slope(table t, table_view straight, real u2)
 {
     aim a = table_aim(straight.v, u2, 0);
     reached at = table_find(t, straight.v, a, 0);
-    drawn_length d = table_length(t, straight.v, table_cell(t, straight.v, a, at, 0), 0);
+    found f = table_cell(t, straight.v, a, at, 0);
+    drawn_length d = table_length(t, straight.v, f, law_invert(f.at, f.before), 0);
     any_slope r = {d.r.x, d.r.z, d.density * 0.159154943f};
     return r;
 }
@@ -107,7 +110,8 @@ HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, rea
 {
     aim a = table_aim(view.v, u2 * part, 0);
     reached at = table_find(t, view.v, a, 0);
-    drawn_length d = table_length(t, view.v, table_cell(t, view.v, a, at, 0), 0);
+    found f = table_cell(t, view.v, a, at, 0);
+    drawn_length d = table_length(t, view.v, f, law_invert(f.at, f.before), 0);
     arc k = table_arc(view.v, d.r, 0);
     real arc_part = bounded_arc(k, bounded_cosine(alpha, slant, d.r.x, d.r.z));
     bounded_normal s;

@@ -155,7 +155,7 @@ VNDF_INLINE float unit_ndf(const vndf_distribution *d, unit_normal n)
 VNDF_INLINE float unit_area(const vndf_distribution *d, const vndf_state *s)
 {
     if (d->kind == VNDF_KIND_TABLE)
-        return law_area(table_of(d), s->of.table.v) * frame_reach(s->f);
+        return law_area(table_of(d), s->of.table.v, vndf_is_below(s)) * frame_reach(s->f);
     return d->kind == VNDF_KIND_GGX ? ggx_area(s->f.ux, s->f.uy, s->f.uz)
                                     : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
 }
@@ -274,7 +274,7 @@ VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
     seen v = {.s = w.s, .c = w.c, .rho = w.rho};
     if (f->uz < 0.0f)
         v = law_see_below(t, w.s, w.c, w.rho, find_knot(t, w.square, w.under));
-    return law_area(t, v) * frame_reach(*f);
+    return law_area(t, v, f->uz < 0.0f) * frame_reach(*f);
 }
 
 static look_at look_along(const vndf_distribution *d, const affine_map *m, vndf_vec3 w)

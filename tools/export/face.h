@@ -76,7 +76,7 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
         view.ex = seen_from.ex;
         view.ey = seen_from.ey;
         view.v = seen_from.v;
-        view.unit_area = law_area(view.t, view.v) * frame_reach(view.at);
+        view.unit_area = law_area(view.t, view.v, view.below) * frame_reach(view.at);
     }
     /* end */
     return view;

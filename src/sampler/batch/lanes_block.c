@@ -196,7 +196,7 @@ HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int be
 }
 
 /* Areas of what is seen. */
-HERE void find_areas(table t, int groups, const seen *v, real *area)
+HERE void find_areas(table t, int groups, const seen *v, real *area, const int below)
 {
     row square, under;
     whole cell[GROUPS];
@@ -206,7 +206,7 @@ HERE void find_areas(table t, int groups, const seen *v, real *area)
         store(under + g * LANES, set(1.0f));
     find_slopes(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
-        area[g] = law_area_in(t, v[g], cell[g]);
+        area[g] = law_area_in(t, v[g], cell[g], below);
 }
 
 /* Cells of samples. */
@@ -260,7 +260,7 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
     for (int g = 0; g < groups; g++)
         f[g] = table_cell(t, v[g], a[g], r[g], below);
     for (int g = 0; g < groups; g++)
-        d[g] = table_length(t, v[g], f[g], below);
+        d[g] = table_length(t, v[g], f[g], law_invert(f[g].at, f[g].before), below);
     for (int g = 0; g < groups; g++)
         k[g] = table_arc(v[g], d[g].r, below);
     draw_azimuths(groups, k, s->read[GIVEN_A], turned, below);
@@ -272,7 +272,7 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
         store(s->write[RESULT_D] + g * LANES, n.density);
     }
     if (weigh)
-        find_areas(t, groups, v, area);
+        find_areas(t, groups, v, area, below);
     for (int g = 0; weigh && g < groups; g++) {
         place in = law_invert(f[g].at, f[g].before);
         real weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
@@ -327,7 +327,7 @@ HERE void area_side(table t, int groups, side *s, const int below)
     seen v[GROUPS];
     real area[GROUPS];
     see_side(t, groups, s, v, below);
-    find_areas(t, groups, v, area);
+    find_areas(t, groups, v, area, below);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES, area[g]);
 }

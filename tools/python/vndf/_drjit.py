@@ -133,7 +133,7 @@ class Table(Law):
 
     def _see(self, frame: Any) -> tuple[Any, Any]:
         seen = kernel.vndf_table_view_of(self, frame, 0)
-        return seen, kernel.vndf_law_area(self, seen.v) * kernel.vndf_frame_reach(frame)
+        return seen, kernel.vndf_law_area(self, seen.v, 0) * kernel.vndf_frame_reach(frame)
 
     def _draw(self, view: View, u1: Any, u2: Any) -> Any:
         return kernel.vndf_table_draw(self, view.seen, u1, u2, 0)
