@@ -109,9 +109,9 @@ typedef enum vndf_normals_drawn {
     /* Normals that wi sees: weights are F G2/G1; with both lobes, and a Fresnel term that depends on the
      * wavelength, times F over its mean. */
     VNDF_NORMALS_VISIBLE,
-    /* Visible normals that reflect wi to above the horizon: no sample is lost. The weight is that of a visible
-     * normal times the part of the visible normals that is left where wm is drawn; for GGX of anisotropic
-     * roughness up to 1.7 times that. Tables of anisotropic roughness draw visible normals instead. */
+    /* Visible normals, of which fewer reflect wi to below the horizon, where samples are lost: none of a table of
+     * equal roughness, few of GGX and Beckmann. The weight is that of a visible normal times the part of the
+     * visible normals that is kept. Tables of unequal roughness draw visible normals instead. */
     VNDF_NORMALS_BOUNDED,
     VNDF_NORMALS_ALL,     /* D cos(theta_m), the way before visible normals: weights are unbounded */
     VNDF_NORMALS_V_CAVITY /* normals that wi sees in V-cavities; for V-cavity masking only */

@@ -183,16 +183,10 @@ VNDF_INLINE float pdf_of(const vndf_bsdf *b, const event *e)
 
 /* ---- samples ---- */
 
-/* Bounded normals reflect to above the horizon but for rounding, and are not lost to that. */
 VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e)
 {
     e->rise = (double)vndf_hit_cosine(&b->view, up_of(e));
-    if (e->rise > 0.0)
-        return 1;
-    if (b->material->is.effects.normals != VNDF_NORMALS_BOUNDED || e->rise < -2e-6)
-        return 0;
-    e->up.z = e->rise = (double)FLT_MIN;
-    return 1;
+    return e->rise > 0.0;
 }
 
 /* Completes a sample of an event; `part` of the samples take its lobe. f NULL: 1 of all wavelengths. */

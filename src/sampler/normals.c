@@ -77,18 +77,6 @@ float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm)
 
 /* ---- bounded normals ---- */
 
-/* What (1) of kernel/bounded.h takes of a surface. */
-typedef struct quadric {
-    float xx, xy, yy;
-} quadric;
-
-static quadric quadric_of(const frame *f)
-{
-    const affine_map *m = &f->m;
-    quadric e = {m->xx * m->xx + m->yx * m->yx, m->xx * m->xy + m->yx * m->yy, m->xy * m->xy + m->yy * m->yy};
-    return e;
-}
-
 /* Of a table: roughness, where it is the same along and across, and the tangent of the stretched direction. */
 typedef struct table_bounds {
     int isotropic;
@@ -98,8 +86,9 @@ typedef struct table_bounds {
 static table_bounds table_bounds_of(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    quadric e = quadric_of(&s->f);
-    table_bounds b = {size(e.xy) <= 1e-5f * e.xx && size(e.xx - e.yy) <= 1e-5f * e.xx, root(e.xx), 0.0f, 1.0f};
+    ellipse e = ellipse_of(s->f.m);
+    table_bounds b = {size(e.e12) <= 1e-5f * e.e11 && size(e.e11 - e.e22) <= 1e-5f * e.e11, root(e.e11), 0.0f,
+                      1.0f};
     if (!b.isotropic || !(s->f.uz > 0.0f))
         return b;
     b.slant = least(s->of.table.v.s / (b.alpha * s->of.table.v.c), 1e15f);
@@ -107,23 +96,15 @@ static table_bounds table_bounds_of(const vndf_view *view)
     return b;
 }
 
-static bounded draw_bounded(const vndf_view *view, float u1, float u2)
+/* The numbers that closed forms keep; tables of unequal roughness keep all. */
+static number_box box_of(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    quadric e = quadric_of(&s->f);
-    if (view->distribution->kind == VNDF_KIND_GGX)
-        return ggx_draw_bounded(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), u1, u2);
-    if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        return beckmann_draw_bounded(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), u1, u2);
-    table t = table_of(view->distribution);
-    table_bounds b = table_bounds_of(view);
-    if (!b.isotropic) {
-        bounded any_normal = {table_draw(t, s->of.table, u1, u2, 0), 1.0f};
-        return any_normal;
-    }
-    bounded_normal n = table_draw_bounded(t, s->of.table, b.alpha, b.slant, b.part, u1, u2);
-    bounded inside = {n.n, n.inside};
-    return inside;
+    const number_box all = {0.0f, 1.0f, 0.0f, 1.0f};
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        return all;
+    return view->distribution->kind == VNDF_KIND_GGX ? ggx_box(s->f)
+                                                     : beckmann_box(s->of.beckmann, ellipse_of(s->f.m));
 }
 
 static int can_bound(const vndf_view *view)
@@ -135,38 +116,44 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
 {
     if (!can_bound(view))
         return no_normal();
-    bounded b = draw_bounded(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2));
-    sampled s = frame_sampled(vndf_state_of(view)->f, b.n);
-    vndf_drawn_normal d = {{s.x, s.y, s.z}, s.pdf, b.inside};
-    if (!vndf_is_exact(view->distribution))
-        d.weight = quotient(view, d.wm, d.density);
+    const vndf_state *s = vndf_state_of(view);
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    table_bounds t = {0, 0.0f, 0.0f, 1.0f};
+    if (view->distribution->kind == VNDF_KIND_TABLE)
+        t = table_bounds_of(view);
+    if (t.isotropic) {
+        bounded_normal n =
+            table_draw_bounded(table_of(view->distribution), s->of.table, t.alpha, t.slant, t.part, u1, u2);
+        return on_surface(view, &s->f, n.n);
+    }
+    number_box b = box_of(view);
+    vndf_drawn_normal d = vndf_sample_visible(view, b.begin1 + b.span1 * u1, b.begin2 + b.span2 * u2);
+    d.density /= b.span1 * b.span2;
+    d.weight *= b.span1 * b.span2;
     return d;
 }
 
-/* K of bounded normals (kernel/math.h) where wm reflects wi to above the horizon. */
-static float bounded_density(const vndf_view *view, unit_normal n)
+/* The part of the visible normals like this one that is kept. */
+static float part_kept(const vndf_view *view, vndf_vec3 wm)
 {
     const vndf_state *s = vndf_state_of(view);
-    quadric e = quadric_of(&s->f);
-    if (view->distribution->kind == VNDF_KIND_GGX)
-        return ggx_bounded_density(ggx_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y, n.z,
-                                   n.facing);
-    if (view->distribution->kind == VNDF_KIND_BECKMANN)
-        return beckmann_bounded_density(beckmann_bounds_of(s->f.ux, s->f.uy, s->f.uz, e.xx, e.xy, e.yy), n.x, n.y,
-                                        n.z, n.facing);
-    table t = table_of(view->distribution);
+    number_box box = box_of(view);
+    if (view->distribution->kind != VNDF_KIND_TABLE)
+        return box.span1 * box.span2;
     table_bounds b = table_bounds_of(view);
-    float whole_density = table_pdf(t, s->of.table, n, frame_reach(s->f), 0);
-    return b.isotropic ? whole_density / table_bounded_inside(t, s->of.table, b.alpha, b.slant, b.part, n)
-                       : whole_density;
+    unit_normal n = frame_normal(s->f, wm.x, wm.y, wm.z);
+    return b.isotropic
+               ? table_bounded_inside(table_of(view->distribution), s->of.table, b.alpha, b.slant, b.part, n)
+               : 1.0f;
 }
 
 float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)
 {
     if (!can_bound(view) || !(wm.z >= 0.0f))
         return 0.0f;
-    const frame *f = &vndf_state_of(view)->f;
-    unit_normal n = frame_normal(*f, wm.x, wm.y, wm.z);
     float facing = view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z;
-    return 2.0f * facing * wm.z > view->wi.z ? frame_density(*f, bounded_density(view, n) / f->determinant) : 0.0f;
+    return 2.0f * facing * wm.z > view->wi.z
+               ? frame_density(vndf_state_of(view)->f, vndf_pdf(view, wm) / part_kept(view, wm))
+               : 0.0f;
 }
