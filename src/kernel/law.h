@@ -90,8 +90,8 @@ HERE whole law_eighth(real rho)
                        set_whole(VNDF_RHO_PARTS - 1));
 }
 
-/* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose 1/R has
- * no moment: its row of sums is that of knot 1 (table/table.h). */
+/* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose
+ * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). */
 HERE seen law_see_above(table t, real s, real c, real rho)
 {
     seen v;

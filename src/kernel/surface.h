@@ -53,7 +53,8 @@ typedef struct frame {
     real densest;     /* the largest density: 0 straight from below, where nothing is seen */
 } frame;
 
-/* Scales wi, then w, to a length of about 1 in the lanes where w is short or long (`odd`): its squares stay floats. */
+/* Scales wi, then w, to a length of about 1 in the lanes where w is short or long (`odd`): its squares stay
+ * floats. */
 HERE frame frame_scaled(frame f, mask odd)
 {
     real largest = most(most(size(f.wx), size(f.wy)), size(f.wz)),

@@ -1,8 +1,8 @@
-/* Bounded normals, all normals and V-cavity normals are drawn as sampler.h says: unit, not below the surface, with a
- * density that is that of the normal returned, has the integral 1 and passes chi-square; bounded normals of closed forms
- * have the means of visible ones that reflect wi to above the horizon, and no table of round roughness loses one; the density of all normals is D cos(theta_m), that of V-cavities D G1
- * (wi.wm)/cos_i; the weight is the visible density over the one drawn. It notices a bound, a twin or a factor that is
- * wrong. */
+/* Bounded normals, all normals and V-cavity normals are drawn as sampler.h says: unit, not below the surface, with
+ * a density that is that of the normal returned, has the integral 1 and passes chi-square; bounded normals of
+ * closed forms have the means of visible ones that reflect wi to above the horizon, and no table of round
+ * roughness loses one; the density of all normals is D cos(theta_m), that of V-cavities D G1 (wi.wm)/cos_i; the
+ * weight is the visible density over the one drawn. It notices a bound, a twin or a factor that is wrong. */
 #include <float.h>
 
 #include "measure/statistics.h"

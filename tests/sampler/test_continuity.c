@@ -56,8 +56,8 @@ static double largest_jump(const seen *s, int which, double u, double v, double 
     return change(s, which, u, v, other);
 }
 
-/* How much falls that should rise, beyond 4e-6 of it and what four roundings of the number do. Normals are rounded after
- * their product with the matrix: the worst of 8 million pairs is 2.6e-6. */
+/* How much falls that should rise, beyond 4e-6 of it and what four roundings of the number do. Normals are rounded
+ * after their product with the matrix: the worst of 8 million pairs is 2.6e-6. */
 static double falls(const seen *s, int which, double sign, double u, double v, double other)
 {
     double a = coordinate(s, which, at(s, which, u, other)), b = coordinate(s, which, at(s, which, v, other));
