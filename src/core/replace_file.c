@@ -14,7 +14,6 @@
 
 enum {
     NAMES_MAX = 100,
-    KEPT_MAX = 100, /* bytes of the name that its temporary keeps: some systems have room for 143 */
     SUFFIX_MAX = 48,
     LINKS_MAX = 40, /* as many as the system follows */
     LINK_BYTES = 4096
@@ -42,17 +41,6 @@ static char *join(const char *folder, size_t length, const char *name)
     memcpy(path, folder, length);
     memcpy(path + length, name, size);
     return path;
-}
-
-/* Bytes of a name that its temporary keeps; characters of UTF-8 stay whole. */
-static size_t kept_length(const char *name)
-{
-    size_t length = strlen(name);
-    if (length <= KEPT_MAX)
-        return length;
-    for (length = KEPT_MAX; length && ((unsigned char)name[length] & 0xC0) == 0x80;)
-        length--;
-    return length;
 }
 
 /* ---- what systems differ in ---------------------------------------------------------------------- */
@@ -88,21 +76,11 @@ char *vndf_replace_end_of_links(const char *path)
     return NULL;
 }
 
-/* 0 and errno if the mode cannot be kept. That of a temporary is never wider than the file's. */
-static int keep_mode(int made, const struct stat *old)
-{
-    struct stat now;
-    if (fchown(made, old->st_uid, old->st_gid) != 0)
-        errno = 0;
-    return fstat(made, &now) == 0 &&
-           (((now.st_mode ^ old->st_mode) & 0777) == 0 || fchmod(made, old->st_mode & 0777) == 0);
-}
-
 /* O_EXCL: never write through something that is there already. old: the file to be replaced, if there is one. */
 static FILE *create_with(const char *name, const struct stat *old)
 {
     int made = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? old->st_mode & 0777 : 0666);
-    FILE *file = made >= 0 && (!old || keep_mode(made, old)) ? fdopen(made, "wb") : NULL;
+    FILE *file = made >= 0 && (!old || fchmod(made, old->st_mode & 0777) == 0) ? fdopen(made, "wb") : NULL;
     int reason = errno;
     if (made >= 0 && !file) {
         close(made);
@@ -180,17 +158,16 @@ int vndf_replace_flush(FILE *file)
 
 /* ---- the calls ----------------------------------------------------------------------------------- */
 
-/* NAME.PROCESS.tmp beside the target, or another number where a crash left one of that name. */
+/* vndf.PROCESS.tmp in the folder of the target, or another number where a crash left one of that name. */
 static FILE *create_temporary(vndf_replacement *r)
 {
     FILE *file = NULL;
     size_t length = vndf_replace_folder_length(r->target);
-    length += kept_length(r->target + length);
     r->temporary = malloc(length + SUFFIX_MAX);
     errno = r->temporary ? EEXIST : ENOMEM;
     for (int i = 0; !file && errno == EEXIST && i < NAMES_MAX; i++) {
         memcpy(r->temporary, r->target, length);
-        snprintf(r->temporary + length, SUFFIX_MAX, i ? ".%ld.%d.tmp" : ".%ld.tmp", process_number(), i);
+        snprintf(r->temporary + length, SUFFIX_MAX, i ? "vndf.%ld.%d.tmp" : "vndf.%ld.tmp", process_number(), i);
         file = create_new(r->temporary, r->target);
     }
     return file;

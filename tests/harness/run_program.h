@@ -21,7 +21,7 @@ typedef struct run_setting {
     unsigned closed;    /* a bit for each of the descriptors 0 to 2 */
     const char *in;     /* what stdin is opened from; NULL: /dev/null */
     const char *append; /* what stdout is appended to; NULL: `out` */
-    const char *left;   /* a file for which a temporary of the same process number is there already */
+    int left;           /* a temporary of the same process number is there already */
     int out,
         input; /* descriptors in the place of stdout and stdin; 0: `text` of the outcome, as stderr, and `in` */
     rlim_t file_limit; /* bytes of a file, for a full disk; 0: none */
@@ -38,10 +38,10 @@ typedef struct run_outcome {
 } run_outcome;
 
 /* What a crash of this very process would have left: it holds "left". */
-static inline int run_leave(const char *name)
+static inline int run_leave(void)
 {
-    char temporary[320];
-    snprintf(temporary, sizeof temporary, "%s.%ld.tmp", name, (long)getpid());
+    char temporary[64];
+    snprintf(temporary, sizeof temporary, "vndf.%ld.tmp", (long)getpid());
     int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
     return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
 }
@@ -64,7 +64,7 @@ static inline void run_become(const run_setting *s, int said)
 {
     int in = open(s->in ? s->in : "/dev/null", O_RDONLY);
     int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : s->out ? s->out : said;
-    if (s->left && !run_leave(s->left))
+    if (s->left && !run_leave())
         _exit(RUN_NOT_RUN);
     if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
         _exit(RUN_NOT_RUN);

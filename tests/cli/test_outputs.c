@@ -1,0 +1,343 @@
+/* Whatever goes wrong around the program, a file that it writes is whole or as it was, no temporary is left, and a line
+ * says why: a full disk, a step of saving that fails, a signal, a closed descriptor or pipe, an output that is an input
+ * under another name, a name that is no file. A file that is replaced keeps its mode, a link its place, and `-o -`
+ * gives the bytes of the file. It notices a rename before the sync, and an input that is replaced. */
+#if defined(__unix__) || defined(__APPLE__)
+#  define _XOPEN_SOURCE 700
+#  define HAS_PROCESSES 1
+#endif
+
+#include "harness/test.h"
+
+#ifdef HAS_PROCESSES
+
+#  include <errno.h>
+
+#  include "harness/run_program.h"
+#  include "vndf_build.h"
+
+static const char table[] = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
+static const char old_text[] = "the old file\n";
+
+static int is_alone(void)
+{
+    return run_count(".", ".tmp") == 0 && run_count("folder", ".tmp") == 0;
+}
+
+static int is_written(const char *name)
+{
+    struct stat is;
+    return stat(name, &is) == 0 && is.st_size > 100 && is_alone();
+}
+
+static int put_old(const char *name)
+{
+    return run_put(name, old_text) && chmod(name, 0751) == 0;
+}
+
+static int is_old(const char *name)
+{
+    return run_has(name, old_text) && is_alone();
+}
+
+/* Fails a test of these words if they do not end so: with this status, and a line that holds `why`. */
+static void expect(int good, const char *const *words, const run_outcome *o, int status, const char *why)
+{
+    if (!(TEST(good) & TEST(o->status == status) & TEST_HAS(o->text, why)))
+        run_tell(words, o);
+}
+
+/* ---- steps of saving, which the linker lets fail (--wrap) ---- */
+
+#  ifdef VNDF_TEST_WRAP
+
+int __real_fsync(int file);
+int __real_fclose(FILE *file);
+int __real_rename(const char *from, const char *to);
+int __wrap_fsync(int file);
+int __wrap_fclose(FILE *file);
+int __wrap_rename(const char *from, const char *to);
+
+enum { NONE, SYNC, CLOSE, RENAME, STEPS };
+
+static int failing, steps; /* steps: digits of those that were taken */
+
+static int fails(int step)
+{
+    steps = 10 * steps + step;
+    if (failing == step)
+        errno = EDQUOT;
+    return failing == step;
+}
+
+int __wrap_fsync(int file)
+{
+    return fails(SYNC) ? -1 : __real_fsync(file);
+}
+
+int __wrap_fclose(FILE *file)
+{
+    int closed = __real_fclose(file);
+    return fails(CLOSE) ? EOF : closed;
+}
+
+int __wrap_rename(const char *from, const char *to)
+{
+    return fails(RENAME) ? -1 : __real_rename(from, to);
+}
+
+static void test_steps(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *loaded = vndf_load(table, &error);
+    for (int step = NONE; loaded && step < STEPS; step++) {
+        TEST(put_old("old.vndf"));
+        steps = 0;
+        failing = step;
+        vndf_status status = vndf_save(loaded, "old.vndf", &error);
+        int taken = steps;
+        failing = NONE;
+        int good = step ? status == VNDF_ERROR_IO && is_old("old.vndf") && strstr(error.message, strerror(EDQUOT))
+                        : status == VNDF_OK && run_same("old.vndf", table) && is_alone() && taken == 123;
+        if (!TEST(good))
+            fprintf(stderr, "  step %d, steps %d: %s\n", step, taken, error.message);
+    }
+    vndf_free(loaded);
+    remove("old.vndf");
+}
+
+#  else
+
+static void test_steps(void)
+{
+    puts("the linker has no --wrap: no step was made to fail");
+}
+
+#  endif
+
+/* ---- what every command writes ---- */
+
+#  define OUTPUT "OUTPUT" /* stands for the file */
+
+typedef struct subject {
+    const char *name; /* of the file */
+    const char *words[RUN_WORDS];
+} subject;
+
+static const subject writers[] = {
+    {"a.vndf", {"build", "--family", "ggx", "--max-bytes", "2048", "-o", OUTPUT}},
+    {"a.csv", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
+    {"a.f32", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
+    {"a.svg", {"plot", table, "--theta", "60", "-o", OUTPUT}},
+    {"a.csv", {"masking", table, "-o", OUTPUT}},
+    {"a.h", {"albedo", "ggx", "--columns", "8", "--rows", "8", "--c", OUTPUT}},
+    {"a.albedo", {"albedo", "ggx", "--columns", "8", "--rows", "8", "--save", OUTPUT}},
+    {"a.md", {"bench", "--only", "ggx", "--seconds", "0.1", "--markdown", OUTPUT}},
+    {"a.png", {"render", "ball.scene", "--spp", "1", "-o", OUTPUT}},
+};
+
+static const run_outcome *write_to(const subject *s, const run_setting *setting, const char *name)
+{
+    const char *words[RUN_WORDS] = {NULL};
+    for (int i = 0; i < RUN_WORDS && s->words[i]; i++)
+        words[i] = strcmp(s->words[i], OUTPUT) == 0 ? name : s->words[i];
+    return run_program(setting, words);
+}
+
+static void test_writer(const subject *s)
+{
+    const run_setting full = {.file_limit = 30}, crashed = {.left = 1};
+    struct stat is;
+    TEST(put_old(s->name));
+    expect(is_old(s->name), s->words, write_to(s, &full, s->name), 2, strerror(EFBIG));
+    TEST(is_old(s->name));
+    expect(1, s->words, write_to(s, &run_plain, s->name), 0, "");
+    TEST(is_written(s->name) && stat(s->name, &is) == 0 && (is.st_mode & 07777) == 0751 && remove(s->name) == 0);
+
+    TEST(symlink("folder/link", s->name) == 0 && symlink("../real", "folder/link") == 0);
+    expect(1, s->words, write_to(s, &run_plain, s->name), 0, "");
+    TEST(lstat(s->name, &is) == 0 && S_ISLNK(is.st_mode) && is_written("real"));
+    TEST(remove("real") == 0 && remove("folder/link") == 0 && remove(s->name) == 0);
+
+    expect(1, s->words, write_to(s, &crashed, s->name), 0, ""); /* a temporary of that name is there already */
+    TEST(run_count(".", ".tmp") == 1 && system("rm *.tmp") == 0 && is_written(s->name) && remove(s->name) == 0);
+
+    TEST(mkfifo("pipe", 0666) == 0);
+    expect(1, s->words, write_to(s, &run_plain, "pipe"), 2, "");
+    expect(1, s->words, write_to(s, &run_plain, "folder"), 2, "");
+    expect(1, s->words, write_to(s, &run_plain, ""), 2, "");
+    TEST(stat("pipe", &is) == 0 && S_ISFIFO(is.st_mode) && remove("pipe") == 0 && is_alone());
+}
+
+/* ---- outputs that are inputs ---- */
+
+/* The input stands in the words; `all.png` is a scene, which reads the others that it names. */
+static const subject readers[] = {
+    {"gloss.csv", {"build", "--csv", "gloss.csv", "-o", OUTPUT}},
+    {"gloss.csv", {"masking", "--csv", "gloss.csv", "-o", OUTPUT}},
+    {"table.csv", {"albedo", "table.csv", "--save", OUTPUT}},
+    {"table.csv", {"sample", "table.csv", "--theta", "60", "-n", "10", "-o", OUTPUT}},
+    {"gloss.csv", {"bench", "--csv-data", "gloss.csv", "--only", "ggx", "--seconds", "0.1", "--csv", OUTPUT}},
+    {"table.csv", {"bench", "effects", "--distribution", "table.csv", "--seconds", "0.01", "--markdown", OUTPUT}},
+    {"all.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
+    {"table.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
+    {"mesh.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
+};
+
+static const char all_png[] = "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
+                              "material gold conductor of gold distribution table table.png alpha 0.2\n"
+                              "mesh file mesh.png material gold\n";
+
+static int copy(const char *from, const char *to)
+{
+    size_t size;
+    char *bytes = run_file(from, &size);
+    FILE *file = fopen(to, "wb");
+    int good = bytes && file && fwrite(bytes, 1, size, file) == size;
+    free(bytes);
+    return file && fclose(file) == 0 && good;
+}
+
+/* Names with the ending of the input: by a folder, by a link, by another hard link, its own. */
+static void test_reader(const subject *s)
+{
+    char by_folder[64], other[64];
+    snprintf(by_folder, sizeof by_folder, "folder/../%s", s->name);
+    snprintf(other, sizeof other, "other%s", strrchr(s->name, '.'));
+    TEST(copy(s->name, "before"));
+    for (int kind = 0; kind < 4; kind++) {
+        if (kind >= 2)
+            TEST((kind == 2 ? symlink : link)(s->name, other) == 0);
+        const run_outcome *o = write_to(s, &run_plain, kind == 0 ? s->name : kind == 1 ? by_folder : other);
+        int told = strstr(o->text, "put of this command") || strstr(o->text, "is kept;");
+        expect(told && run_same(s->name, "before"), s->words, o, 2, "");
+        if (kind >= 2)
+            TEST(remove(other) == 0);
+    }
+    const run_setting appends = {.append = s->name};
+    const char *const info[] = {"info", s->name, NULL};
+    if (strcmp(s->name, "table.csv") == 0)
+        expect(run_same(s->name, "before"), info, run_program(&appends, info), 2, "");
+}
+
+/* ---- stdin and stdout ---- */
+
+/* Exit status 2 where what is closed or full had to be written or read, and files that are whole all the same. */
+static void test_descriptors(void)
+{
+    static const struct {
+        int reads, prints;
+        const char *words[RUN_WORDS];
+    } subjects[] = {{0, 1, {"--help"}},
+                    {0, 1, {"build", "--family", "ggx", "--max-bytes", "2048", "-o", "a.vndf"}},
+                    {0, 1, {"build", "--list"}},
+                    {0, 1, {"info", table}},
+                    {0, 1, {"check", "ggx", "--samples", "1000"}},
+                    {0, 0, {"sample", table, "--theta", "60", "-n", "5000", "-o", "a.csv"}},
+                    {0, 1, {"sample", table, "--theta", "60", "-n", "5000", "-o", "-"}},
+                    {1, 1, {"eval", table, "--theta", "60"}},
+                    {0, 0, {"plot", table, "-o", "a.svg"}}};
+    int full = open("/dev/full", O_WRONLY);
+    TEST(run_put("normals.csv", "0.6,0,0.8\n0,0,1\n"));
+    for (size_t i = 0; i < sizeof subjects / sizeof *subjects; i++) {
+        for (unsigned closed = 0; closed < 8; closed++) {
+            const run_setting s = {.closed = closed, .in = "normals.csv"};
+            int fails_so = ((closed & 1) && subjects[i].reads) || ((closed & 2) && subjects[i].prints);
+            expect(is_alone(), subjects[i].words, run_program(&s, subjects[i].words), fails_so ? 2 : 0,
+                   fails_so && !(closed & 4) ? strerror(EBADF) : "");
+        }
+        const run_setting s = {.in = "normals.csv", .out = full};
+        if (full > 0 && subjects[i].prints)
+            expect(1, subjects[i].words, run_program(&s, subjects[i].words), 2, strerror(ENOSPC));
+    }
+    close(full);
+    TEST(is_written("a.vndf") && is_written("a.csv") && is_written("a.svg"));
+    TEST(system("rm a.vndf a.csv a.svg normals.csv") == 0);
+}
+
+static void test_stdout(void)
+{
+    static const char *const words[][2][RUN_WORDS] = {
+        {{"sample", table, "--theta", "60", "-n", "9", "-o", "a.csv"},
+         {"sample", table, "--theta", "60", "-n", "9", "-o", "-"}},
+        {{"build", "--family", "ggx", "--max-bytes", "2048", "-o", "a.csv"},
+         {"build", "--family", "ggx", "--max-bytes", "2048", "-o", "-"}}};
+    const run_setting to_file = {.append = "b"};
+    for (int i = 0; i < 2; i++) {
+        TEST(run_put("b", "") && run_program(&run_plain, words[i][0])->status == 0);
+        expect(1, words[i][1], run_program(&to_file, words[i][1]), 0, "");
+        TEST(run_same("a.csv", "b") && remove("a.csv") == 0 && remove("b") == 0);
+    }
+}
+
+/* A reader that goes away ends the program by SIGPIPE, or quietly with 2 where that is ignored. */
+static void test_pipe(void)
+{
+    static const char *const words[] = {"sample", "ggx", "--theta", "60", "-n", "1000000", "-o", "-", NULL};
+    for (int ignores = 0; ignores < 2; ignores++) {
+        int ends[2];
+        if (!TEST(pipe(ends) == 0))
+            return;
+        const run_setting s = {.out = ends[1], .ignores_pipe = ignores};
+        close(ends[0]);
+        run_child c = run_start(&s, words);
+        close(ends[1]);
+        const run_outcome *o = run_finish(c);
+        expect((ignores || o->signal == SIGPIPE) && !o->text[0], words, o, ignores ? 2 : -1, "");
+    }
+}
+
+/* ---- signals ---- */
+
+/* The signal comes once the temporary is there. What there is of a picture is saved; samples are not. */
+static void test_signal(int number)
+{
+    static const char *const sample[] = {"sample", "ggx", "--theta", "60", "-n", "1e9", "-o", "a.csv", NULL};
+    static const char *const render[] = {"render", "ball.scene", "-o", "a.pfm", "--spp",
+                                         "1e9",    "--threads",  "1",  NULL};
+    TEST(put_old("a.csv"));
+    for (int renders = 0; renders < 2; renders++) {
+        run_child c = run_start(&run_plain, renders ? render : sample);
+        for (int i = 0; i < 1000 && run_count(".", ".tmp") == 0; i++)
+            run_pause(10);
+        run_pause(renders ? 1500 : 0);
+        kill(c.pid, number);
+        const run_outcome *o = run_finish(c);
+        expect(o->signal == number && is_alone(), renders ? render : sample, o, -1, "interrupted");
+    }
+    TEST(is_old("a.csv") && is_written("a.pfm") && remove("a.csv") == 0 && remove("a.pfm") == 0);
+}
+
+int main(void)
+{
+    char folder[] = "outputs.XXXXXX";
+    if (!TEST(mkdtemp(folder) != NULL && chdir(folder) == 0))
+        return test_done();
+    umask(022);
+    TEST(mkdir("folder", 0777) == 0 && run_put("ball.scene", run_scene) && run_put("all.png", all_png));
+    TEST(run_put("gloss.csv", "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n") && copy(table, "table.csv"));
+    TEST(run_put("mesh.png", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n") && copy(table, "table.png"));
+    test_steps();
+    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++)
+        test_writer(&writers[i]);
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        test_reader(&readers[i]);
+    test_descriptors();
+    test_stdout();
+    test_pipe();
+    test_signal(SIGINT);
+    test_signal(SIGTERM);
+    TEST(system("rm ball.scene all.png gloss.csv table.csv mesh.png table.png before") == 0);
+    TEST(rmdir("folder") == 0 && chdir("..") == 0 && rmdir(folder) == 0); /* nothing is left */
+    return test_done();
+}
+
+#else
+
+int main(void)
+{
+    puts("SKIPPED: no fork, links and signals here");
+    return 0;
+}
+
+#endif
