@@ -373,14 +373,14 @@ class Family(Owner):
         return [Distribution._of(pointer, _owner=self) for pointer in pointers]
 
     @functools.cached_property
-    def _axis(self) -> tuple[Any, bool]:
+    def axis(self) -> tuple[Any, bool]:
         """Knots where shares of neighbours are linear, ascending, and whether those are of 1/parameter."""
         reciprocal = bool(self.info["reciprocal"])
         return (-1.0 / np.float64(self.parameters) if reciprocal else np.float64(self.parameters)), reciprocal
 
     def places(self, parameter: Numbers) -> tuple[Any, Any]:
         """Of each parameter the index of the distribution below it, and the share of the next one."""
-        knots, reciprocal = self._axis
+        knots, reciprocal = self.axis
         p = np.clip(np.asarray(parameter, np.float32), self.parameters[0], self.parameters[-1]).astype(np.float64)
         x = -1.0 / p if reciprocal else p
         index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
