@@ -1,16 +1,19 @@
 /* What scripts ask about kernels that another program runs, and whether they answer as the library does:
  *
- *     vndf_agreement make WHAT COUNT QUESTIONS TABLE...            writes questions, in turn about GGX, Beckmann, each table
- *     vndf_agreement check WHAT BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...   judges answers
+ *     vndf_agreement make WHAT COUNT QUESTIONS TABLE...
+ *     vndf_agreement check WHAT BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...
  *
- * WHAT is `normals`, or the effects of a BSDF. Roughness is 0.02 to 1 on both axes, of BSDFs 0.05 to 1, directions are of
- * the whole sphere. Of eight questions one is of a matrix that turns, with a mean slope, one of numbers at the edges of the
- * unit square, one of a hard direction: exactly along z, next to it, at the horizon. Answers in BITS, of an exported C
- * without contracted products, are the library's, bit for bit; ROUNDED ones, of other languages and of all BSDFs, whose
- * library computes in double, and FAST ones, whose compiler reorders sums, differ by no more than the limits below. No
- * normal is turned away, not unit or below the surface, no density is 0 or not finite, but straight from below; no
- * scattered direction has a weight or a density that is negative or not finite, and weight times density is f times the
- * cosine. Exit status: 0 good, 1 not, 2 wrong use. */
+ * The first writes questions, in turn about GGX, Beckmann and each table, the second judges answers.
+ *
+ * WHAT is `normals`, or the effects of a BSDF. Roughness is 0.02 to 1 on both axes, of BSDFs 0.05 to 1,
+ * directions are of the whole sphere. Of eight questions one is of a matrix that turns, with a mean slope, one
+ * of numbers at the edges of the unit square, one of a hard direction: exactly along z, next to it, at the
+ * horizon. Answers in BITS, of an exported C without contracted products, are the library's, bit for bit;
+ * ROUNDED ones, of other languages and of all BSDFs, whose library computes in double, and FAST ones, whose
+ * compiler reorders sums, differ by no more than the limits below. No normal is turned away, not unit or below
+ * the surface, no density is 0 or not finite, but straight from below; no scattered direction has a weight or
+ * a density that is negative or not finite, and weight times density is f times the cosine. Exit status: 0
+ * good, 1 not, 2 wrong use. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>

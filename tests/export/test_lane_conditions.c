@@ -1,5 +1,6 @@
-/* An `if` on what lanes differ in is refused where the kernel is printed for Python, by the build: C, which has one lane,
- * takes it, and it once broke every test of Mitsuba after all those of C had passed. What all lanes share is printed. */
+/* An `if` on what lanes differ in is refused where the kernel is printed for Python, by the build: C, which
+ * has one lane, takes it, and it once broke every test of Mitsuba after all those of C had passed. What all
+ * lanes share is printed. */
 #include "export/translate.h"
 #include "harness/test.h"
 

@@ -324,8 +324,8 @@ static int declares(const writer *w, const char *type, const word *name)
     return 0;
 }
 
-/* Whether a comparison is the same for all lanes: it names constants, whole numbers of the function (int, where a lane's
- * are of type whole) and counts of its table. */
+/* Whether a comparison is the same for all lanes: it names constants, whole numbers of the function (int,
+ * where a lane's are of type whole) and counts of its table. */
 static int is_of_all_lanes(const writer *w, range r)
 {
     for (word next = word_solid(r.from); next.text < r.to; next = after(&next)) {
@@ -340,8 +340,8 @@ static int is_of_all_lanes(const writer *w, range r)
     return 1;
 }
 
-/* The condition of an if, where words stand for truths. Python, whose variables are arrays of lanes, can only ask what is
- * the same for all of them. */
+/* The condition of an if, where words stand for truths. Python, whose variables are arrays of lanes, can only
+ * ask what is the same for all of them. */
 static void put_condition(writer *w, range r, int alone)
 {
     r.from = word_solid(r.from).text;

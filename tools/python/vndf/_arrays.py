@@ -44,7 +44,9 @@ def matrix_components(value: Any, name: str) -> list[Floats]:
     return components(value[0], 2, name) + components(value[1], 2, name)
 
 
-def uniform(u: Any, count: int, rng: Optional[np.random.Generator], size: Any, shape: Callable[[], Any]) -> list[Floats]:
+def uniform(
+    u: Any, count: int, rng: Optional[np.random.Generator], size: Any, shape: Callable[[], Any]
+) -> list[Floats]:  # fmt: skip
     """`count` uniform numbers for each element: those of u, in [0, 1], or drawn from `rng` for an array of this size
     (a number or a tuple; None: of `shape()`)."""
     if (u is None) == (rng is None) or (u is not None and size is not None):

@@ -77,7 +77,8 @@ class _Lobe:
         path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
         self.parameter = {parameter: _texture(props, parameter, 1.0)} if parameter in props else {}
         self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
-        self.laws: list[Law] = self.tails.laws if self.tails else [closed[name]() if name in closed else Table(load(path))]
+        one: list[Law] = [] if self.tails else [closed[name]() if name in closed else Table(load(path))]
+        self.laws = self.tails.laws if self.tails else one
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")

@@ -61,8 +61,8 @@ def roughness(alpha: Any, alpha_y: Any) -> list[Floats]:
 
 
 def stretched(matrix: Any, mean: Any) -> list[Floats]:
-    """The components of a matrix of slopes and of a mean slope. Single numbers that are no surface are refused; in arrays
-    they scatter nothing."""
+    """The components of a matrix of slopes and of a mean slope. Single numbers that are no surface are refused; in
+    arrays they scatter nothing."""
     shape = matrix_components(matrix, "matrix") + components(mean, 2, "mean")
     if all(array.size == 1 for array in shape):
         xx, xy, yx, yy, *moved = (array.item() for array in shape)
@@ -401,10 +401,12 @@ class Family(Owner):
 
 
 class Blend(_Rough):
-    """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. A call of C
-    for each pair of neighbours that elements lie between."""
+    """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. There is
+    one call of C for each pair of neighbours that elements lie between."""
 
-    def __init__(self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> None:
+    def __init__(
+        self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None
+    ) -> None:  # fmt: skip
         want(family, Family)
         self.family = family
         self._shape = [as_float(parameter), *roughness(alpha, alpha_y)]
@@ -437,7 +439,8 @@ class Blend(_Rough):
         return self._ask(name, **seen, wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
 
     def _of_direction(self, name: str, w: Any) -> Floats:
-        return self._ask("lambda_" if name == "lambda" else name, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
+        method = "lambda_" if name == "lambda" else name
+        return self._ask(method, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
 
     def invert(self, wi: Any, wm: Any) -> Floats:
         """As of a mixture."""
