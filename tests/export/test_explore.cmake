@@ -127,6 +127,19 @@ if(NOT dom MATCHES "</html>")
 endif()
 expect("the page does not say that WebGL2 is missing" dom MATCHES "This browser has no WebGL2")
 
+# Each step of the keyboard moves a slider of roughness by one step, from end to end: a setting that is rounded and
+# written back must not take the step back. Without WebGL2, which the settings do not need.
+string(CONCAT steps "<script>listen(() => {});"
+    "const slider = byId('alpha-x'); let stuck = 0; slider.value = 0; for (let i = 1; i <= 200; i++) {"
+    "slider.stepUp(); slider.dispatchEvent(new Event('input'));"
+    "stuck += Math.abs(Number(slider.value) - i / 200) > 1e-6; }"
+    "document.body.dataset.stuck = `\${stuck} of 200, alpha \${settings.alpha[0]}`;</script></body>")
+string(REPLACE "</body>" "${steps}" stepping "${text}")
+file(WRITE ${OUT}/stepping.html "${stepping}")
+browse(dom --disable-3d-apis --dump-dom file://${OUT}/stepping.html)
+string(REGEX MATCH "data-stuck=\"[^\"]*\"" stuck "${dom}")
+expect("the keyboard cannot move a slider: '${stuck}'" stuck STREQUAL "data-stuck=\"0 of 200, alpha 1\"")
+
 # between(LOW NAME HIGH): a number that the page measured.
 macro(between low name high)
     set(value "nothing")

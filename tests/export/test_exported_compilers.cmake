@@ -43,7 +43,7 @@ int main(void)
 }
 ")
 endforeach()
-run("questions" ${AGREEMENT} make 8000 questions ${tables})
+run("questions" ${AGREEMENT} make normals 8000 questions ${tables})
 
 # try_compiler(COMPILER LANGUAGE FORM [DEFINITION])
 function(try_compiler compiler language form)
@@ -60,7 +60,7 @@ function(try_compiler compiler language form)
         "-DKERNEL_FILE=\"${form}.${language}.h\"" ${SOURCE}/tests/export/exported.c ${SOURCE}/tests/export/answer.c
         -lm -o ${program})
     run("the program of ${compiler}" ${program} questions answers)
-    run("agreement of ${compiler}, ${form} ${language}" ${AGREEMENT} check ${how} questions answers ${tables})
+    run("agreement of ${compiler}, ${form} ${language}" ${AGREEMENT} check normals ${how} questions answers ${tables})
     if(form STREQUAL embedded)
         run("${compiler} of two kernels" ${compiler} ${standard} ${flags} two.${language} -lm -o two)
         run("the program of two kernels by ${compiler}" ${OUT}/two)
@@ -76,12 +76,12 @@ function(try_bsdf compiler language effects)
     endif()
     run("export of ${effects}" ${VNDF} export ${tables} --language ${language} --prefix kernel --bsdf "${effects}"
         -o bsdf.${language}.h)
-    run("questions of ${effects}" ${AGREEMENT} make-bsdf 8000 hits "${effects}" ${tables})
+    run("questions of ${effects}" ${AGREEMENT} make "${effects}" 8000 hits ${tables})
     run("${compiler} of ${effects}" ${compiler} -O1 -ffp-contract=off ${standard} ${flags} -DKERNEL_SCATTERS ${ARGN}
         "-DKERNEL_FILE=\"bsdf.${language}.h\"" ${SOURCE}/tests/export/exported.c ${SOURCE}/tests/export/answer.c
         -lm -o ${OUT}/scatter)
     run("the program of ${effects}" ${OUT}/scatter hits scattered)
-    run("agreement of ${effects}" ${AGREEMENT} check-bsdf "${effects}" hits scattered ${tables})
+    run("agreement of ${effects}" ${AGREEMENT} check "${effects}" ROUNDED hits scattered ${tables})
 endfunction()
 
 # Compilers that take gcc's flags; the build's own first.

@@ -1,5 +1,5 @@
 # Runs one test of the Python package with the library and the KERNEL of this build: PYTHON, NAME (test_NAME.py or
-# layout), SINGLES, VARIANT of Mitsuba.
+# layout), VARIANT of Mitsuba.
 function(run)
     execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
@@ -21,7 +21,7 @@ file(MAKE_DIRECTORY ${OUT})
 file(COPY ${SOURCE}/tools/python/vndf ${KERNEL} DESTINATION ${OUT}/python)
 file(RENAME ${OUT}/python/_kernel.py ${OUT}/python/vndf/_kernel.py)
 set(with ${CMAKE_COMMAND} -E env "PYTHONPATH=${OUT}/python" PYTHONDONTWRITEBYTECODE=1 "VNDF_KERNEL=${KERNEL}"
-    "VNDF_LIBRARY=${SHARED_LIBRARY}" "VNDF_PROGRAM=${VNDF}" "VNDF_SINGLES=${SINGLES}" "VNDF_SOURCE=${SOURCE}")
+    "VNDF_LIBRARY=${SHARED_LIBRARY}" "VNDF_PROGRAM=${VNDF}" "VNDF_SOURCE=${SOURCE}")
 if(NAME STREQUAL "layout")
     run(${with} ${PYTHON} ${SOURCE}/tests/python/layout.py ${OUT}/layout.c)
     run(${C_COMPILER} -std=c11 -I${SOURCE}/include -c ${OUT}/layout.c -o ${OUT}/layout.o)

@@ -1,5 +1,6 @@
 """A table built from Python is the table of `vndf build`; what goes wrong is an exception with the library's words."""
 import copy
+import ctypes
 import math
 import os
 import pickle
@@ -10,6 +11,7 @@ import unittest
 
 import numpy as np
 import vndf
+from vndf import _library
 
 SOURCE = os.environ["VNDF_SOURCE"]
 
@@ -88,9 +90,39 @@ class Built(unittest.TestCase):
         loaded = vndf.Family.load(self.file)
         wm = np.array([0.0, 0.6, 0.8])
         self.assertEqual(loaded.at(2.7, 0.3).ndf(wm), family.at(2.7, 0.3).ndf(wm))
+        self.assertIn("3 distributions from 2.0 to 4.0", repr(loaded))
         middle = vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1]).at(0.5, 0.3).ndf(wm)
         ends = [vndf.Surface(d, 0.3).ndf(wm) for d in (vndf.ggx(), vndf.beckmann())]
         self.assertAlmostEqual(middle / np.mean(ends), 1, 5)
+
+
+    def test_textures_of_a_family_are_its_mixtures(self):
+        """Each element of an array of parameters is the surface at that parameter, of surfaces and of materials; shares
+        are those of the C library (vndf_family_at), inside and beyond the ends."""
+        family = vndf.Family.build("student-t", 2, 4, knots=4, max_bytes=2048)
+        parameters = np.array([1.0, 2.0, 2.1, 2.9, 3.7, 4.0, 9.0])
+        alpha = np.linspace(0.2, 0.6, 7)
+        rng = np.random.default_rng(1)
+        wi, wm, u = (0.6, 0.0, 0.8), np.array([[0.1], [0.2], [0.97]]), rng.random((3, 7))
+        wm = wm / np.linalg.norm(wm)
+        texture = family.at(parameters, alpha)
+        material = vndf.Material(texture)
+        drawn, scattered = texture.sample(wi, u[:2]), material.sample(wi, u)
+        for i, p in enumerate(parameters):
+            one = family.at(p, alpha[i])
+            mixture, shape = _library.vndf_mixture(), _library.vndf_affine(None, alpha[i], 0, 0, alpha[i], 0, 0)
+            _library.library.family_at(family._pointer, p, ctypes.byref(shape), ctypes.byref(mixture))
+            shares = [mixture.lobe[j].weight for j in range(mixture.count)]
+            np.testing.assert_allclose([w.item() for w in one.weights], shares, rtol=1e-6)
+            for name, arguments in (("pdf", (wi, wm)), ("visible", (wi, wm)), ("ndf", (wm,)), ("lambda_", (wi,))):
+                single = getattr(one, name)(*arguments)
+                np.testing.assert_allclose(getattr(texture, name)(*arguments)[..., i], np.ravel(single)[0], rtol=2e-6)
+            np.testing.assert_allclose(drawn.wm[:, i], one.sample(wi, u[:2, i]).wm, atol=1e-6)
+            single = vndf.Material(one)
+            np.testing.assert_allclose(scattered.wo[:, i], single.sample(wi, u[:, i]).wo, atol=2e-6)
+            np.testing.assert_allclose(material.eval(wi, (0, 0, 1))[:, i], single.eval(wi, (0, 0, 1)), rtol=2e-6)
+        np.testing.assert_allclose(texture.sample(wi, texture.invert(wi, wm)).wm, np.repeat(wm, 7, 1), atol=1e-4)
+        self.assertEqual(family.at(np.zeros(0)).g1(wi).shape, (0,))
 
 
 class Refused(unittest.TestCase):
@@ -128,6 +160,18 @@ class Refused(unittest.TestCase):
             (lambda: vndf.build("exp(-r)"), TypeError),
             (lambda: vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=-1), ValueError),
             (lambda: vndf.certify(None, None), TypeError),
+            (lambda: vndf.Albedo.build("ggx"), TypeError),
+            (lambda: vndf.Family.of(["ggx", "beckmann"], [0, 1]), TypeError),
+            (lambda: vndf.Source.of("rings.vndf"), TypeError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).sample((0.0, 0.0, 1.0), (math.nan, 0.5)), ValueError),
+            (lambda: vndf.Surface(vndf.ggx()).sample((0.0, 0.0, 1.0), [[0.1, math.nan], [0.5, 0.5]]), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).sample((0.0, 0.0, 1.0)), TypeError),
+            (lambda: vndf.Material(vndf.ggx()).sample((0.0, 0.0, 1.0), (0.5, 0.5, math.nan)), ValueError),
+            (lambda: vndf.Affine(vndf.ggx(), ((1.0, 2.0), (2.0, 4.0))), ValueError),
+            (lambda: vndf.Material(vndf.ggx(), matrix=((0.3, 0.0), (0.0, 0.3)), mean=(math.nan, 0.0)), ValueError),
+            (lambda: vndf.Mixture((vndf.Surface(vndf.ggx()), -1.0), (vndf.Surface(vndf.ggx()), 2.0)), ValueError),
+            (lambda: vndf.Mixture((vndf.Surface(vndf.ggx()), 0.0)), ValueError),
+            (lambda: vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1]).at(math.nan), ValueError),
             (lambda: vndf.Source.slope(None), TypeError),
             (lambda: vndf.Source.slope_function(3), TypeError),
             (lambda: vndf.load("a\0b"), ValueError),
@@ -140,15 +184,28 @@ class Refused(unittest.TestCase):
                 call()
 
     def test_what_owns_memory_is_owned_once(self):
-        source = vndf.Source.slope("exp(-r)")
-        family = vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1])
-        for owner in (source, family, vndf.Material(vndf.ggx(), 0.3)):
+        """A copy of an owner frees nothing twice; a class that is called frees no memory that is not its own."""
+        for owner in (vndf.Source.slope("exp(-r)"), vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1])):
             self.assertIs(copy.copy(owner), owner)
             self.assertIs(copy.deepcopy(owner), owner)
-            with self.assertRaisesRegex(TypeError, "cannot be pickled"):
-                pickle.dumps(owner)
-        surface = pickle.loads(pickle.dumps(vndf.Surface(vndf.build(source, max_bytes=2048), 0.3)))
-        self.assertGreater(surface.g1((0.6, 0.0, 0.8)), 0.5)
+            with self.assertRaisesRegex(TypeError, "comes from vndf"):
+                type(owner)(12345)
+        for kind, maker in ((vndf.Distribution, "vndf.load"), (vndf.Albedo, "vndf.Albedo.build")):
+            with self.assertRaisesRegex(TypeError, maker):
+                kind("rings.vndf")
+
+    def test_pickles(self):
+        """What comes out of a pickle answers as what went in; what has no bytes is refused."""
+        table = vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=2048)
+        built = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
+        wm = (0.6, 0.0, 0.8)
+        for surface in (vndf.Surface(table, 0.3), built.at(2.5, 0.3), built.at([2.0, 3.3], 0.3),
+                        vndf.Family.of([vndf.ggx(), table], [0, 1]).at(0.5, 0.3)):  # fmt: skip
+            np.testing.assert_array_equal(pickle.loads(pickle.dumps(surface)).ndf(wm), surface.ndf(wm))
+        gold = vndf.Material(table, 0.3, fresnel="conductor", eta=(0.2, 0.9, 1.1), k=2.0)
+        np.testing.assert_array_equal(pickle.loads(pickle.dumps(gold)).eval(wm, wm), gold.eval(wm, wm))
+        with self.assertRaisesRegex(TypeError, "cannot be pickled"):
+            pickle.dumps(vndf.Source.slope("exp(-r)"))
 
     def test_what_python_raises_comes_through(self):
         def fails(r):

@@ -168,10 +168,9 @@ typedef struct vndf_sampled {
     float pdf;
 } vndf_sampled;
 
-/* Draws a visible normal with two uniform numbers in [0, 1]. */
-HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
+/* Of a closed form a visible normal of the unit problem. */
+HERE drawn closed_drawn(vndf_view view, float u1, float u2)
 {
-    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
     drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
     /* only ggx */
     if (view.surface.distribution == VNDF_GGX)
@@ -181,6 +180,14 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
     if (view.surface.distribution == VNDF_BECKMANN)
         n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
     /* end */
+    return n;
+}
+
+/* Draws a visible normal with two uniform numbers in [0, 1]. */
+HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
+{
+    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
+    drawn n = closed_drawn(view, u1, u2);
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
@@ -201,16 +208,8 @@ typedef struct vndf_weighed {
 HERE vndf_weighed vndf_sample_weight(vndf_view view, float w1, float w2)
 {
     const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
-    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
+    drawn n = closed_drawn(view, u1, u2);
     float weight = 1.0f;
-    /* only ggx */
-    if (view.surface.distribution == VNDF_GGX)
-        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
-    /* end */
-    /* only beckmann */
-    if (view.surface.distribution == VNDF_BECKMANN)
-        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
-    /* end */
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};

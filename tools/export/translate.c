@@ -313,7 +313,35 @@ static void put_range(writer *w, range r)
     }
 }
 
-/* The condition of an if, where words stand for truths. */
+/* Whether the function declares a variable of this type. */
+static int declares(const writer *w, const char *type, const word *name)
+{
+    for (word at = word_solid(w->in->inner), next; at.text < w->in->end; at = next) {
+        next = after(&at);
+        if (word_is(&at, type) && words_equal(&next, name))
+            return 1;
+    }
+    return 0;
+}
+
+/* Whether a comparison is the same for all lanes: it names constants, whole numbers of the function (int,
+ * where a lane's are of type whole) and counts of its table. */
+static int is_of_all_lanes(const writer *w, range r)
+{
+    for (word next = word_solid(r.from); next.text < r.to; next = after(&next)) {
+        word dot = after(&next);
+        int member = word_is(&dot, ".");
+        if (next.kind != WORD_NAME || part_of(w, &next, PART_CONSTANT))
+            continue;
+        if (!declares(w, member ? "table" : "int", &next))
+            return 0;
+        next = member ? after(&dot) : next;
+    }
+    return 1;
+}
+
+/* The condition of an if, where words stand for truths. Python, whose variables are arrays of lanes, can only
+ * ask what is the same for all of them. */
 static void put_condition(writer *w, range r, int alone)
 {
     r.from = word_solid(r.from).text;
@@ -351,6 +379,8 @@ static void put_condition(writer *w, range r, int alone)
         else
             put_range(w, (range){inner.text, r.to - 1});
     } else {
+        words_expect(!w->t->to->indents || is_of_all_lanes(w, r), r.from,
+                     "pick, or any(mask) for what lanes differ in,");
         put_range(w, r);
         if (!has_sign(r, "<>="))
             fputs(" != 0", w->to);

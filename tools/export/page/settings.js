@@ -9,7 +9,7 @@ const settings = {a: 0, b: -1, alpha: [0.2, 0.2], turn: 0, theta: 60, material: 
 // A slider goes over equal ratios of alpha.
 const alphaAt = (place) => LEAST_ALPHA * Math.pow(1 / LEAST_ALPHA, place);
 const placeOf = (alpha) => Math.log(alpha / LEAST_ALPHA) / Math.log(1 / LEAST_ALPHA);
-const rounded = (x) => Number(x.toPrecision(2));
+const rounded = (x) => Number(x.toPrecision(3)); // two digits are wider apart than the steps of a slider
 const clamped = (x, low, high) => Math.min(Math.max(x, low), high);
 
 // Distributions by name: what stands in the menus.
@@ -62,7 +62,7 @@ function writeAddress() {
 function showSettings() {
   for (const [i, axis] of ["x", "y"].entries()) {
     byId(`alpha-${axis}`).value = placeOf(settings.alpha[i]);
-    byId(`alpha-${axis}-says`).textContent = settings.alpha[i].toFixed(settings.alpha[i] < 0.1 ? 3 : 2);
+    byId(`alpha-${axis}-says`).textContent = settings.alpha[i].toPrecision(3);
   }
   byId("turn").value = settings.turn;
   byId("turn-says").textContent = `${settings.turn}°`;

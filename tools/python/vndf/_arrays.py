@@ -6,7 +6,7 @@ contiguous array: directions have shape (3, ...). What follows broadcasts.
 from __future__ import annotations
 
 import math
-from typing import Any, Iterable, Sequence
+from typing import Any, Callable, Iterable, Optional, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -44,13 +44,32 @@ def matrix_components(value: Any, name: str) -> list[Floats]:
     return components(value[0], 2, name) + components(value[1], 2, name)
 
 
+def uniform(
+    u: Any, count: int, rng: Optional[np.random.Generator], size: Any, shape: Callable[[], Any]
+) -> list[Floats]:  # fmt: skip
+    """`count` uniform numbers for each element: those of u, in [0, 1], or drawn from `rng` for an array of this size
+    (a number or a tuple; None: of `shape()`)."""
+    if (u is None) == (rng is None) or (u is not None and size is not None):
+        raise TypeError("a sample takes u, or rng=numpy.random.default_rng() and size=")
+    if u is None:
+        assert rng is not None
+        axes = shape() if size is None else tuple(np.atleast_1d(size))
+        return list(rng.random((count, *axes), dtype=np.float32))
+    rows = components(u, count, "u")
+    for row in rows:
+        if not (0 <= row.item() <= 1 if row.size == 1 else bool(((row >= 0) & (row <= 1)).all())):
+            raise ValueError("u: its numbers must lie in [0, 1]")
+    return rows
+
+
 class Arguments:
     """The arrays of one batch, in groups by name, broadcast to one shape. They live as long as this does."""
 
     def __init__(self, **groups: Sequence[Floats]) -> None:
         self._groups = groups
+        shapes_of_all = {array.shape for group in groups.values() for array in group}
         try:
-            self.shape = np.broadcast_shapes(*(array.shape for group in groups.values() for array in group))
+            self.shape = shapes_of_all.pop() if len(shapes_of_all) == 1 else np.broadcast_shapes(*shapes_of_all)
         except ValueError:
             shapes = ", ".join(f"{name} {tuple(a.shape for a in group)}" for name, group in groups.items())
             raise ValueError(f"shapes of components do not broadcast: {shapes}") from None
@@ -81,16 +100,24 @@ class Arguments:
     def keep(self, array: Any) -> int:
         """Keeps an array as long as this; returns where it lies."""
         self._kept.append(array)
-        return int(array.ctypes.data)
+        return address(array)
 
     def _address(self, array: Any, whole: bool) -> int:
-        return self.keep(np.ascontiguousarray(np.broadcast_to(array, self.shape) if whole else array))
+        if whole and array.shape != self.shape:
+            array = np.broadcast_to(array, self.shape)
+        return self.keep(array if array.flags.c_contiguous else np.ascontiguousarray(array))
 
     def result(self, *leading: int, dtype: Any = np.float32) -> Any:
         """An array for results: `leading` axes and those of the batch."""
         return np.empty(leading + self.shape, dtype)
 
 
+def address(array: Any) -> int:
+    """Where an array lies; array.ctypes.data takes five times as long."""
+    return int(array.__array_interface__["data"][0])
+
+
 def addresses_of(array: Any) -> list[int]:
     """Where the components of a result lie."""
-    return [int(array.ctypes.data) + i * array.strides[0] for i in range(array.shape[0])]
+    first = address(array)
+    return [first + i * array.strides[0] for i in range(array.shape[0])]

@@ -11,9 +11,12 @@ import os
 import pathlib
 import sys
 from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint, c_void_p
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
+
+if TYPE_CHECKING:
+    from typing_extensions import Self
 
 
 class Status(enum.IntEnum):
@@ -304,14 +307,21 @@ class Immutable:
 
 
 class Owner(Immutable):
-    """Owns a pointer, and frees it by the C call named `_free`."""
+    """Owns a pointer, and frees it by the C call named `_free`. `_makers`: the calls that make one."""
 
     _free = ""
+    _makers = ""
     _pointer = 0
 
-    def __init__(self, pointer: int) -> None:
-        """For the package itself."""
-        self._pointer = pointer
+    def __init__(self, *_: Any, **__: Any) -> None:
+        raise TypeError(f"a vndf.{type(self).__name__} comes from {self._makers}, not from its class")
+
+    @classmethod
+    def _of(cls, pointer: int, **kept: Any) -> Self:
+        """Of a pointer that C gave. `kept`: members that have to live as long."""
+        self = cls.__new__(cls)
+        self.__dict__.update(kept, _pointer=pointer)
+        return self
 
     def __del__(self) -> None:
         if self._pointer:

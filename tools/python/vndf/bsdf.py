@@ -5,17 +5,18 @@ side of the surface. vndf_bsdf.h has the model and what effects go together.
 """
 from __future__ import annotations
 
+import inspect
 from ctypes import addressof, byref, c_void_p
 from typing import Any, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _library
-from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
+from ._arrays import Arguments, Floats, Numbers, address, addresses_of, as_float, components, uniform
 from ._library import Immutable, Owner, checked, library, members, path_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
-from .surface import Mixture, roughness
+from .surface import Blend, Generator, Mixture, Size, roughness, stretched
 
 _CHOICES = {
     "lobes": ["reflection", "transmission", "both"],
@@ -46,6 +47,7 @@ class Albedo(Owner):
     """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
 
     _free = "albedo_free"
+    _makers = "vndf.Albedo.build or vndf.Albedo.load"
 
     @staticmethod
     def build(
@@ -53,14 +55,15 @@ class Albedo(Owner):
         progress: Optional[Progress] = None,
     ) -> Albedo:  # fmt: skip
         """Of a mirror (eta = 0; a second or two) or a dielectric (some ten seconds), by quadrature."""
+        want(distribution, Distribution)
         reporter = Reporter(progress)
         options = _library.vndf_albedo_options(eta, columns, rows, reporter.pointer, None)
-        return reporter.run(lambda: Albedo(checked("albedo_build", distribution._pointer, byref(options))))
+        return reporter.run(lambda: Albedo._of(checked("albedo_build", distribution._pointer, byref(options))))
 
     @staticmethod
     def load(path: Path) -> Albedo:
         """Reads a file of ``vndf albedo``."""
-        return Albedo(checked("albedo_load", path_bytes(path)))
+        return Albedo._of(checked("albedo_load", path_bytes(path)))
 
     def save(self, path: Path) -> None:
         """Writes the file."""
@@ -86,7 +89,8 @@ class Material(Immutable):
     """A rough material: a distribution, its shape, its optics and its effects. Numbers may be arrays where a texture
     brings one for each hit: alpha, alpha_y, rotation, matrix, mean, and all of a mixture.
 
-    distribution: a :class:`Distribution`, or a :class:`Mixture`, which has its own roughness.
+    distribution: a :class:`Distribution`, or a :class:`Mixture` or a :class:`Blend` of a family, which have their own
+    roughness.
     alpha, alpha_y: roughness, > 0. rotation: the angle from x to the axis of alpha, radians.
     matrix, mean: in their place a matrix of slopes, shape (2, 2, ...), and a mean slope, shape (2, ...).
     lobes: "reflection", "transmission", "both".
@@ -102,17 +106,20 @@ class Material(Immutable):
     Raises :class:`vndf.Error` for a set that makes no sense, with the reason."""
 
     def __init__(
-        self, distribution: Union[Distribution, Mixture], alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
+        self, distribution: Union[Distribution, Mixture, Blend], alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
         rotation: Optional[Numbers] = None, matrix: Any = None, mean: Any = None, lobes: str = "reflection",
         fresnel: str = "none", masking: str = "height-correlated", normals: str = "visible",
         scattering: str = "single", transport: str = "radiance", reflection: str = "specular", eta: Numbers = 1.5,
         k: Numbers = 0.0, f0: Numbers = 0.04, wavelengths: Optional[int] = None, albedo: Optional[Albedo] = None,
         order_limit: int = 0,
     ) -> None:  # fmt: skip
-        want(distribution, (Distribution, Mixture))
+        self._made = {name: value for name, value in locals().items() if name != "self"}
+        want(distribution, (Distribution, Mixture, Blend))
+        if albedo is not None:
+            want(albedo, Albedo)
         if mean is not None and matrix is None:
             raise TypeError("a mean slope needs a matrix")
-        if isinstance(distribution, Mixture):
+        if not isinstance(distribution, Distribution):
             shape = "mixture"
         elif matrix is not None:
             shape = "matrix" if mean is None else "affine"
@@ -125,9 +132,8 @@ class Material(Immutable):
         if not 1 <= wavelengths <= _library.WAVELENGTHS:
             raise ValueError(f"{wavelengths} wavelengths; 1 to {_library.WAVELENGTHS} are possible")
         self.wavelengths = wavelengths
-        self._kept = (distribution, albedo)
         description = _library.vndf_description(
-            distribution=None if isinstance(distribution, Mixture) else distribution._pointer,
+            distribution=distribution._pointer if isinstance(distribution, Distribution) else None,
             alpha_x=1.0, alpha_y=1.0, wavelengths=wavelengths, albedo=albedo and albedo._pointer,
             eta=optics["eta"].flat[0], order_limit=order_limit,
         )  # fmt: skip
@@ -143,21 +149,28 @@ class Material(Immutable):
         self._material = _library.vndf_material()
         checked("material_resolve", byref(description), byref(self._material))
         self._groups = _shape_of_hits(shape, distribution, alpha, alpha_y, rotation, matrix, mean)
-        self._lobe_distributions = (
-            [lobe.distribution._pointer for lobe in distribution.lobes] if isinstance(distribution, Mixture) else []
-        )
 
-    def sample(self, wi: Any, u: Any) -> Scattered:
-        """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1]: two for the normal, one for the lobe."""
-        arguments, batch = self._open(wi, u=components(u, 3, "u"))
+    def __reduce__(self) -> Any:
+        return _material_of, (self._made,)
+
+    def __repr__(self) -> str:
+        default = inspect.signature(Material).parameters
+        said = [f"{n}={v!r}" for n, v in self._made.items() if n != "distribution" and v is not default[n].default]
+        return f"<vndf.Material of {', '.join([repr(self._made['distribution']), *said])}>"
+
+    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Scattered:
+        """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1]: two for the normal, one for the lobe; in
+        place of u an `rng` draws them, of shape (3, *size)."""
+        numbers = uniform(u, 3, rng, size, lambda: self._open(wi)[0].shape)
+        arguments, batch = self._open(wi, u=numbers)
         count = self.wavelengths
         wo, wm, weight = arguments.result(3), arguments.result(3), arguments.result(count)
         density, lobe = arguments.result(), arguments.result(dtype=np.uint8)
         normals = [_library.vndf_normals(*addresses_of(array)) for array in (wo, wm)]
         weights = _pointers(addresses_of(weight))
-        results = _library.vndf_scattered_n(normals[0], weights, density.ctypes.data, lobe.ctypes.data, normals[1])
-        numbers = np.array(arguments.whole_addresses("u"), np.uintp)
-        library.bsdf_sample_n(byref(batch), numbers.ctypes.data, results)
+        results = _library.vndf_scattered_n(normals[0], weights, address(density), address(lobe), normals[1])
+        uniforms = (c_void_p * 3)(*arguments.whole_addresses("u"))
+        library.bsdf_sample_n(byref(batch), uniforms, results)
         return Scattered(wo, weight, density[()], lobe[()], wm)
 
     def eval(self, wi: Any, wo: Any, seed: Any = 0) -> Floats:
@@ -194,11 +207,12 @@ class Material(Immutable):
         count = arrays[0].size
         if shape == "mixture":
             structs = np.zeros(count, _MIXTURE)
-            structs["count"] = len(self._lobe_distributions)
-            for i, pointer in enumerate(self._lobe_distributions):
+            lobes = _lobes_of(self._made["distribution"], arrays)
+            structs["count"] = len(lobes)
+            for i, (pointer, *parts, weight) in enumerate(lobes):
                 lobe = structs["lobe"][:, i]
-                _put_affine(lobe["surface"], pointer, arrays[7 * i : 7 * i + 6])
-                lobe["weight"] = arrays[7 * i + 6].ravel()
+                _put_affine(lobe["surface"], pointer, parts)
+                lobe["weight"] = weight.ravel()
             batch.mixture = arguments.keep(structs)
         else:
             structs = np.zeros(count, _AFFINE)
@@ -218,7 +232,7 @@ class Material(Immutable):
         if values:
             call.append(_pointers(addresses_of(value)))
         if name != "bsdf_eval_n":
-            call.append(pdf.ctypes.data)
+            call.append(address(pdf))
         getattr(library, name)(*call)
         return value, pdf
 
@@ -227,7 +241,23 @@ _AFFINE = np.dtype(_library.vndf_affine)
 _MIXTURE = np.dtype(_library.vndf_mixture)
 
 
-def _put_affine(structs: Any, distribution: int, arrays: Sequence[Any]) -> None:
+def _material_of(made: dict[str, Any]) -> Material:
+    return Material(**made)
+
+
+def _lobes_of(surface: Union[Mixture, Blend], arrays: Sequence[Any]) -> list[Sequence[Any]]:
+    """Of each lobe its distribution for all hits or for each, its matrix, its mean slope and its weight."""
+    if isinstance(surface, Mixture):
+        return [[lobe.distribution._pointer, *arrays[7 * i : 7 * i + 7]] for i, lobe in enumerate(surface.lobes)]
+    parameter, x, y = arrays
+    index, share = surface.family.places(parameter.ravel())
+    pointers = np.array([d._pointer for d in surface.family.distributions], np.uintp)
+    none = np.zeros_like(x)
+    pair = (index, 1 - share), (np.minimum(index + 1, len(pointers) - 1), share)
+    return [[pointers[at], x, none, none, y, none, none, weight] for at, weight in pair]
+
+
+def _put_affine(structs: Any, distribution: Any, arrays: Sequence[Any]) -> None:
     structs["distribution"] = distribution
     for name, array in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], arrays):
         structs[name] = array.ravel()
@@ -248,12 +278,13 @@ def _shape_of_hits(
     shape: str, distribution: Any, alpha: Any, alpha_y: Any, rotation: Any, matrix: Any, mean: Any
 ) -> dict[str, list[Floats]]:
     """The arrays that hits bring, as one group, in the order of the C struct."""
+    if isinstance(distribution, Blend):
+        return {"shape": distribution._shape}
     if shape == "mixture":
         parts = [[*lobe._shape, weight] for lobe, weight in zip(distribution.lobes, distribution.weights)]
         return {"shape": [array for part in parts for array in part]}
     if shape in ("matrix", "affine"):
-        moved = components((0.0, 0.0) if mean is None else mean, 2, "mean")
-        return {"shape": matrix_components(matrix, "matrix") + moved}
+        return {"shape": stretched(matrix, (0.0, 0.0) if mean is None else mean)}
     shapes = roughness(alpha, alpha_y)
     if rotation is not None:
         angle = np.asarray(rotation, np.float64)

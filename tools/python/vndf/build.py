@@ -31,11 +31,8 @@ class Source(Owner):
     """
 
     _free = "source_free"
-
-    def __init__(self, pointer: int, function: Optional[_Function] = None) -> None:
-        """For the package itself."""
-        super().__init__(pointer)
-        self._function = function
+    _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows, .slope_function, .ndf_function or .of"
+    _function: Optional[_Function] = None  # what C calls back
 
     @staticmethod
     def slope(formula: str, **parameters: float) -> Source:
@@ -50,12 +47,12 @@ class Source(Owner):
     @staticmethod
     def family(specification: str) -> Source:
         """A family or a measured material by name, as ``vndf build --family`` takes it."""
-        return Source(checked("source_family", text_bytes(specification)))
+        return Source._of(checked("source_family", text_bytes(specification)))
 
     @staticmethod
     def csv(path: Path) -> Source:
         """A CSV file with a header line that names its columns."""
-        return Source(checked("source_csv_file", path_bytes(path)))
+        return Source._of(checked("source_csv_file", path_bytes(path)))
 
     @staticmethod
     def rows(
@@ -76,7 +73,7 @@ class Source(Owner):
         if at.ndim != 1 or at.shape != value.shape:
             raise ValueError(f"rows are two arrays of one shape (n,), not {at.shape} and {value.shape}")
         addresses = at.ctypes.data, value.ctypes.data
-        return Source(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
+        return Source._of(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
 
     @staticmethod
     def slope_function(function: Callable[[float], float], name: str = "Python function") -> Source:
@@ -91,7 +88,8 @@ class Source(Owner):
     @staticmethod
     def of(distribution: Distribution) -> Source:
         """What a table was built from, for formulas and families; anything else raises :class:`vndf.Error`."""
-        return Source(checked("source_of", distribution._pointer))
+        want(distribution, Distribution)
+        return Source._of(checked("source_of", distribution._pointer))
 
     def p22(self, r: float) -> float:
         """P22 at the slope length r >= 0, as it was given."""
@@ -111,7 +109,7 @@ def _expression(name: str, formula: str, parameters: dict[str, float]) -> Source
     array = (_library.vndf_parameter * max(len(parameters), 1))()
     for slot, (key, value) in zip(array, parameters.items()):
         slot.name, slot.value = text_bytes(key), value
-    return Source(checked(name, text_bytes(formula), array, len(parameters)))
+    return Source._of(checked(name, text_bytes(formula), array, len(parameters)))
 
 
 class _Failure:
@@ -156,7 +154,7 @@ def _function(name: str, function: Callable[[float], float], origin: str) -> Sou
     if not callable(function):
         raise TypeError(f"a function is wanted, not {function!r}")
     called = _Function(function)
-    return Source(checked(name, called.pointer, None, text_bytes(origin)), called)
+    return Source._of(checked(name, called.pointer, None, text_bytes(origin)), _function=called)
 
 
 class Reporter(_Failure):
@@ -235,7 +233,7 @@ def build(
         break_count=marks.size, finest=finest, moments=moments,
     )  # fmt: skip
     try:
-        return reporter.run(lambda: Distribution(checked("build", source._pointer, byref(options), None)))
+        return reporter.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
     finally:
         source._raise_what_failed()
 

@@ -56,14 +56,11 @@ class Distribution(Owner):
     :func:`vndf.ggx` or :func:`vndf.beckmann`; pickles as the bytes of its table."""
 
     _free = "free"
-
-    def __init__(self, pointer: int, owner: Any = None) -> None:
-        """For the package itself. `owner`: what frees the pointer; None: this object."""
-        super().__init__(pointer)
-        self._owner = owner
+    _makers = "vndf.load, vndf.build, vndf.ggx or vndf.beckmann"
+    _owner: Any = None  # what frees the pointer; None: this object
 
     def __del__(self) -> None:
-        if getattr(self, "_owner", None) is None:
+        if self._owner is None:
             super().__del__()
 
     @property
@@ -105,17 +102,17 @@ class Distribution(Owner):
 
 def load(path: Path) -> Distribution:
     """Reads a table file. Raises :class:`vndf.Error` if it cannot be read or is not a whole, consistent table."""
-    return Distribution(checked("load", path_bytes(path)))
+    return Distribution._of(checked("load", path_bytes(path)))
 
 
 def from_bytes(data: bytes) -> Distribution:
     """The same from the bytes of a file, which are copied."""
     array = np.frombuffer(data, np.uint8)
-    return Distribution(checked("load_memory", array.ctypes.data, array.size))
+    return Distribution._of(checked("load_memory", array.ctypes.data, array.size))
 
 
-_ggx = Distribution(library.ggx(), owner=library)
-_beckmann = Distribution(library.beckmann(), owner=library)
+_ggx = Distribution._of(library.ggx(), _owner=library)
+_beckmann = Distribution._of(library.beckmann(), _owner=library)
 
 
 def ggx() -> Distribution:

@@ -8,7 +8,9 @@
 
 Parameters of both:
 
-distribution    a table file, "ggx" or "beckmann"
+distribution    a table file, "ggx" or "beckmann", or a file of a family of tables, which needs `parameter`
+parameter       of the family: a number or a texture; every hit is a mixture of two neighbours. LLVM and CUDA variants
+                evaluate all tables of the family at each hit
 alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
                 1e-4 counts as that
 rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
@@ -22,11 +24,13 @@ vndf_dielectric: int_ior, ext_ior; specular_reflectance, specular_transmittance.
 
 Samples are weighted with the true D over the density that the table has drawn with, so estimates are exact for a table
 of any size. Everything is differentiable with respect to roughness, weights, rotation and optics. Polarised variants
-are refused. Tested with Mitsuba 3.9, scalar and LLVM variants; CUDA runs the same code.
+are refused. Tested with Mitsuba 3.9, scalar and LLVM variants; CUDA runs the same code. Scalar variants run Python for
+every sample, a hundred times slower than Mitsuba's own plugins, of which `register` warns: take llvm_ad_rgb.
 """
 from __future__ import annotations
 
 import math
+import warnings
 from typing import Any
 
 import drjit as dr
@@ -34,6 +38,7 @@ import mitsuba as mi
 
 from ._drjit import Beckmann, Ggx, Law, Table
 from .distribution import load
+from .surface import Family
 
 _MOST_LOBES = 8
 _LEAST_ALPHA = 1e-4
@@ -43,14 +48,37 @@ def _texture(props: Any, name: str, default: float) -> Any:
     return props.get_texture(name, default)
 
 
+class _Tails:
+    """A family's tables, and the texture of its parameter."""
+
+    def __init__(self, path: str, parameter: Any) -> None:
+        family = Family.load(path)
+        self.laws: list[Law] = [Table(distribution) for distribution in family.distributions]
+        self.knots, self._reciprocal = family.axis
+        self._ends = [float(end) for end in family.parameters[[0, -1]]]
+        self._parameter = parameter
+
+    def shares(self, si: Any, active: Any) -> list[Any]:
+        """Of each table; all but two are 0."""
+        p = dr.clip(self._parameter.eval_1(si, active), *self._ends)
+        x, k = -1.0 / p if self._reciprocal else p, self.knots.tolist()
+        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
+        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
+        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
+
+
 class _Lobe:
-    """One distribution, and the textures of its roughness and weight."""
+    """One distribution or family, and the textures of its roughness and weight."""
 
     def __init__(self, props: Any, suffix: str) -> None:
         name = str(props["distribution" + suffix])
         self.name = name
         closed = {"ggx": Ggx, "beckmann": Beckmann}
-        self.law: Law = closed[name]() if name in closed else Table(load(str(mi.file_resolver().resolve(name))))
+        path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
+        self.parameter = {parameter: _texture(props, parameter, 1.0)} if parameter in props else {}
+        self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
+        one: list[Law] = [] if self.tails else [closed[name]() if name in closed else Table(load(path))]
+        self.laws = self.tails.laws if self.tails else one
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
@@ -59,11 +87,13 @@ class _Lobe:
         self.alphas = {n: _texture(props, n, 0.1) for n in ([along, across] if along in props else [both])}
         self.weight = {"weight" + suffix: _texture(props, "weight" + suffix, 1.0)}
 
-    def at(self, si: Any, active: Any) -> tuple[Any, Any, Any]:
-        """alpha_u, alpha_v and the weight of a hit."""
+    def at(self, si: Any, active: Any) -> list[Any]:
+        """Of a hit each law, with alpha_u, alpha_v and its weight."""
         alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
         weight = dr.maximum(next(iter(self.weight.values())).eval_1(si, active), 0.0)
-        return alphas[0], alphas[-1], weight
+        shares = self.tails.shares(si, active) if self.tails else [1.0]
+        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, shares)]
+        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
 
 
 class _Microsurface:
@@ -72,8 +102,11 @@ class _Microsurface:
     def __init__(self, props: Any) -> None:
         self.lobes = [_Lobe(props, "")]
         for i in range(2, _MOST_LOBES + 1):
-            if f"distribution_{i}" in props:
-                self.lobes.append(_Lobe(props, f"_{i}"))
+            if f"distribution_{i}" not in props:
+                continue
+            if len(self.lobes) != i - 1:
+                raise ValueError(f"distribution_{i} without distribution_{i - 1}: lobes are numbered without a gap")
+            self.lobes.append(_Lobe(props, f"_{i}"))
         self.rotation = _texture(props, "rotation", 0.0) if "rotation" in props else None
         masking = str(props.get("masking", "height-correlated"))
         if masking not in ("height-correlated", "separable"):
@@ -83,7 +116,7 @@ class _Microsurface:
     def textures(self) -> dict[str, Any]:
         named = {} if self.rotation is None else {"rotation": self.rotation}
         for lobe in self.lobes:
-            named.update({**lobe.alphas, **lobe.weight})
+            named.update({**lobe.alphas, **lobe.weight, **lobe.parameter})
         return named
 
     def at(self, si: Any, active: Any) -> _Hit:
@@ -95,8 +128,8 @@ class _Hit:
 
     def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
         self._separable = surface.is_separable
-        self._laws = [lobe.law for lobe in surface.lobes]
-        self._shapes = [lobe.at(si, active) for lobe in surface.lobes]
+        parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
+        self._laws, self._shapes = [part[0] for part in parts], [part[1:] for part in parts]
         total = sum(weight for _, _, weight in self._shapes)
         self._weights = [dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)
                          for _, _, weight in self._shapes]  # fmt: skip
@@ -168,6 +201,8 @@ def register() -> None:
     """Registers "vndf_conductor" and "vndf_dielectric" for the variant of Mitsuba that is set."""
     if mi.is_polarized:
         raise ValueError(f"vndf knows no polarisation, which {mi.variant()} has")
+    if not dr.is_jit_v(mi.Float):
+        warnings.warn(f"{mi.variant()} runs Python for every sample; llvm variants do not", stacklevel=2)
 
     class Rough(mi.BSDF):
         """What both have in common; `_look` gives value and density."""
@@ -249,7 +284,7 @@ def register() -> None:
 
         def traverse(self, callback: Any) -> None:
             super().traverse(callback)
-            callback.put("optics", self._optics, +mi.ParamFlags.Differentiable)
+            self._optics.traverse(callback)  # under Mitsuba's names: eta, k, specular_reflectance
 
         def to_string(self) -> str:
             return f"vndf_conductor[{', '.join(lobe.name for lobe in self._surface.lobes)}]"

@@ -10,13 +10,14 @@ while C works, so threads may share the work.
 from __future__ import annotations
 
 import abc
+import functools
 from ctypes import byref
 from typing import Any, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
 from . import _library
-from ._arrays import Arguments, Floats, Numbers, addresses_of, as_float, components, matrix_components
+from ._arrays import Arguments, Floats, Numbers, address, addresses_of, as_float, components, matrix_components, uniform
 from ._library import Owner, checked, library, members, path_bytes, text_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
@@ -45,6 +46,8 @@ class MixtureSample(NamedTuple):
     lobe: np.ndarray[Any, np.dtype[np.int32]]  #: its index, -1 of what is invalid, shape (...)
 
 
+Generator = Optional[np.random.Generator]
+Size = Union[None, int, tuple[int, ...]]
 _NO_DIRECTION = object()  # of calls that have no wi
 
 
@@ -55,6 +58,19 @@ def roughness(alpha: Any, alpha_y: Any) -> list[Floats]:
         if array.size == 1 and not 0 < array.item() < np.inf:
             raise ValueError(f"alpha is {array.item()}; it must be above 0")
     return both
+
+
+def stretched(matrix: Any, mean: Any) -> list[Floats]:
+    """The components of a matrix of slopes and of a mean slope. Single numbers that are no surface are refused; in
+    arrays they scatter nothing."""
+    shape = matrix_components(matrix, "matrix") + components(mean, 2, "mean")
+    if all(array.size == 1 for array in shape):
+        xx, xy, yx, yy, *moved = (array.item() for array in shape)
+        if not (xx * yy != xy * yx and np.isfinite([xx, xy, yx, yy]).all()):
+            raise ValueError(f"matrix is (({xx}, {xy}), ({yx}, {yy})); it must be finite and not singular")
+        if not np.isfinite(moved).all():
+            raise ValueError(f"mean is {tuple(moved)}; it must be finite")
+    return shape
 
 
 class _Rough(abc.ABC):
@@ -69,6 +85,11 @@ class _Rough(abc.ABC):
     @abc.abstractmethod
     def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
         """The C struct of a batch."""
+
+    def _says(self) -> str:
+        """Shape in words."""
+        numbers = [f"{a.item():.4g}" if a.size == 1 else f"array{a.shape}" for a in self._shape_groups()["shape"]]
+        return f"{'alpha' if len(numbers) == 2 else 'matrix and mean'} {', '.join(numbers)}"
 
     def _open(self, wi: Any, **inputs: list[Floats]) -> tuple[Arguments, Any]:
         groups = self._shape_groups()
@@ -88,22 +109,23 @@ class _Rough(abc.ABC):
         arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
         result = arguments.result()
         normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
-        self._call(name, byref(batch), normals, result.ctypes.data)
+        self._call(name, byref(batch), normals, address(result))
         return result[()]  # type: ignore[no-any-return]
 
     def _of_direction(self, name: str, w: Any) -> Floats:
         arguments, batch = self._open(w)
         result = arguments.result()
-        self._call(name, byref(batch), result.ctypes.data)
+        self._call(name, byref(batch), address(result))
         return result[()]  # type: ignore[no-any-return]
 
-    def _draw(self, name: str, wi: Any, u: Any, *, extra: Sequence[Any]) -> tuple[Floats, list[Any]]:
-        arguments, batch = self._open(wi, u=components(u, 2, "u"))
+    def _draw(self, name: str, wi: Any, u: Any, rng: Generator, size: Size, *, extra: Sequence[Any]) -> Any:
+        numbers = uniform(u, 2, rng, size, lambda: self._open(wi)[0].shape)
+        arguments, batch = self._open(wi, u=numbers)
         wm = arguments.result(3)
         results = [arguments.result(dtype=dtype) for dtype in extra]
         self._call(
             name, byref(batch), *arguments.whole_addresses("u"), _library.vndf_normals(*addresses_of(wm)),
-            *[result.ctypes.data for result in results],
+            *[address(result) for result in results],
         )  # fmt: skip
         return wm, [result[()] for result in results]
 
@@ -154,11 +176,17 @@ class _Rough(abc.ABC):
 class _OneLobe(_Rough):
     """Surfaces of one distribution."""
 
-    def sample(self, wi: Any, u: Any) -> Sample:
-        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]. An invalid direction or roughness
-        gives the normal (0, 0, 1) and density 0."""
-        wm, (pdf,) = self._draw("sample", wi, u, extra=[np.float32])
+    distribution: Distribution
+
+    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Sample:
+        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]; in place of u an `rng`
+        (``numpy.random.default_rng()``) draws them, of shape (2, *size), by default one sample an element. An invalid
+        direction or roughness gives the normal (0, 0, 1) and density 0."""
+        wm, (pdf,) = self._draw("sample", wi, u, rng, size, extra=[np.float32])
         return Sample(wm, pdf)
+
+    def __repr__(self) -> str:
+        return f"<vndf.{type(self).__name__} of {self.distribution!r}, {self._says()}>"
 
 
 class Surface(_OneLobe):
@@ -180,9 +208,11 @@ class Surface(_OneLobe):
             self.distribution._pointer, arguments.count, self._shared(arguments), 0, *arguments.addresses("shape"), *wi
         )
 
-    def sample_weight(self, wi: Any, u: Any) -> WeightedSample:
+    def sample_weight(
+        self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None
+    ) -> WeightedSample:  # fmt: skip
         """:meth:`sample` with the weight visible/pdf, for less than two calls cost."""
-        wm, (pdf, weight) = self._draw("sample_weight", wi, u, extra=[np.float32, np.float32])
+        wm, (pdf, weight) = self._draw("sample_weight", wi, u, rng, size, extra=[np.float32, np.float32])
         return WeightedSample(wm, pdf, weight)
 
 
@@ -195,7 +225,7 @@ class Affine(_OneLobe):
     def __init__(self, distribution: Distribution, matrix: Any, mean: Any = (0.0, 0.0)) -> None:
         want(distribution, Distribution)
         self.distribution = distribution
-        self._shape = matrix_components(matrix, "matrix") + components(mean, 2, "mean")
+        self._shape = stretched(matrix, mean)
 
     @staticmethod
     def rotated(distribution: Distribution, alpha: Numbers, alpha_y: Numbers, angle: Numbers) -> Affine:
@@ -234,6 +264,9 @@ class Mixture(_Rough):
             raise TypeError("the lobes of a mixture are pairs (surface, weight), one argument each")
         self.lobes = [_as_affine(surface) for surface, _ in lobes]
         self.weights = [as_float(weight) for _, weight in lobes]
+        single = [weight.item() for weight in self.weights if weight.size == 1]
+        if not all(0 <= weight < np.inf for weight in single) or (len(single) == len(lobes) and not any(single)):
+            raise ValueError(f"weights are {single}; they must be 0 or above, and not all 0")
 
     def _shape_groups(self) -> dict[str, list[Floats]]:
         return {"shape": [part for lobe in self.lobes for part in lobe._shape], "weight": self.weights}
@@ -246,17 +279,20 @@ class Mixture(_Rough):
             batch.lobe[i] = _library.vndf_lobe_batch(pointer, *shapes[6 * i : 6 * i + 6], weights[i])
         return batch
 
-    def sample(self, wi: Any, u: Any) -> MixtureSample:
+    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
         """As of other surfaces; u[0] chooses the lobe too, which is told."""
-        wm, (pdf, lobe) = self._draw("sample", wi, u, extra=[np.float32, np.int32])
+        wm, (pdf, lobe) = self._draw("sample", wi, u, rng, size, extra=[np.float32, np.int32])
         return MixtureSample(wm, pdf, lobe)
+
+    def __repr__(self) -> str:
+        return f"<vndf.Mixture of {', '.join(repr(lobe) for lobe in self.lobes)}>"
 
     def invert(self, wi: Any, wm: Any) -> Floats:
         """The numbers u, shape (2, ...), that draw wm from the lobe that draws it most often."""
         arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
         u, lobe = arguments.result(2), arguments.result(dtype=np.int32)
         normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
-        self._call("invert", byref(batch), normals, None, *addresses_of(u), lobe.ctypes.data)
+        self._call("invert", byref(batch), normals, None, *addresses_of(u), address(lobe))
         return u  # type: ignore[no-any-return]
 
 
@@ -265,11 +301,8 @@ class Family(Owner):
     ``Family.load`` or ``Family.of``."""
 
     _free = "family_free"
-
-    def __init__(self, pointer: int, keep: Sequence[Distribution] = ()) -> None:
-        """For the package itself. `keep`: what has to live as long."""
-        super().__init__(pointer)
-        self._keep = keep
+    _makers = "vndf.Family.build, vndf.Family.load or vndf.Family.of"
+    _given: Sequence[Distribution] = ()  # what `of` was given
 
     @staticmethod
     def build(
@@ -281,22 +314,42 @@ class Family(Owner):
         reporter = Reporter(progress)
         options = _library.vndf_family_options(max_distance, knots, max_bytes, moments, reporter.pointer, None)
         name = text_bytes(specification)
-        return reporter.run(lambda: Family(checked("build_family", name, low, high, byref(options))))
+        return reporter.run(lambda: Family._of(checked("build_family", name, low, high, byref(options))))
 
     @staticmethod
     def load(path: Path) -> Family:
         """Reads a file of ``vndf build --parameter``."""
-        return Family(checked("family_load", path_bytes(path)))
+        return Family._of(checked("family_load", path_bytes(path)))
 
     @staticmethod
     def of(distributions: Sequence[Distribution], parameters: Sequence[float]) -> Family:
         """Distributions of any kind at ascending parameters."""
         if len(distributions) != len(parameters):
             raise ValueError(f"{len(distributions)} distributions at {len(parameters)} parameters")
+        for distribution in distributions:
+            want(distribution, Distribution)
         pointers = np.array([d._pointer for d in distributions], np.uintp)
         at = np.array(parameters, np.float32)
         pointer = checked("family_of", pointers.ctypes.data, at.ctypes.data, len(pointers))
-        return Family(pointer, list(distributions))
+        return Family._of(pointer, _given=list(distributions))
+
+    @staticmethod
+    def from_bytes(data: bytes) -> Family:
+        """A family from the bytes of its file, ``bytes(family)``."""
+        array = np.frombuffer(data, np.uint8)
+        return Family._of(checked("family_load_memory", array.ctypes.data, array.size))
+
+    def __bytes__(self) -> bytes:
+        data = np.empty(self.info["bytes"], np.uint8)
+        checked("family_save_memory", self._pointer, data.ctypes.data, data.size)
+        return data.tobytes()
+
+    def __reduce__(self) -> Any:
+        return (Family.of, (self._given, self.parameters)) if self._given else (Family.from_bytes, (bytes(self),))
+
+    def __repr__(self) -> str:
+        facts = self.info
+        return f"<vndf.Family {facts['source']}, {facts['count']} distributions from {facts['low']} to {facts['high']}>"
 
     def save(self, path: Path) -> None:
         """Writes the family to a file."""
@@ -313,13 +366,90 @@ class Family(Owner):
         count = self.info["count"]
         return as_float([library.family_parameter(self._pointer, i) for i in range(count)])
 
-    def at(self, parameter: float, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> Mixture:
-        """The family at one parameter, which is clamped to its range, with this roughness."""
-        mixture = _library.vndf_mixture()
-        shape = _library.vndf_affine(None, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0)
-        library.family_at(self._pointer, parameter, byref(shape), byref(mixture))
-        if mixture.count == 0:
-            raise ValueError(f"a family has no distribution at {parameter}")
-        lobes = [mixture.lobe[i] for i in range(mixture.count)]
-        owned = [Distribution(lobe.surface.distribution, owner=self) for lobe in lobes]
-        return Mixture(*[(Surface(d, alpha, alpha_y), lobe.weight) for d, lobe in zip(owned, lobes)])
+    @functools.cached_property
+    def distributions(self) -> list[Distribution]:
+        """Those at :attr:`parameters`."""
+        pointers = [library.family_distribution(self._pointer, i) for i in range(self.info["count"])]
+        return [Distribution._of(pointer, _owner=self) for pointer in pointers]
+
+    @functools.cached_property
+    def axis(self) -> tuple[Any, bool]:
+        """Knots where shares of neighbours are linear, ascending, and whether those are of 1/parameter."""
+        reciprocal = bool(self.info["reciprocal"])
+        return (-1.0 / np.float64(self.parameters) if reciprocal else np.float64(self.parameters)), reciprocal
+
+    def places(self, parameter: Numbers) -> tuple[Any, Any]:
+        """Of each parameter the index of the distribution below it, and the share of the next one."""
+        knots, reciprocal = self.axis
+        p = np.clip(np.asarray(parameter, np.float32), self.parameters[0], self.parameters[-1]).astype(np.float64)
+        x = -1.0 / p if reciprocal else p
+        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
+        beyond = np.minimum(index + 1, len(knots) - 1)
+        width = knots[beyond] - knots[index]
+        return index, np.where(width > 0, (x - knots[index]) / np.where(width > 0, width, 1), 0 * x)
+
+    def at(self, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> Union[Mixture, Blend]:
+        """The family at a parameter, which is clamped to its range, with this roughness; at an array of them, as a
+        texture has, a :class:`Blend`."""
+        if np.ndim(parameter):
+            return Blend(self, parameter, alpha, alpha_y)
+        index, share = self.places(parameter)
+        if np.isnan(share):
+            raise ValueError(f"a family has no distribution at {parameter!r}")
+        pair = self.distributions[index : index + 2]
+        return Mixture(*((Surface(d, alpha, alpha_y), w) for d, w in zip(pair, (1 - share, share)) if w > 0))
+
+
+class Blend(_Rough):
+    """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. There is
+    one call of C for each pair of neighbours that elements lie between."""
+
+    def __init__(
+        self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None
+    ) -> None:  # fmt: skip
+        want(family, Family)
+        self.family = family
+        self._shape = [as_float(parameter), *roughness(alpha, alpha_y)]
+
+    def _shape_groups(self) -> dict[str, list[Floats]]:
+        return {"shape": self._shape}
+
+    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
+        return None  # there is one for each pair of neighbours
+
+    def _ask(self, method: str, **inputs: list[Floats]) -> list[Any]:
+        arguments = Arguments(shape=self._shape, **inputs)
+        parameter, x, y = (np.broadcast_to(row, arguments.shape).ravel() for row in self._shape)
+        rows = [np.stack([np.broadcast_to(row, arguments.shape).ravel() for row in of]) for of in inputs.values()]
+        index, share = self.family.places(parameter)
+        results: list[Any] = []
+        for i in np.unique(index) if index.size else [0]:
+            here = np.flatnonzero(index == i)
+            pair = zip(self.family.distributions[i : i + 2], (1 - share[here], share[here]))
+            mixture = Mixture(*((Surface(d, x[here], y[here]), weight) for d, weight in pair))
+            answer = getattr(mixture, method)(*(of[:, here] for of in rows))
+            answers = answer if isinstance(answer, tuple) else (answer,)
+            results = results or [np.empty((*a.shape[:-1], arguments.count), a.dtype) for a in answers]
+            for result, part in zip(results, answers):
+                result[..., here] = part
+        return [result.reshape((*result.shape[:-1], *arguments.shape)) for result in results]
+
+    def _of_normal(self, name: str, wi: Any, wm: Any) -> Floats:
+        seen = {} if wi is _NO_DIRECTION else {"wi": components(wi, 3, "wi")}
+        return self._ask(name, **seen, wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
+
+    def _of_direction(self, name: str, w: Any) -> Floats:
+        method = "lambda_" if name == "lambda" else name
+        return self._ask(method, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
+
+    def invert(self, wi: Any, wm: Any) -> Floats:
+        """As of a mixture."""
+        return self._of_normal("invert", wi, wm)
+
+    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
+        """As of other surfaces; the lobe is 0 or 1, the neighbour below or above."""
+        numbers = uniform(u, 2, rng, size, lambda: self._open(wi)[0].shape)
+        return MixtureSample(*self._ask("sample", wi=components(wi, 3, "wi"), u=numbers))
+
+    def __repr__(self) -> str:
+        return f"<vndf.Blend of {self.family!r} at parameters of shape {self._shape[0].shape}>"

@@ -1,0 +1,40 @@
+/* An `if` on what lanes differ in is refused where the kernel is printed for Python, by the build: C, which
+ * has one lane, takes it, and it once broke every test of Mitsuba after all those of C had passed. What all
+ * lanes share is printed. */
+#include "export/translate.h"
+#include "harness/test.h"
+
+/* The program itself with the text as its argument; its status. */
+static int printed(const char *program, const char *condition)
+{
+    char command[1000];
+    snprintf(command, sizeof command, "\"%s\" \"%s\" 2>lane_conditions.txt", program, condition);
+    return system(command);
+}
+
+static int print(const char *condition)
+{
+    static part_list parts;
+    char text[400];
+    translation t = {.to = language_named("python")};
+    snprintf(text, sizeof text,
+             "enum { MOST = 3 };\n\nHERE real shape(table t, real x, whole i, mask far, int below)\n{\n"
+             "    int steps = t.cells;\n    real y = x;\n    if (%s)\n        y = x + 1.0f;\n    return y;\n}\n",
+             condition);
+    parts_read(&parts, text);
+    return !translation_prefix(&t, "vndf") || !translation_want(&t, &parts, "shape") ||
+           (translate(&t, stdout, &parts), 0);
+}
+
+int main(int argc, char **argv)
+{
+    static const char *const shared[] = {"below", "!below", "t.cells > 0 && any(far)", "any(far)", "steps > MOST"};
+    static const char *const lanes[] = {"x > 0.0f", "far", "i > 2", "less(x, y)", "below && x > y", "!(x > 0.0f)"};
+    if (argc == 2)
+        return print(argv[1]);
+    for (size_t i = 0; i < sizeof shared / sizeof *shared; i++)
+        TEST(printed(argv[0], shared[i]) == 0);
+    for (size_t i = 0; i < sizeof lanes / sizeof *lanes; i++)
+        TEST(printed(argv[0], lanes[i]) != 0);
+    return test_done();
+}
