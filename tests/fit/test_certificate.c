@@ -61,7 +61,7 @@ static void test_claims(size_t index, size_t bytes)
     oracle o = oracle_get(index);
     vndf_certificate claim = {0};
     vndf_distribution *table = oracle_build(&o, bytes, &claim);
-    double above = 0, all = 0;
+    double above = table ? total_variation(&o, table, (double)claim.tv_above_theta) : 0, all = 0;
     int count = (int)test_amount(12, 24, 90);
     for (int i = 0; TEST(table != NULL) && i < count; i++) {
         double theta = 0.3 + 160 * (double)i / count, s = sin(theta * PI / 180), c = cos(theta * PI / 180);

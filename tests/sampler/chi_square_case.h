@@ -55,12 +55,13 @@ static inline void chi_square_one(const subject *of, size_t view, size_t samples
     }
 }
 
-static inline int chi_square_main(int arguments, char **argument, size_t samples)
+/* Of each subject every `stride`-th view, another one first for each. */
+static inline int chi_square_main(int arguments, char **argument, size_t samples, size_t stride)
 {
     double level = statistics_sidak(0.01, SUBJECT_COUNT * CHI_SQUARE_VIEWS);
     for (size_t i = 0; i < SUBJECT_COUNT; i++) {
         subject s = subject_open(i);
-        for (size_t view = 0; s.d && view < CHI_SQUARE_VIEWS; view++)
+        for (size_t view = i % stride; s.d && view < CHI_SQUARE_VIEWS; view += stride)
             if (oracle_wanted(arguments, argument, i, s.name))
                 chi_square_one(&s, view, samples, level);
         vndf_free(s.owned);

@@ -6,5 +6,5 @@
 
 int main(int arguments, char **argument)
 {
-    return chi_square_main(arguments, argument, test_amount(20000, 100000, 1000000));
+    return chi_square_main(arguments, argument, test_amount(20000, 100000, 1000000), test_amount(2, 2, 1));
 }

@@ -1,6 +1,7 @@
 /* Numbers, normal, numbers: vndf_invert gives numbers that vndf_sample turns into the same normal, within 1e-5 where
  * its slopes are over the roughness, or within what four steps of 2^-24 of the numbers do there; for mixtures it names
- * the lobe. It notices an inverse that is not that of the map, a wrong half turn, and a cell's neighbour. */
+ * the lobe, among others of weight 0. It notices an inverse that is not that of the map, a wrong half turn, a cell's
+ * neighbour, and lobes that are counted without those of weight 0. */
 #include "sampler/seen.h"
 
 /* Between unit normals over the roughness. */
@@ -69,9 +70,10 @@ static seen random_view(const vndf_distribution *d, seen_kind kind, unsigned lon
           b = (float)random_decade(state, -2, 0.3);
     float mean = kind == SEEN_SURFACE ? 0 : (float)random_between(state, -0.5, 0.5),
           shear = kind == SEEN_SURFACE ? 0 : a / 2;
-    const vndf_mixture of = {
-        kind == SEEN_MIXTURE ? 2 : 1,
-        {{{d, a, shear, -shear, b, mean, mean}, 0.6f}, {{vndf_ggx(), b, 0, 0, b, mean, 0}, 0.4f}}};
+    const vndf_mixture of = {kind == SEEN_MIXTURE ? 3 : 1,
+                             {{{d, a, shear, -shear, b, mean, mean}, 0.6f},
+                              {{d, a, 0, 0, a, 0, 0}, 0},
+                              {{vndf_ggx(), b, 0, 0, b, mean, 0}, 0.4f}}};
     vndf_vec3 wi = random_direction(state, -0.3), level = {wi.x, wi.y, 0};
     seen s = seen_from(kind, &of, wi);
     if (seen_area(&s, wi) < 1e-6f * seen_area(&s, level)) {

@@ -4,5 +4,5 @@
 int main(int arguments, char **argument)
 {
     size_t samples = arguments > 2 ? strtoul(argument[2], NULL, 10) : (size_t)1 << 20;
-    return chi_square_main(arguments, argument, samples);
+    return chi_square_main(arguments, argument, samples, 1);
 }
