@@ -40,4 +40,7 @@ extern const size_t subcommand_count;
 /* What `vndf --help` prints; an exit status. */
 int print_help(void);
 
+/* Says that there is no such command, and which one may be meant; STATUS_USE. */
+int refuse_subcommand(const char *command, const char *wrong);
+
 #endif

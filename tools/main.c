@@ -9,17 +9,6 @@
 #include "cli/output.h"
 #include "vndf.h"
 
-static int refuse_subcommand(const char *name)
-{
-    const char *names[WORDS_MAX];
-    for (size_t i = 0; i < subcommand_count && i < WORDS_MAX; i++)
-        names[i] = subcommands[i].name;
-    const char *hint = nearest_word(name, names, subcommand_count);
-    if (hint)
-        return complain("vndf", "there is no command '%s'; did you mean '%s'?", name, hint);
-    return complain("vndf", "there is no command '%s'; `vndf --help` lists them", name);
-}
-
 static int dispatch(int argc, char **argv)
 {
     if (argc < 2)
@@ -31,7 +20,7 @@ static int dispatch(int argc, char **argv)
     for (size_t i = 0; i < subcommand_count; i++)
         if (strcmp(argv[1], subcommands[i].name) == 0)
             return subcommands[i].run(argc - 2, argv + 2);
-    return refuse_subcommand(argv[1]);
+    return refuse_subcommand("vndf", argv[1]);
 }
 
 int main(int argc, char **argv)

@@ -16,7 +16,7 @@ get_filename_component(program_name ${VNDF} NAME)
 file(GLOB headers RELATIVE ${SOURCE}/include ${SOURCE}/include/*.h ${SOURCE}/include/*.hpp)
 file(GLOB tables RELATIVE ${SOURCE}/tables ${SOURCE}/tables/*.vndf)
 foreach(name IN ITEMS ${headers} ${tables} ${shared_name} ${static_name} ${program_name}
-        vndf.1 _vndf vndf.fish vndfConfig.cmake vndfTargets.cmake vndfConfigVersion.cmake vndf.pc)
+        vndf.1 vndfConfig.cmake vndfTargets.cmake vndfConfigVersion.cmake vndf.pc)
     file(GLOB_RECURSE found ${PREFIX}/*/${name})
     if(NOT found)
         message(SEND_ERROR "${name} was not installed under ${PREFIX}")

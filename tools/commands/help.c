@@ -1,4 +1,4 @@
-/* The list of all commands, `vndf --help`, and vndf help: the help of a command, the manual page, completions. */
+/* The list of all commands, `vndf --help`, and vndf help: the help of a command, the manual page, completion. */
 #include <stdio.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ const subcommand subcommands[] = {
     {"export", command_export, "the sampler with your tables as one file for C, CUDA, GLSL and other languages"},
     {"explore", command_explore, "a page that draws tables, GGX and Beckmann side by side in a browser"},
     {"render", command_render, "a picture of a scene, by one sampler or several side by side"},
-    {"help", command_help, "the help of a command; the manual page and completions of shells"},
+    {"help", command_help, "the help of a command; the manual page and completion of bash"},
 };
 
 const size_t subcommand_count = sizeof subcommands / sizeof subcommands[0];
@@ -32,14 +32,13 @@ static const char name[] = "vndf help";
 static const char help[] =
     "usage: vndf help [COMMAND]\n"
     "       vndf help --man [-o FILE]\n"
-    "       vndf help --completion bash|zsh|fish [-o FILE]\n"
+    "       vndf help --completion bash [-o FILE]\n"
     "\n"
     "Prints what `vndf COMMAND --help` prints; or what packages install, made from the options of all commands.\n"
     "\n"
     "  --man            the manual page vndf(1)\n"
-    "  --completion bash|zsh|fish    what completes commands, options and files in that shell: for bash a file\n"
-    "                   vndf in share/bash-completion/completions, for zsh _vndf in share/zsh/site-functions, for\n"
-    "                   fish vndf.fish in share/fish/vendor_completions.d\n"
+    "  --completion bash    what completes commands, options and files in bash: a file vndf in\n"
+    "                   share/bash-completion/completions. zsh reads it after bashcompinit\n"
     "  -o FILE          where it goes; - for stdout (the default)\n"
     "\n"
     "example: vndf help bench effects\n"
@@ -86,6 +85,17 @@ int print_help(void)
     return fputs(head, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
 }
 
+int refuse_subcommand(const char *command, const char *wrong)
+{
+    const char *names[WORDS_MAX];
+    for (size_t i = 0; i < subcommand_count && i < WORDS_MAX; i++)
+        names[i] = subcommands[i].name;
+    const char *hint = nearest_word(wrong, names, subcommand_count);
+    if (hint)
+        return complain(command, "there is no command '%s'; did you mean '%s'?", wrong, hint);
+    return complain(command, "there is no command '%s'; `vndf --help` lists them", wrong);
+}
+
 static void take(const command_form *form, void *command)
 {
     manual_command_from(form, command);
@@ -123,7 +133,7 @@ static int show(const words *asked)
     for (size_t i = 0; i < subcommand_count; i++)
         if (strcmp(asked->item[0], subcommands[i].name) == 0)
             return subcommands[i].run(1, argv);
-    return complain(name, "there is no command '%s'; `vndf --help` lists them", asked->item[0]);
+    return refuse_subcommand(name, asked->item[0]);
 }
 
 typedef void writer(const manual *from, FILE *to);
@@ -143,14 +153,9 @@ static int write(writer *as, const char *path)
 
 static writer *writer_for(const char *shell)
 {
-    static const struct {
-        const char *shell;
-        writer *as;
-    } all[] = {{"bash", manual_write_bash}, {"zsh", manual_write_zsh}, {"fish", manual_write_fish}};
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (strcmp(shell, all[i].shell) == 0)
-            return all[i].as;
-    complain(name, "--completion '%s' is not bash, zsh or fish", shell);
+    if (strcmp(shell, "bash") == 0)
+        return manual_write_bash;
+    complain(name, "--completion '%s' is not bash", shell);
     return NULL;
 }
 

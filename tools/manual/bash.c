@@ -18,11 +18,11 @@ static void put_values(FILE *to, const manual_command *command)
 {
     for (size_t i = 0; i < command->option_count; i++) {
         const manual_option *option = &command->option[i];
-        help_option said;
+        char said[HELP_VALUE_SIZE];
         if (!option->takes_value)
             continue;
-        help_option_find(command->help, option->name, &said);
-        values may = values_of(said.value);
+        help_option_find(command->help, option->name, said);
+        values may = values_of(said);
         fprintf(to, "    '%s %s') ", command->name, option->name);
         if (may.files || may.words[0]) {
             put_compgen(to, &may);

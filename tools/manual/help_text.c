@@ -131,38 +131,20 @@ static void copy_value(const char *behind, char *value, size_t size)
     }
 }
 
-/* The first clause. */
-static void copy_about(const char *text, char *about, size_t size)
-{
-    static const char *const ends[] = {"; ", ": ", " (", ". "};
-    size_t length = strlen(text), most = size - 1;
-    for (size_t i = 0; i < sizeof ends / sizeof ends[0]; i++) {
-        const char *end = strstr(text, ends[i]);
-        if (end && (size_t)(end - text) < length)
-            length = (size_t)(end - text);
-    }
-    if (length > most)
-        for (length = most; length > 0 && text[length] != ' '; length--)
-            ;
-    while (length > 0 && strchr(" ,.", text[length - 1]))
-        length--;
-    snprintf(about, size, "%.*s", (int)length, text);
-}
-
-int help_option_find(const char *help, const char *name, help_option *option)
+int help_option_find(const char *help, const char *name, char value[HELP_VALUE_SIZE])
 {
     help_part part = {HELP_TEXT, "", ""};
     const char *behind;
     int found = 0;
-    option->value[0] = option->about[0] = '\0';
-    for (const char *at = help; help_part_next(&at, &part);)
-        if (part.kind == HELP_USAGE && !option->value[0] && (behind = behind_name(part.text, name)) != NULL)
-            copy_value(behind, option->value, sizeof option->value);
-        else if (part.kind == HELP_ITEM && !found && (behind = behind_name(part.term, name)) != NULL) {
-            found = 1;
-            if (!option->value[0])
-                copy_value(behind, option->value, sizeof option->value);
-            copy_about(part.text, option->about, sizeof option->about);
-        }
+    value[0] = '\0';
+    for (const char *at = help; help_part_next(&at, &part);) {
+        const char *said = part.kind == HELP_USAGE && !value[0] ? part.text
+                           : part.kind == HELP_ITEM && !found   ? part.term
+                                                                : "";
+        behind = behind_name(said, name);
+        if (behind && !value[0])
+            copy_value(behind, value, HELP_VALUE_SIZE);
+        found |= behind && part.kind == HELP_ITEM;
+    }
     return found;
 }

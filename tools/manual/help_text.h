@@ -16,13 +16,10 @@ typedef struct help_part {
 /* Reads the next part from *at, which moves on. 0 at the end. *part is the part before, zeroed at the beginning. */
 int help_part_next(const char **at, help_part *part);
 
-/* What follows an option in the usage or in the term of its item, "FILE" or "quick|full", and what the item says of it;
- * empty texts where there is nothing. 0 if there is no item for it. */
-typedef struct help_option {
-    char value[64];
-    char about[80];
-} help_option;
+/* What follows an option in the usage or in the term of its item, "FILE" or "quick|full"; empty where nothing does.
+ * 0 if there is no item for it. */
+enum { HELP_VALUE_SIZE = 64 };
 
-int help_option_find(const char *help, const char *name, help_option *option);
+int help_option_find(const char *help, const char *name, char value[HELP_VALUE_SIZE]);
 
 #endif

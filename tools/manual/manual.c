@@ -9,7 +9,7 @@ void manual_command_from(const command_form *form, manual_command *command)
     command->option_count = 0;
     for (size_t i = 0; i < form->option_count && i < WORDS_MAX; i++) {
         const option_form *option = &form->options[i];
-        manual_option taken = {option->name, option->takes_value, option->most > 1};
+        manual_option taken = {option->name, option->takes_value};
         command->option[command->option_count++] = taken;
     }
 }

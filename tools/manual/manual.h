@@ -1,4 +1,4 @@
-/* The manual page and the completions of shells, from the forms of all commands: the tables of options that they parse
+/* The manual page and the completion of bash, from the forms of all commands: the tables of options that they parse
  * with, and the texts that they print for --help. */
 #ifndef TOOLS_MANUAL_MANUAL_H
 #define TOOLS_MANUAL_MANUAL_H
@@ -10,7 +10,7 @@
 
 typedef struct manual_option {
     const char *name;
-    int takes_value, repeats;
+    int takes_value;
 } manual_option;
 
 typedef struct manual_command {
@@ -41,7 +41,5 @@ const char *manual_mode(const manual *from, const manual_command *command);
 
 void manual_write_man(const manual *from, FILE *to);
 void manual_write_bash(const manual *from, FILE *to);
-void manual_write_zsh(const manual *from, FILE *to);
-void manual_write_fish(const manual *from, FILE *to);
 
 #endif
