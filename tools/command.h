@@ -20,7 +20,6 @@ int command_plot(int argc, char **argv);
 int command_report(int argc, char **argv);
 int command_bench(int argc, char **argv);
 int command_bench_effects(int argc, char **argv); /* the words after `bench effects` */
-int command_masking(int argc, char **argv);
 int command_albedo(int argc, char **argv);
 int command_export(int argc, char **argv);
 int command_explore(int argc, char **argv);

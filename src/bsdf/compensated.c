@@ -20,8 +20,8 @@ static int has_both(const vndf_bsdf *b)
 
 /* ---- a material ---- */
 
-/* 2 integral_0^1 F mu dmu is the mean of F over mu^2: midpoints. */
-enum { NODES = 64 };
+/* F_avg = 2 integral_0^1 F mu dmu, by midpoints. */
+enum { NODES = 512 };
 
 void vndf_compensation_resolve(vndf_material *m)
 {
@@ -30,9 +30,10 @@ void vndf_compensation_resolve(vndf_material *m)
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance0[i] = (float)f[i];
     for (int n = 0; n < NODES; n++) {
-        vndf_reflectance(m, sqrt((n + 0.5) / NODES), m->is.eta, f);
+        double mu = (n + 0.5) / NODES;
+        vndf_reflectance(m, mu, m->is.eta, f);
         for (int i = 0; i < m->is.wavelengths; i++)
-            sum[i] += f[i] / NODES;
+            sum[i] += 2.0 * mu * f[i] / NODES;
     }
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance[i] = (float)sum[i];

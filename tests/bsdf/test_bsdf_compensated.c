@@ -2,7 +2,7 @@
  * mirrors and for glass from both sides, by both ways, for closed forms and tables (4.5 sigma, 7e-6 each, of 80 or
  * 680). Where F is less than 1 it is less, and single scattering less still. f of Kulla & Conty is reciprocal within
  * 1e-5; that of Turquin is f of single scattering times one number of wi. Samples have the density and weight of where
- * they go, within 1e-5. F_avg is that of a finer quadrature within 1%. What makes no sense is refused by name. */
+ * they go, within 1e-5. F_avg is that of a finer quadrature within 1e-3. What makes no sense is refused by name. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"
@@ -107,7 +107,7 @@ static void test_average(const subject *s)
                               : 0.04 + 0.96 * pow(1 - c, 5);
         want += f * sin(2 * t) * PI / 4000;
     }
-    TEST_RELATIVE((double)m.reflectance[0], want, 1e-2);
+    TEST_RELATIVE((double)m.reflectance[0], want, 1e-3);
 }
 
 /* ---- values ---- */

@@ -17,7 +17,6 @@ const subcommand subcommands[] = {
     {"plot", command_plot, "draw density and samples as an SVG"},
     {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
     {"bench", command_bench, "time, error and efficiency of all methods side by side"},
-    {"masking", command_masking, "which masking functions are exact, over incident angles"},
     {"albedo", command_albedo, "what single scattering keeps of the light, for energy compensation"},
     {"export", command_export, "the sampler with your tables as one file for C, CUDA, GLSL and other languages"},
     {"explore", command_explore, "a page that draws tables, GGX and Beckmann side by side in a browser"},

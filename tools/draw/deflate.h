@@ -1,5 +1,4 @@
-/* Compression for PNG: a zlib stream (RFC 1950) of deflate blocks with Huffman codes of their own (RFC 1951,
- * 3.2.7). */
+/* Compression for PNG: a zlib stream (RFC 1950) of one deflate block with the fixed codes (RFC 1951, 3.2.6). */
 #ifndef TOOLS_DRAW_DEFLATE_H
 #define TOOLS_DRAW_DEFLATE_H
 
