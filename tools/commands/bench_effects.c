@@ -12,7 +12,6 @@ static const char name[] = "vndf bench effects";
 
 static const char help[] =
     "usage: vndf bench effects [--distribution FILE|ggx|beckmann] ... [options]\n"
-    "       vndf bench effects --run SET [--passes N] [--distribution FILE|ggx|beckmann] [--alpha AX[,AY]]\n"
     "\n"
     "Times hit and sample, value and density of each set of effects that vndf_bsdf.h has, from bare reflection\n"
     "upward, beside bare reflection written by hand; and measures mean, lost samples, largest weight, variance\n"
@@ -27,20 +26,16 @@ static const char help[] =
     "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the second\n"
     "                    table\n"
     "  --seconds S       for taking turns, 0.01 to 3600 (default 15); less means more noise\n"
-    "  --instructions    counts the instructions of hit and sample, by valgrind (some 0.5 s for each set)\n"
     "  --csv FILE        all numbers as CSV (empty: does not apply); - for stdout\n"
     "  --markdown FILE   the tables in Markdown; - for stdout\n"
-    "  --run SET         no table: draws 1024 samples of the one set, N times (default 1), for a profiler\n"
-    "  --passes N\n"
     "\n"
     "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench effects --distribution ggx --only masking\n"
-    "         vndf bench effects --instructions --csv effects.csv\n"
-    "         valgrind --tool=callgrind vndf bench effects --run 'both lobes' --distribution ggx\n";
+    "         vndf bench effects --csv effects.csv\n";
 
 typedef struct effects_words {
-    words distribution, alpha, theta, only, seconds, instructions, csv, markdown, run, passes;
+    words distribution, alpha, theta, only, seconds, csv, markdown;
 } effects_words;
 
 /* ---- output ------------------------------------------------------------------------------------ */
@@ -75,30 +70,25 @@ static vndf_status measure(effects_list *list, const effects_plan *plan, effects
 
 static int run_list(effects_list *list, const effects_plan *plan, const effects_words *given)
 {
-    char why[256] = "";
     effects_block *block = malloc(sizeof *block);
     vndf_status status = block ? measure(list, plan, block) : VNDF_ERROR_MEMORY;
     free(block);
-    if (status == VNDF_OK && given->instructions.count)
-        status = effects_count(list, plan, why, sizeof why);
     progress_end(plan->progress);
     if (status != VNDF_OK)
         return complain(name, status == VNDF_ERROR_MEMORY ? "no memory" : "interrupted");
     int printed =
         outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &effects_printers, list);
     int judged = judge(list);
-    if (why[0])
-        fprintf(stderr, "%s: instructions are not counted: %s\n", name, why);
     return printed == STATUS_GOOD ? judged : printed;
 }
 
 static int run_plan(effects_plan *plan, const effects_words *given)
 {
     effects_list list;
-    effects_opened o = {.count = 0, .built = NULL, .path = ""};
+    effects_opened o = {.count = 0, .built = NULL};
     vndf_error error = {VNDF_OK, ""};
     int status = STATUS_USE;
-    if (effects_open(&o, plan, name, &given->distribution, given->instructions.count != 0)) {
+    if (effects_open(&o, plan, name, &given->distribution)) {
         if (effects_list_make(&list, plan, &error) == VNDF_OK) {
             status = run_list(&list, plan, given);
             effects_list_free(&list);
@@ -106,45 +96,6 @@ static int run_plan(effects_plan *plan, const effects_words *given)
             complain(name, "%s", error.message);
         }
     }
-    effects_close(&o);
-    return status;
-}
-
-/* No more than the samples of one set: what a profiler is to see. */
-static int run_passes(const effects_plan *plan, const effects_set *set, unsigned long long passes)
-{
-    const vndf_surface surface = {plan->of[0].distribution, plan->alpha_x, plan->alpha_y};
-    effects_subject subject;
-    vndf_error error = {VNDF_OK, ""};
-    if (set->kind == EFFECTS_BY_CAPS && surface.distribution != vndf_ggx())
-        return complain(name, "--run '%s' is of ggx alone", set->name);
-    if (effects_subject_make(&subject, set, &surface, &error) != VNDF_OK)
-        return complain(name, "%s", error.message);
-    effects_block *block = malloc(sizeof *block);
-    if (!block)
-        return complain(name, "no memory");
-    effects_fill(block, &subject, NAN, 1);
-    effects_job job = effects_job_of(block, &subject);
-    for (unsigned long long i = 0; i < passes; i++)
-        subject.loops->each(&job);
-    free(block);
-    return STATUS_GOOD;
-}
-
-static int run_set(effects_plan *plan, const effects_words *given)
-{
-    unsigned long long passes = 1;
-    effects_opened o = {.count = 0, .built = NULL, .path = ""};
-    const effects_set *set = effects_find(only_word(&given->run));
-    if (!set)
-        return complain(name, "--run '%s' is no set of effects; the first column of the table names them",
-                        only_word(&given->run));
-    if (given->distribution.count > 1)
-        return complain(name, "--run takes one --distribution, not %zu", given->distribution.count);
-    if (!option_count(name, "--passes", &given->passes, 0, 1e9, &passes))
-        return STATUS_USE;
-    const char *which = given->distribution.count ? given->distribution.item[0] : "ggx";
-    int status = effects_open_one(&o, plan, name, which) ? run_passes(plan, set, passes) : STATUS_USE;
     effects_close(&o);
     return status;
 }
@@ -167,10 +118,6 @@ static int run_words(const effects_words *given)
         return STATUS_USE;
     plan.alpha_x = alpha.alpha_x;
     plan.alpha_y = alpha.alpha_y;
-    if (given->run.count)
-        return run_set(&plan, given);
-    if (given->passes.count)
-        return complain(name, "--passes is for --run");
     if (!outputs_usable(given))
         return STATUS_USE;
     progress p = progress_begin("bench effects", output_hold_signals());
@@ -192,9 +139,6 @@ int command_bench_effects(int argc, char **argv)
         {"--seconds", 1, 1, &given.seconds},
         {"--csv", 1, 1, &given.csv},
         {"--markdown", 1, 1, &given.markdown},
-        {"--run", 1, 1, &given.run},
-        {"--passes", 1, 1, &given.passes},
-        {"--instructions", 0, 1, &given.instructions},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);

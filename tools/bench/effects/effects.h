@@ -10,7 +10,6 @@
  *     block.c         inputs
  *     worth.c         verification; mean, lost samples, largest weight and variance
  *     time.c          time, in turns
- *     instructions.c  instructions, by valgrind
  *     print.c         tables for people, and all numbers as CSV */
 #ifndef TOOLS_BENCH_EFFECTS_EFFECTS_H
 #define TOOLS_BENCH_EFFECTS_EFFECTS_H
@@ -139,7 +138,6 @@ typedef struct effects_row {
     double ns, ns_low, ns_high;        /* vndf_bsdf_at and vndf_bsdf_sample: median and quartiles of the turns */
     double to_bare;                    /* ns more than bare reflection: median over the turns of the difference */
     double shared_ns, eval_ns, pdf_ns; /* where EFFECTS_SHARE samples, values or densities share a hit */
-    double instructions;               /* for a sample, with its hit */
     double mean, noise;                /* the mean weight of the first wavelength, and its standard error */
     double lost;                       /* part of samples */
     double max_weight, variance;
@@ -169,7 +167,6 @@ typedef struct effects_list {
 
 typedef struct effects_named {
     const char *name;
-    const char *path; /* for another process to open: "ggx", "beckmann", a file; or NULL */
     const vndf_distribution *distribution;
 } effects_named;
 
@@ -196,9 +193,6 @@ void effects_weigh(effects_entry *entry, effects_block *block, size_t blocks);
 
 /* Fills times, differences and efficiencies. VNDF_ERROR_ARGUMENT says that the user stopped it. */
 vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_block *block);
-
-/* Fills the instructions of the entries that are shown. `why` says in a line why valgrind cannot run, or is "". */
-vndf_status effects_count(effects_list *list, const effects_plan *plan, char *why, size_t size);
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 

@@ -16,7 +16,7 @@ enum {
 static const char bare_name[] = "bare reflection", bounded_name[] = "bounded normals";
 static const char variance_name[] = "variance";
 
-const effects_row effects_nothing = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
+const effects_row effects_nothing = {0, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
 
 /* Adds an entry to the cost table; the material stays where it is made. */
 static vndf_status add(effects_list *list, const effects_named *of, const effects_set *set, const float alpha[2],

@@ -10,13 +10,10 @@ typedef struct effects_opened {
     chosen_distribution of[EFFECTS_DISTRIBUTIONS_MAX];
     size_t count;
     vndf_distribution *built;
-    char path[1024]; /* of the built table's file, for other processes; or "" */
 } effects_opened;
 
-/* Puts the distributions into the plan. If `for_others`, a built table gets a file that other processes can open.
- * Returns 0 after a complaint; the caller closes in any case. */
-int effects_open(effects_opened *o, effects_plan *plan, const char *command, const words *names, int for_others);
-int effects_open_one(effects_opened *o, effects_plan *plan, const char *command, const char *name);
+/* Puts the distributions into the plan. Returns 0 after a complaint; the caller closes in any case. */
+int effects_open(effects_opened *o, effects_plan *plan, const char *command, const words *names);
 void effects_close(effects_opened *o);
 
 #endif

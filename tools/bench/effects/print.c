@@ -9,7 +9,7 @@
 static const char cost_legend[] =
     "ns: hit and sample, a direction each over the hemisphere (median of turns; spread: half of what lies\n"
     "between quartiles); to bare: ns more than bare reflection in the same turn; shared, eval, pdf: one hit for\n"
-    "256; instr: instructions of hit and sample; batch: an element of one call for 1024, or 256 that share a hit,\n"
+    "256; batch: an element of one call for 1024, or 256 that share a hit,\n"
     "with the best instructions here. Of the weights of one direction: mean, part of samples lost, largest,\n"
     "variance; eff: 1/(variance ns) over that of the same with visible normals.\n\n";
 
@@ -50,7 +50,6 @@ static void cost_columns(text_table *t, const effects_entry *e)
     table_time(t, "shared", r->shared_ns);
     table_time(t, "eval", r->eval_ns);
     table_time(t, "pdf", r->pdf_ns);
-    table_number(t, "instr", "%.0f", r->instructions);
     worth_columns(t, r);
 }
 
@@ -91,7 +90,6 @@ static void all_columns(text_table *t, const effects_entry *e)
     table_value(t, "shared_ns", r->shared_ns);
     table_value(t, "eval_ns", r->eval_ns);
     table_value(t, "pdf_ns", r->pdf_ns);
-    table_value(t, "instructions", r->instructions);
     table_value(t, "mean", r->mean);
     table_value(t, "noise", r->noise);
     table_value(t, "lost", r->lost);
@@ -172,7 +170,6 @@ static void side_by_side(text_table *t, const effects_list *list, const char *se
         const effects_row *r = e ? &e->row : &effects_nothing;
         snprintf(heading, sizeof heading, "%s: ns", of[k]);
         time_or_wrong(t, heading, r);
-        table_number(t, "instr", "%.0f", r->instructions);
         table_time(t, "eval", r->eval_ns);
         table_time(t, "pdf", r->pdf_ns);
     }
