@@ -122,8 +122,8 @@ ask vndf export --language gl
 ask vndf sample 'a ta'
 ask vndf sample gg
 ask vndf bench eff
-ask vndf bench effects --ru
-ask vndf bench --ru
+ask vndf bench effects --the
+ask vndf bench --the
 ask vndf help alb
 ")
 file(WRITE "${OUT}/a table.vndf" "")
@@ -131,7 +131,7 @@ set(found OFF)
 read(bash ask.bash)
 if(found)
     expect("bash completes\n${output}" output STREQUAL
-        "build,\n--moments,\n2,3,4,\n,\nglsl,\na table.vndf,\nggx,\neffects,\n--run,\n,\nalbedo,\n")
+        "build,\n--moments,\n2,3,4,\n,\nglsl,\na table.vndf,\nggx,\neffects,\n--theta,\n,\nalbedo,\n")
 endif()
 if(failures)
     message(FATAL_ERROR "${failures} failures")
