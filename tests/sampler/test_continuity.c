@@ -56,8 +56,8 @@ static double largest_jump(const seen *s, int which, double u, double v, double 
     return change(s, which, u, v, other);
 }
 
-/* How much falls that should rise, beyond 2e-6 of it and what four roundings of the number do; of an azimuth, or a slope
- * of Beckmann's, which may be 0, beyond 2e-6 more: normals are rounded. */
+/* How much falls that should rise, beyond 2e-6 of it and what four roundings of the number do; of an azimuth, or a
+ * slope of Beckmann's, which may be 0, beyond 2e-6 more: normals are rounded. */
 static double falls(const seen *s, int which, double sign, double u, double v, double other)
 {
     double a = coordinate(s, which, at(s, which, u, other)), b = coordinate(s, which, at(s, which, v, other));
