@@ -60,11 +60,11 @@ int __wrap_rename(const char *from, const char *to);
 
 enum { NONE, SYNC, CLOSE, RENAME, STEPS };
 
-static int failing, steps; /* steps: digits of those that were taken */
+static int failing, steps; /* steps: digits of the first that were taken */
 
 static int fails(int step)
 {
-    steps = 10 * steps + step;
+    steps = steps < 1000 ? 10 * steps + step : steps;
     if (failing == step)
         errno = EDQUOT;
     return failing == step;
