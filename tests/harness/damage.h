@@ -1,5 +1,5 @@
-/* What the tests of damaged tables share: a copy of bytes that nothing can be read beyond, and what a table has
- * to do, whatever it holds. */
+/* Damage to files that are read: bytes that change, checksums that are put right, a copy that nothing can be read
+ * beyond, and what a table has to do, whatever it holds. */
 #ifndef TESTS_HARNESS_DAMAGE_H
 #define TESTS_HARNESS_DAMAGE_H
 
@@ -17,42 +17,9 @@
 #include "harness/test.h"
 #include "vndf.h"
 
-/* Room for bytes that end where a page begins that nobody may read; elsewhere blocks of the exact size, for
- * sanitizers. */
-typedef struct fence {
-    unsigned char *base; /* NULL: no pages */
-    size_t room;
-} fence;
+enum { DAMAGE_BYTES_MAX = 1 << 17 };
 
-static inline fence fence_for(size_t most)
-{
-    fence f = {NULL, 0};
-#ifdef DAMAGE_HAS_PAGES
-    size_t page = (size_t)sysconf(_SC_PAGESIZE), room = (most + page - 1) / page * page;
-    void *base = mmap(NULL, room + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (base != MAP_FAILED && mprotect((char *)base + room, page, PROT_NONE) == 0) {
-        f.base = base;
-        f.room = room;
-    }
-#else
-    (void)most;
-#endif
-    return f;
-}
-
-/* Loads a copy that ends at the fence. */
-static inline vndf_distribution *load_fenced(const fence *f, const unsigned char *bytes, size_t size,
-                                             vndf_error *error)
-{
-    unsigned char *own = f->base ? f->base + f->room - size : malloc(size ? size : 1);
-    if (!own)
-        return NULL;
-    memcpy(own, bytes, size);
-    vndf_distribution *table = vndf_load_memory(own, size, error);
-    if (!f->base)
-        free(own);
-    return table;
-}
+/* ---- bytes ---- */
 
 /* The whole of a small file; its size, or 0. */
 static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t most)
@@ -64,16 +31,30 @@ static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t m
     return size;
 }
 
+static inline unsigned long get_u32(const unsigned char *bytes)
+{
+    return bytes[0] | (unsigned long)bytes[1] << 8 | (unsigned long)bytes[2] << 16 | (unsigned long)bytes[3] << 24;
+}
+
 static inline void put_u32(unsigned char *bytes, unsigned long value)
 {
     for (int i = 0; i < 4; i++)
         bytes[i] = (unsigned char)(value >> (8 * i) & 0xffu);
 }
 
+static inline void put_f32(unsigned char *bytes, float value)
+{
+    uint32_t bits;
+    memcpy(&bits, &value, sizeof bits);
+    put_u32(bytes, bits);
+}
+
 static inline void mend_checksum(unsigned char *bytes, size_t size)
 {
     put_u32(bytes + size - 4, vndf_crc32(0, bytes, size - 4));
 }
+
+/* ---- tables ---- */
 
 /* Where next to nothing is seen densities may be 0. */
 static inline int is_density(float pdf, float area)
@@ -94,9 +75,10 @@ static inline int is_safe_at(const vndf_surface *surface, vndf_vec3 wi, float u1
 }
 
 /* Samples are finite, unit and not below the surface, densities finite and positive, from all sides. */
-static inline int is_safe(const vndf_distribution *table, unsigned long long *state)
+static inline int is_safe(const vndf_distribution *table)
 {
     static const float heights[] = {1, 0.5f, 1e-3f, 0, -1e-3f, -0.6f, -1};
+    static unsigned long long state = 29;
     int safe = 1;
     for (int i = 0; i < 7; i++) {
         vndf_surface surface = {table, i % 2 ? 0.5f : 1e-3f, 0.5f};
@@ -104,7 +86,7 @@ static inline int is_safe(const vndf_distribution *table, unsigned long long *st
         vndf_vec3 wi = {0.6f * across, 0.8f * across, heights[i]};
         safe &= is_safe_at(&surface, wi, 0, 1) && is_safe_at(&surface, wi, 1, 0);
         for (int j = 0; j < 4; j++) {
-            float u1 = test_uniform(state), u2 = test_uniform(state);
+            float u1 = test_uniform(&state), u2 = test_uniform(&state);
             safe &= is_safe_at(&surface, wi, u1, u2);
         }
     }
@@ -113,61 +95,60 @@ static inline int is_safe(const vndf_distribution *table, unsigned long long *st
 
 /* ---- every truncation, every flip ---- */
 
-enum { DAMAGE_BYTES_MAX = 1 << 17 };
+typedef enum verdict { REFUSED, SAFE, UNSAFE } verdict;
 
-static inline int is_refused(const fence *f, const unsigned char *bytes, size_t size)
+/* A kind of file: what becomes of bytes, and how all checksums in damaged ones are put right, whose parts lie where
+ * they do in the sound ones. */
+typedef struct file_kind {
+    verdict (*load)(const unsigned char *bytes, size_t size, vndf_error *error);
+    void (*mend)(unsigned char *bytes, const unsigned char *sound, size_t size);
+} file_kind;
+
+/* Loads a copy that ends where a page begins that nobody may read; elsewhere a block of the exact size, for
+ * sanitizers. A refusal has its status and a message. */
+static inline verdict load_fenced(const file_kind *kind, const unsigned char *bytes, size_t size)
 {
+    static unsigned char *fence;
     vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = load_fenced(f, bytes, size, &error);
-    int refused = !table && error.status == VNDF_ERROR_TABLE && error.message[0];
-    vndf_free(table);
-    return refused;
-}
-
-/* All truncations, and bits 0, step, 2 step, ...: refused, with the checksum as it was. */
-static inline void test_refused(const char *path, unsigned char *bytes, size_t step)
-{
-    size_t size = read_bytes(path, bytes, DAMAGE_BYTES_MAX), wrong = 0;
-    fence f = fence_for(DAMAGE_BYTES_MAX);
-    TEST(size > 1000 && size < DAMAGE_BYTES_MAX && !is_refused(&f, bytes, size));
-    for (size_t n = 0; n < size; n++)
-        wrong += !is_refused(&f, bytes, n);
-    TEST(wrong == 0);
-    memset(bytes + size, 0, 8);
-    TEST(is_refused(&f, bytes, size + 1) && is_refused(&f, bytes, size + 8)); /* more than the table */
-    for (size_t bit = 0; bit < 8 * size; bit += step) {
-        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
-        if (!TEST(is_refused(&f, bytes, size)))
-            fprintf(stderr, "  %s: bit %lu flipped\n", path, (unsigned long)bit);
-        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
-    }
 #ifdef DAMAGE_HAS_PAGES
-    if (f.base)
-        munmap(f.base, f.room + (size_t)sysconf(_SC_PAGESIZE));
+    if (!fence) {
+        char *base = mmap(NULL, 2 * DAMAGE_BYTES_MAX, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        TEST((void *)base != MAP_FAILED && mprotect(base + DAMAGE_BYTES_MAX, DAMAGE_BYTES_MAX, PROT_NONE) == 0);
+        fence = (unsigned char *)base + DAMAGE_BYTES_MAX;
+    }
 #endif
+    unsigned char *own = fence ? fence - size : malloc(size ? size : 1);
+    if (!TEST(own != NULL))
+        return UNSAFE;
+    memcpy(own, bytes, size);
+    verdict found = kind->load(own, size, &error);
+    if (!fence)
+        free(own);
+    TEST(found == REFUSED ? error.status == VNDF_ERROR_TABLE && error.message[0] : error.status == VNDF_OK);
+    return found;
 }
 
-/* The same flips with the checksum put right again: refused, or safe. */
-static inline void test_mended(const char *path, unsigned char *bytes, size_t step)
+/* All truncations, and bits 0, step, 2 step, ...: refused as they are, and with mended checksums refused or safe. */
+static inline void test_damaged_file(const file_kind *kind, const char *path, size_t step)
 {
-    size_t size = read_bytes(path, bytes, DAMAGE_BYTES_MAX), taken = 0, tries = 0, told = 0;
-    unsigned long long state = 29;
-    fence none = {NULL, 0};
-    for (size_t bit = 0; bit < 8 * (size - 4); bit += step) {
-        vndf_error error = {VNDF_OK, ""};
-        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
-        mend_checksum(bytes, size);
-        vndf_distribution *table = load_fenced(&none, bytes, size, &error);
-        TEST((table == NULL) == (error.status == VNDF_ERROR_TABLE));
-        if (table && !TEST(is_safe(table, &state)) && told++ < 20)
-            fprintf(stderr, "  %s: bit %lu flipped and the checksum mended\n", path, (unsigned long)bit);
-        bytes[bit / 8] ^= (unsigned char)(1 << bit % 8);
-        taken += table != NULL;
-        tries++;
-        vndf_free(table);
+    static unsigned char bytes[DAMAGE_BYTES_MAX], changed[DAMAGE_BYTES_MAX];
+    size_t size = read_bytes(path, bytes, DAMAGE_BYTES_MAX - 8), taken = 0;
+    TEST(size > 1000 && size < DAMAGE_BYTES_MAX - 8 && load_fenced(kind, bytes, size) == SAFE);
+    for (size_t n = 0; n < size; n++)
+        TEST(load_fenced(kind, bytes, n) == REFUSED);
+    memset(bytes + size, 0, 8);
+    TEST(load_fenced(kind, bytes, size + 1) == REFUSED && load_fenced(kind, bytes, size + 8) == REFUSED);
+    for (size_t bit = 0; bit < 8 * size; bit += step) {
+        memcpy(changed, bytes, size);
+        changed[bit / 8] ^= (unsigned char)(1 << bit % 8);
+        int good = TEST(load_fenced(kind, changed, size) == REFUSED);
+        kind->mend(changed, bytes, size);
+        verdict mended = load_fenced(kind, changed, size);
+        taken += mended == SAFE;
+        if (!(good & TEST(mended != UNSAFE)) && test_failures < 20)
+            fprintf(stderr, "  %s: bit %lu flipped\n", path, (unsigned long)bit);
     }
-    fprintf(stderr, "%s: %lu of %lu flips were taken once the checksum was mended\n", path, (unsigned long)taken,
-            (unsigned long)tries);
+    fprintf(stderr, "%s: %lu flips were taken once the checksum was mended\n", path, (unsigned long)taken);
 }
 
 #endif

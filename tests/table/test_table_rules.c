@@ -1,7 +1,6 @@
 /* A table that breaks one rule of format 4 is refused, whatever its checksum says, and the message names the rule: the
  * counts, the range of every number, knots that ascend, masses that add up to 1, parts that fill the file. Random
- * damage
- * (test_table_hostile.c) nearly always breaks several rules at once: it would not miss one of them. */
+ * damage (test_table_damage.c) nearly always breaks several rules at once: it would not miss one of them. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
@@ -15,18 +14,6 @@ typedef struct table_bytes {
     unsigned char bytes[ROOM];
     size_t size, arrays, knots; /* where the arrays begin; cells + 1 */
 } table_bytes;
-
-static unsigned long get_u32(const unsigned char *bytes)
-{
-    return bytes[0] | (unsigned long)bytes[1] << 8 | (unsigned long)bytes[2] << 16 | (unsigned long)bytes[3] << 24;
-}
-
-static void put_f32(unsigned char *bytes, float value)
-{
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    put_u32(bytes, bits);
-}
 
 static float get_f32(const unsigned char *bytes)
 {
