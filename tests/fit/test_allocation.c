@@ -1,6 +1,7 @@
 /* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing
  * leaks: every operation is tried with its first allocation failing, then its second, until it succeeds with
- * none that failed.
+ * none that failed. And vndf_info.memory is what a loaded table holds of the heap, to the byte, no more than 2.4 times
+ * its file for a shipped one.
  *
  * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as
  * here. */
@@ -12,6 +13,8 @@
 #include "vndf_albedo.h"
 
 #ifdef VNDF_TEST_WRAP
+
+#  include <dirent.h>
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
@@ -25,6 +28,33 @@ void __wrap_free(void *block);
 /* Allocations that succeed before one fails, blocks that are live, failures so far. */
 static long left = -1, live, failed;
 
+/* What stays of a load: blocks taken while `counting`, in bytes. */
+enum { BLOCKS_MAX = 256 };
+static struct counted {
+    const void *at;
+    size_t size;
+} blocks[BLOCKS_MAX];
+static size_t block_count, held;
+static int counting;
+
+static void count(const void *block, size_t size)
+{
+    if (!counting || !block || !TEST(block_count < BLOCKS_MAX))
+        return;
+    blocks[block_count++] = (struct counted){block, size};
+    held += size;
+}
+
+static void discount(const void *block)
+{
+    for (size_t i = 0; i < block_count; i++)
+        if (blocks[i].at == block) {
+            held -= blocks[i].size;
+            blocks[i] = blocks[--block_count];
+            return;
+        }
+}
+
 static int fails(void)
 {
     if (left < 0 || left-- > 0)
@@ -37,13 +67,15 @@ void *__wrap_malloc(size_t size)
 {
     void *block = fails() ? NULL : __real_malloc(size);
     live += block != NULL;
+    count(block, size);
     return block;
 }
 
-void *__wrap_calloc(size_t count, size_t size)
+void *__wrap_calloc(size_t elements, size_t size)
 {
-    void *block = fails() ? NULL : __real_calloc(count, size);
+    void *block = fails() ? NULL : __real_calloc(elements, size);
     live += block != NULL;
+    count(block, elements * size);
     return block;
 }
 
@@ -51,12 +83,16 @@ void *__wrap_realloc(void *block, size_t size)
 {
     void *grown = fails() ? NULL : __real_realloc(block, size);
     live += !block && grown;
+    if (grown)
+        discount(block);
+    count(grown, size);
     return grown;
 }
 
 void __wrap_free(void *block)
 {
     live -= block != NULL;
+    discount(block);
     __real_free(block);
 }
 
@@ -291,11 +327,50 @@ static void try_all(const char *what, operation *run, const subject *of, long ev
             of->make ? of->name : "shipped table", n, tries);
 }
 
+/* ---- what a table holds ---- */
+
+/* A bound of 0 is none; 448 bytes are those by which rho is looked up. */
+static void test_memory(const char *folder, const char *name, double most)
+{
+    char path[1024];
+    snprintf(path, sizeof path, VNDF_SOURCE_DIR "/%s/%s", folder, name);
+    counting = 1;
+    vndf_distribution *table = vndf_load(path, NULL);
+    counting = 0;
+    vndf_info info = vndf_distribution_info(table);
+    int told = TEST(table != NULL) && TEST(info.memory == held);
+    if (!told || !TEST(most <= 0 || (double)held <= most * (double)info.bytes + 448))
+        fprintf(stderr, "  %s: says %lu, holds %lu, its file %lu\n", name, (unsigned long)info.memory,
+                (unsigned long)held, (unsigned long)info.bytes);
+    vndf_free(table);
+    TEST(held == 0);
+}
+
+static void test_memories(void)
+{
+    static const char *const odd[] = {"disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf", "tail.vndf"};
+    int tables = 0;
+    struct dirent *entry;
+    DIR *folder = opendir(VNDF_SOURCE_DIR "/tables");
+    while (TEST(folder != NULL) && (entry = readdir(folder)) != NULL)
+        if (strlen(entry->d_name) > 5 && strcmp(entry->d_name + strlen(entry->d_name) - 5, ".vndf") == 0) {
+            test_memory("tables", entry->d_name, 2.4);
+            tables++;
+        }
+    if (folder)
+        closedir(folder);
+    TEST(tables >= 15);
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
+        test_memory("tests/corpus/table", odd[i], 0);
+    TEST(vndf_distribution_info(vndf_ggx()).memory == 0 && vndf_distribution_info(NULL).memory == 0);
+}
+
 /* In long_allocation every allocation of every build fails, else all of those that make a source or a reference
  * and some of a build's. */
 int main(void)
 {
     const subject table = {shipped, NULL, 0};
+    test_memories();
     int all = test_long();
     long step = (long)test_amount(97, 97, 1);
     for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {

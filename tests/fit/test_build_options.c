@@ -76,25 +76,30 @@ static void test_target(void)
 
 static void test_bad_options(void)
 {
-    const size_t sizes[] = {1, 2047, (1 << 20) + 1, (size_t)-1};
-    const double targets[] = {-1, 1, 2, NAN, INFINITY};
-    for (int i = 0; i < 4; i++) {
-        vndf_error error = {VNDF_OK, ""};
-        TEST(!build(sizes[i], 0, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
-        TEST_HAS(error.message, "max_bytes");
-    }
-    for (int i = 0; i < 5; i++) {
-        vndf_error error = {VNDF_OK, ""};
-        TEST(!build(0, targets[i], NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
-        TEST_HAS(error.message, "max_tv");
-    }
-    vndf_error error = {VNDF_OK, ""};
-    TEST(!vndf_build(NULL, NULL, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
-    TEST(!vndf_build(NULL, NULL, NULL, NULL));
+    static const double bad[] = {1, -1}, many[VNDF_LIMIT_BREAKS + 1] = {1};
+    static const struct {
+        vndf_build_options options;
+        const char *message;
+    } cases[] = {{{.max_bytes = 1}, "max_bytes"},
+                 {{.max_bytes = 2047}, "max_bytes"},
+                 {{.max_bytes = (1 << 20) + 1}, "max_bytes"},
+                 {{.max_bytes = (size_t)-1}, "max_bytes"},
+                 {{.max_tv = -1}, "max_tv"},
+                 {{.max_tv = 1}, "max_tv"},
+                 {{.max_tv = (double)NAN}, "max_tv"},
+                 {{.max_tv = (double)INFINITY}, "max_tv"},
+                 {{.moments = 5}, "moments is 5"},
+                 {{.breaks = bad, .break_count = 2}, "a break is -1; it is a slope above 0"},
+                 {{.break_count = 2}, "breaks is NULL"},
+                 {{.breaks = many, .break_count = VNDF_LIMIT_BREAKS + 1}, "65 breaks; at most 64"},
+                 {{.finest = -1}, "finest is -1"},
+                 {{.finest = 1e-10}, "finest is 1e-10"}};
     vndf_source *source = vndf_source_family("ggx", NULL);
-    vndf_build_options moments = {.moments = 5};
-    TEST(!vndf_build(source, &moments, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
-    TEST_HAS(error.message, "moments is 5");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        vndf_error error = {VNDF_OK, ""};
+        TEST(!vndf_build(source, &cases[i].options, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
+        TEST_HAS(error.message, cases[i].message);
+    }
     vndf_source_free(source);
 }
 

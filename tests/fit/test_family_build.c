@@ -186,16 +186,6 @@ static void test_pattern(void)
 
 /* ---- refused ---- */
 
-static void test_refused(const char *family, double low, double high, vndf_family_options options,
-                         vndf_status status, const char *part)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_family *made = vndf_build_family(family, low, high, &options, &error);
-    TEST(!made && error.status == status);
-    TEST_HAS(error.message, part);
-    vndf_family_free(made);
-}
-
 static int stop(double done, const char *what, void *user)
 {
     int *calls = user;
@@ -205,34 +195,51 @@ static int stop(double done, const char *what, void *user)
 
 static void test_refusals(void)
 {
-    const vndf_family_options none = {0};
-    test_refused(NULL, 2, 3, none, VNDF_ERROR_ARGUMENT, "NULL");
-    test_refused("student", 2, 3, none, VNDF_ERROR_SYNTAX, "unknown family 'student'");
-    test_refused("abc:3,0.5", 2, 3, none, VNDF_ERROR_SYNTAX, "does not say where the parameter stands");
-    test_refused("abc", 2, 3, none, VNDF_ERROR_SYNTAX, "abc has the parameters B and C");
-    test_refused("abc", 2, 3, none, VNDF_ERROR_SYNTAX, "right would be abc:{p},C or abc:B,{p}, with a number");
-    test_refused("abc:{p}", 2, 3, none, VNDF_ERROR_SYNTAX, "at the parameter 2: column 6: C is missing");
-    test_refused("ggx", 1, 2, none, VNDF_ERROR_SYNTAX,
-                 "ggx has no parameter; families that have one are student-t,");
-    test_refused("beckmann:{p}", 1, 2, none, VNDF_ERROR_SYNTAX, "beckmann has no parameter");
-    test_refused("student-t", 1.5, 3, none, VNDF_ERROR_SYNTAX, "it must be above 1.5");
-    test_refused("student-t", 2, 2, none, VNDF_ERROR_ARGUMENT, "from 2 to 2: the first must be below");
-    test_refused("student-t", 2, (double)NAN, none, VNDF_ERROR_ARGUMENT, "the first must be below");
-    test_refused("student-t", 2, 3, (vndf_family_options){.knots = 1}, VNDF_ERROR_ARGUMENT, "knots is 1");
-    test_refused("student-t", 2, 3, (vndf_family_options){.knots = 257}, VNDF_ERROR_ARGUMENT, "knots is 257");
-    test_refused("student-t", 2, 3, (vndf_family_options){.max_distance = -1}, VNDF_ERROR_ARGUMENT,
-                 "max_distance is -1");
-    test_refused("student-t", 2, 3, (vndf_family_options){.max_distance = 0.1, .knots = 2}, VNDF_ERROR_ARGUMENT,
-                 "one of them");
-    test_refused("student-t", 2, 3, (vndf_family_options){.knots = 2, .max_bytes = 99}, VNDF_ERROR_ARGUMENT,
-                 "max_bytes is 99");
-    test_refused("phong", 1, 1e8, (vndf_family_options){.max_distance = 1e-6}, VNDF_ERROR_TARGET,
-                 "256 knots reach");
-    for (int calls = 1; calls < 20; calls += 6) {
-        int left = calls;
-        vndf_family_options options = {.knots = 2, .max_bytes = BYTES, .progress = stop, .progress_user = &left};
-        test_refused("student-t", 2, 3, options, VNDF_ERROR_ARGUMENT, "interrupted");
-    }
+    static const struct refusal {
+        const char *family;
+        double low, high;
+        vndf_family_options options;
+        vndf_status status;
+        const char *part;
+    } cases[] = {
+        {NULL, 2, 3, {.knots = 0}, VNDF_ERROR_ARGUMENT, "NULL"},
+        {"student", 2, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "unknown family 'student'"},
+        {"abc:3,0.5", 2, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "does not say where the parameter stands"},
+        {"abc", 2, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "abc has the parameters B and C"},
+        {"abc", 2, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "right would be abc:{p},C or abc:B,{p}, with a number"},
+        {"abc:{p}", 2, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "at the parameter 2: column 6: C is missing"},
+        {"ggx",
+         1,
+         2,
+         {.knots = 0},
+         VNDF_ERROR_SYNTAX,
+         "ggx has no parameter; families that have one are student-t,"},
+        {"beckmann:{p}", 1, 2, {.knots = 0}, VNDF_ERROR_SYNTAX, "beckmann has no parameter"},
+        {"student-t", 1.5, 3, {.knots = 0}, VNDF_ERROR_SYNTAX, "it must be above 1.5"},
+        {"student-t", 2, 2, {.knots = 0}, VNDF_ERROR_ARGUMENT, "from 2 to 2: the first must be below"},
+        {"student-t", 2, (double)NAN, {.knots = 0}, VNDF_ERROR_ARGUMENT, "the first must be below"},
+        {"student-t", 2, 3, {.knots = 1}, VNDF_ERROR_ARGUMENT, "knots is 1"},
+        {"student-t", 2, 3, {.knots = 257}, VNDF_ERROR_ARGUMENT, "knots is 257"},
+        {"student-t", 2, 3, {.max_distance = -1}, VNDF_ERROR_ARGUMENT, "max_distance is -1"},
+        {"student-t", 2, 3, {.max_distance = 0.1, .knots = 2}, VNDF_ERROR_ARGUMENT, "one of them"},
+        {"student-t", 2, 3, {.knots = 2, .max_bytes = 99}, VNDF_ERROR_ARGUMENT, "max_bytes is 99"},
+        {"phong", 1, 1e8, {.max_distance = 1e-6}, VNDF_ERROR_TARGET, "256 knots reach"},
+        {"student-t",
+         2,
+         3,
+         {.knots = 2, .max_bytes = BYTES, .progress = stop},
+         VNDF_ERROR_ARGUMENT,
+         "interrupted"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        for (int calls = 1; calls < (cases[i].options.progress ? 20 : 2); calls += 6) {
+            int left = calls;
+            vndf_error error = {VNDF_OK, ""};
+            vndf_family_options options = cases[i].options;
+            options.progress_user = &left;
+            TEST(!vndf_build_family(cases[i].family, cases[i].low, cases[i].high, &options, &error));
+            TEST(error.status == cases[i].status && TEST_HAS(error.message, cases[i].part));
+        }
 }
 
 int main(int arguments, char **argument)

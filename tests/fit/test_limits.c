@@ -1,6 +1,6 @@
 /* Every limit that the headers state is where they state it: what is at the limit is taken, what is one beyond
- * is refused with an error that names the limit. (Length and depth of expressions, lines of a CSV:
- * test_expression, test_csv.) */
+ * is refused with an error that names the limit. (Length and depth of expressions, lines and rows of a CSV, panels:
+ * test_expression, test_csv, test_certificate.) */
 #include <stdlib.h>
 #include <time.h>
 
@@ -8,8 +8,6 @@
 #include "oracle/oracle.h"
 #include "table/file.h"
 #include "harness/test.h"
-
-enum { ROW = 16 };
 
 /* ---- texts ---- */
 
@@ -71,32 +69,6 @@ static void test_names(void)
     TEST_HAS(error.message, "at most 4096");
 }
 
-/* ---- CSV ---- */
-
-/* "slope,p22", then count rows. */
-static vndf_source *csv_of(size_t count, vndf_error *error)
-{
-    char *text = malloc(ROW * (count + 1)), *at = text;
-    if (!text)
-        return NULL;
-    at += sprintf(at, "slope,p22\n");
-    for (size_t i = 0; i < count; i++)
-        at += sprintf(at, "%lu,1\n", (unsigned long)i);
-    vndf_source *source = vndf_source_csv_text("many", text, (size_t)(at - text), error);
-    free(text);
-    return source;
-}
-
-static void test_rows(void)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = csv_of(VNDF_LIMIT_CSV_ROWS, &error);
-    TEST(source && vndf_source_p22(source, 999.5) == 1);
-    vndf_source_free(source);
-    TEST(!csv_of(VNDF_LIMIT_CSV_ROWS + 1, &error) && error.status == VNDF_ERROR_SYNTAX);
-    TEST_HAS(error.message, "line 1000002: more than 1000000 rows");
-}
-
 /* ---- files ---- */
 
 /* A file that begins with these bytes and ends `gigabytes` further: a hole, which takes no room on most disks. */
@@ -155,14 +127,7 @@ static void test_stated_size(void)
 
 /* ---- builds ---- */
 
-static void test_panels(void)
-{
-    vndf_error error = {VNDF_OK, ""};
-    TEST(!oracle_build_of("step(sin(1e3*r))*exp(-r)", 0, NULL, &error) && error.status == VNDF_ERROR_DISTRIBUTION);
-    TEST_HAS(error.message, "not resolved by 60000 panels");
-}
-
-/* The count itself; test_long_limits tries builds that reach it. */
+/* The count itself; long_limits tries builds that reach it. */
 static void test_operations(void)
 {
     vndf_error error = {VNDF_OK, ""};
@@ -208,43 +173,50 @@ static void test_asked_often(void)
     vndf_source_free(source);
 }
 
-/* A density that turns into something else after some calls. */
-typedef struct turncoat {
-    long left;
-    double value;
-} turncoat;
+/* ---- builds that take longest ---- */
 
-static double turn(double r, void *user)
+/* A formula that says `piece` as often as fits. */
+static const char *repeat(char text[VNDF_LIMIT_EXPRESSION_LENGTH + 1], const char *head, const char *piece)
 {
-    turncoat *t = user;
-    return t->left-- > 0 ? exp(-r * r) : t->value;
+    size_t used = (size_t)sprintf(text, "%s*(1+1e-12*(%s", head, piece), size = strlen(piece);
+    while (used + size + 3 < VNDF_LIMIT_EXPRESSION_LENGTH)
+        used += (size_t)sprintf(text + used, "+%s", piece);
+    strcpy(text + used, "))");
+    return text;
 }
 
-static void test_late_values(void)
+static void try_formula(const char *slope, size_t max_bytes)
 {
-    static const double values[] = {-1, NAN, INFINITY};
-    static const char *const words[] = {"negative", "not a number", "infinite"};
-    static const long calls[] = {0, 1000, 100000, 400000, 430000};
-    for (int i = 0; i < 15; i++) {
-        turncoat t = {calls[i / 3], values[i % 3]};
-        vndf_error error = {VNDF_OK, ""};
-        vndf_source *source = vndf_source_slope_callback(turn, &t, "turncoat", &error);
-        TEST(!vndf_build(source, NULL, NULL, &error) && error.status == VNDF_ERROR_DISTRIBUTION);
-        TEST_HAS(error.message, words[i % 3]);
-        vndf_source_free(source);
-    }
+    vndf_error error = {VNDF_OK, ""};
+    clock_t from = clock();
+    vndf_distribution *table = oracle_build_of(slope, max_bytes, NULL, &error);
+    TEST(table ||
+         ((error.status == VNDF_ERROR_DISTRIBUTION || error.status == VNDF_ERROR_TARGET) && error.message[0]));
+    fprintf(stderr, "%.1f s for %.60s, %lu bytes: %s\n", (double)(clock() - from) / CLOCKS_PER_SEC, slope,
+            (unsigned long)max_bytes, table ? "a table" : error.message);
+    vndf_free(table);
+}
+
+/* They end, with a table or with an error that says why. */
+static void test_longest(void)
+{
+    static char text[VNDF_LIMIT_EXPRESSION_LENGTH + 1];
+    try_formula("exp(-r)*(1+0.9*sin(300*r))", 16384);
+    try_formula("exp(-r)*(1+0.9*sin(2000*r))", 1 << 20);
+    try_formula(repeat(text, "exp(-r)", "lgamma(2+sin(r))"), 1 << 20);
+    try_formula(repeat(text, "exp(-r)*(1+0.9*sin(60*r))", "lgamma(2+r)"), 1 << 20);
+    try_formula(repeat(text, "exp(-r)", "r^(1+r)/(1+r^r)"), 1 << 20);
 }
 
 int main(void)
 {
     test_parameters();
     test_names();
-    test_rows();
     test_long_files();
     test_stated_size();
-    test_panels();
     test_operations();
     test_asked_often();
-    test_late_values();
+    if (test_long())
+        test_longest();
     return test_done();
 }

@@ -107,28 +107,6 @@ static void test_source_of(void)
     vndf_source_free(source);
 }
 
-static void test_refused(vndf_build_options options, const char *message)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = vndf_source_family("ggx", NULL);
-    vndf_distribution *table = vndf_build(source, &options, NULL, &error);
-    TEST(table == NULL && error.status == VNDF_ERROR_ARGUMENT);
-    TEST_HAS(error.message, message);
-    vndf_free(table);
-    vndf_source_free(source);
-}
-
-static void test_bad_options(void)
-{
-    static const double bad[] = {1, -1}, many[VNDF_LIMIT_BREAKS + 1] = {1};
-    test_refused((vndf_build_options){.breaks = bad, .break_count = 2}, "a break is -1; it is a slope above 0");
-    test_refused((vndf_build_options){.break_count = 2}, "breaks is NULL");
-    test_refused((vndf_build_options){.breaks = many, .break_count = VNDF_LIMIT_BREAKS + 1},
-                 "65 breaks; at most 64");
-    test_refused((vndf_build_options){.finest = -1}, "finest is -1");
-    test_refused((vndf_build_options){.finest = 1e-10}, "finest is 1e-10");
-}
-
 /* exp(-r) from 0 to 20 in so many digits; one row has more. */
 static vndf_source *csv(int rows, const char *format, int spike, double height)
 {
@@ -189,7 +167,6 @@ int main(void)
     test_breaks(1e-9);
     test_provenance();
     test_source_of();
-    test_bad_options();
     test_rows(5000, 3000);
     test_rows(100000, 12345);
     test_family("mix:(0.5,1e-9,ggx)+(0.5,1e3,ggx)");
