@@ -9,6 +9,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/checksum.h"
+#include "vndf.h"
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 static inline void fuzz_require(int good, const char *claim)
@@ -17,6 +20,25 @@ static inline void fuzz_require(int good, const char *claim)
         return;
     fprintf(stderr, "does not hold: %s\n", claim);
     abort();
+}
+
+/* What a loader that gave NULL or not left in its error. */
+static inline void fuzz_require_error(int loaded, const vndf_error *error)
+{
+    fuzz_require(loaded == (error->status == VNDF_OK), "NULL and an error come together");
+    fuzz_require(loaded || error->message[0] != '\0', "an error has a message");
+}
+
+/* Files of this library: magic (8 bytes), version, size, ..., CRC-32 of all before it: the last two put right. */
+enum { FUZZ_MENDABLE = 20 };
+static inline void fuzz_mend(uint8_t *bytes, size_t size)
+{
+    const uint32_t crc_at = (uint32_t)size - 4;
+    for (int i = 0; i < 4; i++)
+        bytes[12 + i] = (uint8_t)(size >> (8 * i));
+    const uint32_t crc = vndf_crc32(0, bytes, crc_at);
+    for (int i = 0; i < 4; i++)
+        bytes[crc_at + (uint32_t)i] = (uint8_t)(crc >> (8 * i));
 }
 
 /* Keeps a value that only a fault on the way to it is interesting of. */
