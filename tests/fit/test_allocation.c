@@ -8,6 +8,7 @@
 #include <stdlib.h>
 
 #include "oracle/oracle.h"
+#include "source/source.h"
 #include "table/file.h"
 #include "harness/test.h"
 #include "vndf_albedo.h"
@@ -108,68 +109,40 @@ static double laplace(double r, void *user)
     return exp(-r);
 }
 
-typedef vndf_source *make_source(vndf_error *error);
-
-static vndf_source *from_slope(vndf_error *error)
-{
-    static const vndf_parameter parameters[] = {{"k", 3}};
-    return vndf_source_slope_expression("exp(-k*r)*step(2-r)", parameters, 1, error);
-}
-
-static vndf_source *from_ndf(vndf_error *error)
-{
-    return vndf_source_ndf_expression("c^20*(1+theta)", NULL, 0, error);
-}
-
-static vndf_source *from_csv_text(vndf_error *error)
-{
-    return vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error);
-}
-
-static vndf_source *from_csv_file(vndf_error *error)
-{
-    return vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/example.csv", error);
-}
-
-static vndf_source *from_family(vndf_error *error)
-{
-    return vndf_source_family("student-t:2.5", error);
-}
-
-static vndf_source *from_mix(vndf_error *error)
-{
-    return vndf_source_family("mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)", error);
-}
-
-static vndf_source *from_material(vndf_error *error)
-{
-    return vndf_source_family("sgd:alum-bronze/r", error);
-}
-
-static vndf_source *from_callback(vndf_error *error)
-{
-    return vndf_source_slope_callback(laplace, NULL, "laplace", error);
-}
-
+/* A way to a source, or a name for what takes one; a shell's words for what has them. */
 typedef struct subject {
-    const char *name;
-    make_source *make;
+    const char *name, *words;
     double max_tv;
 } subject;
 
 static const subject sources[] = {
-    {"slope expression", from_slope, 0}, {"ndf expression", from_ndf, 0}, {"CSV text", from_csv_text, 0},
-    {"CSV file", from_csv_file, 0},      {"family", from_family, 0},      {"mix", from_mix, 0},
-    {"material", from_material, 0},      {"callback", from_callback, 0},
+    {"slope expression", "--slope 'exp(-k*r)*step(2-r)' --set k=3", 0},
+    {"ndf expression", "--ndf 'c^20*(1+theta)'", 0},
+    {"family", "--family student-t:2.5", 0},
+    {"mix", "--family 'mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)'", 0},
+    {"material", "--family sgd:alum-bronze/r", 0},
+    {"CSV text", NULL, 0},
+    {"CSV file", NULL, 0},
+    {"callback", NULL, 0},
 };
+static const subject to_target = {"family, to a target", "--family student-t:2.5", 0.5};
 
-static const subject to_target = {"family, to a target", from_family, 0.5};
+static vndf_source *make(const subject *of, vndf_error *error)
+{
+    if (of->words)
+        return vndf_source_from_description(of->words, error);
+    if (strcmp(of->name, "CSV text") == 0)
+        return vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error);
+    if (strcmp(of->name, "CSV file") == 0)
+        return vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/example.csv", error);
+    return vndf_source_slope_callback(laplace, NULL, "laplace", error);
+}
 
 typedef int operation(const subject *of, vndf_error *error);
 
 static int make_alone(const subject *of, vndf_error *error)
 {
-    vndf_source *source = of->make(error);
+    vndf_source *source = make(of, error);
     vndf_source_free(source);
     return source != NULL;
 }
@@ -180,7 +153,7 @@ static int build(const subject *of, vndf_error *error)
     vndf_build_options options = {.max_bytes = 2048, .max_tv = of->max_tv};
     long after = left;
     left = -1;
-    vndf_source *source = of->make(error);
+    vndf_source *source = make(of, error);
     left = after;
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
     vndf_free(table);
@@ -235,7 +208,7 @@ static int remake_and_certify(const subject *of, vndf_error *error)
 
 static int reference(const subject *of, vndf_error *error)
 {
-    vndf_source *source = of->make(error);
+    vndf_source *source = make(of, error);
     vndf_reference *made = source ? vndf_reference_from(source, error) : NULL;
     vndf_reference_free(made);
     vndf_source_free(source);
@@ -324,7 +297,7 @@ static void try_all(const char *what, operation *run, const subject *of, long ev
     }
     TEST(n > 0);
     fprintf(stderr, "%-12s %-22s: some %ld allocations, %ld of them failed in turn\n", what,
-            of->make ? of->name : "shipped table", n, tries);
+            of->name == shipped ? "shipped table" : of->name, n, tries);
 }
 
 /* ---- what a table holds ---- */

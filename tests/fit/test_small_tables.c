@@ -39,6 +39,15 @@ static void test_moments(const char *name)
     }
 }
 
+/* The scale of the input does not matter; not the same bits, since panels begin at octaves of its own unit. */
+static void test_scale(double width)
+{
+    char name[128];
+    vndf_certificate unit = claim_of("exp(-r)+exp(-((r-3)/0.5)^2)", 8192, 0);
+    snprintf(name, sizeof name, "exp(-r/%g)+exp(-((r/%g-3)/0.5)^2)", width, width);
+    TEST_RELATIVE((double)claim_of(name, 8192, 0).tv, (double)unit.tv, 0.3);
+}
+
 /* Prints the worst of all. */
 static void test_materials(size_t step)
 {
@@ -59,6 +68,8 @@ static void test_materials(size_t step)
 
 int main(void)
 {
+    test_scale(1e-6);
+    test_scale(1e3);
     test_materials(test_amount(78, 39, 1));
     for (size_t i = 0; i < sizeof SMOOTH / sizeof *SMOOTH; i++)
         test_small(SMOOTH[i]);

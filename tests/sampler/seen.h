@@ -74,6 +74,25 @@ static inline float seen_area(const seen *s, vndf_vec3 w)
                                     : vndf_mixture_projected_area(&s->of, w);
 }
 
+typedef enum seen_value { SEEN_NDF, SEEN_LAMBDA, SEEN_G1 } seen_value;
+
+/* D at w, or Lambda or G1 from w. */
+static inline float seen_shape(const seen *s, seen_value which, vndf_vec3 w)
+{
+    const vndf_affine *first = &s->of.lobe[0].surface;
+    const vndf_surface surface = {first->distribution, first->xx, first->yy};
+    int one = s->kind == SEEN_SURFACE, affine = s->kind == SEEN_AFFINE;
+    switch (which) {
+    case SEEN_NDF:
+        return one ? vndf_ndf(&surface, w) : affine ? vndf_affine_ndf(first, w) : vndf_mixture_ndf(&s->of, w);
+    case SEEN_LAMBDA:
+        return one      ? vndf_lambda(&surface, w)
+               : affine ? vndf_affine_lambda(first, w)
+                        : vndf_mixture_lambda(&s->of, w);
+    default: return one ? vndf_g1(&surface, w) : affine ? vndf_affine_g1(first, w) : vndf_mixture_g1(&s->of, w);
+    }
+}
+
 static inline vndf_vec3 vec3_of(const double w[3])
 {
     vndf_vec3 v = {(float)w[0], (float)w[1], (float)w[2]};

@@ -82,20 +82,13 @@ static void expect_drawn(const batch_case *b, const seen *s, call which, size_t 
 
 static float expect_value(const seen *s, call which, vndf_vec3 wm)
 {
-    const vndf_affine *a = &s->of.lobe[0].surface;
-    const vndf_surface plain = {a->distribution, a->xx, a->yy};
-    int one = s->kind == SEEN_SURFACE, affine = s->kind == SEEN_AFFINE;
     switch (which) {
     case PDF: return seen_pdf(s, wm);
     case VISIBLE: return seen_visible(s, wm);
     case AREA: return seen_area(s, s->wi);
-    case NDF: return one ? vndf_ndf(&plain, wm) : affine ? vndf_affine_ndf(a, wm) : vndf_mixture_ndf(&s->of, wm);
-    case LAMBDA:
-        return one      ? vndf_lambda(&plain, s->wi)
-               : affine ? vndf_affine_lambda(a, s->wi)
-                        : vndf_mixture_lambda(&s->of, s->wi);
-    default:
-        return one ? vndf_g1(&plain, s->wi) : affine ? vndf_affine_g1(a, s->wi) : vndf_mixture_g1(&s->of, s->wi);
+    case NDF: return seen_shape(s, SEEN_NDF, wm);
+    case LAMBDA: return seen_shape(s, SEEN_LAMBDA, s->wi);
+    default: return seen_shape(s, SEEN_G1, s->wi);
     }
 }
 

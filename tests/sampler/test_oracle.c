@@ -77,26 +77,14 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
 
 static double ask(const point *p, quantity q)
 {
-    const seen *s = &p->s;
-    const vndf_affine *a = &s->of.lobe[0].surface;
-    const vndf_surface surface = {a->distribution, a->xx, a->yy};
-    vndf_vec3 wm = vec3_of(p->wm);
+    vndf_vec3 wm = vec3_of(p->wm), wi = p->s.wi;
     switch (q) {
-    case DENSITY: return (double)seen_pdf(s, wm);
-    case VISIBLE: return (double)seen_visible(s, wm);
-    case AREA: return (double)seen_area(s, s->wi);
-    case NDF:
-        return (double)(s->kind == SEEN_SURFACE  ? vndf_ndf(&surface, wm)
-                        : s->kind == SEEN_AFFINE ? vndf_affine_ndf(a, wm)
-                                                 : vndf_mixture_ndf(&s->of, wm));
-    case LAMBDA:
-        return (double)(s->kind == SEEN_SURFACE  ? vndf_lambda(&surface, s->wi)
-                        : s->kind == SEEN_AFFINE ? vndf_affine_lambda(a, s->wi)
-                                                 : vndf_mixture_lambda(&s->of, s->wi));
-    default:
-        return (double)(s->kind == SEEN_SURFACE  ? vndf_g1(&surface, s->wi)
-                        : s->kind == SEEN_AFFINE ? vndf_affine_g1(a, s->wi)
-                                                 : vndf_mixture_g1(&s->of, s->wi));
+    case DENSITY: return (double)seen_pdf(&p->s, wm);
+    case VISIBLE: return (double)seen_visible(&p->s, wm);
+    case AREA: return (double)seen_area(&p->s, wi);
+    case NDF: return (double)seen_shape(&p->s, SEEN_NDF, wm);
+    case LAMBDA: return (double)seen_shape(&p->s, SEEN_LAMBDA, wi);
+    default: return (double)seen_shape(&p->s, SEEN_G1, wi);
     }
 }
 
