@@ -2,7 +2,8 @@
 # bytes, and its row of the manifest the same words.
 #
 # A build evaluates the distribution with the C library's exp, log and pow, whose last bit depends on the library and
-# the processor. A table whose bytes differ passes if `vndf check` finds its certificate true, and a line says so.
+# the processor. A table whose bytes differ passes if it says that it has the same source, and `vndf check` finds its
+# certificate true; a line says so.
 cmake_minimum_required(VERSION 3.16)
 
 file(REMOVE_RECURSE ${OUT})
@@ -37,7 +38,11 @@ foreach(file IN LISTS shipped)
     message("${file}: built again it has other bytes, as another C library or processor may give")
     execute_process(COMMAND ${VNDF} check ${SOURCE}/tables/${file} WORKING_DIRECTORY ${SOURCE}/tables
         RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0 OR NOT row MATCHES "^[^,]+,\"[^\"]+\",")
+    foreach(folder ${SOURCE}/tables ${OUT})
+        execute_process(COMMAND ${VNDF} info ${folder}/${file} OUTPUT_VARIABLE info)
+        string(REGEX MATCH "^source [^\n]+" source_in_${folder} "${info}")
+    endforeach()
+    if(NOT status EQUAL 0 OR NOT row OR NOT source_in_${OUT} STREQUAL source_in_${SOURCE}/tables)
         message(SEND_ERROR "tables/${file} is not what its recipe gives; if the program was changed on purpose, build "
             "the target `tables`. vndf check says:\n${output}")
     endif()
