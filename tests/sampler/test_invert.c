@@ -1,7 +1,7 @@
 /* Numbers, normal, numbers: vndf_invert gives numbers that vndf_sample turns into the same normal, within 1e-5 where
  * its slopes are over the roughness, or within what four steps of 2^-24 of the numbers do there; for mixtures it names
- * the lobe, among others of weight 0. It notices an inverse that is not that of the map, a wrong half turn, a cell's
- * neighbour, and lobes that are counted without those of weight 0. */
+ * the lobe, among others of weight 0. It notices an inverse that is not that of the map, Kepler's equation solved too
+ * coarsely, a wrong half turn, a cell's neighbour, and lobes that are counted without those of weight 0. */
 #include "sampler/seen.h"
 
 /* Between unit normals over the roughness. */
