@@ -75,8 +75,8 @@ static void test_claims(size_t index, size_t bytes)
     if (!(TEST(above <= 1.1 * (double)claim.tv_above + floats) & TEST(all <= 1.1 * (double)claim.tv + floats) &
           TEST(above >= 0.6 * (double)claim.tv_above - floats)))
         fprintf(stderr, "  %s in %lu bytes: TV %.4g above, %.4g in all, certified %.4g at %g and %.4g at %g\n",
-                oracle_name(&o), (unsigned long)bytes, above, all, (double)claim.tv_above,
-                (double)claim.tv_above_theta, (double)claim.tv, (double)claim.tv_theta);
+                o.name, (unsigned long)bytes, above, all, (double)claim.tv_above, (double)claim.tv_above_theta,
+                (double)claim.tv, (double)claim.tv_theta);
     vndf_free(table);
 }
 
@@ -92,7 +92,7 @@ static void test_areas(size_t index)
         double s = hypot((double)wi.x, (double)wi.y), want = oracle_area(&o, s, (double)wi.z);
         if (want > 3e-9 * oracle_area(&o, 1, 0) &&
             !TEST_RELATIVE((double)vndf_projected_area(&surface, wi), want, 1.1 * (double)claim.area_error + 2e-5))
-            fprintf(stderr, "  %s at %g degrees\n", oracle_name(&o), theta);
+            fprintf(stderr, "  %s at %g degrees\n", o.name, theta);
     }
     vndf_free(table);
 }

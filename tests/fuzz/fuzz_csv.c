@@ -7,7 +7,7 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const double slopes[] = {0.0, 1e-300, 1e-6, 0.1, 0.5, 1.0, 7.0, 1e3, 1e18};
+    static const double slopes[] = {0.0, 1e-320, 1e-300, 1e-6, 0.1, 0.5, 1.0, 7.0, 1e3, 1e18, 1e300};
     vndf_error error = {VNDF_OK, ""};
     char *text = fuzz_text(data, size); /* an exact copy, so that a read past size is a read past the block */
     vndf_source *source = vndf_source_csv_text("fuzz.csv", text, size, &error);

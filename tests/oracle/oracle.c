@@ -53,20 +53,15 @@ static double disc(double r)
 }
 
 static const oracle oracles[ORACLE_COUNT] = {
-    {"ggx", NULL, ggx, {0, 0}, 1e-6, 1e12, 0, 0},
-    {"beckmann", NULL, beckmann, {0, 0}, 1e-6, 6, 0, 0},
-    {"student-t:1.8", NULL, student, {0, 0}, 1e-6, 1e20, 0, 0},
-    {NULL, "exp(-r)", laplace, {0, 0}, 1e-6, 40, 0, 0},
-    {"sgd:nickel/r", NULL, measured, {0, 0}, 5e-9, 0.5, 0, 0},
-    {"mix:(0.7,1,beckmann)+(0.3,0.01,ggx)", NULL, haze, {0, 0}, 1e-8, 1e10, 0, 0},
-    {NULL, "exp(-((r-1)/0.2)^2)", ring, {0, 0}, 1e-6, 2.4, 1, 0},
-    {NULL, "step(1-r)", disc, {1, 0}, 1e-6, 1, 1, 0},
+    {"ggx", ggx, {0, 0}, 1e-6, 1e12, 0, 0},
+    {"beckmann", beckmann, {0, 0}, 1e-6, 6, 0, 0},
+    {"student-t:1.8", student, {0, 0}, 1e-6, 1e20, 0, 0},
+    {"exp(-r)", laplace, {0, 0}, 1e-6, 40, 0, 0},
+    {"sgd:nickel/r", measured, {0, 0}, 5e-9, 0.5, 0, 0},
+    {"mix:(0.7,1,beckmann)+(0.3,0.01,ggx)", haze, {0, 0}, 1e-8, 1e10, 0, 0},
+    {"exp(-((r-1)/0.2)^2)", ring, {0, 0}, 1e-6, 2.4, 1, 0},
+    {"step(1-r)", disc, {1, 0}, 1e-6, 1, 1, 0},
 };
-
-const char *oracle_name(const oracle *o)
-{
-    return o->family ? o->family : o->slope;
-}
 
 /* ---- quadrature ---- */
 
@@ -168,22 +163,18 @@ oracle oracle_get(size_t index)
 vndf_source *oracle_source(const oracle *o)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = o->family ? vndf_source_family(o->family, &error)
-                                    : vndf_source_slope_expression(o->slope, NULL, 0, &error);
+    vndf_source *source = oracle_source_of(o->name, &error);
     if (!source)
-        fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
+        fprintf(stderr, "%s: %s\n", o->name, error.message);
     return source;
 }
 
 vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_build_options options = {.max_bytes = max_bytes};
-    vndf_source *source = oracle_source(o);
-    vndf_distribution *table = source ? vndf_build(source, &options, certificate, &error) : NULL;
-    if (source && !table)
-        fprintf(stderr, "%s: %s\n", oracle_name(o), error.message);
-    vndf_source_free(source);
+    vndf_distribution *table = oracle_build_of(o->name, max_bytes, certificate, &error);
+    if (!table)
+        fprintf(stderr, "%s: %s\n", o->name, error.message);
     return table;
 }
 

@@ -13,12 +13,12 @@
 #include "vndf_build.h"
 
 typedef struct oracle {
-    const char *family, *slope; /* how the builder gets it: one of the two */
-    double (*shape)(double r);  /* P22 up to a factor */
-    double breaks[2];           /* slopes where it jumps or has a kink, ascending; 0: none */
-    double peak, reach;         /* slopes below and beyond which less than 1e-12 of the mass lies */
-    int rough;                  /* a ring or a jump: ten times the error is allowed */
-    double norm;                /* P22 = norm shape, integral P22 r dr = 1/(2 pi) */
+    const char *name;          /* how the builder gets it: a family, or a formula of slopes */
+    double (*shape)(double r); /* P22 up to a factor */
+    double breaks[2];          /* slopes where it jumps or has a kink, ascending; 0: none */
+    double peak, reach;        /* slopes below and beyond which less than 1e-12 of the mass lies */
+    int rough;                 /* a ring or a jump: ten times the error is allowed */
+    double norm;               /* P22 = norm shape, integral P22 r dr = 1/(2 pi) */
 } oracle;
 
 /* In the order of oracle_get. */
@@ -35,7 +35,6 @@ enum {
 };
 
 oracle oracle_get(size_t index);
-const char *oracle_name(const oracle *o);
 
 /* The table of at most max_bytes (0: the default), or NULL after printing why. Free with vndf_free. */
 vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate);

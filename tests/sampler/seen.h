@@ -138,7 +138,7 @@ static inline subject subject_open(size_t index)
                  oracle_get(index < 2 ? index : index - 2)};
     if (index < 2)
         return s;
-    s.name = oracle_name(&s.shape);
+    s.name = s.shape.name;
     s.d = s.owned = oracle_build(&s.shape, 0, NULL);
     TEST(s.d != NULL);
     return s;
