@@ -1,9 +1,8 @@
 /* What is promised of samples and densities holds where the caller has the processor flush denormals to zero and read
- * them as zero, as renderers do: for directions of length 1e-37 to 3e38, roughness from one end of its range to the
- * other, and numbers at their ends, by single calls and by batches of every instruction set, which give the same
- * bits. */
-#include <float.h>
-
+ * them as zero, as renderers do: all that test_stress asks, by single calls; and batches of every instruction set give
+ * the same bits, for directions of length 1e-37 to 3e38, roughness from one end of its range to the other, and numbers
+ * at their ends. */
+#include "measure/stress.h"
 #include "sampler/seen.h"
 
 #if defined(__SSE2__)
@@ -18,10 +17,6 @@ static void set_flushing(int flushing)
 
 enum { COUNT = 4000 };
 
-typedef struct inputs {
-    float ax[COUNT], ay[COUNT], x[COUNT], y[COUNT], z[COUNT], u1[COUNT], u2[COUNT];
-} inputs;
-
 static float hard_uniform(unsigned long long *state)
 {
     static const float ends[] = {0, 1, 1e-42f, 0x1p-24f, 1 - 0x1p-24f, 0.5f};
@@ -29,74 +24,57 @@ static float hard_uniform(unsigned long long *state)
     return i < 6 ? ends[i] : test_uniform(state);
 }
 
-static void fill(inputs *in, double scale, unsigned long long *state)
+static void test_batches(const vndf_distribution *d)
 {
-    for (int i = 0; i < COUNT; i++) {
-        int apart = i % 5 == 0; /* from one end of the range to the other */
-        double length = i % 2 ? 1 : random_decade(state, -37, 38.4),
-               z = i % 4 ? random_between(state, -1, 1) : random_decade(state, -40, 0);
-        double phi = i % 3 ? random_between(state, -PI, PI) : PI / 2 * (i % 4), across = sqrt(1 - z * z);
-        in->ax[i] = (float)(random_decade(state, apart ? -17.9 : -4, apart ? 17.9 : 1) / scale);
-        in->ay[i] = (float)(random_decade(state, apart ? -17.9 : -4, apart ? 17.9 : 1) / scale);
-        in->x[i] = (float)(length * across * cos(phi)), in->y[i] = (float)(length * across * sin(phi)),
-        in->z[i] = (float)(length * z);
-        in->u1[i] = hard_uniform(state), in->u2[i] = hard_uniform(state);
-    }
-}
-
-static int is_number(float x)
-{
-    return x >= -FLT_MAX && x <= FLT_MAX;
-}
-
-/* wi as it counts: without what is flushed. */
-static int faces(vndf_vec3 wi, vndf_vec3 wm)
-{
-    double size = fmax(fmax(fabs((double)wi.x), fabs((double)wi.y)), fabs((double)wi.z));
-    return dot_of(wi, wm) >= -0x1p-23 * size;
-}
-
-static void test_one(const vndf_distribution *d, const inputs *in, int i, const float got[4])
-{
-    seen s = seen_surface(d, in->ax[i], in->ay[i], (vndf_vec3){in->x[i], in->y[i], in->z[i]});
-    float pdf = -1, v1 = -1, v2 = -1;
-    vndf_vec3 wm = seen_draw(&s, in->u1[i], in->u2[i], &pdf);
-    vndf_invert(&s.view, wm, &v1, &v2);
-    int good = TEST(wm.x == got[0] && wm.y == got[1] && wm.z == got[2] && pdf == got[3]);
-    good &= TEST(fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1);
-    good &= TEST(pdf == 0 || (pdf >= FLT_MIN && pdf <= FLT_MAX && faces(s.wi, wm)));
-    good &= TEST(is_number(seen_pdf(&s, wm)) && is_number(seen_visible(&s, wm)));
-    good &= TEST(i % 2 == 0 || is_number(seen_area(&s, s.wi))); /* of a direction of length 1 */
-    if (!good && test_failures < 20) {
-        seen_print(&s, "flushed");
-        fprintf(stderr, "    u %.9g %.9g: %.9g %.9g %.9g, density %.9g\n", (double)in->u1[i], (double)in->u2[i],
-                (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf);
-    }
-}
-
-static void test_distribution(const vndf_distribution *d, double scale)
-{
-    static inputs in;
-    static float x[COUNT], y[COUNT], z[COUNT], pdf[COUNT];
+    static float in[7][COUNT], x[COUNT], y[COUNT], z[COUNT], pdf[COUNT];
     unsigned long long state = 3;
-    fill(&in, scale, &state);
-    for (int flushing = 0; flushing < 2; flushing++)
-        for (int limit = VNDF_INSTRUCTIONS_PORTABLE; limit <= VNDF_INSTRUCTIONS_AVX512; limit++) {
-            const vndf_batch b = {d, COUNT, 0, (vndf_instructions)limit, in.ax, in.ay, in.x, in.y, in.z};
-            set_flushing(flushing);
-            vndf_sample_n(&b, in.u1, in.u2, (vndf_normals){x, y, z}, pdf);
-            for (int i = 0; i < COUNT; i++)
-                test_one(d, &in, i, (const float[4]){x[i], y[i], z[i], pdf[i]});
-            set_flushing(0);
+    for (int i = 0; i < COUNT; i++) {
+        double length = i % 2 ? 1 : random_decade(&state, -37, 38.4), reach = i % 5 ? 4 : 17.9;
+        vndf_vec3 wi = random_direction(&state, -1);
+        double height = i % 4 ? (double)wi.z : random_decade(&state, -40, 0);
+        const float numbers[7] = {(float)random_decade(&state, -reach, reach),
+                                  (float)random_decade(&state, -reach, reach),
+                                  (float)(length * (double)wi.x),
+                                  (float)(length * (double)wi.y),
+                                  (float)(length * height),
+                                  hard_uniform(&state),
+                                  hard_uniform(&state)};
+        for (int j = 0; j < 7; j++)
+            in[j][i] = numbers[j];
+    }
+    set_flushing(1);
+    for (int limit = VNDF_INSTRUCTIONS_PORTABLE; limit <= VNDF_INSTRUCTIONS_AVX512; limit++) {
+        const vndf_batch b = {d, COUNT, 0, (vndf_instructions)limit, in[0], in[1], in[2], in[3], in[4]};
+        vndf_sample_n(&b, in[5], in[6], (vndf_normals){x, y, z}, pdf);
+        for (int i = 0; i < COUNT; i++) {
+            seen s = seen_surface(d, in[0][i], in[1][i], (vndf_vec3){in[2][i], in[3][i], in[4][i]});
+            float alone = -1;
+            vndf_vec3 wm = seen_draw(&s, in[5][i], in[6][i], &alone);
+            TEST(wm.x == x[i] && wm.y == y[i] && wm.z == z[i] && pdf[i] == alone);
         }
+    }
+    set_flushing(0);
+}
+
+static void test_calls(const vndf_distribution *d, const char *name)
+{
+    set_flushing(1);
+    stress_result result = stress_run(d, test_amount(74, 37, 19), test_amount(1000, 4000, 40000), 1);
+    set_flushing(0);
+    for (int id = 0; id < STRESS_COUNT; id++)
+        if (!(TEST(result.found[id].failed == 0) & TEST(result.found[id].checked > 0)))
+            fprintf(stderr, "  %s, %s: worst %g\n", name, stress_property_of((stress_id)id)->name,
+                    result.found[id].worst);
 }
 
 int main(void)
 {
     for (size_t i = 0; i < SUBJECT_COUNT; i += i < 2 ? 1 : 3) {
         subject s = subject_open(i);
-        if (s.d)
-            test_distribution(s.d, i < 2 ? 1 : vndf_distribution_info(s.d).scale);
+        if (s.d) {
+            test_batches(s.d);
+            test_calls(s.d, s.name);
+        }
         vndf_free(s.owned);
     }
     return test_done();
