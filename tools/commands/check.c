@@ -9,14 +9,14 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "measure/chi_square.h"
+#include "evidence/measure/chi_square.h"
 #include "command.h"
-#include "measure/consistency.h"
+#include "evidence/measure/consistency.h"
 #include "cli/subject.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "measure/statistics.h"
-#include "measure/stress.h"
+#include "evidence/measure/statistics.h"
+#include "evidence/measure/stress.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf check";

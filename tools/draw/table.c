@@ -263,6 +263,40 @@ int table_print_csv(FILE *file, const text_table *t)
     return 1;
 }
 
+/* ---- JSON -------------------------------------------------------------------------------------- */
+
+static void put_string(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        if ((unsigned char)*text < ' ')
+            fprintf(file, "\\u%04x", (unsigned)*text);
+        else
+            fprintf(file, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
+    }
+    fputc('"', file);
+}
+
+/* An array of objects; JSON has no infinity, which is a string then. */
+int table_print_json(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    for (size_t i = 0; i < t->count; i++) {
+        size_t k = i % t->columns;
+        const char *text = t->cell[i].text;
+        fputs(i == 0 ? "[\n{" : k == 0 ? "},\n{" : ", ", file);
+        put_string(file, t->heading[k]);
+        fputs(": ", file);
+        if (t->kind[k] != TABLE_NUMBER || strstr(text, "inf"))
+            put_string(file, text);
+        else
+            fputs(*text ? text : "null", file);
+    }
+    fputs(t->count ? "}\n]\n" : "[]\n", file);
+    return 1;
+}
+
 /* ---- a page ------------------------------------------------------------------------------------ */
 
 static void put_tag(FILE *file, const char *tag, const char *class)

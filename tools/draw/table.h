@@ -63,6 +63,7 @@ void table_mark(text_table *t, const char *mark);
 int table_print_text(FILE *file, const text_table *t);
 int table_print_markdown(FILE *file, const text_table *t);
 int table_print_csv(FILE *file, const text_table *t);
+int table_print_json(FILE *file, const text_table *t);
 int table_print_html(FILE *file, const text_table *t);
 
 /* A field of CSV between quotes. */
