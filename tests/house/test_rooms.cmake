@@ -45,7 +45,6 @@ set(below_commands cli draw measure bench report render export measured manual)
 set(subs_bench methods effects)
 set(subs_commands parts)
 set(subs_export page)
-set(subs_measured surface rgl brdf)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)

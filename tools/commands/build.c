@@ -136,7 +136,7 @@ static int save_to_stdout(const vndf_distribution *table)
 
 /* Saves the table and says what it is, what was found in its data and what it is worth. A table that is worth little
  * is told of on stderr too. */
-static int save_table(const vndf_distribution *table, const notes *found, const build_words *given)
+static int save_table(const vndf_distribution *table, const char *found, const build_words *given)
 {
     const char *path = only_word(&given->output);
     char verdict[DESCRIBE_VERDICT];
@@ -150,12 +150,12 @@ static int save_table(const vndf_distribution *table, const notes *found, const 
         return complain(name, "%s", error.message);
     describe_info(&info);
     describe_certificate(&info.certificate);
-    fputs(found->text, stdout);
+    fputs(found, stdout);
     printf("verdict %s\n", verdict);
     return STATUS_GOOD;
 }
 
-static int build_and_save(const vndf_source *source, const notes *found, const build_words *given, unsigned held)
+static int build_and_save(const vndf_source *source, const char *found, const build_words *given, unsigned held)
 {
     if (!output_replaceable(name, only_word(&given->output)))
         return STATUS_USE;
@@ -205,13 +205,13 @@ static int build_one_family(const build_words *given)
 
 static int build_one_table(const build_words *given)
 {
-    notes found = {"", 0};
-    vndf_source *source = measured_words_count(&given->measured) ? measured_source(name, &given->measured, &found)
+    char found[MEASURED_NOTES] = "";
+    vndf_source *source = measured_words_count(&given->measured) ? measured_source(name, &given->measured, found)
                                                                  : source_from_words(name, &given->source);
     if (!source)
         return STATUS_USE;
     unsigned held = output_hold_signals();
-    int status = build_and_save(source, &found, given, held);
+    int status = build_and_save(source, found, given, held);
     vndf_source_free(source);
     output_release_signals(held);
     return status;
@@ -244,7 +244,6 @@ int command_build(int argc, char **argv)
         {"--profile", 1, 1, &given.measured.profile},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
-        {"--size", 1, 1, &given.measured.size},
         {"--step", 1, 1, &given.measured.step},
         {"--cutoff", 1, 1, &given.measured.cutoff},
         {"-o", 1, 1, &given.output},

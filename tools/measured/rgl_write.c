@@ -1,16 +1,15 @@
 /* A distribution as a .bsdf; rgl.h says what its fields are. D stands at NORMALS + 1 angles. The vndf is coarser in
  * theta by FINE, and each of its numbers is the mean over the cells beside it, so that no ring of D falls between two
- * of them: what is reflected there has to be drawn as well. rgb is fitted (fit_grid.h) to R at POINTS^2 places of each
+ * of them: what is reflected there has to be drawn as well. rgb is fitted (grid.h) to R at POINTS^2 places of each
  * cell, so that the light of a cell where wo meets the horizon is right. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "measured/grid.h"
 #include "measured/model.h"
-#include "measured/rgl/fit_grid.h"
-#include "measured/rgl/rgl.h"
-#include "measured/rgl/tensor.h"
-#include "measured/rgl/warp.h"
+#include "measured/brdf.h"
+#include "measured/tensor.h"
 
 enum { NORMALS = 2048, FINE = 8, THETAS = NORMALS / FINE + 1, PHIS = 65, INCIDENTS = 48, SIDE = 32, AREAS = 257 };
 enum { POINTS = 4, FINE_SIDE = (SIDE - 1) * POINTS };
@@ -52,7 +51,7 @@ static void fill_ndf(rgl_arrays *a, const vndf_surface *surface)
     a->ndf[0][NORMALS] = (float)last_ndf(surface, (double)a->ndf[0][NORMALS - 1]);
     memcpy(a->ndf[1], a->ndf[0], sizeof a->ndf[0]);
     for (int i = 0; i < AREAS; i++)
-        a->sigma[0][i] = (float)model_area(surface, direction_at(angle_at((double)i / (AREAS - 1)), 0));
+        a->sigma[0][i] = (float)model_area(surface, angle_at((double)i / (AREAS - 1)));
     memcpy(a->sigma[1], a->sigma[0], sizeof a->sigma[0]);
 }
 
@@ -107,14 +106,15 @@ typedef struct reflected {
 static void look_up(reflected *r, const vndf_surface *surface, const warp *to, double theta_i)
 {
     direction wi = direction_at(theta_i, 0);
-    double area_i = model_area(surface, wi), cos_i = fmax(wi.z, 0);
+    double area_i = model_area(surface, theta_i), cos_i = fmax(wi.z, 0);
     for (int row = 0; row < FINE_SIDE; row++)
         for (int column = 0; column < FINE_SIDE; column++) {
             double u, v;
             warp_sample(to, (column + 0.5) / FINE_SIDE, (row + 0.5) / FINE_SIDE, &u, &v);
             direction m = direction_at(angle_at(u), (2 * v - 1) * pi), wo = direction_mirrored(wi, m);
             double rise = model_schlick(fmax(direction_dot(wi, m), 0));
-            double left = wo.z > 0 ? model_masked(area_i, cos_i, model_area(surface, wo), wo.z) : 0;
+            double left =
+                wo.z > 0 ? model_masked(area_i, cos_i, model_area(surface, acos(fmin(wo.z, 1))), wo.z) : 0;
             r->low[row][column] = (float)(left * (1 - rise));
             r->high[row][column] = (float)(left * rise);
             r->is_seen[row][column] = wo.z > 0;
@@ -168,8 +168,8 @@ static int fill_reflected(rgl_arrays *a, reflected *r, const vndf_surface *surfa
         return 0;
     look_up(r, surface, &to, (double)a->theta_i[incident]);
     warp_free(&to);
-    fit_grid(&r->low[0][0], &r->is_seen[0][0], SIDE, POINTS, &r->low_grid[0][0]);
-    fit_grid(&r->high[0][0], &r->is_seen[0][0], SIDE, POINTS, &r->high_grid[0][0]);
+    grid_fit(&r->low[0][0], &r->is_seen[0][0], SIDE, POINTS, &r->low_grid[0][0]);
+    grid_fit(&r->high[0][0], &r->is_seen[0][0], SIDE, POINTS, &r->high_grid[0][0]);
     fill_luminance(a, r, luminance_of(form), incident);
     fill_spectra(a, r, form, incident);
     return 1;
@@ -202,7 +202,7 @@ static int write_arrays(FILE *file, const rgl_arrays *a, const rgl_form *form)
 {
     static const unsigned char one = 1;
     size_t channels = (size_t)form->channels;
-    const tensor_written fields[] = {
+    const tensor fields[] = {
         {"description", TENSOR_U8, 1, {strlen(form->description)}, form->description},
         {"theta_i", TENSOR_F32, 1, {INCIDENTS}, a->theta_i},
         {"phi_i", TENSOR_F32, 1, {1}, a->phi_i},
