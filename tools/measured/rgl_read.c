@@ -229,7 +229,7 @@ static double reversed(unsigned i)
 }
 
 /* Normals as D cos has them, through the warp of the grid that D stands on: D cos dm is D cos sin u, but for a
- * constant, over the unit square. DRAWN points of Hammersley's, finest along theta, spread over all parts of the set. */
+ * constant, over the unit square. DRAWN points of Hammersley's, finest along theta, over all parts of the set. */
 static int draw_slopes(data_file *file, const tensor *ndf, double *density, slope_set *made)
 {
     size_t rows = ndf->shape[0], columns = ndf->shape[1];

@@ -38,7 +38,7 @@ const char measured_help[] =
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
-/* A reader: what its words are, and how it makes rows of a file; 0 after a complaint, or with the reason in the file. */
+/* Makes rows of a file; 0 after a complaint, or with the reason in the file. */
 typedef int reader(const char *command, const measured_words *given, data_file *file, profile *rows);
 
 static reader read_merl, read_gonio, read_rgl, read_height, read_normal_map;
