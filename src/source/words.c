@@ -169,6 +169,20 @@ size_t vndf_word_distance(const char *text, size_t size, const char *word)
     return row[0][length];
 }
 
+size_t vndf_word_slip(size_t size)
+{
+    return size < 5 ? 2 : 3;
+}
+
+int vndf_word_is_nearer(const char *text, size_t size, const char *word, size_t *least)
+{
+    size_t distance = vndf_word_distance(text, size, word);
+    if (distance >= *least || distance >= strlen(word) || distance >= size)
+        return 0;
+    *least = distance;
+    return 1;
+}
+
 /* ---- numbers ---------------------------------------------------------------------------------- */
 
 static size_t digits(const char *text, size_t size, size_t at)
