@@ -15,6 +15,8 @@ enum { MAGIC = 8 };
 vndf_status vndf_frame_check(const vndf_frame *frame, const unsigned char *bytes, size_t size, vndf_error *error)
 {
     const char *name = frame->name;
+    if (!bytes)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
     if (size < VNDF_FRAME_HEAD || memcmp(bytes, frame->magic, MAGIC) != 0)
         return vndf_fail(error, VNDF_ERROR_TABLE, "not a vndf %s: it must begin with \"%.7s\"", name,
                          frame->magic);
@@ -63,8 +65,9 @@ vndf_status vndf_frame_save(const void *what, vndf_frame_encode *encode, const c
     free(bytes);
     if (good)
         return VNDF_OK;
-    return vndf_fail(error, reason == ENOMEM ? VNDF_ERROR_MEMORY : VNDF_ERROR_IO, "cannot write %s: %s", path,
-                     strerror(reason));
+    if (reason == ENOMEM)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
+    return vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
 }
 
 vndf_status vndf_frame_save_memory(const void *what, vndf_frame_encode *encode, void *bytes, size_t size,
