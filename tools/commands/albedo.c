@@ -108,7 +108,7 @@ static int are_distinct(const char *option, const char *path, const char *other,
 
 static int check_words(const albedo_words *given)
 {
-    static const char *const forms[2] = {"csv", NULL};
+    static const char *const forms[] = {"csv", NULL};
     const char *csv = only_word(&given->csv), *c = only_word(&given->c), *save = only_word(&given->save);
     size_t subjects = given->subject.count + source_words_count(&given->source);
     if (subjects != 1)
