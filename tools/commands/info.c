@@ -5,12 +5,11 @@
 #include "cli/arguments.h"
 #include "command.h"
 #include "commands/describe.h"
-#include "commands/parts/albedo_print.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 
 static const char help[] =
-    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs|FILE.albedo\n"
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"
     "\n"
     "Prints `key value` lines:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
@@ -44,14 +43,6 @@ static const char help[] =
     "  grazing        the same of the normals that are visible at grazing incidence\n"
     "  tables_tv      the largest tv of the tables\n"
     "  knot P bytes B tv T distance D    a line for each table, D up to the next knot\n"
-    "\n"
-    "Of a table of albedos (vndf albedo --save FILE.albedo):\n"
-    "  source, tool   of the distribution, as above\n"
-    "  eta            its ratio of indices; 0: a mirror\n"
-    "  error          largest error of an albedo, and where; error_usual the same for usual roughness\n"
-    "  split_error, split_usual    the same of the parts that are reflected and transmitted\n"
-    "  average_error, quadrature_error    of averages over angles, and of the quadrature itself\n"
-    "  grid, values, bytes    points, numbers in the table, size of the file\n"
     "\n"
     "example: vndf info wavy.vndf\n";
 
@@ -154,32 +145,9 @@ static int info_of_family(const char *command, const char *path)
     return STATUS_GOOD;
 }
 
-/* Known by its name, as a family is. */
-static int is_albedo_file(const char *name)
-{
-    static const char end[] = ".albedo";
-    size_t length = strlen(name), its = sizeof end - 1;
-    return length > its && strcmp(name + length - its, end) == 0;
-}
-
-static int info_of_albedo(const char *command, const char *path)
-{
-    vndf_error error = {VNDF_OK, ""};
-    if (!input_named(command, path))
-        return STATUS_USE;
-    vndf_albedo *albedo = vndf_albedo_load(path, &error);
-    if (!albedo)
-        return complain(command, "%s", error.message);
-    vndf_albedo_properties is = vndf_albedo_info(albedo);
-    printf("source %s\ntool %s\neta %.7g\n", is.source, is.tool, (double)is.eta);
-    albedo_print_facts(stdout, &is);
-    vndf_albedo_free(albedo);
-    return STATUS_GOOD;
-}
-
 int command_info(int argc, char **argv)
 {
-    const command_form form = {"vndf info", help, NULL, 0, "FILE|ggx|beckmann|FILE.vndfs|FILE.albedo", 1, 1};
+    const command_form form = {"vndf info", help, NULL, 0, "FILE|ggx|beckmann|FILE.vndfs", 1, 1};
     words positional = {{NULL}, 0};
     chosen_distribution chosen;
     int parsed = parse_arguments(&form, argc, argv, &positional);
@@ -187,8 +155,6 @@ int command_info(int argc, char **argv)
         return parsed;
     if (is_family_file(only_word(&positional)))
         return info_of_family(form.command, only_word(&positional));
-    if (is_albedo_file(only_word(&positional)))
-        return info_of_albedo(form.command, only_word(&positional));
     if (!distribution_open(&chosen, form.command, only_word(&positional)))
         return STATUS_USE;
     vndf_info info = vndf_distribution_info(chosen.distribution);
