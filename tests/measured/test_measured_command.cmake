@@ -103,6 +103,8 @@ has(output "\nuncalibrated, f0 times a scale is ")
 run(0 build --gonio scan.csv --f0 0.5 --max-bytes 2048 -o scan.vndf)
 has(output "source --gonio scan.csv --f0 0.5 (crc32 ")
 has(output "\nf0 0.5\n")
+run(0 build --gonio scan.csv --json --max-bytes 2048 -o scan.vndf)
+has(output "\"measurements\": \"31, 31 of them used\"")
 refused(build
     "--merl scan.csv|this is no MERL file"
     "--merl out.binary --channel grey|--channel 'grey' is none of"
