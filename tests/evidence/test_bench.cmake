@@ -26,28 +26,22 @@ endfunction()
 
 # ---- refusals -----------------------------------------------------------------------------------
 
-file(WRITE ${OUT}/mine.csv "theta_deg,ndf\n0,1\n60,0.1\n") # a D of the user's, that --csv is not to replace
 set(command_words bench)
 refuses("--seconds" --seconds 0)
 refuses("vndf bench: no method, distribution or instruction set has 'no-such-method' in its name" --only no-such-method)
-refuses("more than one of --ndf, --slope, --csv-data and --family" --family ggx --slope "exp(-r)")
+refuses("more than one of --ndf, --slope, --csv and --family" --family ggx --slope "exp(-r)")
 refuses("vndf bench: " --family nonsense --seconds 0.1)
 refuses("--set is for --ndf and --slope" --family ggx --set a=3)
-refuses("missing.csv" --csv-data missing.csv)
+refuses("missing.csv" --csv missing.csv)
 refuses("'ggx' is not expected" ggx)
-refuses("both name 'a.txt'" --csv a.txt --markdown a.txt)
-refuses("no-folder/a.csv" --only ggx --seconds 0.1 --csv no-folder/a.csv)
-refuses("is kept; a D is read by --csv-data" --only ggx --seconds 0.1 --csv mine.csv)
+refuses("names 'a.csv' twice" -o a.csv -o a.csv)
+refuses("no-folder/a.csv" --only ggx --seconds 0.1 -o no-folder/a.csv)
 set(command_words bench effects)
 refuses("--theta" --theta 90)
 refuses("--alpha" --alpha 0.5,nonsense)
 refuses("vndf bench effects: no set of effects, distribution or instruction set has 'no-such-effect'"
     --distribution ggx --only no-such-effect)
 refuses("missing.vndf" --distribution missing.vndf)
-refuses("is kept; tables are named by --distribution" --distribution ggx --seconds 0.01 --csv mine.csv)
-file(READ ${OUT}/mine.csv mine)
-expect("mine.csv is '${mine}'" mine STREQUAL "theta_deg,ndf\n0,1\n60,0.1\n")
-file(REMOVE ${OUT}/mine.csv)
 file(GLOB left ${OUT}/*)
 expect("refusals left ${left}" NOT left)
 
@@ -57,7 +51,7 @@ set(head "method,distribution,instructions,kind,alpha_x,alpha_y,theta,memory,fil
 ns_high,spread,shared_ns,eval_ns,pdf_ns,latency_ns,ratio,to_bare_ns,tv,tv_theta,tv_below,max_weight,stratified,\
 efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85,mean,noise,lost,variance,efficiency")
 set(command_words bench)
-run(0 --only ggx --seconds 0.1 --csv rows.csv --markdown -)
+run(0 --only ggx --seconds 0.1 -o rows.csv --format md)
 expect("progress without a terminal: '${errors}'" NOT errors MATCHES ".")
 split("${output}" lines)
 counts("bars of Markdown" lines "[|]" "[|]" 17)
@@ -84,13 +78,13 @@ expect("-q prints ${output}" NOT output MATCHES ".")
 
 # ---- a distribution of one's own ----------------------------------------------------------------
 
-run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 --csv -)
+run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 -o -)
 foreach(instructions scalar portable) # bytes in memory, then of the file, which is smaller
     expect("a table, ${instructions}: ${output}" output MATCHES
         "--slope 'exp.-a.r.' --set a=3.,${instructions},table,,,,[0-9]+,(19|20)[0-9][0-9],4,0,")
 endforeach()
 expect("rows that were not asked for: ${output}" NOT output MATCHES "8 KiB|3 moments|caps|all normals")
-run(0 --slope "exp(-r)" --only "8 KiB, 4 moments" --seconds 0.1 --csv -)
+run(0 --slope "exp(-r)" --only "8 KiB, 4 moments" --seconds 0.1 -o -)
 foreach(row "table 8 KiB, 4 moments: two lobes\",\"--slope 'exp(-r)'\",scalar,call,"
         "table 8 KiB, 4 moments\",\"student-t:2.5\",scalar,table,")
     has(output "${row}")
@@ -108,7 +102,7 @@ foreach(set "separable masking" "V-cavity masking" "no masking")
     has(output "  ${set} ")
 endforeach()
 expect("rows that were not asked for: ${output}" NOT output MATCHES "\n  bare reflection|walk|both lobes")
-run(0 --distribution ggx --distribution beckmann --seconds 0.01 --csv rows.csv --markdown -)
+run(0 --distribution ggx --distribution beckmann --seconds 0.01 -o rows.csv --format md)
 split("${output}" lines)
 counts("bars of the costs" lines "[|] effects" "[|]" 8)
 counts("bars of the variances" lines "[|] distribution" "[|]" 12)

@@ -5,6 +5,7 @@
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
+#include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
@@ -15,7 +16,7 @@ static const char normals_name[] = "vndf bench", effects_name[] = "vndf bench ef
                   student[] = "student-t:2.5";
 
 static const char normals_help[] =
-    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv-data FILE | --family NAME[:PARAM,...]] [options]\n"
+    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options]\n"
     "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
     "\n"
     "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
@@ -26,19 +27,14 @@ static const char normals_help[] =
     "\n"
     "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
     "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "  --csv-data FILE  what `vndf build` takes as --csv\n"
+    "  --csv FILE       rows of D or P22, as `vndf build` reads them\n"
     "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
     "                   may take longer\n"
-    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n"
-    "  --csv FILE       all numbers as CSV (empty: does not apply); - for stdout\n"
-    "  --markdown FILE  the table in Markdown; - for stdout\n"
-    "  --json           all numbers as JSON on stdout, in the place of the table\n"
-    "  -q               no table on stdout\n"
-    "\n"
+    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n" ROWS_HELP "\n"
     "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench --only avx512\n"
-    "         vndf bench --slope 'exp(-3*r)' --csv bench.csv --markdown -\n";
+    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n";
 
 static const char effects_help[] =
     "usage: vndf bench effects [--distribution FILE|ggx|beckmann] ... [options]\n"
@@ -54,35 +50,22 @@ static const char effects_help[] =
     "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
     "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the further\n"
     "                    rows\n"
-    "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n"
-    "  --csv FILE        all numbers as CSV (empty: does not apply); - for stdout\n"
-    "  --markdown FILE   the tables in Markdown; - for stdout\n"
-    "  --json            all numbers as JSON on stdout, in the place of the tables\n"
-    "  -q                no tables on stdout\n"
-    "\n"
+    "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n" ROWS_HELP "\n"
     "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench effects --distribution ggx --only masking\n"
-    "         vndf bench effects --csv effects.csv\n";
+    "         vndf bench effects -o effects.csv\n";
 
 /* What both commands take. */
 typedef struct bench_words {
     const char *command;
-    words seconds, only, csv, markdown, json, quiet;
+    words seconds, only;
+    figure_words figures;
     source_words source;              /* of normals */
     words distribution, alpha, theta; /* of effects */
 } bench_words;
 
 /* ---- output -------------------------------------------------------------------------------------- */
-
-static int outputs_usable(const bench_words *given)
-{
-    const char *csv = only_word(&given->csv);
-    return outputs_distinct(given->command, csv, only_word(&given->markdown)) &&
-           (!csv || output_is_earlier(given->command, csv, "method,distribution,",
-                                      given->command == normals_name ? "a D is read by --csv-data"
-                                                                     : "tables are named by --distribution"));
-}
 
 static int judge(const char *command, const evidence_rows *found)
 {
@@ -98,32 +81,20 @@ static int judge(const char *command, const evidence_rows *found)
     return status;
 }
 
-static int print_nothing(FILE *file, const void *all)
-{
-    (void)file;
-    (void)all;
-    return 1;
-}
-
 static int run_plan(evidence_plan *plan, const bench_words *given)
 {
-    const output_printers printers = {given->json.count    ? rows_print_json
-                                      : given->quiet.count ? print_nothing
-                                                           : rows_print_text,
-                                      rows_print_markdown, rows_print_csv};
     vndf_error error = {VNDF_OK, ""};
     evidence_rows found;
     unsigned held = output_hold_signals();
     progress p = progress_begin(given->command, held);
-    p.is_seen &= !given->quiet.count;
+    p.is_seen &= !given->figures.quiet.count;
     plan->progress = &p;
     plan->only = only_word(&given->only);
     plan->start = clock_seconds();
     vndf_status status = evidence_run(plan, &found, &error);
     progress_end(&p);
     int printed = status != VNDF_OK ? complain(given->command, "%s", error.message)
-                                    : outputs_print(given->command, only_word(&given->csv),
-                                                    only_word(&given->markdown), &printers, &found);
+                                    : rows_print(given->command, &given->figures, evidence_print, &found);
     int judged = judge(given->command, &found);
     rows_free(&found);
     output_release_signals(held);
@@ -176,7 +147,8 @@ static int run_effects(const bench_words *given)
     const char *text = only_word(&given->alpha);
     if (!roughness_from(effects_name, text ? text : "0.5", &alpha) ||
         !option_number(effects_name, "--seconds", &given->seconds, 0.01, 3600, &plan.seconds) ||
-        !option_number(effects_name, "--theta", &given->theta, 0, 89.9, &plan.theta) || !outputs_usable(given))
+        !option_number(effects_name, "--theta", &given->theta, 0, 89.9, &plan.theta) ||
+        !rows_check(given->command, &given->figures))
         return STATUS_USE;
     plan.alpha_x = alpha.alpha_x;
     plan.alpha_y = alpha.alpha_y;
@@ -197,10 +169,7 @@ int command_bench_effects(int argc, char **argv)
         {"--theta", 1, 1, &given.theta},
         {"--only", 1, 1, &given.only},
         {"--seconds", 1, 1, &given.seconds},
-        {"--csv", 1, 1, &given.csv},
-        {"--markdown", 1, 1, &given.markdown},
-        {"--json", 0, 1, &given.json},
-        {"-q", 0, 1, &given.quiet},
+        ROWS_OPTIONS(given.figures),
     };
     const command_form form = {effects_name, effects_help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
@@ -215,7 +184,7 @@ static int run_normals(const bench_words *given)
     evidence_plan plan = {.at_hand = &s, .seconds = 40};
     vndf_error error = {VNDF_OK, ""};
     if (!option_number(normals_name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) ||
-        !outputs_usable(given))
+        !rows_check(given->command, &given->figures))
         return STATUS_USE;
     int own = source_words_count(&given->source) != 0;
     vndf_source *source =
@@ -238,21 +207,18 @@ int command_bench(int argc, char **argv)
     const option_form options[] = {
         {"--ndf", 1, 1, &given.source.ndf},
         {"--slope", 1, 1, &given.source.slope},
-        {"--csv-data", 1, 1, &given.source.csv},
+        {"--csv", 1, 1, &given.source.csv},
         {"--family", 1, 1, &given.source.family},
         {"--set", 1, WORDS_MAX, &given.source.set},
         {"--seconds", 1, 1, &given.seconds},
         {"--only", 1, 1, &given.only},
-        {"--csv", 1, 1, &given.csv},
-        {"--markdown", 1, 1, &given.markdown},
-        {"--json", 0, 1, &given.json},
-        {"-q", 0, 1, &given.quiet},
+        ROWS_OPTIONS(given.figures),
     };
     const command_form form = {normals_name, normals_help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON && source_words_count(&given.source) > 1)
         return complain(normals_name,
-                        "more than one of --ndf, --slope, --csv-data and --family; one at most is needed");
+                        "more than one of --ndf, --slope, --csv and --family; one at most is needed");
     if (parsed == PARSE_GO_ON)
         parsed = source_words_check_set(normals_name, &given.source);
     return parsed == PARSE_GO_ON ? run_normals(&given) : parsed;

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/figures.h"
 #include "draw/svg.h"
 
 void table_free(text_table *t)
@@ -265,35 +266,32 @@ int table_print_csv(FILE *file, const text_table *t)
 
 /* ---- JSON -------------------------------------------------------------------------------------- */
 
-static void put_string(FILE *file, const char *text)
+/* A number is one that strtod reads whole; infinities are none in JSON. */
+static void put_json(FILE *file, table_kind kind, const char *text)
 {
-    fputc('"', file);
-    for (; *text; text++) {
-        if ((unsigned char)*text < ' ')
-            fprintf(file, "\\u%04x", (unsigned)*text);
-        else
-            fprintf(file, *text == '"' || *text == '\\' ? "\\%c" : "%c", *text);
-    }
-    fputc('"', file);
+    char *end;
+    int is_number = kind == TABLE_NUMBER && isfinite(strtod(text, &end)) && end != text && *end == '\0';
+    if (is_number)
+        fputs(text, file);
+    else if (kind == TABLE_NUMBER)
+        fputs("null", file);
+    else
+        figures_json_text(file, text);
 }
 
-/* An array of objects; JSON has no infinity, which is a string then. */
 int table_print_json(FILE *file, const text_table *t)
 {
     if (t->failed)
         return 0;
+    fputc('[', file);
     for (size_t i = 0; i < t->count; i++) {
-        size_t k = i % t->columns;
-        const char *text = t->cell[i].text;
-        fputs(i == 0 ? "[\n{" : k == 0 ? "},\n{" : ", ", file);
-        put_string(file, t->heading[k]);
+        size_t column = i % t->columns;
+        fputs(column ? ", " : i ? "},\n{" : "\n{", file);
+        figures_json_text(file, t->heading[column]);
         fputs(": ", file);
-        if (t->kind[k] != TABLE_NUMBER || strstr(text, "inf"))
-            put_string(file, text);
-        else
-            fputs(*text ? text : "null", file);
+        put_json(file, t->kind[column], t->cell[i].text);
     }
-    fputs(t->count ? "}\n]\n" : "[]\n", file);
+    fputs(t->count ? "}\n]\n" : "]\n", file);
     return 1;
 }
 

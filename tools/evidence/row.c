@@ -118,12 +118,7 @@ static int print_legend(FILE *file, const evidence_rows *all)
     return fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
 }
 
-int rows_print_text(FILE *file, const void *all)
-{
-    return print_shown(file, all, table_print_text) && print_legend(file, all);
-}
-
-int rows_print_html(FILE *file, const evidence_rows *all)
+int evidence_print_html(FILE *file, const evidence_rows *all)
 {
     return print_shown(file, all, table_print_html);
 }
@@ -173,9 +168,8 @@ static void side_by_side(text_table *t, const evidence_rows *all, const char *ef
         }
 }
 
-int rows_print_markdown(FILE *file, const void *of)
+static int print_markdown(FILE *file, const evidence_rows *all)
 {
-    const evidence_rows *all = of;
     text_table t = {.rows = 0};
     evidence_rows rest = {malloc((all->count + 1) * sizeof *rest.row), 0};
     for (size_t i = 0; rest.row && i < all->count; i++) {
@@ -212,12 +206,12 @@ static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, c
     return good;
 }
 
-int rows_print_csv(FILE *file, const void *all)
+int evidence_print(FILE *file, const void *all, figures_form form)
 {
-    return print_all(file, all, table_print_csv);
-}
-
-int rows_print_json(FILE *file, const void *all)
-{
-    return print_all(file, all, table_print_json);
+    switch (form) {
+    case FIGURES_CSV: return print_all(file, all, table_print_csv);
+    case FIGURES_JSON: return print_all(file, all, table_print_json);
+    case FIGURES_MARKDOWN: return print_markdown(file, all);
+    default: return print_shown(file, all, table_print_text) && print_legend(file, all);
+    }
 }

@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/figures.h"
+
 typedef enum row_kind {
     ROW_PUBLISHED, /* others' methods, written from the publications */
     ROW_CLOSED,    /* our closed forms */
@@ -68,15 +70,11 @@ typedef struct evidence_rows {
 
 void rows_free(evidence_rows *of);
 
-/* ---- printing; 0 if there was no memory ---- */
+/* A rows_printer. Text and Markdown are for people, without the columns that no row has; as Markdown materials
+ * have their distributions side by side. CSV and JSON have every number of every row. */
+int evidence_print(FILE *file, const void *of, figures_form form);
 
-/* For people, without the columns that no row has; as Markdown materials have their distributions side by side. */
-int rows_print_text(FILE *file, const void *of);
-int rows_print_markdown(FILE *file, const void *of);
-int rows_print_html(FILE *file, const evidence_rows *of);
-
-/* Every number of every row. */
-int rows_print_csv(FILE *file, const void *of);
-int rows_print_json(FILE *file, const void *of);
+/* Into a page, as text. */
+int evidence_print_html(FILE *file, const evidence_rows *of);
 
 #endif

@@ -212,7 +212,7 @@ static vndf_status make(effect_case *of, const effect_set *set, const vndf_surfa
     lobes_of(&of->mixture, &of->surface, set->effects.shape == VNDF_SHAPE_AFFINE);
     is.affine = of->mixture.lobe[0].surface;
     if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
-        is.albedo = of->albedo = vndf_albedo_build(surface->distribution, NULL, error);
+        is.albedo = of->albedo = vndf_albedo_build(surface->distribution, 0.0f, error);
     is.mixture = &of->mixture;
     memcpy(is.f0, schlick_f0, sizeof schlick_f0);
     memcpy(is.conductor_eta, gold_eta, sizeof gold_eta);

@@ -114,11 +114,11 @@ int report_times(html_page *page, const report *r)
     fputs("<figure class=\"scroll wide\">\n", page->html);
     draw_times(page->html, lines, count);
     fputs("</figure>\n<details><summary>Every method</summary>\n", page->html);
-    int good = rows_print_html(page->html, &r->rows);
+    int good = evidence_print_html(page->html, &r->rows);
     fputs("</details>\n", page->html);
     FILE *data = good ? page_file_begin(page, "methods.csv") : NULL;
-    good =
-        data && rows_print_csv(data, &r->rows) && page_data_end(page, "all methods, as vndf bench --csv has them");
+    good = data && evidence_print(data, &r->rows, FIGURES_CSV) &&
+           page_data_end(page, "all methods, as vndf bench -o FILE.csv has them");
     page_section_end(page);
     return good;
 }
