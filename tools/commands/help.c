@@ -85,12 +85,14 @@ int print_help(void)
 
 int refuse_subcommand(const char *command, const char *wrong)
 {
-    const char *names[WORDS_MAX];
-    for (size_t i = 0; i < subcommand_count && i < WORDS_MAX; i++)
-        names[i] = subcommands[i].name;
-    const char *hint = nearest_word(wrong, names, subcommand_count);
+    const char *names[WORDS_MAX] = {"--help", "--version"};
+    for (size_t i = 0; i < subcommand_count; i++)
+        names[2 + i] = subcommands[i].name;
+    const char *hint = nearest_word(wrong, names, 2 + subcommand_count);
     if (hint)
         return complain(command, "there is no command '%s'; did you mean '%s'?", wrong, hint);
+    if (strchr(wrong, '.'))
+        return complain(command, "there is no command '%s'; did you mean `vndf info %s`?", wrong, wrong);
     return complain(command, "there is no command '%s'; `vndf --help` lists them", wrong);
 }
 
@@ -100,8 +102,10 @@ static int show(const words *asked)
 {
     static char word[] = "--help";
     char *argv[] = {word, NULL};
-    if (asked->count == 2 && strcmp(asked->item[0], "bench") == 0 && strcmp(asked->item[1], "effects") == 0)
-        return command_bench_effects(1, argv);
+    static const char *const modes[] = {"effects", NULL};
+    if (asked->count == 2 && strcmp(asked->item[0], "bench") == 0)
+        return word_among(name, "what follows bench,", asked->item[1], modes) < 0 ? STATUS_USE
+                                                                                  : command_bench_effects(1, argv);
     if (asked->count == 2)
         return complain(name, "'%s' is one word too many", asked->item[1]);
     for (size_t i = 0; i < subcommand_count; i++)
