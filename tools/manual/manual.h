@@ -1,7 +1,7 @@
 /* The manual page vndf(1) and the completion of bash, from the forms of all commands: the tables of options that they
- * parse with, and the texts that they print for --help. These have a form: lines "usage: ..." and "example: ...", which
- * go on in deeper lines; paragraphs in the first column; items "  TERM  what it is" that go on in deeper lines, and items
- * of an item in column 6. */
+ * parse with, and the texts that they print for --help. These have a form: lines "usage: ..." and "example: ...",
+ * which go on in deeper lines; paragraphs in the first column; items "  TERM  what it is" that go on in deeper lines,
+ * and items of an item in column 6. */
 #ifndef TOOLS_MANUAL_MANUAL_H
 #define TOOLS_MANUAL_MANUAL_H
 
