@@ -35,7 +35,7 @@ int main(void)
     progress p = progress_begin("", 0);
     const evidence_plan plan = {.seconds = 3600, .progress = &p};
     vndf_source *source = vndf_source_family("student-t:2.5", &error);
-    if (TEST(report_subject_begin(&s, source, "student-t:2.5", "--family student-t:2.5", &error) == VNDF_OK) &&
+    if (TEST(report_subject_begin(&s, source, "student-t:2.5", &error) == VNDF_OK) &&
         TEST(report_subject_measure(&s, &plan, &error) == VNDF_OK)) {
         test_errors(&s);
         test_advice(&s);

@@ -56,39 +56,29 @@ const evidence_row *report_row(const report *r, const char *called, const char *
 }
 
 /* Takes the source, which may be NULL with an error; an exit status. */
-static int add_subject(report *r, vndf_source *source, const char *title, const char *arguments, vndf_error *error)
+static int add_subject(report *r, vndf_source *source, const char *title, vndf_error *error)
 {
-    if (!source || report_subject_begin(&r->subject[r->count++], source, title, arguments, error) != VNDF_OK)
+    if (!source || report_subject_begin(&r->subject[r->count++], source, title, error) != VNDF_OK)
         return complain(name, "%s", error->message);
     return STATUS_GOOD;
 }
 
-static int add_family(report *r, const char *family)
-{
-    vndf_error error = {VNDF_OK, ""};
-    words one = {{family}, 1};
-    char arguments[512] = "";
-    source_text(&(source_words){.family = one}, arguments, sizeof arguments);
-    return add_subject(r, vndf_source_family(family, &error), family, arguments, &error);
-}
-
 static int add_subjects(report *r, const report_words *given)
 {
-    int status = STATUS_GOOD;
-    if (source_words_count(&given->source) && !given->source.family.count) {
-        char arguments[512], title[256];
-        vndf_error error = {VNDF_OK, ""};
+    vndf_error error = {VNDF_OK, ""};
+    int status;
+    if (source_words_count(&given->source)) {
+        char title[256];
         vndf_source *source = source_from_words(name, &given->source);
         if (!source)
             return STATUS_USE;
-        source_text(&given->source, arguments, sizeof arguments);
         source_text_name(&given->source, title, sizeof title);
-        status = add_subject(r, source, title, arguments, &error);
+        status = add_subject(r, source, title, &error);
     } else {
-        status = add_family(r, given->source.family.count ? only_word(&given->source.family) : student);
+        status = add_subject(r, vndf_source_family(student, &error), student, &error);
     }
     for (size_t i = 0; i < given->with.count && status == STATUS_GOOD; i++)
-        status = add_family(r, given->with.item[i]);
+        status = add_subject(r, vndf_source_family(given->with.item[i], &error), given->with.item[i], &error);
     return status;
 }
 
@@ -134,7 +124,7 @@ static int write_page(html_page *page, const report *r)
     fputs(
         "<p class=\"lead\">Visible normals sampled from tables: what accuracy costs in time and memory, for <code>",
         page->html);
-    svg_escape(page->html, r->subject[0].arguments);
+    svg_escape(page->html, vndf_source_description(r->subject[0].of.source));
     fprintf(
         page->html,
         "</code>. Batches ran on %s.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and "

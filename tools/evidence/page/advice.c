@@ -59,7 +59,7 @@ static void write_advice(FILE *html, const report_subject *s)
     if (size->moments > 2 && v.all)
         write_cheaper(html, s, s->chosen - 1, "One moment fewer");
     fputs("<br><code>vndf build ", html);
-    svg_escape(html, s->arguments);
+    svg_escape(html, vndf_source_description(s->of.source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
 }
 

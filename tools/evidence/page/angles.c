@@ -62,11 +62,9 @@ static void measure_angle(const vndf_reference *reference, double theta, double 
     }
 }
 
-vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, const char *arguments,
-                                 vndf_error *error)
+vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, vndf_error *error)
 {
     subject_begin(&s->of, source, name);
-    snprintf(s->arguments, sizeof s->arguments, "%s", arguments);
     s->reference = vndf_reference_from(source, error);
     return s->reference ? VNDF_OK : error->status;
 }

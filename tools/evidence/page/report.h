@@ -27,7 +27,6 @@ typedef struct report_table {
 
 typedef struct report_subject {
     subject of;
-    char arguments[512]; /* of `vndf build`, for a shell; cut to fit */
     vndf_reference *reference;
     report_table table[SIZES];
     size_t chosen; /* the table to ship */
@@ -58,8 +57,7 @@ const evidence_row *report_row(const report *r, const char *called, const char *
                                const char *instructions);
 
 /* Takes the source. VNDF_OK, or the status and error that stopped it; report_subject_free in any case. */
-vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, const char *arguments,
-                                 vndf_error *error);
+vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, vndf_error *error);
 vndf_status report_subject_measure(report_subject *s, const evidence_plan *plan, vndf_error *error);
 void report_subject_free(report_subject *s);
 
