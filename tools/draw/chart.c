@@ -378,7 +378,7 @@ static void draw_inside(FILE *file, const chart *c)
         for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
             if (is_inside(&p, s->x[i], s->y[i])) {
                 draw_mark(file, s->mark, s->colour, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]));
-                take(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), radius + 2);
+                take(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), radius + (s->mark == CHART_RING ? 6 : 2));
             }
     }
     p.marks = p.count;

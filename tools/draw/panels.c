@@ -13,8 +13,8 @@ static const double pi = 3.14159265358979323846;
 
 enum { POINTS = 361, SIDE = 180, FINE = 2, PILOTS = 1000 };
 
-/* The smallest of 90, 60, 30, 15, 6, 3, 1.5, 0.6 ... degrees that is not below `degrees`; each can be cut into three
- * readable parts. */
+/* The smallest of 90, 60, 30, 15, 6, 3, 1.5, 0.6 ... degrees that is not below `degrees`; each can be cut into
+ * three readable parts. */
 static double round_angle(double degrees)
 {
     static const double steps[] = {90, 60, 30, 15}, decade[] = {6, 3, 1.5};
@@ -37,11 +37,11 @@ double panel_widest(const vndf_surface *surface)
     return scale > 0 ? round_angle(atan(8 * scale * widest) * 180 / pi) : 90;
 }
 
-/* The decades that D takes; a curve beside it may fall much further. */
-static void fit_decades(chart_axis *axis, const double ndf[POINTS])
+/* The decades that D takes; GGX beside it may fall much further. */
+static void fit_decades(chart_axis *axis, const double *ndf, int count)
 {
     double high = 0, low = INFINITY;
-    for (int i = 0; i < POINTS; i++)
+    for (int i = 0; i < count; i++)
         if (ndf[i] > 0 && ndf[i] < 1e37) { /* an unbounded pole is drawn to the border */
             high = fmax(high, ndf[i]);
             low = fmin(low, ndf[i]);
@@ -69,8 +69,9 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
     const chart_series series[2] = {
         {NULL, x, y[0], POINTS, 0, CHART_NO_MARK, CHART_SOLID, NULL},
         {NULL, x, y[1], POINTS, is_round ? 7 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
-    const chart_key key[2] = {{is_round ? "D" : "D along x", 0, CHART_NO_MARK},
-                              {is_round ? "GGX of the same median slope" : "D along y", series[1].colour, CHART_NO_MARK}};
+    const chart_key key[2] = {
+        {is_round ? "D" : "D along x", 0, CHART_NO_MARK},
+        {is_round ? "GGX of the same median slope" : "D along y", series[1].colour, CHART_NO_MARK}};
     chart c = {.title = "distribution of normals",
                .left = box.x,
                .top = box.y,
@@ -83,7 +84,7 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
                .count = is_round && !has_ggx ? 1 : 2,
                .key = key,
                .key_count = is_round && !has_ggx ? 1 : 2};
-    fit_decades(&c.y, y[0]);
+    fit_decades(&c.y, y[0], is_round ? POINTS : 2 * POINTS);
     for (int k = 0; k < 2; k++)
         for (int i = 0; i < POINTS; i++)
             y[k][i] = fmin(y[k][i], c.y.high);
@@ -126,7 +127,8 @@ static double rim_angle(const disc *d, unsigned seed)
     return round_angle(angle[PILOTS * 95 / 100]);
 }
 
-/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at the rim). */
+/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at the
+ * rim). */
 static double pixel_density(const disc *d, size_t column, size_t row)
 {
     double sum = 0;
@@ -162,7 +164,8 @@ static int draw_density(disc *d)
     for (size_t i = 0; i < SIDE * SIDE; i++)
         index[i] = density[i] < 0 ? 0 : svg_shade(d->maximum > 0 ? sqrt(density[i] / d->maximum) : 0);
     free(density);
-    return svg_raster(d->file, d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius, index, SIDE, SIDE);
+    return svg_raster(d->file, d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius, index, SIDE,
+                      SIDE);
 }
 
 /* One path of zero-length strokes with round ends: 12 bytes a dot instead of 60. */
@@ -242,7 +245,11 @@ int panel_key(FILE *file, double x, double y)
     svg_text(file, "ink", SVG_START, x, y, "density of visible normals, relative to the darkest of each disc");
     int good = svg_raster(file, x, y + 8, 300, 12, index, 255, 1);
     for (int i = 0; i < 4; i++)
-        svg_text(file, "tick quiet", i == 3 ? SVG_END : i ? SVG_MIDDLE : SVG_START, x + places[i], y + 34, names[i]);
+        svg_text(file, "tick quiet",
+                 i == 3 ? SVG_END
+                 : i    ? SVG_MIDDLE
+                        : SVG_START,
+                 x + places[i], y + 34, names[i]);
     fprintf(file, "<circle fill=\"#f76707\" cx=\"%.1f\" cy=\"%.1f\" r=\"1.8\"/>\n", x + 5, y + 50);
     svg_text(file, "ink", SVG_START, x + 16, y + 54, "sample");
     svg_circle(file, "pen", x + 87, y + 50, 5, 1.6);
