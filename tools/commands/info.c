@@ -1,16 +1,14 @@
 /* vndf info: what a file of this program says of itself; nothing is measured (`vndf check` does). */
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "command.h"
 #include "commands/parts/describe.h"
-#include "commands/parts/albedo_print.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 
 static const char help[] =
-    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs|FILE.albedo [--json] [-q]\n"
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs [--json] [-q]\n"
     "\n"
     "Prints lines of a name, a value and its unit:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
@@ -45,39 +43,10 @@ static const char help[] =
     "  tables_tv      the largest tv of the tables\n"
     "  knot at P bytes B tv T distance D    a line for each table, D up to the next knot\n"
     "\n"
-    "Of a table of albedos (vndf albedo --save FILE.albedo):\n"
-    "  source, tool   of the distribution, as above\n"
-    "  eta            its ratio of indices; 0: a mirror\n"
-    "  error          largest error of an albedo, and where; error_usual the same for usual roughness\n"
-    "  split_error, split_usual    the same of the parts that are reflected and transmitted\n"
-    "  average_error, quadrature_error    of averages over angles, and of the quadrature itself\n"
-    "  grid, values, bytes    points, numbers in the table, size of the file\n"
-    "\n"
     "FILE is - for a table on stdin.\n"
     "\n" FIGURES_HELP "\n"
     "example: vndf info wavy.vndf\n"
     "         vndf info wavy.vndf --json\n";
-
-/* Known by its name, as a family is. */
-static int is_albedo_file(const char *name)
-{
-    static const char end[] = ".albedo";
-    size_t length = strlen(name), its = sizeof end - 1;
-    return length > its && strcmp(name + length - its, end) == 0;
-}
-
-static int info_of_albedo(const char *command, const char *path)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_albedo *albedo = vndf_albedo_load(path, &error);
-    if (!albedo)
-        return complain(command, "%s", error.message);
-    vndf_albedo_properties is = vndf_albedo_info(albedo);
-    printf("source %s\ntool %s\neta %.7g\n", is.source, is.tool, (double)is.eta);
-    albedo_print_facts(stdout, &is);
-    vndf_albedo_free(albedo);
-    return STATUS_GOOD;
-}
 
 static int info_of_family(const char *command, const char *path, figures *f)
 {
@@ -114,13 +83,11 @@ int command_info(int argc, char **argv)
     figure_words asked = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {FIGURES_OPTIONS(asked)};
-    const command_form form = {"vndf info", help, options, 2, "FILE|ggx|beckmann|FILE.vndfs|FILE.albedo", 1, 1};
+    const command_form form = {"vndf info", help, options, 2, "FILE|ggx|beckmann|FILE.vndfs", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
     const char *name = only_word(&positional);
-    if (is_albedo_file(name))
-        return info_of_albedo(form.command, name);
     figures f = figures_begin(&asked);
     int status =
         is_family_file(name) ? info_of_family(form.command, name, &f) : info_of_table(form.command, name, &f);
