@@ -1,10 +1,12 @@
 /* Runs a fuzz target where there is no libFuzzer: the files that are its arguments (the corpus), then
  * mutations of each - bytes changed, removed, repeated, copied from elsewhere - the same on every run.
  * VNDF_TEST_QUICK in the environment makes it ten times fewer. */
+#include <stdint.h>
 #include <stdlib.h>
 
-#include "fuzz/fuzz.h"
 #include "harness/test.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { MUTATIONS = 2000, QUICK_MUTATIONS = 200, CAPACITY = 1 << 16 };
 
