@@ -1,6 +1,6 @@
 /* Narrow features of what is no formula: a callback shows those as wide as vndf_build_options.finest or beside a
- * break, a CSV every row, a family its lobes at any scale; a table is measured as closely as it was built; and a formula
- * of many features is resolved in bounded work. */
+ * break, a CSV every row, a family its lobes at any scale; a table is measured as closely as it was built; and a
+ * formula of many features is resolved in bounded work. */
 #include "fit/profile/profile.h"
 #include "source/sources.h"
 
