@@ -1,6 +1,6 @@
-/* sample and eval speak of one surface: eval gives each normal the density that sample wrote, in every form of file; a
- * --lobe alone prints the bytes of its distribution, several the numbers of their sum, and a family those of its tables.
- * It notices a key of --lobe that is not used, and a column that is another one. */
+/* sample and eval speak of one surface: eval gives each normal the density that sample wrote, in every form of file;
+ * a --lobe alone prints the bytes of its distribution, several the numbers of their sum, and a family those of its
+ * tables. It notices a key of --lobe that is not used, and a column that is another one. */
 #include "harness/run_program.h"
 
 #define TABLE VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"
