@@ -108,8 +108,9 @@ static int refuse(const build_words *given, const vndf_error *error, unsigned he
 {
     if (output_stopping(held))
         return complain(name, "%s; '%s' was not touched", error->message, only_word(&given->output));
+    const int may_grow = !given->bytes.count || strtod(only_word(&given->bytes), NULL) < 1048576;
     return complain(name, "%s%s", error->message,
-                    error->status == VNDF_ERROR_TARGET ? "; --max-bytes N allows a larger table" : "");
+                    error->status == VNDF_ERROR_TARGET && may_grow ? "; --max-bytes N allows a larger table" : "");
 }
 
 static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
