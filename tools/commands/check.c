@@ -1,5 +1,4 @@
-/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that
- * end with good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three lists of findings, and a fourth with --hard:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
@@ -9,6 +8,7 @@
 #include <string.h>
 
 #include "cli/arguments.h"
+#include "cli/figures.h"
 #include "evidence/measure/chi_square.h"
 #include "command.h"
 #include "evidence/measure/consistency.h"
@@ -24,7 +24,7 @@ static const char name[] = "vndf check";
 static const char help[] =
     "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S]\n"
     "\n"
-    "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
+    "Measures a distribution again and prints what it finds; exit status 1 if a claim fails.\n"
     "\n"
     "  certificate  the numbers stored in the table against a new measurement from its source; more than\n"
     "               20% (and 1e-7) worse fails. Closed forms have none.\n"
@@ -48,111 +48,132 @@ static const char help[] =
     "  --hard       adds the hard cases\n"
     "  --samples N  samples per chi-square test (default 1000000)\n"
     "  --csv FILE   the CSV that the table was built from; without it the certificate is not measured again\n"
-    "  --seed S     the stream of random numbers, a whole number (default 1)\n"
-    "\n"
+    "  --seed S     the stream of random numbers, a whole number (default 1)\n" FIGURES_HELP "\n"
     "example: vndf check wavy.vndf --hard --samples 4000000\n";
 
 typedef struct check_words {
     words samples, csv, seed, hard;
+    figure_words figures;
 } check_words;
 
-static const char *verdict(int good)
+/* What is being checked, where findings go, and whether all were good. */
+typedef struct checking {
+    const vndf_distribution *distribution;
+    figures to;
+    unsigned long long samples, seed;
+    int good;
+} checking;
+
+/* Ends a finding. */
+static void judge(checking *c, int is_good)
 {
-    return good ? "good" : "FAILED";
+    figures_truth(&c->to, "good", is_good);
+    c->good &= is_good;
+}
+
+/* A number of a finding; nine digits bring back every float. */
+static void tell(checking *c, const char *key, double x)
+{
+    figures_number(&c->to, key, 9, x, "");
+}
+
+static void begin(checking *c, const char *what)
+{
+    figures_record(&c->to);
+    figures_text(&c->to, "of", what);
 }
 
 /* ---- certificate --------------------------------------------------------------------------------- */
 
-/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may
- * be. */
-static int compare(const char *what, float stored, float measured, double floor, double factor)
+/* A number may be a fifth worse than stored, above what it is when nothing is wrong: 0 for an error, 1 for a
+ * ratio. */
+static void compare(checking *c, const char *what, float stored, float measured, double floor)
 {
-    double allowed = floor + factor * ((double)stored - floor) + 1e-7;
-    int good = (double)measured <= allowed;
-    printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
-           verdict(good));
-    return good;
+    begin(c, what);
+    figures_number(&c->to, "stored", 5, (double)stored, "");
+    figures_number(&c->to, "measured", 5, (double)measured, "");
+    judge(c, (double)measured <= floor + 1.2 * ((double)stored - floor) + 1e-7);
 }
 
-static int compare_certificates(const vndf_certificate *stored, const vndf_certificate *measured)
-{
-    const double factor = 1.2;
-    int good = compare("tv", stored->tv, measured->tv, 0, factor);
-    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0, factor);
-    good &= compare("max_weight", stored->max_weight, measured->max_weight, 1, factor);
-    good &= compare("area_error", stored->area_error, measured->area_error, 0, factor);
-    good &= compare("consistency", stored->consistency, measured->consistency, 0, factor);
-    good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0, factor);
-    good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0, factor);
-    good &= compare("hidden", stored->hidden, measured->hidden, 0, factor);
-    good &= compare("finest", stored->finest, measured->finest, 0, factor);
-    return good;
-}
-
-/* What the table was built from; NULL with the reason printed if that cannot be had. */
-static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
+/* What the table was built from; NULL with the reason said if that cannot be had. */
+static vndf_source *original_source(checking *c, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(table, &error);
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
     if (*failed && !csv)
         complain(name, "%s", error.message);
     else if (!source && !csv)
-        printf("certificate  not measured again: %s\n", error.message);
+        figures_text(&c->to, "certificate_not_measured", error.message);
     return source;
 }
 
-static int check_certificate(const vndf_distribution *table, const char *csv)
+static int check_certificate(checking *c, const char *csv)
 {
-    vndf_certificate measured;
+    vndf_certificate m, s = vndf_distribution_info(c->distribution).certificate;
     vndf_error error = {VNDF_OK, ""};
     int failed;
-    vndf_info info = vndf_distribution_info(table);
-    vndf_source *source = original_source(table, csv, &failed);
+    vndf_source *source = original_source(c, csv, &failed);
     if (!source)
         return failed ? STATUS_USE : STATUS_GOOD;
-    if (csv && strcmp(vndf_source_description(source), info.source) != 0)
-        printf("certificate  note: the table says %s\n             and the source is %s\n", info.source,
-               vndf_source_description(source));
-    vndf_status status = vndf_certify(table, source, &measured, &error);
+    if (strcmp(vndf_source_description(source), vndf_distribution_info(c->distribution).source) != 0)
+        figures_text(&c->to, "certificate_measured_of", vndf_source_description(source));
+    vndf_status status = vndf_certify(c->distribution, source, &m, &error);
     vndf_source_free(source);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    return compare_certificates(&info.certificate, &measured) ? STATUS_GOOD : STATUS_NO;
+    figures_list(&c->to, "certificate");
+    compare(c, "tv", s.tv, m.tv, 0);
+    compare(c, "tv_above", s.tv_above, m.tv_above, 0);
+    compare(c, "max_weight", s.max_weight, m.max_weight, 1);
+    compare(c, "area_error", s.area_error, m.area_error, 0);
+    compare(c, "consistency", s.consistency, m.consistency, 0);
+    compare(c, "ndf_error", s.ndf_error, m.ndf_error, 0);
+    compare(c, "weight_unbound", 1 - s.weight_bounded, 1 - m.weight_bounded, 0);
+    compare(c, "hidden", s.hidden, m.hidden, 0);
+    compare(c, "finest", s.finest, m.finest, 0);
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- consistency --------------------------------------------------------------------------------- */
 
-/* Where to look; the numbers are exact enough to come to the same floats. */
-static int finish_line(int good, const consistency_point *at)
+static void check_quantiles(checking *c, const char *what, const consistency_quantiles *found, double usual,
+                            double rare)
 {
-    puts(verdict(good));
-    if (!good)
-        printf("             at theta %.17g phi %.17g alpha %.9g,%.9g u1 %.9g u2 %.9g\n", at->theta, at->phi,
-               (double)at->alpha_x, (double)at->alpha_y, (double)at->u1, (double)at->u2);
-    return good;
+    begin(c, what);
+    figures_number(&c->to, "samples", 9, (double)found->measured, "");
+    figures_number(&c->to, "most_999", 2, found->usual, "");
+    figures_number(&c->to, "limit_999", 2, usual, "");
+    figures_number(&c->to, "most_9999", 2, found->rare, "");
+    figures_number(&c->to, "limit_9999", 2, rare, "");
+    judge(c, found->usual <= usual && found->rare <= rare);
 }
 
-static int check_quantiles(const char *what, const consistency_quantiles *found, double usual, double rare)
-{
-    int good = found->usual <= usual && found->rare <= rare;
-    printf("consistency  %s: 99.9%% within %.2g of %g, 99.99%% within %.2g of %g, %zu samples %s\n", what,
-           found->usual, usual, found->rare, rare, found->measured, verdict(good));
-    return good;
-}
-
-static int check_consistency(const vndf_distribution *distribution, unsigned long long seed)
+static int check_consistency(checking *c)
 {
     consistency found;
-    if (!consistency_measure(distribution, 200000, seed, &found))
+    if (!consistency_measure(c->distribution, 200000, c->seed, &found))
         return complain(name, "no memory");
-    printf("consistency  %zu points (%zu see nothing), %zu invalid results ", found.points, found.blind,
-           found.invalid);
-    int good = finish_line(found.invalid == 0, &found.invalid_at);
-    good &= check_quantiles("pdf against sample, above the horizon", &found.above, 1e-5, 1e-4);
-    good &= check_quantiles("pdf against sample, below the horizon", &found.below, 1e-4, 1e-3);
-    good &= check_quantiles("invert, then sample", &found.inverted, 1e-5, 1e-4);
-    return good ? STATUS_GOOD : STATUS_NO;
+    figures_list(&c->to, "consistency");
+    begin(c, "valid results");
+    tell(c, "samples", (double)found.points);
+    tell(c, "blind", (double)found.blind);
+    tell(c, "invalid", (double)found.invalid);
+    if (found.invalid) {
+        const consistency_point *at = &found.invalid_at;
+        const double where[] = {at->theta,           at->phi,        (double)at->alpha_x,
+                                (double)at->alpha_y, (double)at->u1, (double)at->u2};
+        static const char *const keys[] = {"theta", "phi", "alpha_x", "alpha_y", "u1", "u2"};
+        for (int i = 0; i < 6; i++)
+            figures_number(&c->to, keys[i], 17, where[i], "");
+    }
+    judge(c, found.invalid == 0);
+    check_quantiles(c, "pdf against sample, above the horizon", &found.above, 1e-5, 1e-4);
+    check_quantiles(c, "pdf against sample, below the horizon", &found.below, 1e-4, 1e-3);
+    check_quantiles(c, "invert, then sample", &found.inverted, 1e-5, 1e-4);
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- chi-square ---------------------------------------------------------------------------------- */
@@ -160,27 +181,7 @@ static int check_consistency(const vndf_distribution *distribution, unsigned lon
 static const double angles[] = {0, 30, 60, 80, 89, 130};
 static const float roughness[][2] = {{1, 1}, {0.05f, 0.4f}};
 
-enum {
-    ANGLES = sizeof angles / sizeof angles[0],
-    ROUGHNESSES = sizeof roughness / sizeof roughness[0],
-    TESTS = ANGLES * ROUGHNESSES
-};
-
-static void print_chi_square(const chi_square *found, const vndf_surface *surface, double theta, double phi,
-                             int good)
-{
-    char alpha[32];
-    snprintf(alpha, sizeof alpha, "%gx%g", (double)surface->alpha_x, (double)surface->alpha_y);
-    printf("chi-square   %-9s %5g %4g ", alpha, theta, phi);
-    if (found->blind)
-        printf("  sees nothing");
-    else
-        printf("%6zu %6zu %12.1f %9.4f %10.1e", found->bins, found->pooled, found->statistic, found->p,
-               found->mass - 1);
-    if (found->unclaimed && !found->blind)
-        printf(" %zu samples have no density", found->unclaimed);
-    printf(" %s\n", verdict(good));
-}
+enum { ANGLES = sizeof angles / sizeof angles[0], TESTS = 2 * ANGLES };
 
 /* Below the horizon a narrow lobe may hold less than a float can tell from nothing. */
 static int is_good(const chi_square *found, const vndf_surface *surface, vndf_vec3 wi)
@@ -190,99 +191,90 @@ static int is_good(const chi_square *found, const vndf_surface *surface, vndf_ve
     return found->p >= statistics_sidak(0.01, TESTS) && fabs(found->mass - 1) <= 1e-5 && found->unclaimed == 0;
 }
 
-static int check_view(const vndf_surface *surface, double theta, double phi, size_t samples,
-                      unsigned long long seed)
+static int check_chi_square(checking *c, int is_quiet)
 {
-    chi_square found;
-    vndf_vec3 wi = direction_from(theta, phi);
-    if (!chi_square_test(surface, wi, samples, seed, &found))
-        return complain(name, "no memory");
-    int good = is_good(&found, surface, wi);
-    print_chi_square(&found, surface, theta, phi, good);
-    return good ? STATUS_GOOD : STATUS_NO;
-}
-
-static int check_chi_square(const vndf_distribution *distribution, size_t samples, unsigned long long seed)
-{
-    int worst = STATUS_GOOD;
     progress p = progress_begin("chi-square", 0);
-    printf("chi-square   %zu samples per test, significance %.3g each\n", samples, statistics_sidak(0.01, TESTS));
-    printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
-    for (size_t r = 0; r < ROUGHNESSES; r++) {
-        vndf_surface surface = {distribution, roughness[r][0], roughness[r][1]};
-        double phi = surface.alpha_x == surface.alpha_y ? 0 : 25;
-        for (size_t a = 0; a < ANGLES; a++) {
-            progress_show((double)(r * ANGLES + a) / TESTS, NULL, &p);
-            int status = check_view(&surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
-            if (status == STATUS_USE)
-                return status;
-            if (status == STATUS_NO)
-                worst = status;
-        }
+    p.is_seen &= !is_quiet;
+    figures_number(&c->to, "chi_square_samples", 9, (double)c->samples, "");
+    figures_number(&c->to, "chi_square_level", 3, statistics_sidak(0.01, TESTS), "");
+    figures_list(&c->to, "chi_square");
+    for (size_t i = 0; i < TESTS; i++) {
+        const vndf_surface surface = {c->distribution, roughness[i / ANGLES][0], roughness[i / ANGLES][1]};
+        double theta = angles[i % ANGLES], phi = i < ANGLES ? 0 : 25;
+        vndf_vec3 wi = direction_from(theta, phi);
+        chi_square found;
+        progress_show((double)i / TESTS, NULL, &p);
+        if (!chi_square_test(&surface, wi, (size_t)c->samples, c->seed + 1000 * (i + 1), &found))
+            return complain(name, "no memory");
+        figures_record(&c->to);
+        figures_number(&c->to, "alpha_x", 3, (double)surface.alpha_x, "");
+        figures_number(&c->to, "alpha_y", 3, (double)surface.alpha_y, "");
+        tell(c, "theta", theta);
+        figures_truth(&c->to, "blind", found.blind);
+        tell(c, "bins", (double)found.bins);
+        tell(c, "pooled", (double)found.pooled);
+        figures_number(&c->to, "statistic", 6, found.statistic, "");
+        figures_number(&c->to, "p", 4, found.p, "");
+        figures_number(&c->to, "mass_error", 2, found.blind ? 0 : found.mass - 1, "");
+        tell(c, "unclaimed", (double)found.unclaimed);
+        judge(c, is_good(&found, &surface, wi));
     }
     progress_end(&p);
-    return worst;
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- hard ---------------------------------------------------------------------------------------- */
 
-static int check_property(stress_id id, const stress_finding *found)
+static void check_hard(checking *c)
 {
-    const stress_property *property = stress_property_of(id);
-    const stress_point *at = &found->at;
-    const vndf_affine *m = &at->surface;
-    int good = found->failed == 0;
-    printf("hard         %-9s worst %-9.3g of %-5.3g at %7zu points: %s ", property->name, fmax(found->worst, 0),
-           property->limit, found->checked, property->meaning);
-    if (!good)
-        printf("%zu ", found->failed);
-    puts(verdict(good));
-    if (found->worst > 0) /* nine digits bring back every float */
-        printf("             at matrix %.9g,%.9g,%.9g,%.9g mean %.9g,%.9g wi %.9g,%.9g,%.9g u %.9g,%.9g wo "
-               "%.9g,%.9g,%.9g\n",
-               (double)m->xx, (double)m->xy, (double)m->yx, (double)m->yy, (double)m->mean_x, (double)m->mean_y,
-               (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->u1, (double)at->u2,
-               (double)at->wo.x, (double)at->wo.y, (double)at->wo.z);
-    return good;
-}
-
-static int check_hard(const vndf_distribution *distribution, unsigned long long seed)
-{
-    stress_result result = stress_run(distribution, 1, 40000, seed);
-    int good = 1;
-    printf("hard         %zu samples of %zu views", result.samples, result.views);
-    if (result.outside)
-        printf("; %zu roughnesses left out: alpha times the scale must be within 1e-18 and 1e18", result.outside);
-    putchar('\n');
-    for (int id = 0; id < STRESS_COUNT; id++)
-        good &= check_property((stress_id)id, &result.found[id]);
-    return good ? STATUS_GOOD : STATUS_NO;
+    static const char *const keys[] = {"xx",   "xy",   "yx",   "yy",   "mean_x", "mean_y", "wi_x",
+                                       "wi_y", "wi_z", "wo_x", "wo_y", "wo_z",   "u1",     "u2"};
+    stress_result result = stress_run(c->distribution, 1, 40000, c->seed);
+    figures_number(&c->to, "hard_samples", 9, (double)result.samples, "");
+    figures_number(&c->to, "hard_views", 9, (double)result.views, "");
+    figures_number(&c->to, "roughnesses_left_out", 9, (double)result.outside, "");
+    figures_list(&c->to, "hard");
+    for (int id = 0; id < STRESS_COUNT; id++) {
+        const stress_property *property = stress_property_of((stress_id)id);
+        const stress_finding *found = &result.found[id];
+        const vndf_affine *m = &found->at.surface;
+        const float at[] = {m->xx,          m->xy,          m->yx,          m->yy,          m->mean_x,
+                            m->mean_y,      found->at.wi.x, found->at.wi.y, found->at.wi.z, found->at.wo.x,
+                            found->at.wo.y, found->at.wo.z, found->at.u1,   found->at.u2};
+        begin(c, property->name);
+        figures_text(&c->to, "is", property->meaning);
+        figures_number(&c->to, "worst", 3, fmax(found->worst, 0), "");
+        figures_number(&c->to, "limit", 3, property->limit, "");
+        tell(c, "points", (double)found->checked);
+        tell(c, "failed", (double)found->failed);
+        for (int i = 0; i < 14 && found->failed; i++)
+            tell(c, keys[i], (double)at[i]);
+        judge(c, found->failed == 0);
+    }
+    figures_list_end(&c->to);
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
 static int check_all(const chosen_distribution *chosen, const check_words *given)
 {
-    unsigned long long samples = 1000000, seed = 1;
-    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &samples) ||
-        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed))
+    checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
+    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &c.samples) ||
+        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &c.seed))
         return STATUS_USE;
-    int certificate = STATUS_GOOD;
-    if (chosen->owned)
-        certificate = check_certificate(chosen->owned, only_word(&given->csv));
-    else if (given->csv.count)
+    if (!chosen->owned && given->csv.count)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
-    if (certificate == STATUS_USE)
+    c.to = figures_begin(&given->figures);
+    if ((chosen->owned && check_certificate(&c, only_word(&given->csv)) != STATUS_GOOD) ||
+        check_consistency(&c) != STATUS_GOOD ||
+        check_chi_square(&c, given->figures.quiet.count > 0) != STATUS_GOOD)
         return STATUS_USE;
-    int consistent = check_consistency(chosen->distribution, seed);
-    int follows = check_chi_square(chosen->distribution, (size_t)samples, seed);
-    if (consistent == STATUS_USE || follows == STATUS_USE)
-        return STATUS_USE;
-    int hard = given->hard.count ? check_hard(chosen->distribution, seed) : STATUS_GOOD;
-    int good =
-        certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD && hard == STATUS_GOOD;
-    printf("result %s\n", verdict(good));
-    return good ? STATUS_GOOD : STATUS_NO;
+    if (given->hard.count)
+        check_hard(&c);
+    figures_text(&c.to, "result", c.good ? "good" : "FAILED");
+    figures_end(&c.to);
+    return c.good ? STATUS_GOOD : STATUS_NO;
 }
 
 int command_check(int argc, char **argv)
@@ -293,7 +285,8 @@ int command_check(int argc, char **argv)
     const option_form options[] = {{"--samples", 1, 1, &given.samples},
                                    {"--csv", 1, 1, &given.csv},
                                    {"--seed", 1, 1, &given.seed},
-                                   {"--hard", 0, 1, &given.hard}};
+                                   {"--hard", 0, 1, &given.hard},
+                                   FIGURES_OPTIONS(given.figures)};
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
