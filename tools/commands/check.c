@@ -209,7 +209,7 @@ static int check_chi_square(checking *c, int is_quiet)
         figures_record(&c->to);
         figures_number(&c->to, "alpha_x", 3, (double)surface.alpha_x, "");
         figures_number(&c->to, "alpha_y", 3, (double)surface.alpha_y, "");
-        tell(c, "theta", theta);
+        figures_number(&c->to, "theta", 3, theta, "degrees");
         figures_truth(&c->to, "blind", found.blind);
         tell(c, "bins", (double)found.bins);
         tell(c, "pooled", (double)found.pooled);
