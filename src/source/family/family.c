@@ -241,7 +241,6 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
 {
     lobe lobes[VNDF_LOBES];
     vndf_lobe made[VNDF_LOBES] = {{{NULL, 0}, 1, 1}, {{NULL, 0}, 1, 1}};
-    vndf_text words = {NULL, 0, 0, 0};
     size_t count = 0, done = 0;
     if (read_specification(specification, lobes, &count, error) != VNDF_OK)
         return NULL;
@@ -253,9 +252,8 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
             break;
     }
     if (done == count && isfinite(made[0].factor) && isfinite(made[1].factor)) {
-        vndf_text_add_word(&words, "--family");
-        vndf_text_add_word(&words, specification);
-        return vndf_formula_source(VNDF_FORMULA_OF_P22, made, count, vndf_text_finish(&words, error), error);
+        char *description = vndf_text_pair("--family", specification, "", error);
+        return vndf_formula_source(VNDF_FORMULA_OF_P22, made, count, description, error);
     }
     for (size_t i = 0; i < done; i++)
         vndf_expression_free(&made[i].formula);

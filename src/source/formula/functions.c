@@ -238,8 +238,7 @@ static vndf_interval polygamma_between(int n, double low, double high)
     return vndf_interval_from(fmin(a, b) - error, fmax(a, b) + error);
 }
 
-/* Its derivative is digamma, whose own is polygamma 1: of that the bounds of the third derivative are the last needed.
- */
+/* By its derivatives: digamma, polygamma 1, and of polygamma 2 the bounds alone, for the third coefficient. */
 static vndf_jet lgamma_of(vndf_jet x)
 {
     double low = low_of(x), high = high_of(x);
