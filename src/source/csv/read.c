@@ -207,13 +207,11 @@ static vndf_status read_all(reader *r)
     double x = 0, value = 0;
     int found = 1;
     vndf_status status = read_header(r);
-    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found) {
-        status = read_number(r, field[0], first_names[r->rows.first], &x);
-        if (status == VNDF_OK)
-            status = read_number(r, field[1], second_names[r->rows.second], &value);
-        if (status == VNDF_OK)
-            status = take_row(r, x, value);
-    }
+    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
+        if (read_number(r, field[0], first_names[r->rows.first], &x) != VNDF_OK ||
+            read_number(r, field[1], second_names[r->rows.second], &value) != VNDF_OK ||
+            take_row(r, x, value) != VNDF_OK)
+            return VNDF_ERROR_SYNTAX;
     if (status == VNDF_OK && r->rows.count < 2)
         return refuse(r, "the text ends with %zu row%s; at least two are needed", r->rows.count,
                       r->rows.count == 1 ? "" : "s");
