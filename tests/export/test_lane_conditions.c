@@ -14,16 +14,15 @@ static int printed(const char *program, const char *condition)
 
 static int print(const char *condition)
 {
-    static part_list parts;
+    static kernel from;
     char text[400];
     translation t = {.to = language_named("python")};
     snprintf(text, sizeof text,
              "enum { MOST = 3 };\n\nHERE real shape(table t, real x, whole i, mask far, int below)\n{\n"
              "    int steps = t.cells;\n    real y = x;\n    if (%s)\n        y = x + 1.0f;\n    return y;\n}\n",
              condition);
-    parts_read(&parts, text);
-    return !translation_prefix(&t, "vndf") || !translation_want(&t, &parts, "shape") ||
-           (translate(&t, stdout, &parts), 0);
+    return !kernel_read(&from, text) || !translation_prefix(&t, "vndf") || !translation_want(&t, &from, "shape") ||
+           (translate(&t, stdout, &from), kernel_free(&from), 0);
 }
 
 int main(int argc, char **argv)

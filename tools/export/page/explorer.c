@@ -9,7 +9,6 @@
 
 #include "draw/png.h"
 #include "draw/svg.h"
-#include "export/page/page_texts.h"
 
 /* ---- names and certificates ---------------------------------------------------------------------- */
 
