@@ -26,7 +26,7 @@ set(written exported_kernel.h)
 
 set(subs_table family)
 set(subs_sampler batch)
-set(subs_bsdf albedo walk)
+set(subs_bsdf walk)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate family)
 

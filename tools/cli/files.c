@@ -9,6 +9,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/arguments.h"
 #include "core/replace_file.h"
 
 /* ---- the standard descriptors -------------------------------------------------------------------- */
@@ -87,12 +88,6 @@ const char *files_note_output(const char *path)
     return note_path(path, IS_OUTPUT);
 }
 
-const char *files_note_stdin(void)
-{
-    struct stat file;
-    return fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
-}
-
 int files_begin(void)
 {
     struct stat file;
@@ -130,11 +125,27 @@ int files_same(const char *a, const char *b)
     return same;
 }
 
+int files_is_there(const char *path)
+{
+    struct stat file;
+    return stat(path, &file) == 0;
+}
+
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-static const char *why(void)
+/* NULL, or why stdin cannot be read; what is read once is gone. */
+static const char *take_stdin(void)
 {
-    return errno ? strerror(errno) : "it cannot be read";
+    static int is_taken;
+    struct stat file;
+    const char *role = fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
+    if (role)
+        return role == role_names[IS_STDOUT] ? "it is the standard output of this command as well"
+                                             : "it is an output of this command as well";
+    if (is_taken)
+        return "this command reads it twice";
+    is_taken = 1;
+    return NULL;
 }
 
 /* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
@@ -156,7 +167,7 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
     if (!bytes)
         snprintf(reason, reason_size, "there is no memory for it");
     else if (ferror(file))
-        snprintf(reason, reason_size, "%s", why());
+        snprintf(reason, reason_size, "%s", errno ? strerror(errno) : "it cannot be read");
     else if (count > most)
         snprintf(reason, reason_size, "it has more than %zu bytes", most);
     else {
@@ -169,18 +180,39 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
 
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
-    const char *role = files_note_input(path);
-    if (role) {
-        snprintf(reason, reason_size, "it is %s as well", role);
-        return NULL;
-    }
+    const int is_stdin = strcmp(path, "-") == 0;
+    const char *role = is_stdin ? take_stdin() : files_note_input(path);
     errno = 0;
-    FILE *file = fopen(path, "rb");
+    FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
     if (!file) {
-        snprintf(reason, reason_size, "%s", why());
+        snprintf(reason, reason_size, role && !is_stdin ? "it is %s as well" : "%s",
+                 role ? role : strerror(errno));
         return NULL;
     }
     char *bytes = read_all(file, most, size, reason, reason_size);
-    fclose(file);
+    if (!is_stdin)
+        fclose(file);
     return bytes;
+}
+
+const char *input_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "stdin" : path;
+}
+
+char *input_read(const char *command, const char *path, size_t most, size_t *size)
+{
+    char reason[128];
+    char *bytes = files_read(path, most, size, reason, sizeof reason);
+    if (!bytes)
+        complain(command, "cannot read %s: %s", input_name(path), reason);
+    return bytes;
+}
+
+int input_stdin(const char *command)
+{
+    const char *why = take_stdin();
+    if (why)
+        complain(command, "cannot read stdin: %s", why);
+    return !why;
 }

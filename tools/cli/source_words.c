@@ -1,9 +1,10 @@
 #include "cli/source_words.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
-#include "cli/output.h"
+#include "cli/files.h"
 
 enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
 
@@ -35,15 +36,25 @@ static vndf_source *source_from_expression(const char *command, const source_wor
                             : vndf_source_slope_expression(formula, parameters, given->set.count, error);
 }
 
+vndf_source *source_from_csv(const char *command, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    size_t size;
+    char *text = input_read(command, path, VNDF_LIMIT_CSV_BYTES, &size);
+    vndf_source *source = text ? vndf_source_csv_text(input_name(path), text, size, &error) : NULL;
+    if (text && !source)
+        complain(command, "%s", error.message);
+    free(text);
+    return source;
+}
+
 vndf_source *source_from_words(const char *command, const source_words *given)
 {
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source;
-    if (given->csv.count && !input_named(command, only_word(&given->csv)))
-        return NULL;
     if (given->csv.count)
-        source = vndf_source_csv_file(only_word(&given->csv), &error);
-    else if (given->family.count)
+        return source_from_csv(command, only_word(&given->csv));
+    if (given->family.count)
         source = vndf_source_family(only_word(&given->family), &error);
     else
         source = source_from_expression(command, given, &error);

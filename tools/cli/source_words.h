@@ -19,6 +19,9 @@ int source_words_check_set(const char *command, const source_words *given);
 /* The source of the one that was given; NULL after a complaint. */
 vndf_source *source_from_words(const char *command, const source_words *given);
 
+/* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
+vndf_source *source_from_csv(const char *command, const char *path);
+
 /* A table of that source of the default size, to be freed, and its name for people (source_text_name); NULL
  * after a complaint. */
 vndf_distribution *table_from_words(const char *command, const source_words *given, char *name, size_t size);

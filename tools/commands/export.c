@@ -75,16 +75,15 @@ static int read_language(const export_words *given, export_document *document)
 static int read_notice(const export_words *given, export_document *document, char **owned)
 {
     enum { NOTICE_MAX = 1 << 16 };
-    char reason[200];
     size_t size = 0;
     document->notice = only_word(&given->notice);
     if (document->notice && document->notice[0] == '@') {
-        *owned = files_read(document->notice + 1, NOTICE_MAX, &size, reason, sizeof reason);
-        if (!*owned || strlen(*owned) != size)
-            return complain(name, "--notice '%s': a text file of at most %d bytes is needed", document->notice,
-                            NOTICE_MAX),
-                   0;
-        document->notice = *owned;
+        const char *path = document->notice + 1;
+        document->notice = *owned = input_read(name, path, NOTICE_MAX, &size);
+        if (!*owned)
+            return 0;
+        if (strlen(*owned) != size)
+            return complain(name, "--notice '@%s': it is no text, a byte of it is 0", path), 0;
     }
     for (const char *at = document->notice; at && *at; at++)
         if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t')

@@ -120,7 +120,7 @@ static int read_choice(const render_words *given, render_choice *r, comparison *
 /* Whether OUT is a PNG (0) or a PFM (1); -1 after a complaint. */
 static int form_of(const render_choice *r)
 {
-    static const char *const forms[2] = {"png", "pfm"};
+    static const char *const forms[] = {"png", "pfm", NULL};
     return output_form(name, r->output, r->format, forms);
 }
 

@@ -26,9 +26,14 @@ static int sign(parser *p);
 
 /* ---- text ------------------------------------------------------------------------------------- */
 
+static int is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
 static char peek(parser *p)
 {
-    while (p->at < p->length && strchr(" \t\r\n", p->text[p->at]))
+    while (p->at < p->length && is_blank(p->text[p->at]))
         p->at++;
     return p->at < p->length ? p->text[p->at] : '\0';
 }
@@ -67,21 +72,21 @@ static int unexpected(parser *p, const char *wanted)
 /* The same where two operands are side by side: "an operator ... would be right; a product is written 3*r". */
 static int unexpected_operand(parser *p, const char *wanted)
 {
-    char text[160] = "";
-    size_t at = peek(p) ? p->at : p->length, end = at, start;
-    while (end > 0 && strchr(" \t\r\n", p->text[end - 1]))
+    char text[160];
+    size_t end = peek(p) ? p->at : p->length, start, next = name_length(p->text + p->at, p->length - p->at);
+    if (next == 0 && !is_digit(peek(p)) && peek(p) != '(')
+        return unexpected(p, wanted);
+    while (end > 0 && is_blank(p->text[end - 1]))
         end--;
     for (start = end; start > 0 && (is_letter(p->text[start - 1]) || is_digit(p->text[start - 1])); start--)
         ;
-    if (at < p->length && (is_letter(p->text[at]) || is_digit(p->text[at]) || p->text[at] == '(')) {
-        size_t next = name_length(p->text + at, p->length - at), first = end - start;
-        if (first > 0 && first <= 20 && next > 0 && next <= 20)
-            snprintf(text, sizeof text, "%s; a product is written %.*s*%.*s", wanted, (int)first, p->text + start,
-                     (int)next, p->text + at);
-        else
-            snprintf(text, sizeof text, "%s; a product is written with *", wanted);
-    }
-    return unexpected(p, text[0] ? text : wanted);
+    size_t first = end - start;
+    if (first > 0 && first <= 20 && next > 0 && next <= 20)
+        snprintf(text, sizeof text, "%s; a product is written %.*s*%.*s", wanted, (int)first, p->text + start,
+                 (int)next, p->text + p->at);
+    else
+        snprintf(text, sizeof text, "%s; a product is written with *", wanted);
+    return unexpected(p, text);
 }
 
 /* ---- output ----------------------------------------------------------------------------------- */
@@ -145,30 +150,21 @@ static const char *known_name(const vndf_names *n, size_t i)
     if (i < n->parameter_count)
         return n->parameters[i].name;
     i -= n->parameter_count;
-    return i == 0 ? "pi" : vndf_function_name(i - 1);
-}
-
-static void add_name(char *list, size_t size, const char *separator, const char *name)
-{
-    size_t used = strlen(list);
-    snprintf(list + used, size - used, "%s%s", used ? separator : "", name);
+    const vndf_function *function = i > 0 ? vndf_function_at(i - 1) : NULL;
+    return i == 0 ? "pi" : function ? function->name : NULL;
 }
 
 static int unknown_name(parser *p, size_t size)
 {
     char excerpt[VNDF_EXCERPT], known[320] = "", functions[160] = "", hint[VNDF_LIMIT_PARAMETER_NAME + 32] = "";
-    size_t least = size < 5 ? 2 : 3; /* further is another word, not a slip */
+    size_t least = vndf_word_slip(size), first_function = p->names->variable_count + p->names->parameter_count + 1;
     const char *name, *text = p->text + p->at;
     for (size_t i = 0; (name = known_name(p->names, i)) != NULL; i++) {
-        size_t distance = vndf_word_distance(text, size, name);
-        if (distance < least && distance < strlen(name) && distance < size) {
-            least = distance;
+        char *list = i < first_function ? known : functions, *end = list + strlen(list);
+        size_t room = i < first_function ? sizeof known : sizeof functions;
+        if (vndf_word_is_nearer(text, size, name, &least))
             snprintf(hint, sizeof hint, "did you mean '%s'? ", name);
-        }
-        if (i > p->names->variable_count + p->names->parameter_count)
-            add_name(functions, sizeof functions, " ", name);
-        else
-            add_name(known, sizeof known, ", ", name);
+        snprintf(end, room - strlen(list), "%s%s", end == list ? "" : i < first_function ? ", " : " ", name);
     }
     vndf_fail(p->error, VNDF_ERROR_SYNTAX,
               "column %zu: unknown name '%s'; %sknown are %s, and with parentheses %s", p->at + 1,
@@ -178,26 +174,23 @@ static int unknown_name(parser *p, size_t size)
 
 static int name(parser *p, size_t size)
 {
-    const char *text = p->text + p->at;
+    const char *known, *text = p->text + p->at;
     const vndf_names *n = p->names;
-    for (size_t i = 0; i < n->variable_count; i++)
-        if (vndf_is_word(text, size, n->variables[i])) {
-            p->at += size;
-            return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
-        }
-    for (size_t i = 0; i < n->parameter_count; i++)
-        if (vndf_is_word(text, size, n->parameters[i].name)) {
-            p->at += size;
-            p->used[i] = 1;
-            return emit_number(p, n->parameters[i].value);
-        }
-    if (vndf_is_word(text, size, "pi")) {
-        p->at += size;
-        return emit_number(p, 3.14159265358979323846);
-    }
-    if (!vndf_function_find(text, size))
+    size_t i = 0;
+    while ((known = known_name(n, i)) != NULL && !vndf_is_word(text, size, known))
+        i++;
+    if (!known)
         return unknown_name(p, size);
     p->at += size;
+    if (i < n->variable_count)
+        return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
+    i -= n->variable_count;
+    if (i < n->parameter_count) {
+        p->used[i] = 1;
+        return emit_number(p, n->parameters[i].value);
+    }
+    if (i == n->parameter_count)
+        return emit_number(p, 3.14159265358979323846);
     return unexpected(p, "the function before it needs its argument in parentheses");
 }
 
@@ -212,37 +205,32 @@ static int close_parenthesis(parser *p, size_t opened)
     return 1;
 }
 
-/* At a name whose parenthesis is at `open`. */
-static int call(parser *p, size_t size, size_t open)
+static int name_or_call(parser *p)
 {
-    size_t start = p->at;
+    size_t start = p->at, size = name_length(p->text + start, p->length - start);
     const vndf_function *function = vndf_function_find(p->text + start, size);
-    if (!function)
-        return name(p, size) && unexpected(p, "the name before it is no function; a product is written with *");
-    p->at = open + 1;
+    p->at += size;
+    int is_call = peek(p) == '(';
+    size_t open = p->at;
+    if (!is_call || !function) {
+        p->at = start;
+        return name(p, size) &&
+               (!is_call || unexpected(p, "the name before it is no function; a product is written with *"));
+    }
+    p->at++;
     if (!enter(p) || !sum(p))
         return 0;
+    if (function->one && peek(p) == ',')
+        return unexpected(p, "this function takes one argument");
     if (function->two) {
         if (peek(p) != ',')
             return unexpected(p, "min, max and pow take two arguments, separated by a comma");
         p->at++;
         if (!sum(p))
             return 0;
-    } else if (peek(p) == ',') {
-        return unexpected(p, "this function takes one argument");
     }
     return close_parenthesis(p, open) &&
            emit(p, (vndf_instruction){VNDF_CALL, 0, 0, function}, function->two ? -1 : 0);
-}
-
-static int name_or_call(parser *p)
-{
-    size_t start = p->at, size = name_length(p->text + p->at, p->length - p->at);
-    p->at += size;
-    char next = peek(p);
-    size_t open = p->at;
-    p->at = start;
-    return next == '(' ? call(p, size, open) : name(p, size);
 }
 
 static int primary(parser *p)
@@ -312,14 +300,12 @@ static int sum(parser *p)
 
 /* ---- the whole -------------------------------------------------------------------------------- */
 
-static int is_known(const vndf_names *names, size_t parameter)
+/* Whether a variable, a parameter before it or pi has the name of this parameter. */
+static int is_taken(const vndf_names *names, size_t parameter)
 {
-    const char *text = names->parameters[parameter].name;
-    for (size_t i = 0; i < names->variable_count; i++)
-        if (strcmp(text, names->variables[i]) == 0)
-            return 1;
-    for (size_t i = 0; i < parameter; i++)
-        if (strcmp(text, names->parameters[i].name) == 0)
+    const char *known, *text = names->parameters[parameter].name;
+    for (size_t i = 0; i < names->variable_count + parameter; i++)
+        if ((known = known_name(names, i)) != NULL && strcmp(text, known) == 0)
             return 1;
     return strcmp(text, "pi") == 0;
 }
@@ -340,7 +326,7 @@ static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "parameter '%s': a name is a letter or _, then letters, digits or _; at most %d",
                              excerpt, VNDF_LIMIT_PARAMETER_NAME);
-        if (is_known(names, i))
+        if (is_taken(names, i))
             return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
                              excerpt);
         if (!isfinite(names->parameters[i].value))

@@ -9,6 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/ascending.h"
+
 enum { GRID = 2048 };                /* grid points per call: 2% apart */
 static const size_t work = 10000000; /* instructions that all scans together may cost: about 0.1 s */
 
@@ -25,7 +27,7 @@ typedef struct call {
 
 static int side(const call *c, double r)
 {
-    vndf_points variables[3];
+    vndf_points variables[VNDF_VARIABLES];
     double below, top;
     *c->done += c->prefix;
     c->variables(&r, 1, variables);
@@ -48,23 +50,11 @@ static double bisect(const call *c, double low, double high)
     }
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-static void fill_grid(double *grid)
-{
-    for (int i = 0; i < GRID; i++)
-        grid[i] = grid_first * exp(log(grid_last / grid_first) * i / (GRID - 1));
-}
-
 /* Sorts, and drops breaks that differ by rounding alone: min and step of the same argument break together. */
 static size_t sort_and_thin(double *breaks, size_t count)
 {
     size_t kept = 0;
-    qsort(breaks, count, sizeof *breaks, compare);
+    qsort(breaks, count, sizeof *breaks, vndf_ascending);
     for (size_t i = 0; i < count; i++)
         if (kept == 0 || breaks[i] > breaks[kept - 1] * (1 + 1e-14))
             breaks[kept++] = breaks[i];
@@ -75,15 +65,20 @@ static size_t sort_and_thin(double *breaks, size_t count)
 static size_t scan(const call *c, double *points, double *breaks, size_t count, size_t limit)
 {
     size_t total = GRID, found = count;
-    fill_grid(points);
+    for (int i = 0; i < GRID; i++)
+        points[i] = grid_first * exp(log(grid_last / grid_first) * i / (GRID - 1));
     for (size_t i = 0; i < count; i++) {
         points[total++] = breaks[i];
         points[total++] = nextafter(breaks[i], INFINITY);
     }
-    qsort(points, total, sizeof *points, compare);
-    for (size_t i = 1; i < total && found < limit && *c->done < work; i++)
-        if (side(c, points[i - 1]) != side(c, points[i]))
+    qsort(points, total, sizeof *points, vndf_ascending);
+    int before = side(c, points[0]);
+    for (size_t i = 1; i < total && found < limit && *c->done < work; i++) {
+        int here = side(c, points[i]);
+        if (here != before)
             breaks[found++] = bisect(c, points[i - 1], points[i]);
+        before = here;
+    }
     return sort_and_thin(breaks, found);
 }
 

@@ -1,23 +1,12 @@
-#include "bsdf/albedo/quadrature.h"
+#include "bsdf/quadrature.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "bsdf/wide.h"
 #include "math/vector.h"
 #include "sampler/sampler.h"
 
-/* ---- rules --------------------------------------------------------------------------------------- */
-
-enum {
-    EVEN_PANELS = 30,       /* up to R/(1 + R) = 15/16, */
-    TAIL_PANELS = 12,       /* then by halves of the rest; */
-    TABLE_TAIL_PANELS = 32, /* of a table, whose tail may be heavier */
-    QUANTILE_PANELS = 64,   /* between quantiles of a table */
-    RADIAL_NODES = 5,       /* in a panel; */
-    RADIAL_TABLE_NODES = 4, /* of a table */
-    AZIMUTH_NODES = 12
-};
+/* ---- rules ---- */
 
 /* The panel borders in ascending order. */
 static void add_border(vndf_quadrature *q, double x)
@@ -32,54 +21,38 @@ static void add_border(vndf_quadrature *q, double x)
     q->border[i] = x;
 }
 
-static void add_borders(vndf_quadrature *q, int is_table)
+void vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution)
 {
-    double rest = 1.0 / 16.0;
-    for (int j = 0; j <= EVEN_PANELS; j++)
-        add_border(q, (1.0 - rest) * j / EVEN_PANELS);
-    for (int j = 1, count = is_table ? TABLE_TAIL_PANELS : TAIL_PANELS; j < count; j++)
-        add_border(q, 1.0 - (rest *= 0.5));
-    const vndf_surface surface = {q->distribution, 1.0f, 1.0f};
+    const vndf_surface unit = {distribution, 1.0f, 1.0f};
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
-    vndf_view view = vndf_view_from(&surface, up);
-    for (int j = 1; is_table && j < QUANTILE_PANELS; j++) {
-        vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)j / QUANTILE_PANELS, NULL);
+    vndf_view view = vndf_view_from(&unit, up);
+    vndf_info info = vndf_distribution_info(distribution);
+    int is_table = info.bytes > 0; /* whose tail may be heavier than that of a closed form */
+    double rest = 1.0 / 16.0;
+    q->distribution = distribution;
+    q->scale = info.scale;
+    q->panels = 0;
+    for (int j = 0; j <= VNDF_QUADRATURE_EVEN; j++)
+        add_border(q, (1.0 - rest) * j / VNDF_QUADRATURE_EVEN);
+    for (int j = 1, count = is_table ? VNDF_QUADRATURE_TAIL : 12; j < count; j++)
+        add_border(q, 1.0 - (rest *= 0.5));
+    for (int j = 1; is_table && j < VNDF_QUADRATURE_QUANTILES; j++) {
+        vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)j / VNDF_QUADRATURE_QUANTILES, NULL);
         double slope = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y);
         add_border(q, slope / (slope + q->scale * wm.z));
     }
     add_border(q, 1.0);
     --q->panels; /* one less than borders */
+    vndf_gauss_rule_of(&q->radial, is_table ? 4 : 5);
+    vndf_gauss_rule_of(&q->azimuth, 12);
 }
 
-int vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution, int finer)
-{
-    vndf_info info = vndf_distribution_info(distribution);
-    int is_table = info.bytes > 0;
-    q->distribution = distribution;
-    q->scale = info.scale;
-    q->panels = 0;
-    q->border = malloc((EVEN_PANELS + TABLE_TAIL_PANELS + QUANTILE_PANELS + 1) * sizeof *q->border);
-    if (!q->border)
-        return 0;
-    add_borders(q, is_table);
-    vndf_gauss_rule_of(&q->radial, finer * (is_table ? RADIAL_TABLE_NODES : RADIAL_NODES));
-    vndf_gauss_rule_of(&q->azimuth, finer * AZIMUTH_NODES);
-    return 1;
-}
-
-void vndf_quadrature_free(vndf_quadrature *q)
-{
-    free(q->border);
-    q->border = NULL;
-}
-
-/* ---- one direction ------------------------------------------------------------------------------- */
+/* ---- one direction ---- */
 
 /* wi, and all normals of one slope length r. */
 typedef struct ring {
     const vndf_quadrature *q;
     vndf_view view;
-    int reflects;                              /* and what is transmitted is not asked for */
     double cosine, sine, roughness, eta, area; /* area: A(wi) */
     double along, square, length;              /* sin_i r, 1 + r^2 and its root: 1/wm.z */
 } ring;
@@ -94,18 +67,13 @@ static double area_below(const ring *g, double cos_o)
 /* The integrands; w = wi.wm/wm.z. */
 typedef double integrand(const ring *g, double w);
 
-static double reflected_whole(const ring *g, double w)
+static double reflected(const ring *g, double w)
 {
-    double cos_o = 2.0 * w / g->square - g->cosine;
-    return cos_o > 0.0 ? w * cos_o / (cos_o * g->area + g->cosine * area_below(g, cos_o)) : 0.0;
+    double cos_o = 2.0 * w / g->square - g->cosine, f = g->eta > 0.0 ? dielectric(w / g->length, g->eta) : 1.0;
+    return cos_o > 0.0 ? f * w * cos_o / (cos_o * g->area + g->cosine * area_below(g, cos_o)) : 0.0;
 }
 
-static double reflected_part(const ring *g, double w)
-{
-    return reflected_whole(g, w) * dielectric(w / g->length, g->eta);
-}
-
-static double transmitted_part(const ring *g, double w)
+static double transmitted(const ring *g, double w)
 {
     double facing = w / g->length, square = refracted_square(facing, g->eta);
     if (!(square > 0.0) || !(g->cosine > 0.0) || !(w > 0.0))
@@ -162,28 +130,25 @@ static double least_refracted(const ring *g)
 
 /* From straight ahead to where reflection becomes total, if it does; from there to the horizon, where wi.wm/wm.z is
  * cos_i (1 + r^2)/2. */
-static void add_ring(const ring *g, double weight, vndf_parts *sum)
+static double sum_ring(const ring *g)
 {
     double horizon = azimuth_of(g, 0.5 * g->cosine * g->square);
-    if (g->eta == 0.0) {
-        sum->reflected += weight * sum_azimuths(g, 1.0, horizon, reflected_whole);
-        return;
-    }
+    if (g->eta == 0.0)
+        return sum_azimuths(g, 1.0, horizon, reflected);
     double total = g->eta < 1.0 ? azimuth_of(g, g->length * sqrt(1.0 - g->eta * g->eta)) : -1.0;
     double cut = total > horizon ? total : horizon;
-    sum->reflected +=
-        weight * (sum_azimuths(g, 1.0, cut, reflected_part) + sum_azimuths(g, cut, horizon, reflected_whole));
-    if (g->cosine > 0.0 && !g->reflects)
-        sum->transmitted +=
-            weight * sum_azimuths(g, 1.0, azimuth_of(g, g->length * least_refracted(g)), transmitted_part);
+    double sum = sum_azimuths(g, 1.0, cut, reflected) + sum_azimuths(g, cut, horizon, reflected);
+    if (g->cosine > 0.0)
+        sum += sum_azimuths(g, 1.0, azimuth_of(g, g->length * least_refracted(g)), transmitted);
+    return sum;
 }
 
 /* Panels from x0 to x1 in R/(1 + R). */
-static void add_panel(ring *g, double x0, double x1, vndf_parts *sum)
+static double sum_panel(ring *g, double x0, double x1)
 {
     const vndf_gauss_rule *rule = &g->q->radial;
     const vndf_surface unit = {g->q->distribution, 1.0f, 1.0f};
-    double scale = g->q->scale;
+    double scale = g->q->scale, sum = 0.0;
     for (int i = 0; i < rule->count; i++) {
         double x = x0 + (x1 - x0) * rule->node[i], z = 1.0 - x, radius = x / z, slope = g->roughness * radius;
         double p22 = scale * scale * (double)vndf_p22(&unit, (float)(radius * scale), 0.0f);
@@ -191,8 +156,9 @@ static void add_panel(ring *g, double x0, double x1, vndf_parts *sum)
         g->square = 1.0 + slope * slope;
         g->length = sqrt(g->square);
         if (p22 > 0.0)
-            add_ring(g, (x1 - x0) * rule->weight[i] * p22 * radius / (z * z), sum);
+            sum += rule->weight[i] * p22 * radius / (z * z) * sum_ring(g);
     }
+    return (x1 - x0) * sum;
 }
 
 /* Slopes where the range of azimuths begins to be limited, or is over, in R/(1 + R), ascending. */
@@ -231,14 +197,13 @@ static int find_breaks(const ring *g, double breaks[BREAKS])
     return count;
 }
 
-static vndf_parts integrate(const vndf_quadrature *q, double cosine, double alpha, double eta, int reflects)
+double vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
 {
-    vndf_parts sum = {0.0, 0.0};
-    double breaks[BREAKS], sine = sqrt((1.0 - cosine) * (1.0 + cosine));
-    ring g = {.q = q, .reflects = reflects, .cosine = cosine, .sine = sine, .eta = eta};
-    const vndf_affine surface = {q->distribution, (float)alpha, 0.0f, 0.0f, (float)alpha, 0.0f, 0.0f};
+    double breaks[BREAKS], sum = 0.0, sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    ring g = {.q = q, .cosine = cosine, .sine = sine, .eta = eta};
+    const vndf_surface surface = {q->distribution, (float)alpha, (float)alpha};
     const vndf_vec3 wi = {(float)sine, 0.0f, (float)cosine};
-    g.view = vndf_affine_view_from(&surface, wi);
+    g.view = vndf_view_from(&surface, wi);
     g.roughness = (double)(float)alpha * q->scale;
     g.area = vndf_view_area(&g.view, wi);
     int count = find_breaks(&g, breaks), next = 0;
@@ -246,20 +211,10 @@ static vndf_parts integrate(const vndf_quadrature *q, double cosine, double alph
         double from = q->border[j], end = q->border[j + 1];
         for (; next < count && breaks[next] < end; next++)
             if (breaks[next] > from) {
-                add_panel(&g, from, breaks[next], &sum);
+                sum += sum_panel(&g, from, breaks[next]);
                 from = breaks[next];
             }
-        add_panel(&g, from, end, &sum);
+        sum += sum_panel(&g, from, end);
     }
-    return (vndf_parts){2.0 * sum.reflected, 2.0 * sum.transmitted};
-}
-
-vndf_parts vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
-{
-    return integrate(q, cosine, alpha, eta, 0);
-}
-
-double vndf_quadrature_reflected(const vndf_quadrature *q, double cosine, double alpha, double eta)
-{
-    return integrate(q, cosine, alpha, eta, 1).reflected;
+    return 2.0 * sum;
 }
