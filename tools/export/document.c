@@ -159,43 +159,47 @@ static void put_head(FILE *to, const export_document *document)
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
 
-/* Whether the file has all that a mark names: kinds of distributions, effects. */
+/* Whether the file has all that a mark names: kinds of distributions, normals or a BSDF, effects. */
 static int has_parts(const export_document *document, const char *mark)
 {
-    static const char *const kinds[] = {"table", "ggx", "beckmann"};
-    int has = strncmp(mark, "C ", 2) != 0;
-    for (; *mark != '*'; mark += strcspn(mark, " ") + 1) {
-        int length = (int)strcspn(mark, " "), kind = 0;
-        while (kind < 3 && strncmp(mark, kinds[kind], (size_t)length) != 0)
-            kind++;
-        has &= kind < 3 ? (int)(document->kinds >> kind & 1u) : effects_have(&document->effects, mark, length);
+    static const char *const names[] = {"table ", "ggx ", "beckmann ", "normals ", "bsdf "};
+    const unsigned is = document->kinds | (document->effects.wanted ? 16u : 8u);
+    int has = 1;
+    for (unsigned i = 0; *mark != '*'; mark += strcspn(mark, " ") + 1) {
+        for (i = 0; i < 5 && strncmp(mark, names[i], strlen(names[i])) != 0; i++)
+            ;
+        has &= i < 5 ? (int)(is >> i & 1u) : effects_have(&document->effects, mark, (int)strcspn(mark, " "));
     }
     return has;
 }
 
 /* A line that ends in a mark is left out where the file has not what that names; so are the lines between a mark that
- * stands alone and the next one, "end". */
-static void put_kernel_text(FILE *to, const export_document *document)
+ * stands alone and the next one, "end". *in: whether lines are written. */
+static void put_line(FILE *to, const export_document *document, const char *line, int *in)
 {
     static const char only[] = "/* only ";
-    int in = 1;
-    for (const embedded_text *file = kernel_text; file->name; file++)
-        for (const char *const *line = file->lines; *line; line++) {
-            const char *mark = strstr(*line, only);
-            int has = !mark || has_parts(document, mark + sizeof only - 1);
-            int alone = mark && strspn(*line, " ") == (size_t)(mark - *line);
-            if (alone || strstr(*line, "/* end */"))
-                in = has;
-            else if (in && has)
-                fprintf(to, "%.*s\n", mark ? (int)(mark - *line) - 1 : (int)strlen(*line), *line);
-        }
+    const size_t length = strcspn(line, "\n");
+    const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
+    if (mark && mark < line + length) {
+        int has = has_parts(document, mark + sizeof only - 1), alone = strspn(line, " ") == (size_t)(mark - line);
+        if (alone)
+            *in = has;
+        else if (*in && has)
+            fprintf(to, "%.*s\n", (int)(mark - line), line);
+    } else if (end && end < line + length) {
+        *in = 1;
+    } else if (*in) {
+        fprintf(to, "%.*s\n", (int)length, line);
+    }
 }
 
-/* In C, what the translator prints: constants, numbers, kernel; NULL if there is no memory. */
-static char *whole_text(const export_document *document)
+/* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
+ * memory. */
+static char *whole_text(const export_document *document, const char *more, long *behind)
 {
     char *whole = NULL;
     size_t size = 0;
+    int in = 1;
     FILE *to = open_memstream(&whole, &size);
     if (!to)
         return NULL;
@@ -208,7 +212,12 @@ static char *whole_text(const export_document *document)
         put_float(&document->as, to, (double)document->numbers[i]);
     }
     fputs(document->embeds && document->count ? "};\n\n" : "", to);
-    put_kernel_text(to, document);
+    for (const embedded_text *file = kernel_text; file->name; file++)
+        for (const char *const *line = file->lines; *line; line++)
+            put_line(to, document, *line, &in);
+    *behind = ftell(to);
+    for (const char *line = more; *line; line += strcspn(line, "\n") + 1)
+        put_line(to, document, line, &in);
     if (fclose(to) == 0)
         return whole;
     free(whole);
@@ -224,53 +233,51 @@ int document_is_of_bsdf(const char *call)
     return strncmp(call, "bsdf_", 5) == 0;
 }
 
-/* Functions that a call stands for, where it is not one of its name. */
-static void want(const translation *t, kernel *from, const char *call)
+static void want(const translation *t, kernel *from, const char *before, const char *name)
+{
+    char whole[80];
+    const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%s", before, name), 0, 0};
+    translation_want(t, from, &wanted);
+}
+
+/* What a call stands for. */
+static void want_call(const translation *t, kernel *from, const char *call)
 {
     static const char *const more[][2] = {{"view", "view_of"},           {"mixture", "mixture_view_of"},
                                           {"mixture", "mixture_pdf"},    {"mixture", "mixture_visible"},
                                           {"mixture", "mixture_sample"}, {"mixture", "mixture_ndf"},
                                           {"family", "family_at"}};
-    char name[40];
-    for (size_t i = 0; i < sizeof more / sizeof *more; i++) {
-        snprintf(name, sizeof name, "vndf_%s", more[i][1]);
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
         if (strcmp(call, more[i][0]) == 0)
-            translation_want(t, from, name);
-    }
-    snprintf(name, sizeof name, "vndf_%s", call);
-    translation_want(t, from, name);
-    if (document_is_of_bsdf(call))
-        translation_want(t, from, "vndf_bsdf_of"), translation_want(t, from, "vndf_bsdf_cosine");
+            want(t, from, "vndf_", more[i][1]);
+    want(t, from, "vndf_", call);
+    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_of" : call);
+    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_cosine" : call);
 }
 
-/* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
 static void want_all(const export_document *document, const translation *t, kernel *from)
 {
+    /* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
     static const char *const inner[] = {
-        "frame_of",         "frame_sampled", "frame_normal", "frame_density", "frame_reach",  "ggx_see",
-        "ggx_draw",         "ggx_density",   "ggx_area",     "ggx_p22",       "beckmann_see", "beckmann_draw",
-        "beckmann_density", "beckmann_area", "beckmann_p22", "table_view_of", "table_draw",   "table_pdf",
-        "table_given",      "table_p22",     "law_area"};
-    char name[80];
+        "frame_of",      "frame_sampled",    "frame_normal", "frame_density", "frame_reach",  "ggx_see",
+        "ggx_draw",      "ggx_density",      "ggx_area",     "ggx_p22",       "beckmann_see", "beckmann_draw",
+        "beckmann_area", "beckmann_density", "beckmann_p22", "table_view_of", "table_draw",   "table_pdf",
+        "table_given",   "table_p22",        "law_area"};
+    int has_family = 0;
     for (size_t i = 0; t->to->indents && i < sizeof inner / sizeof *inner; i++)
-        translation_want(t, from, inner[i]);
+        want(t, from, "", inner[i]);
     if (t->to->indents)
         return;
-    int has_family = 0;
-    for (int i = 0; i < from->count && from->at[i].begin == 0; i++) { /* the constants before the kernel */
-        const word *constant = &from->word[from->at[i].name];
-        snprintf(name, sizeof name, "%.*s", constant->length, constant->text);
-        translation_want(t, from, name);
-    }
+    for (int i = 0; i < from->count && from->at[i].begin == 0; i++) /* the constants before the kernel */
+        translation_want(t, from, &from->word[from->at[i].name]);
     for (size_t i = 0; i < document->tables; i++)
         has_family |= document->table[i].family != NULL;
-    if (document->embeds)
-        translation_want(t, from, "VNDF_NUMBERS");
-    translation_want(t, from, "vndf_surface_of");
+    want(t, from, "VNDF_", document->embeds ? "NUMBERS" : "GGX");
+    want(t, from, "vndf_", "surface_of");
     for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++)
         if (document->only[0] || (document_is_of_bsdf(*call) == document->effects.wanted &&
                                   (has_family || strcmp(*call, "family") != 0)))
-            want(t, from, *call);
+            want_call(t, from, *call);
 }
 
 int document_write(const export_document *document, FILE *to)
@@ -278,7 +285,8 @@ int document_write(const export_document *document, FILE *to)
     translation as = document->as;
     kernel from = {NULL, 0, 0, {{0}}};
     as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
-    char *whole = whole_text(document);
+    long behind;
+    char *whole = whole_text(document, "", &behind);
     int good = whole && kernel_read(&from, whole);
     if (good && as.to->indents) {
         fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
@@ -296,6 +304,25 @@ int document_write(const export_document *document, FILE *to)
         translate(&as, to, &from);
         fputs(as.to->guarded ? "#endif\n" : "", to);
     }
+    kernel_free(&from);
+    free(whole);
+    return good;
+}
+
+int document_write_more(const export_document *document, FILE *to, const char *more)
+{
+    kernel from = {NULL, 0, 0, {{0}}};
+    long behind;
+    char *whole = whole_text(document, more, &behind);
+    int good = whole && kernel_read(&from, whole), first = from.count;
+    while (first > 0 && from.word[from.at[first - 1].begin].text >= whole + behind)
+        first--;
+    for (int i = first; i < from.count; i++)
+        translation_want(&document->as, &from, &from.word[from.at[i].name]);
+    for (int i = 0; i < first; i++)
+        from.at[i].wanted = 0;
+    if (good)
+        translate(&document->as, to, &from);
     kernel_free(&from);
     free(whole);
     return good;

@@ -60,4 +60,7 @@ int document_fill(export_document *document);
 /* 0 if there is no memory. */
 int document_write(const export_document *document, FILE *to);
 
+/* Writes a text that calls the kernel, in the kernel's part of C, as it goes behind that file. */
+int document_write_more(const export_document *document, FILE *to, const char *more);
+
 #endif

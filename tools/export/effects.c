@@ -3,21 +3,21 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Choices stand between spaces, in the order of vndf_bsdf.h, the default first; `why` is said where the library has
- * more of them than files. */
+/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more of them than files.
+ */
 typedef struct key {
     const char *name, *choices, *why;
 } key;
 
 static const key keys[] = {
-    {"lobes", " reflection transmission both ", ""},
-    {"fresnel", " none schlick dielectric conductor ", ""},
-    {"masking", " correlated separable v-cavities none ", ""},
-    {"transport", " radiance importance ", ""},
-    {"reflection", " specular retro ", ""},
-    {"normals", " visible ", ", since files draw visible normals"},
-    {"scattering", " single ", ", since random walks and compensation need the library"},
-    {"shape", " affine ", ", since a surface has any matrix and mean slope, and one file scatters at one surface"},
+    {"lobes", "reflection, transmission, both", ""},
+    {"fresnel", "none, schlick, dielectric, conductor", ""},
+    {"masking", "correlated, separable, v-cavities, none", ""},
+    {"transport", "radiance, importance", ""},
+    {"reflection", "specular, retro", ""},
+    {"normals", "visible", ", since files draw visible normals"},
+    {"scattering", "single", ", since random walks and compensation need the library"},
+    {"shape", "affine", ", since a surface has any matrix and mean slope, and one file scatters at one surface"},
 };
 
 enum { KEYS = sizeof keys / sizeof *keys };
@@ -27,20 +27,26 @@ static int is_word(const char *text, int length, const char *name)
     return strlen(name) == (size_t)length && memcmp(text, name, (size_t)length) == 0;
 }
 
+/* The next choice of a list, of *length characters. */
+static const char *next_choice(const char *at, int *length)
+{
+    at += strspn(at, ", ");
+    *length = (int)strcspn(at, ",");
+    return at;
+}
+
 /* The key of key=choice, or -1; its choice, or -1. */
 static int read_word(const char *text, int length, int *choice)
 {
     const char *sign = memchr(text, '=', (size_t)length);
-    int size = sign ? (int)(sign - text) : 0, i = 0, place = 0;
-    while (i < KEYS && !(sign && is_word(text, size, keys[i].name)))
+    int name = sign ? (int)(sign - text) : 0, i = 0, place = 0, size;
+    while (i < KEYS && !(sign && is_word(text, name, keys[i].name)))
         i++;
-    if (i == KEYS)
-        return -1;
     *choice = -1;
-    for (const char *at = keys[i].choices + 1; *at; at += strcspn(at, " ") + 1, place++)
-        if ((int)strcspn(at, " ") == length - size - 1 && memcmp(at, sign + 1, strcspn(at, " ")) == 0)
+    for (const char *at = i < KEYS ? keys[i].choices : ""; *(at = next_choice(at, &size)); at += size, place++)
+        if (size == length - name - 1 && memcmp(at, sign + 1, (size_t)size) == 0)
             *choice = place;
-    return i;
+    return i < KEYS ? i : -1;
 }
 
 vndf_effects effects_of(const export_effects *effects)
@@ -66,8 +72,8 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
             return 0;
         }
         if (choice < 0) {
-            snprintf(error, EFFECTS_ERROR_MAX, "'%.*s': of %s there is%s%s", length < 60 ? length : 60, text,
-                     keys[k].name, keys[k].choices, keys[k].why);
+            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s%s", length < 60 ? length : 60, text,
+                     keys[k].choices, keys[k].why);
             return 0;
         }
         if (k < EFFECT_KEYS)
@@ -106,10 +112,10 @@ void effects_name(const export_effects *effects, char *text, size_t size)
 {
     size_t n = 0;
     for (int i = 0; i < EFFECT_KEYS && n < size; i++) {
-        const char *choice = keys[i].choices + 1;
+        int length;
+        const char *choice = next_choice(keys[i].choices, &length);
         for (int k = 0; k < effects->choice[i]; k++)
-            choice += strcspn(choice, " ") + 1;
-        n += (size_t)snprintf(text + n, size - n, "%s%s=%.*s", i ? ", " : "", keys[i].name,
-                              (int)strcspn(choice, " "), choice);
+            choice = next_choice(choice + length, &length);
+        n += (size_t)snprintf(text + n, size - n, "%s%s=%.*s", i ? ", " : "", keys[i].name, length, choice);
     }
 }

@@ -266,30 +266,32 @@ static void put_words(writer *w, int at, int end, int in_condition)
     }
 }
 
-/* Whether the function declares a variable of this type. */
-static int declares(const writer *w, const char *type, const word *name)
+/* The type with which a name is declared, where it first stands. */
+static const word *type_in(const writer *w, const declaration *d, const word *name)
 {
-    for (int i = w->in->inner; i < w->in->end; i++)
-        if (word_is(&w->word[i], type) && w->word[i + 1].length == name->length &&
-            memcmp(w->word[i + 1].text, name->text, (size_t)name->length) == 0)
-            return 1;
-    return 0;
+    int at = d->inner + 1;
+    while (at < d->end && !word_equals(&w->word[at], name))
+        at++;
+    if (w->word[at - 1].kind != WORD_NAME) /* one of several */
+        while (!word_is_in(&w->word[at - 1], " ; { } ( "))
+            at--;
+    return w->word[at - 1].kind == WORD_NAME ? &w->word[at - 1] : &w->word[at];
 }
 
-/* Python's variables are arrays of lanes: a condition may name constants, whole numbers of the function (int, where a
- * lane's are of type whole), counts of its table, and any(mask). */
+/* Python's variables are arrays of lanes: a condition may name constants, whole numbers that all lanes share (int,
+ * where a lane's are of type whole), and any(mask). */
 static void expect_same_for_lanes(const writer *w, int at, int end)
 {
     for (; at < end; at++) {
         const word *name = &w->word[at];
-        int member = word_is(name + 1, ".");
         if (word_is(name, "any"))
             at = w->word[at + 1].other;
-        else if (name->kind == WORD_NAME && !declared(w, name, CONSTANT)) {
-            kernel_expect(declares(w, member ? "table" : "int", name), name,
-                          "pick, or any(mask) for what lanes differ in,");
-            at += member ? 2 : 0;
-        }
+        if (name->kind != WORD_NAME || word_is(name, "any") || declared(w, name, CONSTANT))
+            continue;
+        const word *type = type_in(w, w->in, name);
+        for (const declaration *of; word_is(&w->word[at + 1], ".") && (of = declared(w, type, STRUCT)); at += 2)
+            type = type_in(w, of, &w->word[at + 2]);
+        kernel_expect(word_is(type, "int"), name, "pick, or any(mask) for what lanes differ in,");
     }
 }
 
@@ -360,8 +362,7 @@ static int assigns(const writer *w, int at, const word *name)
 {
     int begins = word_is_in(&w->word[at - 1], " ; } ) else ") ||
                  (word_is(&w->word[at - 1], "{") && word_is_in(&w->word[at - 2], " ) else "));
-    return begins && word_is_in(&w->word[at + 1], " = . [ ++ ") && w->word[at].length == name->length &&
-           memcmp(w->word[at].text, name->text, (size_t)name->length) == 0;
+    return begins && word_is_in(&w->word[at + 1], " = . [ ++ ") && word_equals(&w->word[at], name);
 }
 
 static int is_assigned(const writer *w, const declaration *d, const word *name)
@@ -630,25 +631,21 @@ static void put_comment(writer *w, const declaration *d)
     }
 }
 
-int translation_want(const translation *t, kernel *from, const char *name)
+int translation_want(const translation *t, kernel *from, const word *name)
 {
-    const word wanted = {WORD_NAME, name, (int)strlen(name), 0, 0};
-    declaration *d = kernel_named(from, &wanted);
+    declaration *d = kernel_named(from, name);
     if (!d || d->wanted)
         return d != NULL;
     d->wanted = 1;
     for (int i = d->kind == CONSTANT ? d->end : d->begin; i < d->end; i++) {
         const word *at = &from->word[i];
-        char called[80];
         int length;
-        if (word_is(at, "fetch"))
-            d->fetches = 1;
+        d->fetches |= word_is(at, "fetch");
         declaration *of = at->kind == WORD_NAME && !word_is(at - 1, ".") ? kernel_named(from, at) : NULL;
         if (!of || of == d || (of->kind == FUNCTION && !word_is(at + 1, "(")) ||
             language_call(t->to, at->text, at->length, &length))
             continue;
-        snprintf(called, sizeof called, "%.*s", at->length, at->text);
-        translation_want(t, from, called);
+        translation_want(t, from, at);
         d->fetches |= of->fetches;
     }
     return 1;

@@ -31,7 +31,7 @@ void put_prefixed(const translation *t, FILE *to, const char *from, size_t lengt
 void put_float(const translation *t, FILE *to, double x);
 
 /* Marks what is needed for a declaration; 0 if there is none of that name. */
-int translation_want(const translation *t, kernel *from, const char *name);
+int translation_want(const translation *t, kernel *from, const word *name);
 
 /* Writes all that is marked. */
 void translate(const translation *t, FILE *to, kernel *from);

@@ -98,6 +98,11 @@ int word_is_in(const word *w, const char *list)
     return 0;
 }
 
+int word_equals(const word *a, const word *b)
+{
+    return a->length == b->length && memcmp(a->text, b->text, (size_t)a->length) == 0;
+}
+
 int word_is_public(const word *w)
 {
     return w->length > 5 && (memcmp(w->text, "vndf_", 5) == 0 || memcmp(w->text, "VNDF_", 5) == 0);
@@ -187,10 +192,8 @@ void kernel_free(kernel *t)
 
 declaration *kernel_named(kernel *t, const word *name)
 {
-    for (int i = 0; i < t->count; i++) {
-        const word *other = &t->word[t->at[i].name];
-        if (other->length == name->length && memcmp(other->text, name->text, (size_t)name->length) == 0)
+    for (int i = 0; i < t->count; i++)
+        if (word_equals(&t->word[t->at[i].name], name))
             return &t->at[i];
-    }
     return NULL;
 }

@@ -43,6 +43,7 @@ void kernel_free(kernel *t);
 
 int word_is(const word *w, const char *name);
 int word_is_in(const word *w, const char *list); /* " a b c " */
+int word_equals(const word *a, const word *b);
 
 /* Whether the word begins with vndf_ or VNDF_. */
 int word_is_public(const word *w);
