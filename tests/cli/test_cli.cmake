@@ -105,7 +105,7 @@ has(errors "is not a number")
 run(2 build --slope "0*r" -o none.vndf)
 run(2 build --slope "exp(-r)" -o no-such-folder/none.vndf)
 run(2 build --slope "exp(-r)" -o .)
-has(errors "not a file")
+has(errors "is a folder")
 
 # ---- sample and eval ----------------------------------------------------------------------------
 
