@@ -136,9 +136,8 @@ static double distance_to_grazing(double scale, double r)
     return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
 }
 
-static double p22(const vndf_source *self, double r)
+static double p22_at(const csv_source *source, double r)
 {
-    const csv_source *source = (const csv_source *)self;
     if (r > source->last_slope)
         return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
     double x = source->first == VNDF_CSV_SLOPE ? r : atan(r);
@@ -147,6 +146,12 @@ static double p22(const vndf_source *self, double r)
                    : value_at(&source->curve, asinh(x / source->scale));
     double value = source->logarithmic ? exp(y) : y;
     return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
+}
+
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = p22_at((const csv_source *)self, r[i]);
 }
 
 /* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
@@ -169,7 +174,7 @@ static double stray_of(const many_rows *rows, double u0, double f0, double u1, d
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
     const csv_source *source = (const csv_source *)self;
-    vndf_reach at = {p22(self, low), p22(self, high), 0};
+    vndf_reach at = {p22_at(source, low), p22_at(source, high), 0};
     if (source->rows.count)
         at.stray = stray_of(&source->rows, log(low), at.low * low * low, log(high), at.high * high * high);
     return at;
