@@ -29,6 +29,11 @@ static size_t least_of(size_t a, size_t b)
     return a < b ? a : b;
 }
 
+static int same_letter(char a, char b)
+{
+    return tolower((unsigned char)a) == tolower((unsigned char)b);
+}
+
 /* Edits that make b of a: a letter inserted, deleted or replaced, two neighbours swapped. Three rows of the table at a
  * time: row[i % 3] has the edits of the first i letters. */
 static size_t edit_distance(const char *a, const char *b)
@@ -40,8 +45,9 @@ static size_t edit_distance(const char *a, const char *b)
         size_t *now = row[i % 3], *before = row[(i + 2) % 3], *earlier = row[(i + 1) % 3];
         now[0] = i;
         for (size_t j = 1; j <= length; j++) {
-            now[j] = least_of(before[j - 1] + (a[i - 1] != b[j - 1]), least_of(before[j], now[j - 1]) + 1);
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+            now[j] =
+                least_of(before[j - 1] + !same_letter(a[i - 1], b[j - 1]), least_of(before[j], now[j - 1]) + 1);
+            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]))
                 now[j] = least_of(now[j], earlier[j - 2] + 1);
         }
     }
@@ -209,46 +215,48 @@ const char *only_word(const words *values)
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
 
-/* One decimal number at text, infinite if it is too large; the end of it, or NULL. strtod alone would also take nan,
- * inf, hexadecimal numbers and leading blanks. */
-static const char *scan_number(const char *text, double *number)
+/* Says what is wrong with a text of numbers, at the letter where reading stopped; 0. */
+static size_t refuse_numbers(const char *command, const char *what, const char *text, const char *at, size_t most)
 {
-    size_t length = strspn(text, "+-.0123456789eE");
-    char *end;
-    *number = strtod(text, &end);
-    return length == 0 || end != text + length ? NULL : end;
-}
-
-static size_t refuse_number(const char *command, const char *what, const char *text, const char *expected)
-{
-    complain(command, "%s '%s' %s", what, text, expected);
+    const char *form = most > 1 ? "a number, or numbers between commas" : "a number";
+    if (at > text && isdigit((unsigned char)at[-1]) && *at != ' ')
+        complain(command, "%s '%s' is not %s: '%s' stands behind it", what, text, form, at);
+    else
+        complain(command, "%s '%s' is not %s", what, text, form);
     return 0;
 }
 
+/* strtod alone would also take nan, inf, hexadecimal numbers and leading blanks. */
 size_t parse_numbers(const char *command, const char *what, const char *text, double low, double high,
                      size_t least, size_t most, double *numbers)
 {
-    char expected[128];
+    const char *why = "has too few numbers";
+    char range[128];
     size_t count = 0;
-    const char *at = text;
-    snprintf(expected, sizeof expected, "is not in the range from %.9g to %.9g", low, high);
-    for (;;) {
-        at = scan_number(at, &numbers[count]);
-        if (!at || (*at != '\0' && *at != ','))
-            return refuse_number(command, what, text,
-                                 most > 1 ? "is not a number, or numbers between commas" : "is not a number");
-        if (isinf(numbers[count]))
-            return refuse_number(command, what, text, "is too large for a double");
-        if (!(numbers[count] >= low && numbers[count] <= high))
-            return refuse_number(command, what, text, expected);
-        count++;
-        if (*at == '\0')
-            break;
-        if (count == most)
-            return refuse_number(command, what, text, "has too many numbers");
-        at++;
+    for (const char *at = text;; at++) {
+        char *end = NULL;
+        size_t length = strspn(at, "+-.0123456789eE");
+        double number = length ? strtod(at, &end) : 0;
+        if (!end || end == at || end > at + length || (*end && *end != ','))
+            return refuse_numbers(command, what, text, end && end <= at + length ? end : at, most);
+        if (isinf(number))
+            why = "is too large for a double";
+        else if (!(number >= low && number <= high)) {
+            snprintf(range, sizeof range, "is not in the range from %.9g to %.9g", low, high);
+            why = range;
+        } else if (count == most)
+            why = "has too many numbers";
+        else {
+            numbers[count++] = number;
+            at = end;
+            if (*at)
+                continue;
+            if (count >= least)
+                return count;
+        }
+        complain(command, "%s '%s' %s", what, text, why);
+        return 0;
     }
-    return count >= least ? count : refuse_number(command, what, text, "has too few numbers");
 }
 
 int option_number(const char *command, const char *what, const words *values, double low, double high,
@@ -267,7 +275,7 @@ int option_count(const char *command, const char *what, const words *values, dou
     if (!option_number(command, what, values, low, high, &number))
         return 0;
     if (number != floor(number))
-        return (int)refuse_number(command, what, only_word(values), "is not a whole number");
+        return complain(command, "%s '%s' is not a whole number", what, only_word(values)), 0;
     *count = (unsigned long long)number;
     return 1;
 }

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,38 +38,21 @@ typedef struct noted_file {
     int role;
 } noted_file;
 
-static noted_file *noted;
-static size_t noted_count, noted_room;
+enum { NOTED_MAX = 4096 };
 
-static int make_room(void)
-{
-    if (noted_count < noted_room)
-        return 1;
-    size_t room = noted_room ? 2 * noted_room : 16;
-    noted_file *larger = realloc(noted, room * sizeof *noted);
-    if (!larger)
-        return 0;
-    noted = larger;
-    noted_room = room;
-    return 1;
-}
+static noted_file noted[NOTED_MAX];
+static size_t noted_count;
 
 static const char *note(const struct stat *file, int role)
 {
-    int known = 0;
     if (!S_ISREG(file->st_mode))
         return NULL;
-    for (size_t i = 0; i < noted_count; i++) {
-        if (noted[i].device != file->st_dev || noted[i].inode != file->st_ino)
-            continue;
-        if (noted[i].role != role)
-            return role_names[noted[i].role];
-        known = 1;
-    }
-    if (!known && !make_room())
-        return "one file more than there is memory for";
-    if (!known)
-        noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
+    for (size_t i = 0; i < noted_count; i++)
+        if (noted[i].device == file->st_dev && noted[i].inode == file->st_ino)
+            return noted[i].role == role ? NULL : role_names[noted[i].role];
+    if (noted_count == NOTED_MAX)
+        return "one file more than this program reads";
+    noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
     return NULL;
 }
 
@@ -91,13 +75,14 @@ const char *files_note_output(const char *path)
 int files_begin(void)
 {
     struct stat file;
+#ifdef SIGXFSZ /* a file that outgrows a limit of the shell fails to be written, as on a full disk */
+    signal(SIGXFSZ, SIG_IGN);
+#endif
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
         if (fcntl(descriptor, F_GETFD) < 0 && !open_in_place(descriptor))
             return 0;
     return fstat(STDOUT_FILENO, &file) != 0 || !note(&file, IS_STDOUT);
 }
-
-/* ---- one file under two names -------------------------------------------------------------------- */
 
 static int same_inode(const char *a, const char *b)
 {
@@ -105,30 +90,22 @@ static int same_inode(const char *a, const char *b)
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
-/* Of two names without links, which are cut: the same last name in the same folder. */
-static int same_place(char *a, char *b)
-{
-    size_t in_a = vndf_replace_folder_length(a), in_b = vndf_replace_folder_length(b);
-    int same = strcmp(a + in_a, b + in_b) == 0;
-    a[in_a] = b[in_b] = '\0';
-    return same && same_inode(in_a ? a : ".", in_b ? b : ".");
-}
-
+/* What is not there yet is known by its last name and its folder, behind all links. */
 int files_same(const char *a, const char *b)
 {
     if (strcmp(a, b) == 0 || same_inode(a, b))
         return 1;
     char *end_of_a = vndf_replace_end_of_links(a), *end_of_b = vndf_replace_end_of_links(b);
-    int same = end_of_a && end_of_b && same_place(end_of_a, end_of_b);
+    int same = 0;
+    if (end_of_a && end_of_b) {
+        size_t in_a = vndf_replace_folder_length(end_of_a), in_b = vndf_replace_folder_length(end_of_b);
+        same = strcmp(end_of_a + in_a, end_of_b + in_b) == 0;
+        end_of_a[in_a] = end_of_b[in_b] = '\0';
+        same = same && same_inode(in_a ? end_of_a : ".", in_b ? end_of_b : ".");
+    }
     free(end_of_a);
     free(end_of_b);
     return same;
-}
-
-int files_is_there(const char *path)
-{
-    struct stat file;
-    return stat(path, &file) == 0;
 }
 
 /* ---- whole files --------------------------------------------------------------------------------- */

@@ -19,8 +19,6 @@ const char *files_note_output(const char *path);
 /* Whether two paths lead to one file, be it there already or not. */
 int files_same(const char *a, const char *b);
 
-int files_is_there(const char *path);
-
 /* All bytes of a file that is not trusted, or of stdin for "-", noted as an input, with a 0 behind them; to be freed.
  * NULL and the reason if it cannot be read, has more than `most` bytes, or there is no memory. */
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size);

@@ -61,18 +61,6 @@ int output_stopping(unsigned held)
     return 0;
 }
 
-int output_interrupted(const output_file *output)
-{
-    return output->path && output_stopping(output->held);
-}
-
-void output_ignore_size_signal(void)
-{
-#ifdef SIGXFSZ
-    signal(SIGXFSZ, SIG_IGN);
-#endif
-}
-
 /* ---- opening ------------------------------------------------------------------------------------- */
 
 int output_is_stdout(const char *path)
@@ -83,38 +71,35 @@ int output_is_stdout(const char *path)
 int output_replaceable(const char *command, const char *path)
 {
     struct stat status;
-    if (path[0] == '\0') {
-        complain(command, "the name of the output file is empty");
-        return 0;
-    }
+    if (path[0] == '\0')
+        return complain(command, "the name of the output file is empty"), 0;
     if (output_is_stdout(path))
         return 1;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        complain(command, "'%s' is not a file that can be replaced", path);
-        return 0;
-    }
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return complain(command, "'%s' is a %s; the output has to be a file", path,
+                        S_ISDIR(status.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
+               0;
     const char *role = files_note_output(path);
     if (role)
         complain(command, "'%s' is not replaced: it is %s", path, role);
     return !role;
 }
 
-static int open_file(output_file *output)
-{
-    output->held = output_hold_signals();
-    if (vndf_replace_begin(&output->replaces, output->path)) {
-        output->file = output->replaces.file;
-        return 1;
-    }
-    complain(output->command, "cannot write '%s': %s", output->path, strerror(errno));
-    output_release_signals(output->held);
-    return 0;
-}
-
 int output_open(output_file *output, const char *command, const char *path)
 {
     *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
-    return !output->path || (output_replaceable(command, path) && open_file(output));
+    if (!output->path)
+        return 1;
+    if (!output_replaceable(command, path))
+        return 0;
+    output->held = output_hold_signals();
+    if (vndf_replace_begin(&output->replaces, path)) {
+        output->file = output->replaces.file;
+        return 1;
+    }
+    complain(command, "cannot write '%s': %s", path, strerror(errno));
+    output_release_signals(output->held);
+    return 0;
 }
 
 /* ---- closing ------------------------------------------------------------------------------------- */
@@ -148,18 +133,15 @@ int output_give_up(output_file *output, const char *why)
 {
     if (output->path)
         vndf_replace_discard(&output->replaces);
-    complain(output->command, "%s", why);
-    if (output->path)
-        output_release_signals(output->held);
+    if (why)
+        complain(output->command, "%s", why);
+    output_release_signals(output->held);
     return STATUS_USE;
 }
 
 void output_discard(output_file *output)
 {
-    if (!output->path)
-        return;
-    vndf_replace_discard(&output->replaces);
-    output_release_signals(output->held);
+    output_give_up(output, NULL);
 }
 
 /* ---- forms --------------------------------------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /* Files that appear whole or not at all (core/replace_file.h), none of which is an input as well (files.h). While the
- * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and
+ * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_stopping(held) now and then, and
  * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
  * global state.) */
 #ifndef TOOLS_CLI_OUTPUT_H
@@ -20,15 +20,8 @@ typedef struct output_file {
 /* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
-/* 1 if one of the signals that wait has come: for work between output_hold_signals and output_release_signals. */
+/* 1 if one of the signals that wait has come; close with output_give_up then. */
 int output_stopping(unsigned held);
-
-/* A file that outgrows a limit of the shell then fails to be written, as on a full disk, instead of ending the
- * program. */
-void output_ignore_size_signal(void);
-
-/* 1 if the user asked to stop; close with output_give_up then. */
-int output_interrupted(const output_file *output);
 
 /* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
 int output_commit(output_file *output);

@@ -32,12 +32,9 @@ static vndf_distribution *load_table(const char *command, const char *name)
     static const char *const closed_forms[] = {"ggx", "beckmann"};
     vndf_error error = {VNDF_OK, ""};
     size_t size;
-    if (nearest_word(name, closed_forms, 2) && !files_is_there(name)) {
-        complain(command, "%s: there is no such file; did you mean '%s'?", name,
-                 nearest_word(name, closed_forms, 2));
-        return NULL;
-    }
     char *bytes = input_read(command, name, BYTES_MAX, &size);
+    if (!bytes && nearest_word(name, closed_forms, 2))
+        complain(command, "did you mean '%s'?", nearest_word(name, closed_forms, 2));
     vndf_distribution *table = bytes ? vndf_load_memory(bytes, size, &error) : NULL;
     if (bytes && !table)
         complain(command, "%s: %s", input_name(name), error.message);

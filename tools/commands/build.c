@@ -28,8 +28,8 @@ static const char help[] =
     "\n"
     "  --ndf EXPR      D per steradian, in c = cos(theta_m), theta (radians), t = tan(theta_m)\n"
     "  --slope EXPR    P22 = D cos^4, in r, the slope length tan(theta_m)\n"
-    "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log sqrt sin cos tan asin acos\n"
-    "                  atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
+    "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log log1p sqrt sin cos tan asin\n"
+    "                  acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
     "  --set NAME=X    a parameter of the expression, which must use it; may be repeated\n"
     "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows;\n"
     "                  - for stdin, here and for every FILE below\n"
@@ -108,8 +108,9 @@ static int refuse(const build_words *given, const vndf_error *error, unsigned he
 {
     if (output_stopping(held))
         return complain(name, "%s; '%s' was not touched", error->message, only_word(&given->output));
+    const int may_grow = !given->bytes.count || strtod(only_word(&given->bytes), NULL) < 1048576;
     return complain(name, "%s%s", error->message,
-                    error->status == VNDF_ERROR_TARGET ? "; --max-bytes N allows a larger table" : "");
+                    error->status == VNDF_ERROR_TARGET && may_grow ? "; --max-bytes N allows a larger table" : "");
 }
 
 static vndf_distribution *build_table(const vndf_source *source, const build_words *given, unsigned held)
@@ -210,14 +211,15 @@ static int tell(const build_words *given, const vndf_distribution *table, const 
         describe_certificate(&f, &info.certificate);
     } else
         describe_family(&f, family);
-    if (f.form == FIGURES_TEXT)
-        fputs(found, stdout);
+    int length = 0; /* of a line `key value` of what was found in measurements */
+    for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)
+        figures_text(&f, key, value);
     figures_text(&f, "verdict", verdict);
     figures_end(&f);
     return STATUS_GOOD;
 }
 
-static int build_and_save(const vndf_source *source, const notes *found, const build_words *given, unsigned held)
+static int build_and_save(const vndf_source *source, const char *found, const build_words *given, unsigned held)
 {
     const char *path = only_word(&given->output);
     const int is_family = given->parameter.count > 0;
@@ -236,7 +238,7 @@ static int build_and_save(const vndf_source *source, const notes *found, const b
         vndf_family_save_memory(family, bytes, size, &error);
     int status = write_bytes(path, bytes, size);
     if (status == STATUS_GOOD)
-        status = tell(given, table, family, found->text);
+        status = tell(given, table, family, found);
     vndf_free(table);
     vndf_family_free(family);
     return status;
@@ -278,16 +280,16 @@ static int check_words(const build_words *given)
 
 static int run(const build_words *given)
 {
-    notes found = {"", 0};
+    char found[MEASURED_NOTES] = "";
     vndf_source *source = NULL;
     if (measured_words_count(&given->measured))
-        source = measured_source(name, &given->measured, &found);
+        source = measured_source(name, &given->measured, found);
     else if (!given->parameter.count)
         source = source_from_words(name, &given->source);
     if (!source && !given->parameter.count)
         return STATUS_USE;
     unsigned held = output_hold_signals();
-    int status = build_and_save(source, &found, given, held);
+    int status = build_and_save(source, found, given, held);
     vndf_source_free(source);
     output_release_signals(held);
     return status;
@@ -320,7 +322,6 @@ int command_build(int argc, char **argv)
         {"--profile", 1, 1, &given.measured.profile},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},
-        {"--size", 1, 1, &given.measured.size},
         {"--step", 1, 1, &given.measured.step},
         {"--cutoff", 1, 1, &given.measured.cutoff},
         {"-o", 1, 1, &given.output},

@@ -1,5 +1,5 @@
-/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that end with
- * good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that
+ * end with good or FAILED:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
@@ -9,14 +9,14 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "measure/chi_square.h"
+#include "evidence/measure/chi_square.h"
 #include "command.h"
-#include "measure/consistency.h"
+#include "evidence/measure/consistency.h"
 #include "cli/progress.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
-#include "measure/statistics.h"
-#include "measure/stress.h"
+#include "evidence/measure/statistics.h"
+#include "evidence/measure/stress.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf check";
@@ -63,7 +63,8 @@ static const char *verdict(int good)
 
 /* ---- certificate --------------------------------------------------------------------------------- */
 
-/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may be. */
+/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may
+ * be. */
 static int compare(const char *what, float stored, float measured, double floor, double factor)
 {
     double allowed = floor + factor * ((double)stored - floor) + 1e-7;

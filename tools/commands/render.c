@@ -326,8 +326,8 @@ static int render_picture(comparison *c, const render_choice *r, const scene *s,
         return STATUS_USE;
     const int is_whole = render_ways(c, s, output.held);
     if (!is_whole && (r->compares || !c->way[0].film.samples))
-        return output_give_up(&output, !output_interrupted(&output) ? "no memory for the films"
-                                       : r->compares                ? "interrupted; nothing was written"
+        return output_give_up(&output, !output_stopping(output.held) ? "no memory for the films"
+                                       : r->compares                 ? "interrupted; nothing was written"
                                                      : "interrupted before every pixel had a sample");
     const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */

@@ -106,7 +106,7 @@ static const char style[] =
     "max-width:1180px;margin:0 auto;padding:24px}\n"
     "h1{font-size:1.7em;margin:0 0 .2em}h2{font-size:1.3em;margin:2.2em 0 .2em;padding-top:.6em;"
     "border-top:1px solid var(--rule)}h3{font-size:1.05em;margin:1.4em 0 .4em}\n"
-    "p{margin:.4em 0;max-width:75ch}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
+    "p{margin:.4em 0}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
     "img{max-width:100%;height:auto}"
     ".pixels{image-rendering:pixelated}a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"

@@ -7,7 +7,7 @@
  * over the bins below 0.42 everywhere (0.39 measured, for a hazy mirror of roughness 0.1 x 1), and below 0.05 where
  * alpha is 0.1 (0.034). */
 #include "bsdf/walk/walk_case.h"
-#include "measure/statistics.h"
+#include "evidence/measure/statistics.h"
 
 enum { WALKS = 4 };
 
