@@ -22,7 +22,7 @@
 static const char name[] = "vndf check";
 
 static const char help[] =
-    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S]\n"
+    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S] [--json] [-q]\n"
     "\n"
     "Measures a distribution again and prints what it finds; exit status 1 if a claim fails.\n"
     "\n"
@@ -60,9 +60,17 @@ typedef struct check_words {
 typedef struct checking {
     const vndf_distribution *distribution;
     figures to;
+    progress bar;
     unsigned long long samples, seed;
     int good;
 } checking;
+
+/* The next part of the work, up to `until` of all of it. */
+static void part(checking *c, const char *what, double until)
+{
+    progress_step(&c->bar, until);
+    progress_show(0, what, &c->bar);
+}
 
 /* Ends a finding. */
 static void judge(checking *c, int is_good)
@@ -118,6 +126,7 @@ static int check_certificate(checking *c, const char *csv)
         return failed ? STATUS_USE : STATUS_GOOD;
     if (strcmp(vndf_source_description(source), vndf_distribution_info(c->distribution).source) != 0)
         figures_text(&c->to, "certificate_measured_of", vndf_source_description(source));
+    part(c, "certificate", 0.2);
     vndf_status status = vndf_certify(c->distribution, source, &m, &error);
     vndf_source_free(source);
     if (status != VNDF_OK)
@@ -153,6 +162,7 @@ static void check_quantiles(checking *c, const char *what, const consistency_qua
 static int check_consistency(checking *c)
 {
     consistency found;
+    part(c, "consistency", 0.3);
     if (!consistency_measure(c->distribution, 200000, c->seed, &found))
         return complain(name, "no memory");
     figures_list(&c->to, "consistency");
@@ -191,10 +201,9 @@ static int is_good(const chi_square *found, const vndf_surface *surface, vndf_ve
     return found->p >= statistics_sidak(0.01, TESTS) && fabs(found->mass - 1) <= 1e-5 && found->unclaimed == 0;
 }
 
-static int check_chi_square(checking *c, int is_quiet)
+static int check_chi_square(checking *c)
 {
-    progress p = progress_begin("chi-square", 0);
-    p.is_seen &= !is_quiet;
+    part(c, "chi-square", 0.8);
     figures_number(&c->to, "chi_square_samples", 9, (double)c->samples, "");
     figures_number(&c->to, "chi_square_level", 3, statistics_sidak(0.01, TESTS), "");
     figures_list(&c->to, "chi_square");
@@ -203,7 +212,7 @@ static int check_chi_square(checking *c, int is_quiet)
         double theta = angles[i % ANGLES], phi = i < ANGLES ? 0 : 25;
         vndf_vec3 wi = direction_from(theta, phi);
         chi_square found;
-        progress_show((double)i / TESTS, NULL, &p);
+        progress_show((double)i / TESTS, "chi-square", &c->bar);
         if (!chi_square_test(&surface, wi, (size_t)c->samples, c->seed + 1000 * (i + 1), &found))
             return complain(name, "no memory");
         figures_record(&c->to);
@@ -219,7 +228,6 @@ static int check_chi_square(checking *c, int is_quiet)
         tell(c, "unclaimed", (double)found.unclaimed);
         judge(c, is_good(&found, &surface, wi));
     }
-    progress_end(&p);
     figures_list_end(&c->to);
     return STATUS_GOOD;
 }
@@ -230,6 +238,7 @@ static void check_hard(checking *c)
 {
     static const char *const keys[] = {"xx",   "xy",   "yx",   "yy",   "mean_x", "mean_y", "wi_x",
                                        "wi_y", "wi_z", "wo_x", "wo_y", "wo_z",   "u1",     "u2"};
+    part(c, "hard cases", 1);
     stress_result result = stress_run(c->distribution, 1, 40000, c->seed);
     figures_number(&c->to, "hard_samples", 9, (double)result.samples, "");
     figures_number(&c->to, "hard_views", 9, (double)result.views, "");
@@ -266,12 +275,15 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     if (!chosen->owned && given->csv.count)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
     c.to = figures_begin(&given->figures);
-    if ((chosen->owned && check_certificate(&c, only_word(&given->csv)) != STATUS_GOOD) ||
-        check_consistency(&c) != STATUS_GOOD ||
-        check_chi_square(&c, given->figures.quiet.count > 0) != STATUS_GOOD)
-        return STATUS_USE;
-    if (given->hard.count)
+    c.bar = progress_begin(name, 0);
+    c.bar.is_seen &= !given->figures.quiet.count;
+    int failed = (chosen->owned && check_certificate(&c, only_word(&given->csv)) != STATUS_GOOD) ||
+                 check_consistency(&c) != STATUS_GOOD || check_chi_square(&c) != STATUS_GOOD;
+    if (!failed && given->hard.count)
         check_hard(&c);
+    progress_end(&c.bar);
+    if (failed)
+        return STATUS_USE;
     figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     figures_end(&c.to);
     return c.good ? STATUS_GOOD : STATUS_NO;
