@@ -238,6 +238,11 @@ class Refused(unittest.TestCase):
         signal.setitimer(signal.ITIMER_REAL, 0.02)
         with self.assertRaises(KeyboardInterrupt):
             vndf.build(vndf.Source.slope("exp(-3*r)*(1+0.8*cos(6*r))"), max_bytes=65536)
+        source = vndf.Source.slope_function(lambda r: math.exp(-r))
+        table = vndf.build(source, max_bytes=2048)
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        with self.assertRaises(KeyboardInterrupt):
+            vndf.certify(table, source)
 
 
 if __name__ == "__main__":

@@ -19,16 +19,8 @@ Progress = Callable[[float, str], Any]
 
 
 class Source(Owner):
-    """A distribution of normals as it is given, at any scale, normalised or not.
-
-    ``Source.slope("exp(-a*r)", a=3)``: P22, the density of slopes, in r = tan(theta).
-    ``Source.ndf("c^20")``: D, per steradian, in c = cos(theta), theta (radians), t = tan(theta).
-    ``Source.family("student-t:2.5")``: a name; ``vndf.family_help()`` lists them.
-    ``Source.csv("gloss.csv")``: a file with columns theta_deg, theta or slope, and ndf or p22.
-    ``Source.rows(theta=angles, ndf=values)``: the same from arrays.
-    ``Source.slope_function(f)``, ``Source.ndf_function(f)``: a Python function of r, or of cos(theta).
-    ``Source.of(table)``: what a table was built from.
-    """
+    """A distribution of normals as it is given, at any scale, normalised or not: a formula, a name, a file, arrays, a
+    function, or what a table was built from."""
 
     _free = "source_free"
     _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows, .slope_function, .ndf_function or .of"
