@@ -95,7 +95,6 @@ class Built(unittest.TestCase):
         ends = [vndf.Surface(d, 0.3).ndf(wm) for d in (vndf.ggx(), vndf.beckmann())]
         self.assertAlmostEqual(middle / np.mean(ends), 1, 5)
 
-
     def test_textures_of_a_family_are_its_mixtures(self):
         """Each element of an array of parameters is the surface at that parameter, of surfaces and of materials; shares
         are those of the C library (vndf_family_at), inside and beyond the ends."""
