@@ -1,59 +1,67 @@
 /* Charts are legible: ticks stand where axes say and have names, labels neither overlap nor leave the frame,
  * points outside the axes are left out, and a text cannot break the markup. */
-#include "harness/test.h"
-
 #include <stdlib.h>
 
 #include "draw/chart.h"
+#include "harness/test.h"
 
-enum { TEXT_SIZE = 1 << 16 };
+enum { TEXT_SIZE = 1 << 18, LABELS_MAX = 64 };
+
+static char text[TEXT_SIZE];
+
+/* What a chart draws, read back. */
+static void draw(const chart *c)
+{
+    FILE *file = tmpfile();
+    text[0] = '\0';
+    if (!TEST(file != NULL))
+        return;
+    chart_draw_alone(file, c);
+    rewind(file);
+    text[fread(text, 1, TEXT_SIZE - 1, file)] = '\0';
+    fclose(file);
+}
+
+static int count_text(const char *part)
+{
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, part)) != NULL; at++)
+        count++;
+    return count;
+}
+
+static chart chart_of(const chart_series *series, size_t count, chart_axis x, chart_axis y)
+{
+    return (chart){.title = "title",
+                   .width = 500,
+                   .height = 400,
+                   .right = 100,
+                   .x = x,
+                   .y = y,
+                   .series = series,
+                   .count = count};
+}
 
 /* ---- axes ---- */
 
-static int named(const chart_tick *ticks, size_t count)
-{
-    int names = 0;
-    for (size_t i = 0; i < count; i++)
-        names += ticks[i].name[0] != '\0';
-    return names;
-}
-
-static int has_tick(const chart_tick *ticks, size_t count, double value, const char *name)
-{
-    for (size_t i = 0; i < count; i++)
-        if (fabs(ticks[i].value / value - 1) < 1e-9)
-            return strcmp(ticks[i].name, name) == 0;
-    return 0;
-}
-
-static int is_ascending(const chart_axis *axis, const chart_tick *ticks, size_t count)
-{
-    for (size_t i = 0; i < count; i++) {
-        double place = chart_place(axis, ticks[i].value);
-        if (!(place > -1e-6 && place < 1 + 1e-6) || (i > 0 && !(ticks[i].value > ticks[i - 1].value)))
-            return 0;
-    }
-    return 1;
-}
-
 static void test_ticks(void)
 {
-    static const chart_axis wide = {CHART_LOG, 1e-7, 1, 0, ""}, narrow = {CHART_LOG, 3, 200, 0, ""},
-                            bytes = {CHART_BYTES, 1900, 70000, 0, ""}, linear = {CHART_LINEAR, 0, 180, 30, ""},
-                            huge = {CHART_LOG, 1e-30, 1e30, 0, ""};
-    chart_tick t[CHART_TICKS_MAX];
-    size_t n = chart_ticks(&wide, t);
-    TEST(is_ascending(&wide, t, n) && named(t, n) == 8);
-    TEST(has_tick(t, n, 1e-7, "10⁻⁷") && has_tick(t, n, 1, "1") && has_tick(t, n, 2e-3, ""));
-    n = chart_ticks(&narrow, t);
-    TEST(is_ascending(&narrow, t, n) && has_tick(t, n, 5, "5") && has_tick(t, n, 100, "100"));
-    TEST(has_tick(t, n, 3, ""));
-    n = chart_ticks(&bytes, t);
-    TEST(is_ascending(&bytes, t, n) && n == 6 && has_tick(t, n, 2048, "2 KiB") && has_tick(t, n, 65536, "64 KiB"));
-    n = chart_ticks(&linear, t);
-    TEST(is_ascending(&linear, t, n) && n == 7 && strcmp(t[6].name, "180") == 0);
-    n = chart_ticks(&huge, t);
-    TEST(n <= CHART_TICKS_MAX && is_ascending(&huge, t, n));
+    static const chart_axis wide = {CHART_LOG, 1e-7, 1, 0, "x"}, narrow = {CHART_LOG, 3, 200, 0, "x"},
+                            bytes = {CHART_BYTES, 1900, 70000, 0, "x"}, linear = {CHART_LINEAR, 0, 180, 30, "x"};
+    chart c = chart_of(NULL, 0, wide, narrow);
+    draw(&c);
+    TEST_HAS(text, ">10⁻⁷</text>");
+    TEST(count_text("class=\"tick quiet\" text-anchor=\"middle\"") == 8); /* eight decades; 2 to 9 have no name */
+    TEST_HAS(text, ">5</text>");
+    TEST_HAS(text, ">100</text>");
+    TEST(!strstr(text, ">3</text>"));
+    c = chart_of(NULL, 0, bytes, linear);
+    draw(&c);
+    TEST(count_text("class=\"tick quiet\" text-anchor=\"middle\"") == 6);
+    TEST_HAS(text, ">2 KiB</text>");
+    TEST_HAS(text, ">64 KiB</text>");
+    TEST(count_text("class=\"tick quiet\" text-anchor=\"end\"") == 7);
+    TEST_HAS(text, ">180</text>");
 }
 
 static void test_fit(void)
@@ -70,109 +78,73 @@ static void test_fit(void)
 
 /* ---- labels ---- */
 
-typedef struct label {
-    double x, y, width;
-} label;
-
-/* The places of the texts in a piece of markup. */
-static size_t read_labels(const char *text, label *labels, size_t most)
+/* The labels of curves and points lie apart and between left and right; how many there are. */
+static int labels_are_clear(double left, double right)
 {
-    size_t count = 0;
-    while (count < most && (text = strstr(text, "<text class=\"name")) != NULL) {
-        char *end;
-        const char *x = strstr(text, "x=\""), *y = strstr(text, "y=\"");
-        labels[count].x = strtod(x + 3, &end);
-        labels[count].y = strtod(y + 3, &end);
-        text = strchr(text, '>') + 1;
-        labels[count].width = 5 * (double)strcspn(text, "<"); /* at least */
-        count++;
+    struct {
+        double x, y, width;
+    } label[LABELS_MAX];
+    int count = 0;
+    for (const char *at = text; (at = strstr(at, "<text class=\"name")) != NULL && count < LABELS_MAX; count++) {
+        label[count].x = strtod(strstr(at, "x=\"") + 3, NULL);
+        label[count].y = strtod(strstr(at, "y=\"") + 3, NULL);
+        at = strchr(at, '>') + 1;
+        label[count].width = 5 * (double)strcspn(at, "<"); /* at least */
+        TEST(label[count].x >= left && label[count].x + label[count].width <= right);
+        TEST(label[count].y > 0 && label[count].y < 400);
+        for (int k = 0; k < count; k++)
+            TEST(fabs(label[k].y - label[count].y) >= 7 || label[k].x + label[k].width <= label[count].x ||
+                 label[count].x + label[count].width <= label[k].x);
     }
     return count;
 }
 
-static int is_clear(const label *a, const label *b)
+/* `many` points within 10 pixels of each other: what cannot be told apart has no label. */
+static void test_crowd(size_t many, int least)
 {
-    return fabs(a->y - b->y) >= 10 || a->x + a->width <= b->x || b->x + b->width <= a->x;
-}
-
-static size_t read_back(FILE *file, char *text)
-{
-    rewind(file);
-    size_t size = fread(text, 1, TEXT_SIZE - 1, file);
-    text[size] = '\0';
-    fclose(file);
-    return size;
-}
-
-/* Eight points within 10 pixels of each other. */
-static void test_crowd(char *text)
-{
-    static chart_taken taken;
-    const chart_box bounds = {0, 0, 400, 300};
+    static const chart_axis axis = {CHART_LINEAR, 0, 1, 0.5, ""};
     unsigned long long state = 5;
-    double x[8], y[8];
-    label labels[16];
-    FILE *file = tmpfile();
-    if (!TEST(file))
-        return;
-    for (int i = 0; i < 8; i++) {
-        x[i] = 200 + 10 * test_uniform_double(&state);
-        y[i] = 150 + 10 * test_uniform_double(&state);
-        chart_take(&taken, x[i], y[i], 4);
+    double x[40], y[40];
+    const char *texts[40];
+    for (size_t i = 0; i < many; i++) {
+        x[i] = 0.5 + 0.03 * test_uniform_double(&state);
+        y[i] = 0.5 + 0.03 * test_uniform_double(&state);
+        texts[i] = "16 KiB here";
     }
-    for (int i = 0; i < 8; i++)
-        chart_label_beside(file, &taken, &bounds, x[i], y[i], 0, "16 KiB here");
-    read_back(file, text);
-    if (!TEST(read_labels(text, labels, 16) == 8))
-        return;
-    for (int i = 0; i < 8; i++) {
-        TEST(labels[i].x >= 0 && labels[i].x + labels[i].width <= 400 && labels[i].y > 0 && labels[i].y < 300);
-        for (int k = 0; k < i; k++)
-            TEST(is_clear(&labels[i], &labels[k]));
-    }
+    const chart_series series = {NULL, x, y, many, 0, CHART_DOT, CHART_NO_LINE, texts};
+    chart c = chart_of(&series, 1, axis, axis);
+    draw(&c);
+    int found = labels_are_clear(66, 400);
+    TEST(found >= least && found <= (int)many);
 }
 
-static void test_ends(char *text)
+static void test_ends(void)
 {
-    chart_end ends[6];
-    label labels[8];
-    FILE *file = tmpfile();
-    if (!TEST(file))
-        return;
-    for (int i = 0; i < 6; i++)
-        ends[i] = (chart_end){100, 190 + (i % 2 ? 3.0 : 0.0), 0, 0, "end"};
-    chart_label_ends(file, ends, 6, 120, 10, 200);
-    read_back(file, text);
-    if (!TEST(read_labels(text, labels, 8) == 6))
-        return;
+    static const chart_axis axis = {CHART_LINEAR, 0, 1, 0.5, ""};
+    double x[2] = {0, 1}, y[6][2];
+    chart_series series[6];
     for (int i = 0; i < 6; i++) {
-        TEST(labels[i].y >= 10 && labels[i].y <= 206);
-        TEST(i == 0 || labels[i].y - labels[i - 1].y > 14);
+        y[i][0] = 0;
+        y[i][1] = 0.02 * i;
+        series[i] = (chart_series){"end", x, y[i], 2, 0, CHART_NO_MARK, CHART_SOLID, NULL};
     }
+    chart c = chart_of(series, 6, axis, axis);
+    draw(&c);
+    TEST(labels_are_clear(400, 500) == 6);
 }
 
 /* ---- the whole ---- */
 
-static int count_text(const char *text, const char *part)
-{
-    int count = 0;
-    for (; (text = strstr(text, part)) != NULL; text++)
-        count++;
-    return count;
-}
-
-static void test_chart(char *text)
+static void test_chart(void)
 {
     static const double x[] = {1, 10, 100, 1000, 10}, y[] = {0.1, 0.01, (double)NAN, 0.1, 0};
     const chart_series series = {"a <b> & \"c\"", x, y, 5, 1, CHART_DOT, CHART_SOLID, NULL};
-    chart c = {"title", NULL,    500, 300,  100, {CHART_LOG, 1, 100, 0, "x"}, {CHART_LOG, 1e-3, 1, 0, "y"}, "none",
-               30,      &series, 1,   NULL, 0};
-    FILE *file = tmpfile();
-    if (!TEST(file))
-        return;
-    chart_draw_alone(file, &c);
-    TEST(read_back(file, text) > 0);
-    TEST(count_text(text, "<circle") == 3); /* two, and the zero in its band; neither NaN nor what is outside */
+    chart c =
+        chart_of(&series, 1, (chart_axis){CHART_LOG, 1, 100, 0, "x"}, (chart_axis){CHART_LOG, 1e-3, 1, 0, "y"});
+    c.zero = "none";
+    c.band = 30;
+    draw(&c);
+    TEST(count_text("<circle") == 3); /* two, and the zero in its band; neither NaN nor what is outside */
     TEST(!strstr(text, "<b>") && !strstr(text, "nan") && !strstr(text, "inf"));
     TEST_HAS(text, "a &lt;b&gt; &amp; &quot;c&quot;");
     TEST_HAS(text, "prefers-color-scheme:dark");
@@ -181,14 +153,11 @@ static void test_chart(char *text)
 
 int main(void)
 {
-    char *text = malloc(TEXT_SIZE);
-    if (!TEST(text))
-        return test_done();
     test_ticks();
     test_fit();
-    test_crowd(text);
-    test_ends(text);
-    test_chart(text);
-    free(text);
+    test_crowd(8, 8);
+    test_crowd(40, 10);
+    test_ends();
+    test_chart();
     return test_done();
 }

@@ -9,7 +9,6 @@
 #include "cli/output.h"
 #include "cli/source_words.h"
 #include "command.h"
-#include "draw/folder.h"
 #include "draw/svg.h"
 #include "evidence/page/report.h"
 
@@ -135,13 +134,12 @@ static int write_page(html_page *page, const report *r)
            report_times(page, r) && report_normals(page, r) && page_end(page);
 }
 
-static int write_report(const report *r, const char *path, folder_state state, unsigned held, int is_quiet)
+static int write_report(const report *r, const char *path, page_place place, unsigned held, int is_quiet)
 {
     html_page page;
-    int status = write_page(&page, r) ? folder_write(name, path, page.file, page.count, held)
-                                      : complain(name, "no memory for the page");
+    int status = write_page(&page, r) ? page_write(&page, path, held) : complain(name, "no memory for the page");
     if (status == STATUS_GOOD && !is_quiet) {
-        if (state == FOLDER_OURS)
+        if (place == PAGE_OURS)
             printf("replaced the report in %s\n", path);
         for (size_t i = 0; i < page.count; i++)
             printf("%s/%s\n", path, page.file[i].name);
@@ -152,7 +150,7 @@ static int write_report(const report *r, const char *path, folder_state state, u
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int run(const report_words *given, double seconds, const char *path, folder_state state)
+static int run(const report_words *given, double seconds, const char *path, page_place place)
 {
     unsigned held = output_hold_signals();
     progress p = progress_begin(name, held);
@@ -162,7 +160,7 @@ static int run(const report_words *given, double seconds, const char *path, fold
     int status = r ? measure(r, given, &plan) : complain(name, "no memory");
     progress_end(&p);
     if (status == STATUS_GOOD)
-        status = write_report(r, path, state, held, given->quiet.count > 0);
+        status = write_report(r, path, place, held, given->quiet.count > 0);
     for (size_t i = 0; r && i < r->count; i++)
         report_subject_free(&r->subject[i]);
     if (r)
@@ -194,6 +192,6 @@ int command_report(int argc, char **argv)
     parsed = source_words_check_set(name, &given.source);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    folder_state state = folder_examine(name, only_word(&positional));
-    return state == FOLDER_REFUSED ? STATUS_USE : run(&given, seconds, only_word(&positional), state);
+    page_place place = page_examine(name, only_word(&positional));
+    return place == PAGE_REFUSED ? STATUS_USE : run(&given, seconds, only_word(&positional), place);
 }

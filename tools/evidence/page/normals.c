@@ -1,6 +1,4 @@
 /* Density and samples: D itself, and the visible normals from three directions, for each distribution. */
-#include <math.h>
-
 #include "cli/random.h"
 #include "cli/subject.h"
 #include "draw/panels.h"
@@ -11,27 +9,18 @@ enum { VIEWS = 3, NDF_STEPS = 90 };
 
 static const double thetas[VIEWS] = {0, 60, 100};
 
-static void begin_panel(FILE *file, double width, double height)
-{
-    fprintf(file,
-            "<svg xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart panel\" width=\"%.0f\" "
-            "height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
-            width, height, width, height);
-}
-
 static int draw_subject(FILE *file, const report_subject *s)
 {
-    const panel_box left = {0, 0, 320, 320}, disc = {0, 0, 260, 282};
+    const panel_box left = {0, 0, 340, 282}, disc = {0, 0, 260, 282};
     const vndf_surface advised = {s->table[s->chosen].table, 1, 1}, finest = {s->table[SIZES - 1].table, 1, 1};
     int good = 1;
     fputs("<h3>", file);
     svg_escape(file, s->of.name);
     fputs("</h3>\n<figure class=\"panels\">\n", file);
-    begin_panel(file, left.width, left.height);
     panel_ndf(file, left, &finest);
-    fputs("</svg>\n", file);
     for (unsigned v = 0; v < VIEWS && good; v++) {
-        begin_panel(file, disc.width, disc.height);
+        fprintf(file, "<svg class=\"chart\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\">\n",
+                disc.width, disc.height, disc.width, disc.height);
         good = panel_disc(file, disc, &advised, thetas[v], v + 1);
         fputs("</svg>\n", file);
     }
@@ -42,7 +31,7 @@ static int draw_subject(FILE *file, const report_subject *s)
 static void add_ndf(text_table *t, const report_subject *s)
 {
     const vndf_surface finest = {s->table[SIZES - 1].table, 1, 1};
-    double widest = round_angle(atan(8 * s->table[0].info.scale) * 180 / acos(-1.0));
+    double widest = panel_widest(&finest);
     for (int i = 0; i <= NDF_STEPS; i++) {
         table_row(t);
         table_text(t, "distribution", s->of.name);

@@ -219,8 +219,8 @@ static void draw_angles(FILE *file, const report_subject *s)
                                        NULL};
     }
     chart c = {.title = s->of.name,
-               .width = CHART_WIDTH,
-               .height = CHART_HEIGHT,
+               .width = 560,
+               .height = 380,
                .right = 84,
                .x = {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
                .y = {CHART_LOG, 0, 0, 0, "total variation"},
