@@ -151,12 +151,13 @@ def _function(name: str, function: Callable[[float], float], origin: str) -> Sou
 
 class Reporter(_Failure):
     """Runs a long call of C in a thread, with a progress function. Python delivers signals to the main thread alone, so
-    Control-C arrives where this waits, never inside C; the next report of progress then ends the call."""
+    Control-C arrives where this waits, never inside C, where it would be lost; the next report of progress then ends
+    the call, and the function of the source returns at once."""
 
     def __init__(self, progress: Optional[Progress], source: Optional[Source] = None) -> None:
         super().__init__()
         self._stop = False
-        function = source._function if source is not None else None
+        self._function = function = source._function if source is not None else None
 
         def call(done: float, what: bytes, user: Any) -> int:
             if self._stop or (function is not None and function.failed()):
@@ -184,8 +185,10 @@ class Reporter(_Failure):
         thread.start()
         try:
             thread.join()
-        except BaseException:
+        except BaseException as raised:
             self._stop = True
+            if self._function is not None:
+                self._function.keep(raised)
             thread.join()
             raise
         self.raise_what_failed()
@@ -236,7 +239,7 @@ def certify(distribution: Distribution, source: Source) -> Certificate:
     want(source, Source)
     struct = _library.vndf_certificate()
     try:
-        checked("certify", distribution._pointer, source._pointer, byref(struct))
+        Reporter(None, source).run(lambda: checked("certify", distribution._pointer, source._pointer, byref(struct)))
     finally:
         source._raise_what_failed()
     return certificate_of(struct)
