@@ -13,7 +13,7 @@ static const double NEAR = 1.18, NEAR_FIRST = 0.75;
 
 static float *row(vndf_distribution *table, int group, size_t i)
 {
-    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1) + i);
+    return table->numbers + VNDF_HEAD + VNDF_STRIDE * i + 4 * (size_t)group;
 }
 
 static int in_range(double value, double least, double most)
@@ -207,7 +207,7 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
 /* The first number of a column of a group. */
 static float *column(const vndf_distribution *table, int group, int index)
 {
-    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1)) + index;
+    return table->numbers + VNDF_HEAD + 4 * group + index;
 }
 
 /* The draft of a table, in its own numbers. */
@@ -216,7 +216,7 @@ static vndf_table_draft draft_within(const vndf_distribution *t)
     const vndf_table_draft draft = {(unsigned)t->cells,
                                     (unsigned)t->moments,
                                     (unsigned)t->squarings,
-                                    4,
+                                    VNDF_STRIDE,
                                     column(t, VNDF_KNOT, 0),
                                     column(t, VNDF_LAW, 0),
                                     column(t, VNDF_LAW, 1),
@@ -254,7 +254,7 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
         return 0;
     for (size_t a = 0; a < arrays; a++) {
         for (size_t i = 0; *array[a] && i < n; i++)
-            block[a * n + i] = (*array[a])[4 * i];
+            block[a * n + i] = (*array[a])[VNDF_STRIDE * i];
         *array[a] = *array[a] ? block + a * n : NULL;
     }
     draft->stride = 1;

@@ -38,7 +38,7 @@ HERE affine_map matrix_of(vndf_surface m)
     if (m.distribution >= 0)
         scale = fetch(m.distribution + 3);
     /* end */
-    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0};
     return s;
 }
 

@@ -71,7 +71,8 @@ HERE affine_map map_at(const block *b, int g)
     const float unit = b->call->distribution->unit;
     affine_map m = {input(b, VNDF_READ_XX, g) * unit, input(b, VNDF_READ_XY, g) * unit,
                     input(b, VNDF_READ_YX, g) * unit, input(b, VNDF_READ_YY, g) * unit,
-                    input(b, VNDF_READ_MEAN_X, g),    input(b, VNDF_READ_MEAN_Y, g)};
+                    input(b, VNDF_READ_MEAN_X, g),    input(b, VNDF_READ_MEAN_Y, g),
+                    0};
     return m;
 }
 
@@ -498,6 +499,7 @@ HERE void keep_frame(frames *at, int g, frame f)
     at->f[g].wz = f.wz;
     at->f[g].determinant = f.determinant;
     at->f[g].densest = f.densest;
+    at->f[g].near = f.near;
 }
 
 /* Writes the samples of a group. */
