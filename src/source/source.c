@@ -58,29 +58,27 @@ static vndf_source *make(const char *option, vndf_density_function *density, voi
                          double (*p22)(const vndf_source *, double), vndf_error *error)
 {
     vndf_text words = {NULL, 0, 0, 0};
-    if (!density) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
-        return NULL;
-    }
-    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback's name has %zu characters; at most %d are possible",
-                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
+    if (!density || (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH)) {
+        if (!density)
+            vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
+        else
+            vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                      "the callback's name has %zu characters; at most %d are possible", strlen(name),
+                      VNDF_LIMIT_NAME_LENGTH);
         return NULL;
     }
     vndf_text_add_word(&words, option);
     vndf_text_add_word(&words, name ? name : "unnamed");
     char *description = vndf_text_finish(&words, error);
-    callback_source *source = calloc(1, sizeof *source);
+    callback_source *source = malloc(sizeof *source);
     if (!description || !source) {
         free(description);
         free(source);
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base =
-        (vndf_source){.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS};
-    source->density = density;
-    source->user = user;
+    *source = (callback_source){
+        {.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS}, density, user};
     return &source->base;
 }
 

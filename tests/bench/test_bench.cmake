@@ -13,30 +13,23 @@ has(errors "--seconds")
 run(2 --only no-such-method)
 has(errors "vndf bench: no method, distribution or instruction set has 'no-such-method' in its name")
 run(2 --family ggx --slope "exp(-r)")
-has(errors "more than one of --ndf, --slope, --csv-data and --family")
+has(errors "more than one of --ndf, --slope, --csv and --family")
 run(2 --family nonsense --seconds 0.1)
 has(errors "vndf bench: ")
 run(2 --family ggx --set a=3)
 has(errors "--set is for --ndf and --slope")
-run(2 --csv-data missing.csv)
+run(2 --csv missing.csv)
 has(errors "missing.csv")
 run(2 ggx)
-run(2 --csv a.txt --markdown a.txt)
-has(errors "both name 'a.txt'")
-run(2 --only ggx --seconds 0.1 --csv no-folder/a.csv)
+run(2 -o a.csv -o a.csv)
+has(errors "names 'a.csv' twice")
+run(2 --only ggx --seconds 0.1 -o no-folder/a.csv)
 has(errors "no-folder/a.csv")
 file(GLOB left ${OUT}/*)
 expect("refusals left ${left}" NOT left)
-file(WRITE ${OUT}/mine.csv "theta_deg,ndf\n0,1\n60,0.1\n") # a D of the user's, that --csv is not to replace
-run(2 --only ggx --seconds 0.1 --csv mine.csv)
-has(errors "is kept; a D is read by --csv-data")
-file(READ ${OUT}/mine.csv mine)
-expect("mine.csv is '${mine}'" mine STREQUAL "theta_deg,ndf\n0,1\n60,0.1\n")
-file(REMOVE ${OUT}/mine.csv)
-
 # ---- the closed forms ---------------------------------------------------------------------------
 
-run(0 --only ggx --seconds 0.1 --csv rows.csv --markdown -)
+run(0 --only ggx --seconds 0.1 -o rows.csv --format md)
 expect("progress without a terminal: '${errors}'" NOT errors MATCHES ".")
 split("${output}" lines)
 list(LENGTH lines line_count)
@@ -78,14 +71,14 @@ endforeach()
 
 # ---- a distribution of one's own ----------------------------------------------------------------
 
-run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 --csv -)
+run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 -o -)
 split("${output}" rows)
 foreach(instructions scalar portable) # bytes in memory, then of the file, which is smaller
     expect("a table, ${instructions}: ${output}" output MATCHES
         "--slope 'exp.-a.r.' --set a=3.,${instructions},table,[0-9]+,(19|20)[0-9][0-9],4,0,")
 endforeach()
 expect("rows that were not asked for: ${output}" NOT output MATCHES "8 KiB|3 moments|caps|all normals")
-run(0 --slope "exp(-r)" --only "two lobes" --seconds 0.1 --csv -)
+run(0 --slope "exp(-r)" --only "two lobes" --seconds 0.1 -o -)
 foreach(row "closed form: two lobes\",\"ggx\",scalar,call,0,0,0,0"
         "closed form: two lobes\",\"beckmann\",scalar,call,0,0,0,0"
         "table 8 KiB, 4 moments: two lobes\",\"--slope 'exp(-r)'\",scalar,call,")

@@ -4,42 +4,34 @@
 #include <math.h>
 
 #include "fuzz/fuzz.h"
-#include "measured/brdf/gonio.h"
-#include "measured/brdf/merl.h"
+#include "measured/brdf.h"
 
 enum { MERL_SIZE = 12 + 3 * 8 * 90 * 90 * 180, SELDOM = 8192 };
 
-static void judge(int good, profile *rows, const notes *said, const refusal *why)
+static void judge(int good, profile *rows, const data_file *file)
 {
-    fuzz_require(good || (strncmp(why->message, "fuzz: ", 6) == 0 && rows->x == NULL),
+    fuzz_require(good || (strncmp(file->refused, "fuzz: ", 6) == 0 && rows->x == NULL),
                  "a refusal has a reason alone");
     for (size_t i = 0; good && i < rows->count; i++)
         fuzz_require(isfinite(rows->value[i]) && rows->value[i] >= 0 && (i == 0 || rows->x[i] > rows->x[i - 1]),
                      "rows are a curve");
-    fuzz_require(strstr(said->text, "nan") == NULL, "what is said is a number");
+    fuzz_require(strstr(file->notes, "nan") == NULL, "what is said is a number");
     if (good)
         profile_free(rows);
 }
 
-static void try_gonio(const char *bytes, size_t size)
+static void try_gonio(const unsigned char *bytes, size_t size)
 {
-    gonio_points points;
-    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
-    notes said = {"", 0};
-    refusal why = {""};
-    int good =
-        gonio_read(&points, "fuzz", bytes, size, &why) && gonio_law(&points, -1, "fuzz", &rows, &said, &why);
-    judge(good, &rows, &said, &why);
-    gonio_free(&points);
+    profile rows;
+    data_file file = {.name = "fuzz", .bytes = bytes, .size = size};
+    judge(gonio_read(&file, -1, &rows), &rows, &file);
 }
 
 static void try_merl(const unsigned char *bytes, size_t size)
 {
     profile rows;
-    notes said = {"", 0};
-    refusal why = {""};
-    int good = merl_read(&rows, "fuzz", bytes, size, MERL_GREEN, &said, &why);
-    judge(good, &rows, &said, &why);
+    data_file file = {.name = "fuzz", .bytes = bytes, .size = size};
+    judge(merl_read(&file, MERL_GREEN, &rows), &rows, &file);
 }
 
 /* A whole file whose numbers are the bytes over and over. */
@@ -66,7 +58,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         exact[i] = data[i];
         hash = (hash ^ data[i]) * 16777619u;
     }
-    try_gonio((const char *)exact, size);
+    try_gonio(exact, size);
     try_merl(exact, size);
     if (size > 0 && (hash >> 8) % SELDOM == 0)
         try_whole_merl(exact, size);

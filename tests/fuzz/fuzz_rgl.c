@@ -3,17 +3,15 @@
 #include <math.h>
 
 #include "fuzz/fuzz.h"
-#include "measured/rgl/rgl.h"
+#include "measured/brdf.h"
 
 enum { SELDOM = 4099 };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    const vndf_surface surface = {vndf_ggx(), 0.5f, 0.5f};
     uint8_t *exact = malloc(size ? size : 1);
     profile rows;
-    notes said = {"", 0};
-    refusal why = {""};
+    data_file file = {.name = "fuzz", .bytes = exact, .size = size};
     uint32_t hash = 1;
     for (size_t i = 0; i < size; i++)
         hash = (hash ^ data[i]) * 16777619u;
@@ -21,19 +19,17 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         abort();
     if (size > 0)
         memcpy(exact, data, size);
-    int good = rgl_read(&rows, "fuzz", exact, size, &said, &why);
-    if (good)
-        rgl_residuals(&surface, "fuzz", exact, size, &said);
-    fuzz_require(good || (strncmp(why.message, "fuzz: ", 6) == 0 && rows.x == NULL),
+    int good = rgl_read(&file, &rows);
+    fuzz_require(good || (strncmp(file.refused, "fuzz: ", 6) == 0 && rows.x == NULL),
                  "a refusal has a reason alone");
     for (size_t i = 0; good && i < rows.count; i++)
         fuzz_require(isfinite(rows.value[i]) && rows.value[i] >= 0 && (i == 0 || rows.x[i] > rows.x[i - 1]),
                      "rows are a curve");
-    fuzz_require(strstr(said.text, "nan") == NULL && strstr(said.text, "inf") == NULL, "what is said is finite");
+    fuzz_require(strstr(file.notes, "nan") == NULL && strstr(file.notes, "inf") == NULL, "what is said is finite");
     if (good)
         profile_free(&rows);
     /* Drawing takes a quarter of a second. */
-    if (hash % SELDOM == 0 && rgl_fit(&rows, "fuzz", exact, size, &said, &why))
+    if (hash % SELDOM == 0 && rgl_read_matrix(&file, &rows))
         profile_free(&rows);
     free(exact);
     return 0;

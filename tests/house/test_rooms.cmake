@@ -26,7 +26,7 @@ set(written exported_kernel.h)
 
 set(subs_table family)
 set(subs_sampler batch)
-set(subs_bsdf albedo walk)
+set(subs_bsdf walk)
 set(subs_source interval csv formula family)
 set(subs_fit profile certificate family)
 
@@ -45,7 +45,6 @@ set(below_commands cli draw measure bench report render export measured manual)
 set(subs_bench methods effects)
 set(subs_commands parts)
 set(subs_export page)
-set(subs_measured surface rgl brdf)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)

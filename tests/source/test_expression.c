@@ -61,6 +61,7 @@ static void test_values(void)
         {"gamma(gamma)", tgamma(2.5)},
         {"exp(-a*r)", exp(-0.3 * r)},
         {"log(r)+sqrt(r)", log(r) + sqrt(r)},
+        {"log1p(1e-20*r)", 1e-20 * r},
         {"sin(r)*cos(r)*tan(r)", sin(r) * cos(r) * tan(r)},
         {"asin(r)+acos(r)*atan(r)", asin(r) + acos(r) * atan(r)},
         {"sinh(r)+cosh(r)*tanh(r)", sinh(r) + cosh(r) * tanh(r)},
@@ -105,7 +106,8 @@ static void test_error(const char *text, vndf_status status, const char *message
 static void test_errors(void)
 {
     static const char *const refused[][2] = {
-        {"exp(-2*foo)+a*r", "column 8: unknown name 'foo'; known are r, a, pi, and with parentheses exp log sqrt"},
+        {"exp(-2*foo)+a*r",
+         "column 8: unknown name 'foo'; known are r, a, pi, and with parentheses exp log log1p "},
         {"1 + theta", "column 5: unknown name 'theta'"},
         {"foo(1)", "column 1: unknown name 'foo'; known are r, pi"},
         {"exp(-r)*cso(r)", "column 9: unknown name 'cso'; did you mean 'cos'? known are"},

@@ -8,7 +8,7 @@
 
 #include <stddef.h>
 
-#include "cli/output.h"
+#include "cli/figures.h"
 #include "vndf_build.h"
 
 typedef enum bench_kind {
@@ -66,6 +66,6 @@ vndf_status bench_run(const bench_plan *plan, bench_rows *rows, vndf_error *erro
 void bench_rows_free(bench_rows *rows);
 
 /* Of bench_rows. */
-extern const output_printers bench_printers;
+int bench_print(FILE *file, const void *rows, figures_form form);
 
 #endif

@@ -112,23 +112,11 @@ static int print(FILE *file, const bench_rows *rows, void (*columns)(text_table 
     return good;
 }
 
-static int print_text(FILE *file, const void *rows)
+int bench_print(FILE *file, const void *rows, figures_form form)
 {
-    int good = print(file, rows, shown_columns, table_print_text);
+    if (form == FIGURES_CSV || form == FIGURES_JSON)
+        return print(file, rows, all_columns, form == FIGURES_CSV ? table_print_csv : table_print_json);
+    int good = print(file, rows, shown_columns, form == FIGURES_TEXT ? table_print_text : table_print_markdown);
     fprintf(file, "\n%s", legend);
     return good;
 }
-
-static int print_markdown(FILE *file, const void *rows)
-{
-    int good = print(file, rows, shown_columns, table_print_markdown);
-    fprintf(file, "\n%s", legend);
-    return good;
-}
-
-static int print_csv(FILE *file, const void *rows)
-{
-    return print(file, rows, all_columns, table_print_csv);
-}
-
-const output_printers bench_printers = {print_text, print_markdown, print_csv};

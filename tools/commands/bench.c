@@ -12,7 +12,7 @@
 static const char name[] = "vndf bench";
 
 static const char help[] =
-    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv-data FILE | --family NAME[:PARAM,...]] [options]\n"
+    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options]\n"
     "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
     "\n"
     "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
@@ -23,21 +23,19 @@ static const char help[] =
     "\n"
     "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
     "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "  --csv-data FILE  what `vndf build` takes as --csv\n"
+    "  --csv FILE       rows of D or P22, as `vndf build` reads them\n"
     "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
     "                   may take longer\n"
-    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n"
-    "  --csv FILE       all numbers as CSV (empty: does not apply); - for stdout\n"
-    "  --markdown FILE  the table in Markdown; - for stdout\n"
-    "\n"
+    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n" ROWS_HELP "\n"
     "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench --only avx512\n"
-    "         vndf bench --slope 'exp(-3*r)' --csv bench.csv --markdown -\n";
+    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n";
 
 typedef struct bench_words {
     source_words source;
-    words seconds, only, csv, markdown;
+    words seconds, only;
+    figure_words figures;
 } bench_words;
 
 /* ---- output ------------------------------------------------------------------------------------ */
@@ -61,6 +59,7 @@ static int judge(const bench_rows *rows)
 static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
 {
     progress p = progress_begin("bench", held);
+    p.is_seen &= !given->figures.quiet.count;
     vndf_error error = {VNDF_OK, ""};
     bench_rows rows;
     plan->progress = progress_show;
@@ -69,24 +68,18 @@ static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
     progress_end(&p);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    int printed = outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &bench_printers, &rows);
+    int printed = rows_print(name, &given->figures, bench_print, &rows);
     int judged = judge(&rows);
     bench_rows_free(&rows);
     return printed == STATUS_GOOD ? judged : printed;
-}
-
-static int outputs_usable(const bench_words *given)
-{
-    const char *csv = only_word(&given->csv);
-    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
-           (!csv || output_is_earlier(name, csv, "method,distribution,", "a D is read by --csv-data"));
 }
 
 static int run_words(const bench_words *given)
 {
     bench_plan plan = {.seconds = 40, .only = only_word(&given->only), .name = "student-t:2.5"};
     vndf_error error = {VNDF_OK, ""};
-    if (!option_number(name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) || !outputs_usable(given))
+    if (!option_number(name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) ||
+        !rows_check(name, &given->figures))
         return STATUS_USE;
     int own = source_words_count(&given->source) != 0;
     vndf_source *source = own ? source_from_words(name, &given->source) : vndf_source_family(plan.name, &error);
@@ -113,18 +106,17 @@ int command_bench(int argc, char **argv)
     const option_form options[] = {
         {"--ndf", 1, 1, &given.source.ndf},
         {"--slope", 1, 1, &given.source.slope},
-        {"--csv-data", 1, 1, &given.source.csv},
+        {"--csv", 1, 1, &given.source.csv},
         {"--family", 1, 1, &given.source.family},
         {"--set", 1, WORDS_MAX, &given.source.set},
         {"--seconds", 1, 1, &given.seconds},
         {"--only", 1, 1, &given.only},
-        {"--csv", 1, 1, &given.csv},
-        {"--markdown", 1, 1, &given.markdown},
+        ROWS_OPTIONS(given.figures),
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON && source_words_count(&given.source) > 1)
-        return complain(name, "more than one of --ndf, --slope, --csv-data and --family; one at most is needed");
+        return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
     if (parsed == PARSE_GO_ON)
         parsed = source_words_check_set(name, &given.source);
     return parsed == PARSE_GO_ON ? run_words(&given) : parsed;

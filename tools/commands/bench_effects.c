@@ -25,17 +25,15 @@ static const char help[] =
     "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
     "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the second\n"
     "                    table\n"
-    "  --seconds S       for taking turns, 0.01 to 3600 (default 15); less means more noise\n"
-    "  --csv FILE        all numbers as CSV (empty: does not apply); - for stdout\n"
-    "  --markdown FILE   the tables in Markdown; - for stdout\n"
-    "\n"
+    "  --seconds S       for taking turns, 0.01 to 3600 (default 15); less means more noise\n" ROWS_HELP "\n"
     "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench effects --distribution ggx --only masking\n"
-    "         vndf bench effects --csv effects.csv\n";
+    "         vndf bench effects -o effects.csv\n";
 
 typedef struct effects_words {
-    words distribution, alpha, theta, only, seconds, csv, markdown;
+    words distribution, alpha, theta, only, seconds;
+    figure_words figures;
 } effects_words;
 
 /* ---- output ------------------------------------------------------------------------------------ */
@@ -76,8 +74,7 @@ static int run_list(effects_list *list, const effects_plan *plan, const effects_
     progress_end(plan->progress);
     if (status != VNDF_OK)
         return complain(name, status == VNDF_ERROR_MEMORY ? "no memory" : "interrupted");
-    int printed =
-        outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &effects_printers, list);
+    int printed = rows_print(name, &given->figures, effects_print, list);
     int judged = judge(list);
     return printed == STATUS_GOOD ? judged : printed;
 }
@@ -100,13 +97,6 @@ static int run_plan(effects_plan *plan, const effects_words *given)
     return status;
 }
 
-static int outputs_usable(const effects_words *given)
-{
-    const char *csv = only_word(&given->csv);
-    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
-           (!csv || output_is_earlier(name, csv, "set,distribution,", "tables are named by --distribution"));
-}
-
 static int run_words(const effects_words *given)
 {
     vndf_surface alpha;
@@ -118,9 +108,10 @@ static int run_words(const effects_words *given)
         return STATUS_USE;
     plan.alpha_x = alpha.alpha_x;
     plan.alpha_y = alpha.alpha_y;
-    if (!outputs_usable(given))
+    if (!rows_check(name, &given->figures))
         return STATUS_USE;
     progress p = progress_begin("bench effects", output_hold_signals());
+    p.is_seen &= !given->figures.quiet.count;
     plan.progress = &p;
     int status = run_plan(&plan, given);
     output_release_signals(p.held);
@@ -137,8 +128,7 @@ int command_bench_effects(int argc, char **argv)
         {"--theta", 1, 1, &given.theta},
         {"--only", 1, 1, &given.only},
         {"--seconds", 1, 1, &given.seconds},
-        {"--csv", 1, 1, &given.csv},
-        {"--markdown", 1, 1, &given.markdown},
+        ROWS_OPTIONS(given.figures),
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);

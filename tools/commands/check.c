@@ -12,9 +12,9 @@
 #include "measure/chi_square.h"
 #include "command.h"
 #include "measure/consistency.h"
-#include "cli/subject.h"
-#include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/source_words.h"
+#include "cli/subject.h"
 #include "measure/statistics.h"
 #include "measure/stress.h"
 #include "vndf_build.h"
@@ -92,14 +92,11 @@ static int compare_certificates(const vndf_certificate *stored, const vndf_certi
 static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
-    *failed = csv && !input_named(name, csv);
-    if (*failed)
-        return NULL;
-    vndf_source *source = csv ? vndf_source_csv_file(csv, &error) : vndf_source_of(table, &error);
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(table, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
-    if (*failed)
+    if (*failed && !csv)
         complain(name, "%s", error.message);
-    else if (!source)
+    else if (!source && !csv)
         printf("certificate  not measured again: %s\n", error.message);
     return source;
 }

@@ -95,12 +95,12 @@ static int draw_figure(FILE *file, const figure_plan *figure)
 static int plot_to_file(const figure_plan *figure, const char *path)
 {
     output_file output;
-    static const char *const forms[2] = {"svg", NULL};
+    static const char *const forms[] = {"svg", NULL};
     if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
-    if (draw_figure(output.file, figure) && !output_interrupted(&output))
+    if (draw_figure(output.file, figure) && !output_stopping(output.held))
         return output_commit(&output);
-    return output_give_up(&output, output_interrupted(&output) ? "interrupted" : "no memory");
+    return output_give_up(&output, output_stopping(output.held) ? "interrupted" : "no memory");
 }
 
 int command_plot(int argc, char **argv)

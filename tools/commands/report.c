@@ -80,13 +80,12 @@ static int add_subject(report *r, vndf_source *source, const char *title, const 
 
 static int add_users(report *r, const source_words *given)
 {
-    char arguments[2048], title[256];
+    char title[256];
     vndf_source *source = source_from_words(name, given);
     if (!source)
         return STATUS_USE;
-    source_text(given, arguments, sizeof arguments);
     source_text_name(given, title, sizeof title);
-    int status = add_subject(r, source, title, arguments);
+    int status = add_subject(r, source, title, vndf_source_description(source));
     r->subject[0].brought = 1;
     return status;
 }

@@ -156,8 +156,8 @@ static chart chart_of(frontier *f, const char *name)
 static int write_data(html_page *page, const bench_rows *rows)
 {
     FILE *data = page_file_begin(page, "frontier.csv");
-    return data && bench_printers.csv(data, rows) &&
-           page_data_end(page, "all methods, as `vndf bench --csv` has them");
+    return data && bench_print(data, rows, FIGURES_CSV) &&
+           page_data_end(page, "all methods, as `vndf bench -o FILE.csv` has them");
 }
 
 static int write_alone(html_page *page, const chart *c)

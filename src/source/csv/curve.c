@@ -12,7 +12,6 @@
 enum { BREAKS = 4096, OPERATIONS = 8 };
 
 static const double ROUNDING_MOST = 1e-6; /* of P22: rows of six digits */
-static const double RIGHT_ANGLE = 1.57079632679489661923;
 
 /* Points with x ascending, at least two, and dy/dx there. */
 typedef struct curve {
@@ -140,7 +139,7 @@ static double cosine4(double r)
  * known with all its digits. */
 static double distance_to_grazing(double scale, double r)
 {
-    double a = RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
+    double a = VNDF_RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
     return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
 }
 
@@ -196,7 +195,7 @@ static double slope_of_row(const vndf_csv_rows *rows, size_t i)
 {
     if (rows->first == VNDF_CSV_SLOPE)
         return rows->x[i];
-    return rows->x[i] >= RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
+    return rows->x[i] >= VNDF_RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
 }
 
 static double p22_of_row(const vndf_csv_rows *rows, size_t i)

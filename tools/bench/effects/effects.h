@@ -18,7 +18,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-#include "cli/output.h"
+#include "cli/figures.h"
 #include "cli/progress.h"
 #include "vndf_bsdf.h"
 
@@ -196,7 +196,7 @@ vndf_status effects_time(effects_list *list, const effects_plan *plan, effects_b
 
 /* ---- printing ----------------------------------------------------------------------------------- */
 
-/* The printers of an effects_list. */
-extern const output_printers effects_printers;
+/* Prints an effects_list: a rows_printer. */
+int effects_print(FILE *file, const void *list, figures_form form);
 
 #endif

@@ -196,21 +196,14 @@ static int print_side_by_side(FILE *file, const effects_list *list)
 
 /* ---- printing ---------------------------------------------------------------------------------- */
 
-static int print_text(FILE *file, const void *list)
+int effects_print(FILE *file, const void *list, figures_form form)
 {
+    if (form == FIGURES_CSV || form == FIGURES_JSON)
+        return print(file, list, is_shown, all_columns, form == FIGURES_CSV ? table_print_csv : table_print_json,
+                     "");
+    if (form == FIGURES_MARKDOWN)
+        return print_side_by_side(file, list) &&
+               print(file, list, is_pair, variance_columns, table_print_markdown, "");
     return print(file, list, is_cost, cost_columns, table_print_text, cost_legend) &&
            print(file, list, is_pair, variance_columns, table_print_text, variance_legend);
 }
-
-static int print_markdown(FILE *file, const void *list)
-{
-    return print_side_by_side(file, list) &&
-           print(file, list, is_pair, variance_columns, table_print_markdown, "");
-}
-
-static int print_csv(FILE *file, const void *list)
-{
-    return print(file, list, is_shown, all_columns, table_print_csv, "");
-}
-
-const output_printers effects_printers = {print_text, print_markdown, print_csv};

@@ -113,7 +113,7 @@ vndf_status effects_subject_make(effects_subject *subject, const effects_set *se
     lobes_of(&subject->mixture, &subject->surface, set->effects.shape == VNDF_SHAPE_AFFINE);
     is.affine = subject->mixture.lobe[0].surface;
     if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
-        is.albedo = subject->albedo = vndf_albedo_build(surface->distribution, NULL, error);
+        is.albedo = subject->albedo = vndf_albedo_build(surface->distribution, 0.0f, error);
     is.mixture = &subject->mixture;
     memcpy(is.f0, schlick_f0, sizeof schlick_f0);
     memcpy(is.conductor_eta, gold_eta, sizeof gold_eta);

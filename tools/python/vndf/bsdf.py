@@ -13,9 +13,8 @@ import numpy as np
 
 from . import _library
 from ._arrays import Arguments, Floats, Numbers, address, addresses_of, as_float, components, uniform
-from ._library import Immutable, Owner, checked, library, members, path_bytes, want
-from .build import Progress, Reporter
-from .distribution import Distribution, Path
+from ._library import Immutable, Owner, checked, library, want
+from .distribution import Distribution
 from .surface import Blend, Generator, Mixture, Size, roughness, stretched
 
 _CHOICES = {
@@ -44,35 +43,16 @@ class Scattered(NamedTuple):
 
 
 class Albedo(Owner):
-    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
+    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_bsdf.h)."""
 
     _free = "albedo_free"
-    _makers = "vndf.Albedo.build or vndf.Albedo.load"
+    _makers = "vndf.Albedo.build"
 
     @staticmethod
-    def build(
-        distribution: Distribution, *, eta: float = 0.0, columns: int = 0, rows: int = 0,
-        progress: Optional[Progress] = None,
-    ) -> Albedo:  # fmt: skip
-        """Of a mirror (eta = 0; a second or two) or a dielectric (some ten seconds), by quadrature."""
+    def build(distribution: Distribution, *, eta: float = 0.0) -> Albedo:
+        """Of a mirror (eta = 0) or a dielectric, by quadrature; a tenth of a second to two."""
         want(distribution, Distribution)
-        reporter = Reporter(progress)
-        options = _library.vndf_albedo_options(eta, columns, rows, reporter.pointer, None)
-        return reporter.run(lambda: Albedo._of(checked("albedo_build", distribution._pointer, byref(options))))
-
-    @staticmethod
-    def load(path: Path) -> Albedo:
-        """Reads a file of ``vndf albedo``."""
-        return Albedo._of(checked("albedo_load", path_bytes(path)))
-
-    def save(self, path: Path) -> None:
-        """Writes the file."""
-        checked("albedo_save", self._pointer, path_bytes(path))
-
-    @property
-    def info(self) -> dict[str, Any]:
-        """source, tool, eta, scale, columns, rows, bytes, errors (vndf_albedo_properties)."""
-        return members(library.albedo_info(self._pointer))
+        return Albedo._of(checked("albedo_build", distribution._pointer, eta))
 
     def directional(self, cosine: Numbers, alpha: Numbers) -> Floats:
         """E of light from a direction with this cosine, 0 to 1. One C call for each element."""
