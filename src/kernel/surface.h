@@ -146,19 +146,20 @@ HERE long_normal frame_turned_back(frame f, long_normal n)
 /* The normal of the surface for one of the unit problem; the density is that of where it was turned to. */
 HERE sampled frame_sampled(frame f, drawn n)
 {
-    long_normal m = {f.m.xx * n.x, f.m.yy * n.y, n.z};
-    if (f.m.plain == 0) {
-        m.x = (m.x + f.m.xy * n.y) - f.m.mean_x * n.z;
-        m.y = (f.m.yx * n.x + m.y) - f.m.mean_y * n.z;
+    affine_map m = f.m;
+    long_normal w = {m.xx * n.x, m.yy * n.y, n.z};
+    if (m.plain == 0) {
+        w.x = (w.x + m.xy * n.y) - m.mean_x * n.z;
+        w.y = (m.yx * n.x + w.y) - m.mean_y * n.z;
     }
-    real square = (m.x * m.x + m.y * m.y) + m.z * m.z, reach = root(square);
-    if (any(at_most((f.wx * m.x + f.wy * m.y) + f.wz * m.z, f.near * reach))) {
-        m = frame_turned_back(f, m);
-        square = (m.x * m.x + m.y * m.y) + m.z * m.z;
+    real square = (w.x * w.x + w.y * w.y) + w.z * w.z, reach = root(square);
+    if (any(at_most((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * reach))) {
+        w = frame_turned_back(f, w);
+        square = (w.x * w.x + w.y * w.y) + w.z * w.z;
         reach = root(square);
     }
     real per = reach * (1.0f / square);
-    sampled s = {m.x * per, m.y * per, m.z * per,
+    sampled s = {w.x * per, w.y * per, w.z * per,
                  frame_density(f, (n.density * reach) * (square / f.determinant))};
     return s;
 }

@@ -325,7 +325,7 @@ static int declares(const writer *w, const char *type, const word *name)
 }
 
 /* Whether a comparison is the same for all lanes: it names constants, whole numbers of the function (int,
- * where a lane's are of type whole) and counts of its table. */
+ * where a lane's are of type whole), counts of its table and the kind of its matrix. */
 static int is_of_all_lanes(const writer *w, range r)
 {
     for (word next = word_solid(r.from); next.text < r.to; next = after(&next)) {
@@ -333,7 +333,7 @@ static int is_of_all_lanes(const writer *w, range r)
         int member = word_is(&dot, ".");
         if (next.kind != WORD_NAME || part_of(w, &next, PART_CONSTANT))
             continue;
-        if (!declares(w, member ? "table" : "int", &next))
+        if (!declares(w, member ? "table" : "int", &next) && !(member && declares(w, "affine_map", &next)))
             return 0;
         next = member ? after(&dot) : next;
     }
