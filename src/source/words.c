@@ -65,6 +65,20 @@ char *vndf_text_finish(vndf_text *text, vndf_error *error)
     return NULL;
 }
 
+char *vndf_text_pair(const char *option, const char *word, const char *tail, vndf_error *error)
+{
+    vndf_text text = {NULL, 0, 0, 0};
+    if (word && strlen(word) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a name of %zu characters; at most %d are possible", strlen(word),
+                  VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
+    vndf_text_add_word(&text, option);
+    vndf_text_add_word(&text, word ? word : "unnamed");
+    vndf_text_add(&text, tail);
+    return vndf_text_finish(&text, error);
+}
+
 static int is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';

@@ -1,8 +1,6 @@
 /* No bytes crash the readers of heights and of normal maps: they are refused with a message that names the file, or
  * their slopes are finite; and no slopes crash what looks for their law: its rows are a curve, or it says why not. */
-#include <math.h>
-
-#include "fuzz/fuzz.h"
+#include "fuzz/measured.h"
 #include "measured/surface.h"
 
 static void judge(slope_set *slopes, int good, data_file *file)
@@ -24,15 +22,11 @@ static void judge(slope_set *slopes, int good, data_file *file)
     slopes_free(slopes);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
-    uint8_t *exact = malloc(size ? size : 1);
     height_field field;
     slope_set slopes = {0};
-    if (exact == NULL)
-        abort();
-    memcpy(exact, data, size);
-    data_file heights = {.name = "fuzz", .bytes = exact, .size = size}, normals = heights;
+    data_file heights = fuzz_file(size ? data : (uint8_t *)text, size), normals = heights;
     int good = heights_read(&heights, &field);
     fuzz_require(good || field.z == NULL, "refused heights hold no memory");
     fuzz_require(!good || (size_t)field.width * (size_t)field.height <= size, "a height takes a byte at least");
@@ -40,7 +34,5 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     heights_free(&field);
     judge(&slopes, good, &heights);
     good = normals_slopes(&normals, &slopes);
-    free(exact);
     judge(&slopes, good, &normals);
-    return 0;
 }

@@ -52,27 +52,13 @@ static vndf_status refuse(const reader *r, const char *format, ...)
  * "--csv 'my gloss.csv' (crc32 0f3a22bc)". */
 static vndf_source *source_of(reader *r, vndf_status status, const char *option, const char *name, uint32_t crc)
 {
-    char checksum[32], *description = NULL;
-    vndf_text words = {NULL, 0, 0, 0};
-    if (status == VNDF_OK) {
-        snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
-        vndf_text_add_word(&words, option);
-        vndf_text_add_word(&words, name ? name : "unnamed");
-        vndf_text_add(&words, checksum);
-        description = vndf_text_finish(&words, r->error);
-    }
+    char checksum[32];
+    snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
+    char *description = status == VNDF_OK ? vndf_text_pair(option, name, checksum, r->error) : NULL;
     vndf_source *source = description ? vndf_csv_source(&r->rows, description, r->error) : NULL;
     free(r->rows.x);
     free(r->rows.value);
     return source;
-}
-
-static vndf_status check_name(const char *what, const char *name, vndf_error *error)
-{
-    if (!name || strlen(name) <= VNDF_LIMIT_NAME_LENGTH)
-        return VNDF_OK;
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the name of the %s has %zu characters; at most %d are possible",
-                     what, strlen(name), VNDF_LIMIT_NAME_LENGTH);
 }
 
 /* ---- rows ------------------------------------------------------------------------------------- */
@@ -221,13 +207,11 @@ static vndf_status read_all(reader *r)
     double x = 0, value = 0;
     int found = 1;
     vndf_status status = read_header(r);
-    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found) {
-        status = read_number(r, field[0], first_names[r->rows.first], &x);
-        if (status == VNDF_OK)
-            status = read_number(r, field[1], second_names[r->rows.second], &value);
-        if (status == VNDF_OK)
-            status = take_row(r, x, value);
-    }
+    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
+        if (read_number(r, field[0], first_names[r->rows.first], &x) != VNDF_OK ||
+            read_number(r, field[1], second_names[r->rows.second], &value) != VNDF_OK ||
+            take_row(r, x, value) != VNDF_OK)
+            return VNDF_ERROR_SYNTAX;
     if (status == VNDF_OK && r->rows.count < 2)
         return refuse(r, "the text ends with %zu row%s; at least two are needed", r->rows.count,
                       r->rows.count == 1 ? "" : "s");
@@ -242,10 +226,10 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
                 .name = name ? name : "unnamed",
                 .refusal = VNDF_ERROR_SYNTAX,
                 .error = error ? error : &own};
-    if (!text)
+    if (!text) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
-    if (!text || check_name("CSV", name, error) != VNDF_OK)
         return NULL;
+    }
     if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8 by spreadsheets */
         r.rest = (span){text + 3, size - 3};
     vndf_status status = read_all(&r);
@@ -305,8 +289,6 @@ vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double
     vndf_error own;
     reader r = {.unit = "row", .refusal = VNDF_ERROR_DISTRIBUTION, .error = error ? error : &own};
     vndf_status status = check_arguments(over, of, x, value, count, error);
-    if (status == VNDF_OK)
-        status = check_name("rows", name, error);
     r.rows.first = over == VNDF_ROWS_OVER_SLOPE ? VNDF_CSV_SLOPE : VNDF_CSV_THETA;
     r.rows.second = of == VNDF_ROWS_OF_P22 ? VNDF_CSV_P22 : VNDF_CSV_NDF;
     for (; r.at < count && status == VNDF_OK; r.at++)

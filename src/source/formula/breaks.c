@@ -25,25 +25,27 @@ typedef struct call {
     size_t *done; /* instructions that were run for all calls */
 } call;
 
-static int side(const call *c, double r)
+/* The sides of up to VNDF_SOURCE_MANY slopes. */
+static void find_sides(const call *c, const double *r, size_t count, char *side)
 {
-    vndf_points variables[VNDF_VARIABLES];
-    double below, top;
-    *c->done += c->prefix;
-    c->variables(&r, 1, variables);
-    vndf_expression_run(c->expression, c->prefix, variables, 1, &top, &below);
-    return c->kink == VNDF_KINK_EQUAL ? below >= top : top >= 0;
+    vndf_points variables[VNDF_VARIABLES], top, below;
+    *c->done += count * c->prefix;
+    c->variables(r, count, variables);
+    vndf_expression_run(c->expression, c->prefix, variables, count, top, below);
+    for (size_t i = 0; i < count; i++)
+        side[i] = c->kink == VNDF_KINK_EQUAL ? below[i] >= top[i] : top[i] >= 0;
 }
 
-/* The last double between low and high that is on the side of low. */
-static double bisect(const call *c, double low, double high)
+/* The last double between low and high that is on the side of low, which is `before`. */
+static double bisect(const call *c, double low, double high, char before)
 {
-    int before = side(c, low);
     for (;;) {
+        char side;
         double middle = low + (high - low) / 2;
         if (!(middle > low && middle < high))
             return low;
-        if (side(c, middle) == before)
+        find_sides(c, &middle, 1, &side);
+        if (side == before)
             low = middle;
         else
             high = middle;
@@ -72,12 +74,14 @@ static size_t scan(const call *c, double *points, double *breaks, size_t count, 
         points[total++] = nextafter(breaks[i], INFINITY);
     }
     qsort(points, total, sizeof *points, vndf_ascending);
-    int before = side(c, points[0]);
-    for (size_t i = 1; i < total && found < limit && *c->done < work; i++) {
-        int here = side(c, points[i]);
-        if (here != before)
-            breaks[found++] = bisect(c, points[i - 1], points[i]);
-        before = here;
+    char side[VNDF_SOURCE_MANY], before = 0;
+    for (size_t i = 0; i < total && found < limit && *c->done < work; i++) {
+        size_t k = i % VNDF_SOURCE_MANY, left = total - i;
+        if (k == 0)
+            find_sides(c, points + i, left < VNDF_SOURCE_MANY ? left : VNDF_SOURCE_MANY, side);
+        if (i > 0 && side[k] != before)
+            breaks[found++] = bisect(c, points[i - 1], points[i], before);
+        before = side[k];
     }
     return sort_and_thin(breaks, found);
 }

@@ -86,7 +86,7 @@ static double bounded_value(const formula_source *source, double r, double value
     return isfinite(size) && high - low <= fmax(TIGHT * size, 8 * DBL_MIN) ? fmax(low, 0) : value;
 }
 
-static void p22_many(const vndf_source *self, const double *r, size_t count, double *values)
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
 {
     const formula_source *source = (const formula_source *)self;
     for (size_t k = 0; k < source->count; k++) {
@@ -104,13 +104,6 @@ static void p22_many(const vndf_source *self, const double *r, size_t count, dou
     for (size_t i = 0; i < count; i++)
         if (!isfinite(values[i]))
             values[i] = bounded_value(source, r[i], values[i]);
-}
-
-static double p22(const vndf_source *self, double r)
-{
-    double value;
-    p22_many(self, &r, 1, &value);
-    return value;
 }
 
 static void release(formula_source *source)
@@ -147,7 +140,6 @@ vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, siz
     formula_source *source = malloc(sizeof *source);
     vndf_variables_of_slope *variables = of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables;
     made.base = (vndf_source){.p22 = p22,
-                              .p22_many = p22_many,
                               .destroy = destroy,
                               .description = description,
                               .breaks = made.breaks,

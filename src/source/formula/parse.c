@@ -249,17 +249,23 @@ static int primary(parser *p)
     return enter(p) && sum(p) && close_parenthesis(p, opened);
 }
 
+/* Behind a sign or ^. */
+static int inner_sign(parser *p)
+{
+    p->at++;
+    if (!enter(p) || !sign(p))
+        return 0;
+    p->depth--;
+    return 1;
+}
+
 static int power(parser *p)
 {
     if (!primary(p))
         return 0;
     if (peek(p) != '^')
         return 1;
-    p->at++;
-    if (!enter(p) || !sign(p))
-        return 0;
-    p->depth--;
-    return emit_operation(p, VNDF_POWER, -1);
+    return inner_sign(p) && emit_operation(p, VNDF_POWER, -1);
 }
 
 static int sign(parser *p)
@@ -267,35 +273,31 @@ static int sign(parser *p)
     char c = peek(p);
     if (c != '-' && c != '+')
         return power(p);
-    p->at++;
-    if (!enter(p) || !sign(p))
+    return inner_sign(p) && (c == '+' || emit_operation(p, VNDF_NEGATE, 0));
+}
+
+/* Operands between which one of two signs stands. */
+static int chain(parser *p, int (*operand)(parser *), const char *signs, vndf_operation first,
+                 vndf_operation second)
+{
+    if (!operand(p))
         return 0;
-    p->depth--;
-    return c == '+' || emit_operation(p, VNDF_NEGATE, 0);
+    for (char c; (c = peek(p)) == signs[0] || c == signs[1];) {
+        p->at++;
+        if (!operand(p) || !emit_operation(p, c == signs[0] ? first : second, -1))
+            return 0;
+    }
+    return 1;
 }
 
 static int product(parser *p)
 {
-    if (!sign(p))
-        return 0;
-    for (char c; (c = peek(p)) == '*' || c == '/';) {
-        p->at++;
-        if (!sign(p) || !emit_operation(p, c == '*' ? VNDF_MULTIPLY : VNDF_DIVIDE, -1))
-            return 0;
-    }
-    return 1;
+    return chain(p, sign, "*/", VNDF_MULTIPLY, VNDF_DIVIDE);
 }
 
 static int sum(parser *p)
 {
-    if (!product(p))
-        return 0;
-    for (char c; (c = peek(p)) == '+' || c == '-';) {
-        p->at++;
-        if (!product(p) || !emit_operation(p, c == '+' ? VNDF_ADD : VNDF_SUBTRACT, -1))
-            return 0;
-    }
-    return 1;
+    return chain(p, product, "+-", VNDF_ADD, VNDF_SUBTRACT);
 }
 
 /* ---- the whole -------------------------------------------------------------------------------- */

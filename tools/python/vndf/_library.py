@@ -156,6 +156,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "distribution_info": (vndf_info, [_p]),
     "numbers": (c_size_t, [_p, _p, c_size_t]),
     "sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
+    "affine_sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
     "instructions_used": (_i, [_i]),
     "family_load": (_p, [_s, _error]),
     "family_load_memory": (_p, [_p, c_size_t, _error]),
