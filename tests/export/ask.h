@@ -46,7 +46,7 @@ HERE answer ask(question q)
     mixture.lobe[1] = vndf_surface_of(VNDF_GGX, 0.3f, 0.3f);
     mixture.weight[1] = 0.4f;
     const vndf_mixture_view lobes = vndf_mixture_view_of(mixture, wi);
-    const vndf_sampled mixed = vndf_mixture_sample(lobes, q.n[10], q.n[11]);
+    const vndf_mixed mixed = vndf_mixture_sample(lobes, q.n[10], q.n[11]);
     a.n[11] = mixed.wm.x;
     a.n[12] = mixed.wm.y;
     a.n[13] = mixed.wm.z;

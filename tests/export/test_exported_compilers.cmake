@@ -94,6 +94,14 @@ function(try_all language)
     endif()
 endfunction()
 
+# A family of tables at a parameter is the library's mixture.
+run("a family" ${VNDF} build --family student-t --parameter 1.6..6 --max-tv 0.01 -o tails.vndfs)
+run("export of a family" ${VNDF} export tails.vndfs --language c --prefix kernel --lobes 2 -o tails.h)
+run("the program of a family" ${C_COMPILER} -O1 -ffp-contract=off -std=c99 ${flags} -I${SOURCE}/include
+    ${SOURCE}/tests/export/family.c ${STATIC_LIBRARY} -lm -o family)
+run("the family" ${OUT}/family tails.vndfs)
+message("${output}")
+
 try_all(c gcc clang)
 try_all(cpp g++ clang++)
 get_property(tried GLOBAL PROPERTY tried)

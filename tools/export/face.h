@@ -35,7 +35,7 @@ HERE affine_map matrix_of(vndf_surface m)
     float scale = 1.0f;
     if (m.distribution >= 0)               /* only table */
         scale = fetch(m.distribution + 3); /* only table */
-    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0};
     return s;
 }
 
@@ -286,7 +286,12 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 }
 
 /* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
-HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
+typedef struct vndf_mixed {
+    vec3 wm;
+    float pdf;
+} vndf_mixed;
+
+HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
     vndf_view chosen = lobes.lobe[0];
@@ -299,7 +304,7 @@ HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2
             chosen = lobes.lobe[i];
             share = lobes.share[i];
         }
-    vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
+    const vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
     for (int j = 0; j < VNDF_LOBES; j++)
         if (j < lobes.count) {
             if (j == at)
@@ -307,9 +312,8 @@ HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2
             else
                 density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
         }
-    one.pdf = mixed_density(density);
-    one.weight = vndf_mixture_visible(view, one.wm) / most(one.pdf, 1.17549435e-38f);
-    return one;
+    const vndf_mixed drawn_normal = {one.wm, mixed_density(density)};
+    return drawn_normal;
 }
 
 HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)

@@ -18,12 +18,17 @@ static const char common_calls[] =
                                         "from anywhere else" how ".\n#ifndef VNDF_FETCH\n" declared \
                                         "\n#define VNDF_FETCH(i) vndf_numbers[i]\n#endif\n"
 
-/* Bits of floats and vectors of three, which C and C++ do not have. */
-#define C_BEGIN(how, vec3)                                                                                  \
-  how "int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n    return i;\n}\n\n" how       \
-      "float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n\n" vec3 \
-      "\n\n" how "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"                                    \
-      "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n"
+/* What C and C++ do not have. Functions that are not inlined pass views through memory: a sample of a table took 1.6
+ * times as long as the library's, and takes 1.2 times. */
+#define C_BEGIN                                                                                                \
+  "\n// Define VNDF_FUNCTION before this to have functions declared in another way.\n#ifndef VNDF_FUNCTION\n"  \
+  "#if defined(__GNUC__)\n#define VNDF_FUNCTION static inline __attribute__((always_inline))\n#else\n"         \
+  "#define VNDF_FUNCTION static inline\n#endif\n#endif\n\n"                                                    \
+  "VNDF_FUNCTION int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n    return i;\n}\n\n"    \
+  "VNDF_FUNCTION float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n" \
+  "\ntypedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;\n\n"                                         \
+  "VNDF_FUNCTION vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"                                        \
+  "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n"
 
 /* What stands before the kernel in Python; derivatives of bits are 0, those of roots at 0 too. */
 static const char python_begin[] =
@@ -44,9 +49,8 @@ static const char python_begin[] =
 static const language languages[] = {
     {.name = "c",
      .title = "C99",
-     .function = "static inline $T $D($P) {",
-     .begin = "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n\n" C_BEGIN(
-         "static inline ", "typedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;"),
+     .function = "VNDF_FUNCTION $T $D($P) {",
+     .begin = "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
      .array = "static const float $D[$N] = {",
      .pointer = "const float *",
      .types = "vec3: vndf_vec3; ",
@@ -61,9 +65,8 @@ static const language languages[] = {
      BY_POINTER},
     {.name = "cpp",
      .title = "C++11",
-     .function = "inline $T $D($P) {",
-     .begin = "#include <cmath>\n#include <cstring>\n\n" C_BEGIN("inline ",
-                                                                 "struct vndf_vec3 {\n    float x, y, z;\n};"),
+     .function = "VNDF_FUNCTION $T $D($P) {",
+     .begin = "#include <cmath>\n#include <cstring>\n" C_BEGIN,
      .array = "static const float $D[$N] = {",
      .pointer = "const float *",
      .types = "vec3: vndf_vec3; ",

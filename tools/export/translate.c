@@ -97,11 +97,11 @@ static void put_parameters(writer *w, const declaration *d);
 static void put_form(writer *w, const char *pattern, const word *type, const word *name, const declaration *d,
                      long n)
 {
-    for (; *pattern; pattern++) {
-        if (*pattern != '$') {
-            fputc(*pattern, w->file);
-            continue;
-        }
+    for (size_t plain; *pattern; pattern++) {
+        plain = strcspn(pattern, "$");
+        put_prefixed(w->t, w->file, pattern, plain);
+        if (!*(pattern += plain))
+            break;
         switch (*++pattern) {
         case 'T': put_type(w, type); break;
         case 'V': put_name(w, name); break;
