@@ -8,12 +8,13 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-static const double BELOW = 1.4e-2,
-                    ANYWAY = 2e-3;             /* weight of an error below the horizon beyond one that k~ hides, */
-static const double AREA = 0.3, DRAWN = 1e-4;  /* of an error of the area, and of what is drawn of it below, */
-static const double DENSITY = 2e-4;            /* and of the largest error of D */
-static const double FIRST = 1e-3;              /* of the width of the first cell, where D errs by twice that */
-static const double ENOUGH = 1e-9, MOST = 0.1; /* errors of cells */
+static const double BELOW = 1.4e-2; /* weight of an error below the horizon */
+static const double ANYWAY = 2e-3,
+                    AT = 1e-5; /* beyond one that k~ hides, or less where cells err by less than AT, */
+static const double AREA = 0.3, DRAWN = 1e-4;   /* of an error of the area, and of what is drawn of it below, */
+static const double DENSITY = 2e-4;             /* and of the largest error of D */
+static const double FIRST = 1e-3;               /* of the width of the first cell, where D errs by twice that */
+static const double ENOUGH = 1e-13, MOST = 0.1; /* errors of cells */
 static const double WIDE = 2.5,
                     WIDE_MASS = 1e-6; /* a cell that holds more is no wider: k~ begins at a knot near rho */
 static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p43;
@@ -142,10 +143,11 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     else
         error = fmax(error, DENSITY * fmin(density, 1) * fmin(mass / small, 1));
     size_t middle = from + (end - from) / 2;
+    double anyway = ANYWAY * fmin(enough / AT, 1);
     if (error <= enough && from > 0)
-        error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - ANYWAY));
+        error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - anyway));
     if (error <= enough && middle > from)
-        error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - ANYWAY));
+        error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - anyway));
     return error <= enough ? fmax(error, area_miss(&v)) : error;
 }
 
