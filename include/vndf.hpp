@@ -1,7 +1,7 @@
 // vndf.hpp - what C lacks, in C++17: owners that free, errors as results or exceptions, sources made of callables,
 // and batches over arrays whose sizes are compared.
 //
-// The calls of vndf.h, vndf_bsdf.h, vndf_albedo.h and vndf_build.h are C++ calls, and their comments hold: an
+// The calls of vndf.h, vndf_bsdf.h and vndf_build.h are C++ calls, and their comments hold: an
 // owner converts to the pointer that they take. This header adds neither state nor arithmetic.
 //
 //     #include <cmath>
@@ -55,7 +55,6 @@
 #include <utility>
 
 #include "vndf.h"
-#include "vndf_albedo.h"
 #include "vndf_bsdf.h"
 #include "vndf_build.h"
 
@@ -332,11 +331,9 @@ inline result<family> build_family(const std::string &specification, double low,
     return own<family>(vndf_build_family, specification.c_str(), low, high, &all);
 }
 
-inline result<albedo> build_albedo(const vndf_distribution *of, const vndf_albedo_options &options = {},
-                                   const progress &told = {})
+inline result<albedo> build_albedo(const vndf_distribution *of, float eta = 0.0f)
 {
-    const vndf_albedo_options all = detail::telling(options, told);
-    return own<albedo>(vndf_albedo_build, of, &all);
+    return own<albedo>(vndf_albedo_build, of, eta);
 }
 
 // ---- samples --------------------------------------------------------------------------------------

@@ -71,7 +71,6 @@
 #include <stdint.h>
 
 #include "vndf.h"
-#include "vndf_albedo.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -79,6 +78,40 @@ extern "C" {
 
 /* The most wavelengths of a material. */
 enum { VNDF_WAVELENGTHS = 4 };
+
+/* ---- albedos ------------------------------------------------------------------------------------- */
+
+/* How much of the light from wi one scattering event keeps,
+ *
+ *     E(wi) = integral f(wi, wo) |cos_o| dwo,
+ *
+ * with height-correlated masking and alpha_x = alpha_y = alpha, over cosine and roughness: what energy compensation
+ * gives back is 1 - E. A table of some 7 KB, by quadrature without random numbers. It is immutable; threads may share
+ * it, and the distribution need not outlive it. */
+typedef struct vndf_albedo vndf_albedo;
+
+/* Above this roughness E is that at it. */
+#define VNDF_ALBEDO_ALPHA_MAX 4.0f
+
+/* Of a mirror (eta 0: F = 1) or of both lobes of a dielectric: eta is the index beyond the surface over that on the
+ * side of z, 0.01 to 100 and farther than 1e-3 from 1. Takes a tenth of a second to two. NULL and an error for other
+ * eta, and a distribution whose median slope is outside [1e-6, 1e6]. */
+VNDF_API vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error);
+
+/* Does nothing for NULL. */
+VNDF_API void vndf_albedo_free(vndf_albedo *albedo);
+
+/* E, in [0, 1], of light from a direction with this cosine: of a dielectric from the side of z for cosine >= 0, from
+ * the other side for cosine < 0; a mirror looks the same from both. |cosine| above 1 counts as 1, alpha is clamped to
+ * [0, VNDF_ALBEDO_ALPHA_MAX], and NaN counts as 0. For NULL E is 1, as if nothing were lost. Within 1e-3 for a mirror
+ * and 1e-2 for a dielectric. (What a dielectric transmits tends to 0 at cosine 0, but as a power of the cosine that may
+ * be as low as 0.001, which no grid resolves: below a cosine of 5e-5 times the median slope, E is that at this
+ * cosine.) */
+VNDF_API float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alpha);
+
+/* E_avg = 2 integral_0^1 E mu dmu of the E that vndf_albedo_directional returns, so that lobes made of both keep the
+ * energy, within 1e-4. `side` >= 0: the side of z; < 0: the other one. */
+VNDF_API float vndf_albedo_average(const vndf_albedo *albedo, float alpha, int side);
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
@@ -122,7 +155,7 @@ typedef enum vndf_scattering {
     VNDF_SCATTERING_MULTIPLE, /* Smith's random walk (Heitz et al., "Multiple-Scattering Microfacet BSDFs with the
                                * Smith Model", SIGGRAPH 2016): only walks longer than order_limit lose energy
                                * between the microfacets */
-    /* Single scattering, and the energy that it loses given back from a table of albedos (vndf_albedo.h). With
+    /* Single scattering, and the energy that it loses given back from a table of albedos ("Albedos" below). With
      * E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection is scaled by 1 + F0
      * (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
     VNDF_SCATTERING_TURQUIN,

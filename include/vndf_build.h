@@ -28,7 +28,7 @@ typedef struct vndf_parameter {
 } vndf_parameter;
 
 /* D as a formula in c = cos(theta_m), theta (radians), t = tan(theta_m). + - * / ^, parentheses, numbers, pi,
- * parameters, and exp log sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
+ * parameters, and exp log log1p sqrt sin cos tan asin acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow
  * step(x) (1 for x >= 0, else 0). Names, constants and functions are case-sensitive. If the text cannot be read,
  * or does not use a parameter, returns NULL and an error that says where. The text and parameters are copied. */
 VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
@@ -98,8 +98,8 @@ VNDF_API void vndf_source_free(vndf_source *source);
 
 /* An input beyond a limit is refused with an error that names the limit. Builds are bounded by operations, not by
  * seconds, so that the same input gives the same result on every machine. An evaluation of P22 counts as 8
- * operations, of a mix as 16. An evaluation of a formula counts as 4, plus 8 for each power and each function but
- * abs, min, max and step, plus 1 for each of these four and each number, name and other operator. An operation
+ * operations; of a formula, as families are, as 4, plus 8 for each power and each function but abs, min, max and step,
+ * plus 1 for each of these four and each number, name and other operator. An operation
  * takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own time. Memory stays below
  * 512 MiB. */
 enum {

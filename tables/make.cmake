@@ -28,7 +28,7 @@ function(vndf output)
     set(${output} "${printed}" PARENT_SCOPE)
 endfunction()
 
-# The value of a `key value` line.
+# What a line says behind its key: a value and its unit.
 function(value_of key lines result)
     if(NOT "\n${lines}" MATCHES "\n${key} ([^\n]*)\n")
         message(FATAL_ERROR "vndf info prints no ${key}:\n${lines}")
@@ -53,6 +53,9 @@ function(manifest_row file command result)
     set(row "${file},\"${command}\",${bytes},${checksum},${tool}")
     foreach(column IN LISTS columns)
         value_of(${column} "${info}" value)
+        string(REGEX REPLACE " .*" "" value "${value}")
+        string(REPLACE "yes" "1" value "${value}")
+        string(REPLACE "no" "0" value "${value}")
         string(APPEND row ",${value}")
     endforeach()
     set(${result} "${row}" PARENT_SCOPE)

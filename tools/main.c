@@ -27,7 +27,6 @@ int main(int argc, char **argv)
 {
     if (!files_begin())
         return STATUS_USE;
-    output_ignore_size_signal();
     int status = dispatch(argc, argv);
     int delivered = output_finish_stdout("vndf");
     return delivered == STATUS_GOOD ? status : delivered;

@@ -47,7 +47,7 @@ static int hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_a
     b->surface = *surface;
     b->view.kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
     take_side(b, material, wi, wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y);
-    b->view.of.one = vndf_affine_view_from(&b->surface, b->wi);
+    vndf_view_make(&b->view.of.one, &b->surface, b->wi);
     b->rise = vndf_hit_cosine(&b->view, b->wi);
     b->area = vndf_view_own_area(&b->view.of.one);
     return complete(b, material);

@@ -74,6 +74,9 @@ VNDF_INLINE int vndf_compensates(const vndf_effects *e)
     return e->scattering == VNDF_SCATTERING_TURQUIN || e->scattering == VNDF_SCATTERING_KULLA_CONTY;
 }
 
+/* Whether a compensated material has the albedos of its distribution and eta; else an error (albedo.c). */
+vndf_status vndf_albedo_check(const vndf_description *is, vndf_error *error);
+
 /* Whether the numbers and the combination of effects make sense; else an error that names what does not. */
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error);
 

@@ -1,7 +1,6 @@
 /* Combinations of effects that make no sense, and numbers out of range: each is refused by name. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "bsdf/bsdf.h"
 #include "core/error.h"
@@ -222,26 +221,6 @@ static vndf_status check_mixture(const vndf_mixture *mixture, vndf_error *error)
     return status;
 }
 
-/* An albedo of something else would keep the wrong energy. */
-static vndf_status check_albedo(const vndf_description *is, vndf_error *error)
-{
-    if (!vndf_compensates(&is->effects))
-        return VNDF_OK;
-    if (!is->albedo)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "albedo is NULL: compensation needs the albedos of the distribution (vndf_albedo_build)");
-    vndf_albedo_properties has = vndf_albedo_info(is->albedo);
-    float eta = is->effects.lobes == VNDF_LOBES_BOTH ? is->eta : 0.0f;
-    if (!(fabsf(has.eta - eta) <= 1e-6f * eta))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "albedo is made for eta %g; this material needs %g (0: a mirror)", (double)has.eta,
-                         (double)eta);
-    if (strcmp(has.source, vndf_distribution_info(is->distribution).source) != 0)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "albedo is that of %.80s, the distribution is %.80s",
-                         has.source, vndf_distribution_info(is->distribution).source);
-    return VNDF_OK;
-}
-
 static vndf_status check_shape(const vndf_description *is, vndf_error *error)
 {
     if (!is->distribution && is->effects.shape != VNDF_SHAPE_MIXTURE)
@@ -268,7 +247,7 @@ vndf_status vndf_description_check(const vndf_description *is, vndf_error *error
     if (refused)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
     status = check_shape(is, error);
-    if (status == VNDF_OK)
-        status = check_albedo(is, error);
+    if (status == VNDF_OK && vndf_compensates(&is->effects))
+        status = vndf_albedo_check(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;
 }

@@ -20,8 +20,7 @@ typedef struct vndf_frame {
 /* VNDF_OK if magic, version, size and checksum are right; else VNDF_ERROR_TABLE. */
 vndf_status vndf_frame_check(const vndf_frame *frame, const unsigned char *bytes, size_t size, vndf_error *error);
 
-/* What `decode` makes of the bytes of a file; NULL and an error that names the file. It reads no more than the head
- * states, and one byte; `decode` gets bytes whose magic and version are right, and checks the rest. */
+/* What `decode`, which checks the frame, makes of the bytes of a file; NULL and an error that names the file. */
 typedef void *vndf_frame_decode(const void *bytes, size_t size, vndf_error *error);
 void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_decode *decode, vndf_error *error);
 

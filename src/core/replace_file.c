@@ -19,8 +19,6 @@ enum {
     LINK_BYTES = 4096
 };
 
-/* ---- names --------------------------------------------------------------------------------------- */
-
 size_t vndf_replace_folder_length(const char *path)
 {
     size_t length = strlen(path);
@@ -29,11 +27,11 @@ size_t vndf_replace_folder_length(const char *path)
     return length;
 }
 
-/* The first bytes of `folder`, then `name`; to be freed. NULL and ENOMEM. */
+/* The first bytes of `folder`, then `name`, with room for a suffix; to be freed. NULL and ENOMEM. */
 static char *join(const char *folder, size_t length, const char *name)
 {
     size_t size = strlen(name) + 1;
-    char *path = malloc(length + size);
+    char *path = malloc(length + size + SUFFIX_MAX);
     if (!path) {
         errno = ENOMEM;
         return NULL;
@@ -47,40 +45,39 @@ static char *join(const char *folder, size_t length, const char *name)
 
 #ifdef VNDF_HAS_POSIX
 
-/* What the link at path holds: 1, 0 if there is none, -1 and errno. */
-static int read_link(const char *path, char held[LINK_BYTES])
-{
-    ssize_t length = readlink(path, held, LINK_BYTES - 1);
-    if (length < 0)
-        return errno == EINVAL || errno == ENOENT ? 0 : -1;
-    held[length] = '\0';
-    return 1;
-}
-
 char *vndf_replace_end_of_links(const char *path)
 {
-    char held[LINK_BYTES];
-    int found = 1, reason = ELOOP;
-    char *at = join(path, 0, path);
-    for (int i = 0; at && i < LINKS_MAX && (found = read_link(at, held)) > 0; i++) {
+    char held[LINK_BYTES], *at = join(path, 0, path);
+    int reason = ELOOP;
+    for (int i = 0; at && i < LINKS_MAX; i++) {
+        ssize_t length = readlink(at, held, sizeof held - 1);
+        if (length < 0 && (errno == EINVAL || errno == ENOENT))
+            return at;
+        reason = length < 0 ? errno : reason;
+        if (length < 0)
+            break;
+        held[length] = '\0';
         char *next = join(at, held[0] == '/' ? 0 : vndf_replace_folder_length(at), held);
         free(at);
         at = next;
     }
-    if (found == 0 || !at)
-        return at;
-    if (found < 0)
-        reason = errno;
+    errno = at ? reason : ENOMEM;
     free(at);
-    errno = reason;
     return NULL;
 }
 
-/* O_EXCL: never write through something that is there already. old: the file to be replaced, if there is one. */
-static FILE *create_with(const char *name, const struct stat *old)
+/* A new file with the mode of the file that it replaces. O_EXCL: never write through something that is there
+ * already. */
+static FILE *create_new(const char *name, const char *target)
 {
-    int made = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, old ? old->st_mode & 0777 : 0666);
-    FILE *file = made >= 0 && (!old || fchmod(made, old->st_mode & 0777) == 0) ? fdopen(made, "wb") : NULL;
+    struct stat old;
+    int replaces = stat(target, &old) == 0;
+    if (replaces && !S_ISREG(old.st_mode)) {
+        errno = S_ISDIR(old.st_mode) ? EISDIR : EINVAL; /* a rename would destroy a device or a pipe */
+        return NULL;
+    }
+    int made = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, replaces ? old.st_mode & 0777 : 0666);
+    FILE *file = made >= 0 && (!replaces || fchmod(made, old.st_mode & 0777) == 0) ? fdopen(made, "wb") : NULL;
     int reason = errno;
     if (made >= 0 && !file) {
         close(made);
@@ -88,18 +85,6 @@ static FILE *create_with(const char *name, const struct stat *old)
     }
     errno = reason;
     return file;
-}
-
-/* A new file with the mode of the file that it replaces. */
-static FILE *create_new(const char *name, const char *target)
-{
-    struct stat old;
-    if (stat(target, &old) != 0)
-        return create_with(name, NULL);
-    if (S_ISREG(old.st_mode))
-        return create_with(name, &old);
-    errno = S_ISDIR(old.st_mode) ? EISDIR : EINVAL; /* a rename would destroy a device or a pipe */
-    return NULL;
 }
 
 static long process_number(void)
@@ -113,7 +98,7 @@ static int reaches_disk(FILE *file)
     return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
 }
 
-/* Of a write before, the reason may be lost: another one, of a byte that nobody will read, shows it. */
+/* Of a write that failed before, the reason is lost; a byte more, which nobody will read, fails for the same. */
 int vndf_replace_flush(FILE *file)
 {
     int failed_before = ferror(file);
@@ -145,8 +130,7 @@ static long process_number(void)
 
 static int reaches_disk(FILE *file)
 {
-    (void)file;
-    return 1;
+    return file != NULL;
 }
 
 int vndf_replace_flush(FILE *file)
@@ -158,64 +142,52 @@ int vndf_replace_flush(FILE *file)
 
 /* ---- the calls ----------------------------------------------------------------------------------- */
 
-/* vndf.PROCESS.tmp in the folder of the target, or another number where a crash left one of that name. */
-static FILE *create_temporary(vndf_replacement *r)
+/* Closes the file if there is one, removes it unless `good`, and keeps errno. Returns `good`. */
+static int finish(vndf_replacement *r, int good)
 {
-    FILE *file = NULL;
-    size_t length = vndf_replace_folder_length(r->target);
-    r->temporary = malloc(length + SUFFIX_MAX);
-    errno = r->temporary ? EEXIST : ENOMEM;
-    for (int i = 0; !file && errno == EEXIST && i < NAMES_MAX; i++) {
-        memcpy(r->temporary, r->target, length);
-        snprintf(r->temporary + length, SUFFIX_MAX, i ? "vndf.%ld.%d.tmp" : "vndf.%ld.tmp", process_number(), i);
-        file = create_new(r->temporary, r->target);
+    int reason = errno;
+    if (!good && r->file) {
+        fclose(r->file);
+        remove(r->temporary);
     }
-    return file;
-}
-
-static void forget(vndf_replacement *r)
-{
     free(r->target);
     free(r->temporary);
     *r = (vndf_replacement){NULL, NULL, NULL};
-}
-
-int vndf_replace_begin(vndf_replacement *r, const char *path)
-{
-    *r = (vndf_replacement){vndf_replace_end_of_links(path), NULL, NULL};
-    if (r->target && (r->file = create_temporary(r)) != NULL)
-        return 1;
-    int reason = errno;
-    forget(r);
-    errno = reason;
-    return 0;
-}
-
-/* Synced before the rename, so that a crash leaves the old file or the new one. */
-static int close_whole(FILE *file)
-{
-    int good = vndf_replace_flush(file) && reaches_disk(file);
-    int reason = errno, closed = fclose(file) == 0;
-    if (!good)
-        errno = reason;
-    return good && closed;
-}
-
-int vndf_replace_commit(vndf_replacement *r)
-{
-    int good = close_whole(r->file) && rename(r->temporary, r->target) == 0, reason = errno;
-    if (!good)
-        remove(r->temporary);
-    forget(r);
     errno = reason;
     return good;
 }
 
+/* To vndf.PROCESS.tmp in the folder of the target, or another number where a crash left one of that name. */
+int vndf_replace_begin(vndf_replacement *r, const char *path)
+{
+    *r = (vndf_replacement){vndf_replace_end_of_links(path), NULL, NULL};
+    size_t length = r->target ? vndf_replace_folder_length(r->target) : 0;
+    r->temporary = r->target ? join(r->target, length, "") : NULL;
+    for (int i = 0; r->temporary && !r->file && i < NAMES_MAX && (i == 0 || errno == EEXIST); i++) {
+        snprintf(r->temporary + length, SUFFIX_MAX, i ? "vndf.%ld.%d.tmp" : "vndf.%ld.tmp", process_number(), i);
+        r->file = create_new(r->temporary, r->target);
+    }
+    return r->file ? 1 : finish(r, 0);
+}
+
+/* Synced before the rename, so that a crash leaves the old file or the new one. */
+int vndf_replace_commit(vndf_replacement *r)
+{
+    int good = vndf_replace_flush(r->file) && reaches_disk(r->file), reason = errno, closed = fclose(r->file) == 0;
+    r->file = NULL;
+    if (!good)
+        errno = reason;
+    good = good && closed && rename(r->temporary, r->target) == 0;
+    reason = errno;
+    if (!good)
+        remove(r->temporary);
+    errno = reason;
+    return finish(r, good);
+}
+
 void vndf_replace_discard(vndf_replacement *r)
 {
-    fclose(r->file);
-    remove(r->temporary);
-    forget(r);
+    finish(r, 0);
 }
 
 int vndf_replace_whole(const char *path, const void *bytes, size_t size)
@@ -223,10 +195,5 @@ int vndf_replace_whole(const char *path, const void *bytes, size_t size)
     vndf_replacement r;
     if (!vndf_replace_begin(&r, path))
         return 0;
-    if (fwrite(bytes, 1, size, r.file) == size)
-        return vndf_replace_commit(&r);
-    int reason = errno;
-    vndf_replace_discard(&r);
-    errno = reason;
-    return 0;
+    return fwrite(bytes, 1, size, r.file) == size ? vndf_replace_commit(&r) : finish(&r, 0);
 }

@@ -204,7 +204,7 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
             low = error;
         else
             best = high = error;
-        error *= n > count ? 1.3 : pow((double)n / count, 3);
+        error *= n <= count ? pow((double)n / count, 3) : high < MOST ? 1.3 : 4;
         if (high <= ENOUGH)
             break;
     }

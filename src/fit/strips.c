@@ -138,7 +138,7 @@ static void add_strip(maker *m, double to)
     push(m, to, r, mass, p[2], p[3]);
 }
 
-/* Scales strips so that they hold what a panel does. */
+/* Scales strips so that they hold what they should. */
 static void scale(vndf_strips *s, size_t first, double mass)
 {
     double sum = 0;
@@ -231,6 +231,7 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
     double m0 = profile->tail_m0, end = p[profile->count].r; /* what lies beyond the panels, at one place */
     const double r[2] = {m0 > 0 ? end + profile->tail_m1 / m0 : 2 * end, 2 * end}, mass[2] = {2 * PI * m0, 0};
     push(&m, HUGE_VAL, r, mass, 0, 0);
+    scale(strips, 0, 1); /* two points are too few in panels that knots have cut where waves are many */
     vndf_guard_spend(profile->guard, 2 * (double)strips->count);
     free(need);
     return !m.starved;

@@ -50,30 +50,37 @@ VNDF_INLINE void see(vndf_state *s, const vndf_distribution *d, const affine_map
         s->of.beckmann = beckmann_see(s->f.ux, s->f.uy, s->f.uz);
 }
 
-VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi)
+VNDF_INLINE void make_view(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi)
 {
-    vndf_view view;
-    view.distribution = NULL;
-    view.wi = wi;
+    view->distribution = NULL;
+    view->wi = wi;
     if (!affine || !affine->distribution)
-        return view;
+        return;
     affine_map m = map_of(affine);
     if (!any(both(affine_is_valid(m), direction_is_valid(wi.x, wi.y, wi.z))))
-        return view;
-    view.distribution = affine->distribution;
-    see((vndf_state *)(void *)view.numbers, affine->distribution, &m, wi);
-    return view;
+        return;
+    view->distribution = affine->distribution;
+    see((vndf_state *)(void *)view->numbers, affine->distribution, &m, wi);
+}
+
+void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi)
+{
+    make_view(view, affine, wi);
 }
 
 vndf_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
 {
-    return view_of(affine, wi);
+    vndf_view view;
+    make_view(&view, affine, wi);
+    return view;
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
     vndf_affine affine = affine_of(surface);
-    return view_of(&affine, wi);
+    vndf_view view;
+    make_view(&view, &affine, wi);
+    return view;
 }
 
 /* ---- samples ---- */

@@ -9,62 +9,53 @@
 #include "source/source.h"
 #include "source/words.h"
 
-static const char *const options[] = {"--ndf", "--slope", "--family"};
-
-/* "a=0.3" -> name and value; the '=' becomes the end of the name. */
-static vndf_status read_setting(char *word, vndf_parameter *parameter, vndf_error *error)
-{
-    char excerpt[VNDF_EXCERPT];
-    char *equals = strchr(word, '=');
-    if (!equals || !vndf_number_is_all(equals + 1, strlen(equals + 1), &parameter->value))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "--set '%s': right would be NAME=NUMBER, as in a=0.3",
-                         vndf_excerpt(excerpt, word, strlen(word)));
-    *equals = '\0';
-    parameter->name = word;
-    return VNDF_OK;
-}
-
-static vndf_status read_settings(const vndf_words *words, size_t first, vndf_parameter *parameters, size_t *count,
+/* "--set a=0.3" and so on, behind the first two words; the '=' becomes the end of the name. */
+static vndf_status read_settings(const vndf_words *words, vndf_parameter *parameters, size_t *count,
                                  vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    vndf_status status = VNDF_OK;
-    for (size_t i = first; i < words->count && status == VNDF_OK; i += 2) {
-        const char *word = words->word[i];
-        if (strcmp(word, "--set") != 0 || i + 1 >= words->count)
+    for (size_t i = 2; i < words->count; i += 2) {
+        char *word = words->word[i], *setting = i + 1 < words->count ? words->word[i + 1] : NULL;
+        char *equals = setting ? strchr(setting, '=') : NULL;
+        if (strcmp(word, "--set") != 0 || !setting)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "'%s' in a table's source: right would be --set NAME=NUMBER",
                              vndf_excerpt(excerpt, word, strlen(word)));
         if (*count >= VNDF_LIMIT_PARAMETERS)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT, "more than %d parameters", VNDF_LIMIT_PARAMETERS);
-        status = read_setting(words->word[i + 1], &parameters[(*count)++], error);
+        parameters[*count].name = setting;
+        if (!equals || !vndf_number_is_all(equals + 1, strlen(equals + 1), &parameters[(*count)++].value))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "--set '%s': right would be NAME=NUMBER, as in a=0.3",
+                             vndf_excerpt(excerpt, setting, strlen(setting)));
+        *equals = '\0';
     }
-    return status;
+    return VNDF_OK;
 }
 
-static vndf_source *make(const vndf_words *words, vndf_error *error)
+enum option { NDF, SLOPE, FAMILY, OTHER };
+
+static enum option option_of(const vndf_words *words)
+{
+    static const char *const options[OTHER] = {"--ndf", "--slope", "--family"};
+    int i = 0;
+    while (i < OTHER && (words->count < 2 || strcmp(words->word[0], options[i]) != 0))
+        i++;
+    return (enum option)i;
+}
+
+static vndf_source *make(enum option option, const vndf_words *words, vndf_error *error)
 {
     vndf_parameter parameters[VNDF_LIMIT_PARAMETERS];
     size_t count = 0;
-    const char *option = words->word[0], *text = words->word[1];
-    if (read_settings(words, 2, parameters, &count, error) != VNDF_OK)
+    if (read_settings(words, parameters, &count, error) != VNDF_OK)
         return NULL;
-    if (strcmp(option, "--slope") == 0)
-        return vndf_source_slope_expression(text, parameters, count, error);
-    if (strcmp(option, "--ndf") == 0)
-        return vndf_source_ndf_expression(text, parameters, count, error);
+    if (option != FAMILY)
+        return (option == NDF ? vndf_source_ndf_expression
+                              : vndf_source_slope_expression)(words->word[1], parameters, count, error);
     if (count == 0)
-        return vndf_source_family(text, error);
+        return vndf_source_family(words->word[1], error);
     vndf_fail(error, VNDF_ERROR_ARGUMENT, "--family takes no --set");
     return NULL;
-}
-
-static int is_rebuildable(const vndf_words *words)
-{
-    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++)
-        if (words->count >= 2 && strcmp(words->word[0], options[i]) == 0)
-            return 1;
-    return 0;
 }
 
 vndf_source *vndf_source_from_description(const char *description, vndf_error *error)
@@ -75,8 +66,9 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
     if (vndf_words_split(description, &words, error) != VNDF_OK)
         return NULL;
     words.count = vndf_resolution_start(&words);
-    if (is_rebuildable(&words))
-        source = make(&words, error);
+    enum option option = option_of(&words);
+    if (option != OTHER)
+        source = make(option, &words, error);
     else
         vndf_fail(error, VNDF_ERROR_ARGUMENT,
                   "the source was '%s', and a table keeps only its name, not the file or function; "
@@ -91,6 +83,7 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
 static vndf_status check_words(const char *text, vndf_error *error)
 {
     vndf_words words;
+    vndf_error inner = {VNDF_OK, ""};
     size_t length = strlen(text);
     if (length == 0 || length > VNDF_LIMIT_NAME_LENGTH)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a description of %zu characters; 1 to %d are possible",
@@ -99,11 +92,10 @@ static vndf_status check_words(const char *text, vndf_error *error)
         if ((unsigned char)text[i] < 32 || text[i] == 127)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT, "column %zu of the description: a control character",
                              i + 1);
-    vndf_error inner = {VNDF_OK, ""};
     if (vndf_words_split(text, &words, &inner) != VNDF_OK)
         return vndf_fail(error, inner.status == VNDF_ERROR_MEMORY ? inner.status : VNDF_ERROR_ARGUMENT,
                          "the description, %s", inner.message);
-    int taken = is_rebuildable(&words);
+    int taken = option_of(&words) != OTHER;
     vndf_words_free(&words);
     return taken ? vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "the description begins as that of a formula or a family does, which it is not")

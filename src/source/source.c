@@ -10,7 +10,10 @@
 
 double vndf_source_p22(const vndf_source *source, double r)
 {
-    return source ? source->p22(source, r) : 0.0;
+    double value = 0.0;
+    if (source)
+        source->p22(source, &r, 1, &value);
+    return value;
 }
 
 const char *vndf_source_description(const vndf_source *source)
@@ -32,19 +35,17 @@ typedef struct callback_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
     vndf_density_function *density;
     void *user;
+    int is_ndf;
 } callback_source;
 
-static double slope_p22(const vndf_source *self, double r)
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
 {
     const callback_source *source = (const callback_source *)self;
-    return source->density(r, source->user);
-}
-
-static double ndf_p22(const vndf_source *self, double r)
-{
-    const callback_source *source = (const callback_source *)self;
-    double c = 1 / hypot(1, r), c2 = c * c;
-    return source->density(c, source->user) * c2 * c2;
+    for (size_t i = 0; i < count; i++) {
+        double c = 1 / hypot(1, r[i]), c2 = c * c;
+        values[i] =
+            source->is_ndf ? source->density(c, source->user) * c2 * c2 : source->density(r[i], source->user);
+    }
 }
 
 static void destroy(vndf_source *self)
@@ -54,43 +55,44 @@ static void destroy(vndf_source *self)
 }
 
 /* `vndf build` has no such option, since a shell cannot bring a function. It says what the table came from. */
-static vndf_source *make(const char *option, vndf_density_function *density, void *user, const char *name,
-                         double (*p22)(const vndf_source *, double), vndf_error *error)
+static vndf_source *make(int is_ndf, vndf_density_function *density, void *user, const char *name,
+                         vndf_error *error)
 {
     vndf_text words = {NULL, 0, 0, 0};
-    if (!density) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
+    if (!density || (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH)) {
+        if (!density)
+            vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
+        else
+            vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                      "the callback's name has %zu characters; at most %d are possible", strlen(name),
+                      VNDF_LIMIT_NAME_LENGTH);
         return NULL;
     }
-    if (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback's name has %zu characters; at most %d are possible",
-                  strlen(name), VNDF_LIMIT_NAME_LENGTH);
-        return NULL;
-    }
-    vndf_text_add_word(&words, option);
+    vndf_text_add_word(&words, is_ndf ? "--ndf-callback" : "--slope-callback");
     vndf_text_add_word(&words, name ? name : "unnamed");
     char *description = vndf_text_finish(&words, error);
-    callback_source *source = calloc(1, sizeof *source);
+    callback_source *source = malloc(sizeof *source);
     if (!description || !source) {
         free(description);
         free(source);
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
         return NULL;
     }
-    source->base =
-        (vndf_source){.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS};
-    source->density = density;
-    source->user = user;
+    *source =
+        (callback_source){{.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS},
+                          density,
+                          user,
+                          is_ndf};
     return &source->base;
 }
 
 vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name, vndf_error *error)
 {
-    return make("--ndf-callback", ndf, user, name, ndf_p22, error);
+    return make(1, ndf, user, name, error);
 }
 
-vndf_source *vndf_source_slope_callback(vndf_density_function *p22, void *user, const char *name,
+vndf_source *vndf_source_slope_callback(vndf_density_function *density, void *user, const char *name,
                                         vndf_error *error)
 {
-    return make("--slope-callback", p22, user, name, slope_p22, error);
+    return make(0, density, user, name, error);
 }

@@ -15,9 +15,8 @@ typedef struct vndf_reach {
 enum { VNDF_SOURCE_MANY = 16 };
 
 struct vndf_source {
-    double (*p22)(const vndf_source *self, double r); /* at slope length r >= 0; any scale; may give NaN or inf */
-    /* the same bits at up to VNDF_SOURCE_MANY slopes, in less time; may be NULL */
-    void (*p22_many)(const vndf_source *self, const double *r, size_t count, double *p22);
+    /* At up to VNDF_SOURCE_MANY slope lengths r >= 0; any scale; may give NaN or inf. One alone gets the same bits. */
+    void (*p22)(const vndf_source *self, const double *r, size_t count, double *p22);
     void (*destroy)(vndf_source *self); /* frees self and all it owns */
     char *description;                  /* arguments of `vndf build`, owned */
     const double *breaks;               /* ascending slopes of known kinks and jumps, or NULL */

@@ -36,15 +36,6 @@ void vndf_text_add(vndf_text *text, const char *string)
     add_bytes(text, string, strlen(string));
 }
 
-static void add_char(vndf_text *text, char c)
-{
-    unsigned char byte = (unsigned char)c;
-    if (c == '\'')
-        vndf_text_add(text, "'\\''");
-    else
-        add_bytes(text, byte < 32 || byte == 127 ? " " : &c, 1);
-}
-
 void vndf_text_add_word(vndf_text *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
@@ -53,8 +44,13 @@ void vndf_text_add_word(vndf_text *text, const char *word)
         vndf_text_add(text, " ");
     if (quote)
         vndf_text_add(text, "'");
-    for (const char *c = word; *c; c++)
-        add_char(text, *c);
+    for (const char *c = word; *c; c++) {
+        unsigned char byte = (unsigned char)*c;
+        if (byte == '\'')
+            vndf_text_add(text, "'\\''");
+        else
+            add_bytes(text, byte < 32 || byte == 127 ? " " : c, 1);
+    }
     if (quote)
         vndf_text_add(text, "'");
 }
@@ -169,40 +165,49 @@ size_t vndf_word_distance(const char *text, size_t size, const char *word)
     return row[0][length];
 }
 
+size_t vndf_word_slip(size_t size)
+{
+    return size < 5 ? 2 : 3;
+}
+
+int vndf_word_is_nearer(const char *text, size_t size, const char *word, size_t *least)
+{
+    size_t distance = vndf_word_distance(text, size, word);
+    if (distance >= *least || distance >= strlen(word) || distance >= size)
+        return 0;
+    *least = distance;
+    return 1;
+}
+
 /* ---- numbers ---------------------------------------------------------------------------------- */
 
-static size_t digits(const char *text, size_t size, size_t at)
+/* The place behind the digits at a place. */
+static size_t behind_digits(const char *text, size_t size, size_t at)
 {
-    size_t count = 0;
-    while (at + count < size && text[at + count] >= '0' && text[at + count] <= '9')
-        count++;
-    return count;
+    while (at < size && text[at] >= '0' && text[at] <= '9')
+        at++;
+    return at;
 }
 
-/* An e without digits behind it belongs to the text after the number. */
-static size_t exponent(const char *text, size_t size, size_t at)
+static int is_sign(const char *text, size_t size, size_t at)
 {
-    size_t start = at + 1;
-    if (at >= size || (text[at] != 'e' && text[at] != 'E'))
-        return 0;
-    if (start < size && (text[start] == '+' || text[start] == '-'))
-        start++;
-    size_t count = digits(text, size, start);
-    return count ? start + count - at : 0;
+    return at < size && (text[at] == '+' || text[at] == '-');
 }
 
-/* Length of the number at the start of text, and where its point is (or its end). */
+/* Length of the number at the start of text, and where its point is (or its end). An e without digits behind it
+ * belongs to the text after the number. */
 static size_t number_length(const char *text, size_t size, size_t *point)
 {
-    size_t at = size > 0 && (text[0] == '+' || text[0] == '-');
-    size_t whole = digits(text, size, at), part = 0;
-    at += whole;
-    *point = at;
-    if (at < size && text[at] == '.') {
-        part = digits(text, size, at + 1);
-        at += 1 + part;
+    size_t first = (size_t)is_sign(text, size, 0), end = *point = behind_digits(text, size, first);
+    if (end < size && text[end] == '.')
+        end = behind_digits(text, size, end + 1);
+    if (end - first == (size_t)(end > *point)) /* no digit */
+        return 0;
+    if (end < size && (text[end] == 'e' || text[end] == 'E')) {
+        size_t start = end + 1 + (size_t)is_sign(text, size, end + 1), behind = behind_digits(text, size, start);
+        end = behind > start ? behind : end;
     }
-    return whole + part == 0 ? 0 : at + exponent(text, size, at);
+    return end;
 }
 
 size_t vndf_number_read(const char *text, size_t size, double *value)

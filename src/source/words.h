@@ -41,6 +41,11 @@ const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
 int vndf_is_word(const char *text, size_t size, const char *word);
 size_t vndf_word_distance(const char *text, size_t size, const char *word);
 
+/* Whether the word is nearer than *least, which becomes its distance: only where most letters are the text's own.
+ * *least begins with the number of letters that are no slip but another word, vndf_word_slip. */
+size_t vndf_word_slip(size_t size);
+int vndf_word_is_nearer(const char *text, size_t size, const char *word, size_t *least);
+
 /* ---- numbers, the same in every locale: a decimal point is '.', whatever setlocale() was told --------------- */
 
 /* Longest number that is read, and space for one that is printed. */

@@ -10,42 +10,31 @@
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
 
-enum { ARRAYS = 11 };
-
-/* The arrays of a draft in the order of the file. */
-static void arrays_of(vndf_table_draft *d, float **array[ARRAYS])
+/* Whether the file holds this array. */
+static int has_array(const vndf_table_draft *draft, int i)
 {
-    float **const all[ARRAYS] = {&d->knot,  &d->g0, &d->g1, &d->m0,   &d->m1,   &d->m2,
-                                 &d->cubes, &d->b0, &d->b1, &d->area, &d->slope};
-    memcpy(array, all, sizeof all);
+    return i != VNDF_ARRAY_OF_CUBES || draft->moments == 4;
 }
 
 /* ---- writing ---- */
 
-static void write_floats(vndf_writer *w, const float *values, size_t count, size_t stride)
-{
-    for (size_t i = 0; i < count; i++)
-        vndf_write_f32(w, values[i * stride]);
-}
-
-static size_t write_all(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity, size_t size)
+static size_t write_all(const vndf_table_draft *d, unsigned char *bytes, size_t capacity, size_t size)
 {
     vndf_writer w = {bytes, capacity, 0};
-    vndf_table_draft d = *draft;
-    float **array[ARRAYS];
-    arrays_of(&d, array);
+    const float *claims = &d->certificate.tv;
     vndf_frame_begin(&FRAME, &w, size);
-    vndf_write_f64(&w, d.normalization);
-    vndf_write_f64(&w, d.scale);
-    vndf_write_u32(&w, d.cells);
-    vndf_write_u32(&w, d.moments);
-    vndf_write_u32(&w, d.squarings);
-    write_floats(&w, &d.certificate.tv, VNDF_CERTIFICATE_FLOATS, 1);
-    vndf_write_text(&w, d.source);
-    vndf_write_text(&w, d.tool);
-    for (int i = 0; i < ARRAYS; i++)
-        if (array[i] != &d.cubes || d.moments == 4)
-            write_floats(&w, *array[i], (size_t)d.cells + 1, d.stride ? d.stride : 1);
+    vndf_write_f64(&w, d->normalization);
+    vndf_write_f64(&w, d->scale);
+    vndf_write_u32(&w, d->cells);
+    vndf_write_u32(&w, d->moments);
+    vndf_write_u32(&w, d->squarings);
+    for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
+        vndf_write_f32(&w, claims[i]);
+    vndf_write_text(&w, d->source);
+    vndf_write_text(&w, d->tool);
+    for (int i = 0; i < VNDF_ARRAYS; i++)
+        for (size_t j = 0; has_array(d, i) && j <= d->cells; j++)
+            vndf_write_f32(&w, d->array[i][j * (d->stride ? d->stride : 1)]);
     vndf_frame_end(&w);
     return w.at;
 }
@@ -58,65 +47,34 @@ size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, si
 
 /* ---- reading ---- */
 
-/* What is read before it is known to be a table; owns what it points to. */
-typedef struct reading {
-    vndf_table_draft draft;
-    float *block;
-    vndf_distribution *table;
-} reading;
-
-static void forget(reading *r)
-{
-    free(r->block);
-    vndf_free(r->table);
-}
-
 static int counts_valid(const vndf_table_draft *d)
 {
     return d->cells >= 2 && d->cells <= VNDF_CELLS_MAX && d->moments >= 2 && d->moments <= 4 &&
            d->squarings <= VNDF_SQUARINGS_MAX;
 }
 
-/* 0 if there is no memory. */
-static int allocate(reading *r)
-{
-    size_t n = (size_t)r->draft.cells + 1, count = VNDF_HEAD + 4 * VNDF_GROUPS * n;
-    float **array[ARRAYS];
-    arrays_of(&r->draft, array);
-    r->block = malloc(ARRAYS * n * sizeof *r->block);
-    r->table = calloc(1, sizeof *r->table);
-    if (!r->block || !r->table)
-        return 0;
-    for (int i = 0; i < ARRAYS; i++)
-        *array[i] = array[i] != &r->draft.cubes || r->draft.moments == 4 ? r->block + (size_t)i * n : NULL;
-    r->table->number_count = count;
-    r->table->numbers = malloc(count * sizeof(float));
-    r->table->columns = malloc(vndf_table_columns(r->draft.cells) * sizeof(float));
-    return r->table->numbers && r->table->columns;
-}
-
 /* Everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
-static int read_body(vndf_reader *bytes, reading *r)
+static int read_body(vndf_reader *bytes, vndf_distribution *table, vndf_table_draft *d)
 {
-    float **array[ARRAYS], *claims = &r->draft.certificate.tv;
-    arrays_of(&r->draft, array);
+    float *claims = &d->certificate.tv;
     for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
         claims[i] = vndf_read_f32(bytes);
-    r->table->source = vndf_read_text(bytes);
-    r->table->tool = vndf_read_text(bytes);
-    if (!r->table->source || !r->table->tool)
+    table->source = vndf_read_text(bytes);
+    table->tool = vndf_read_text(bytes);
+    if (!table->source || !table->tool || !vndf_table_draft_allocate(d))
         return 0;
-    for (int i = 0; i < ARRAYS; i++)
-        for (size_t j = 0; *array[i] && j <= r->draft.cells; j++)
-            (*array[i])[j] = vndf_read_f32(bytes);
+    for (int i = 0; i < VNDF_ARRAYS; i++)
+        for (size_t j = 0; has_array(d, i) && j <= d->cells; j++)
+            d->array[i][j] = vndf_read_f32(bytes);
+    if (d->moments < 4)
+        d->cubes = NULL;
     bytes->failed |= bytes->at + 4 != bytes->size;
     return !bytes->failed;
 }
 
 /* VNDF_OK and a table, or an error. */
-static vndf_status read_table(vndf_reader *bytes, reading *r, vndf_error *error)
+static vndf_status read_table(vndf_reader *bytes, vndf_distribution *table, vndf_table_draft *d, vndf_error *error)
 {
-    vndf_table_draft *d = &r->draft;
     d->normalization = vndf_read_f64(bytes);
     d->scale = vndf_read_f64(bytes);
     d->cells = vndf_read_u32(bytes);
@@ -124,30 +82,34 @@ static vndf_status read_table(vndf_reader *bytes, reading *r, vndf_error *error)
     d->squarings = vndf_read_u32(bytes);
     if (!counts_valid(d))
         return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
-    if (!allocate(r) || (!read_body(bytes, r) && !bytes->failed))
+    const char *why = NULL;
+    int good = read_body(bytes, table, d) && vndf_table_fill(table, d, &why);
+    if (good && !why)
+        return VNDF_OK;
+    if (!why && !bytes->failed)
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes",
                          (unsigned long)bytes->size);
-    const char *why = bytes->failed ? "its parts do not fill the file" : vndf_table_fill(r->table, d);
-    return why ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why) : VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s",
+                     why ? why : "its parts do not fill the file");
 }
 
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
-    if (!bytes) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
-        return NULL;
-    }
     if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
     vndf_reader reader = {bytes, size, VNDF_FRAME_HEAD, 0};
-    reading r = {{0}, NULL, NULL};
-    if (read_table(&reader, &r, error) != VNDF_OK) {
-        forget(&r);
-        return NULL;
+    vndf_table_draft draft = {0};
+    vndf_distribution *table = calloc(1, sizeof *table);
+    int good = table && read_table(&reader, table, &draft, error) == VNDF_OK;
+    free(draft.knot);
+    if (good) {
+        table->bytes = size;
+        return table;
     }
-    r.table->bytes = size;
-    free(r.block);
-    return r.table;
+    if (!table)
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
+    vndf_free(table);
+    return NULL;
 }
 
 static void *decode(const void *bytes, size_t size, vndf_error *error)

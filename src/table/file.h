@@ -17,11 +17,9 @@
 
 enum { VNDF_CERTIFICATE_FLOATS = 12 };
 
-/* Fills the numbers of a table from its draft; NULL, or what is wrong with the draft. */
-const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *draft);
-
-/* Floats of table->columns. */
-size_t vndf_table_columns(unsigned cells);
+/* Fills the numbers of a table from its draft. 0 where there is no memory, or where *why becomes what is wrong with the
+ * draft. */
+int vndf_table_fill(vndf_distribution *table, const vndf_table_draft *draft, const char **why);
 
 /* Bytes of memory that it takes, all allocations together. */
 size_t vndf_table_memory(const vndf_distribution *table);

@@ -11,7 +11,7 @@
  * compare with, and k~ has another form (kernel/law.h). */
 static const double NEAR = 1.18, NEAR_FIRST = 0.75;
 
-static float *row(vndf_distribution *table, int group, size_t i)
+static float *row(const vndf_distribution *table, int group, size_t i)
 {
     return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1) + i);
 }
@@ -166,17 +166,17 @@ static void fill_first(vndf_distribution *table)
     }
 }
 
-size_t vndf_table_columns(unsigned cells)
+static size_t column_floats(const vndf_distribution *table)
 {
-    return (size_t)VNDF_COLUMNS * (size_t)(vndf_column_size((int)cells) + vndf_pivot_count((int)cells));
+    return (size_t)VNDF_COLUMNS * (size_t)(vndf_column_size(table->cells) + vndf_pivot_count(table->cells));
 }
 
-const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
+int vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d, const char **why)
 {
-    const char *why = draft_invalid(d);
     double mass = 0;
-    if (why)
-        return why;
+    *why = draft_invalid(d);
+    if (*why)
+        return 0;
     table->cells = (int32_t)d->cells;
     for (table->highest = table->steps = 1; 2 * table->highest <= table->cells; table->steps++)
         table->highest *= 2;
@@ -186,53 +186,56 @@ const char *vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d)
     table->normalization = d->normalization;
     table->scale = d->scale;
     table->certificate = d->certificate;
+    table->number_count = VNDF_HEAD + 4 * VNDF_GROUPS * ((size_t)d->cells + 1);
+    table->numbers = malloc(table->number_count * sizeof(float));
+    table->columns = malloc(column_floats(table) * sizeof(float));
+    if (!table->numbers || !table->columns)
+        return 0;
     put(table->numbers, d->cells, d->moments, d->squarings, d->scale);
     put(table->numbers + 4, table->highest, table->steps, 0, 0);
     for (size_t i = 0; i <= d->cells; i++)
         fill_cell(table, d, i);
     fill_sums(table, d, &mass);
     if (!(fabs(mass - 1) < 1e-4))
-        return "the masses of the cells do not add up to 1";
-    for (size_t i = 0; i < table->number_count; i++)
-        if (!isfinite(table->numbers[i]))
-            return "a sum of moments is not finite";
-    for (size_t i = 0; i <= d->cells; i++)
-        if (!(row(table, VNDF_KNOT, i)[2] > 1e-30f))
-            return "two knots coincide";
+        *why = "the masses of the cells do not add up to 1";
+    for (size_t i = 0; i < table->number_count && !*why; i++)
+        *why = isfinite(table->numbers[i]) ? NULL : "a sum of moments is not finite";
+    for (size_t i = 0; i <= d->cells && !*why; i++)
+        *why = row(table, VNDF_KNOT, i)[2] > 1e-30f ? NULL : "two knots coincide";
     fill_columns(table);
     fill_first(table);
-    return NULL;
+    return !*why;
 }
 
-/* The first number of a column of a group. */
-static float *column(const vndf_distribution *table, int group, int index)
+/* ---- the way back ---- */
+
+int vndf_table_draft_allocate(vndf_table_draft *draft)
 {
-    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1)) + index;
+    size_t n = (size_t)draft->cells + 1;
+    float *block = calloc(VNDF_ARRAYS * n, sizeof *block);
+    for (size_t a = 0; block && a < VNDF_ARRAYS; a++)
+        draft->array[a] = block + a * n;
+    return block != NULL;
 }
 
 /* The draft of a table, in its own numbers. */
 static vndf_table_draft draft_within(const vndf_distribution *t)
 {
-    const vndf_table_draft draft = {(unsigned)t->cells,
-                                    (unsigned)t->moments,
-                                    (unsigned)t->squarings,
-                                    4,
-                                    column(t, VNDF_KNOT, 0),
-                                    column(t, VNDF_LAW, 0),
-                                    column(t, VNDF_LAW, 1),
-                                    column(t, VNDF_LAW, 2),
-                                    column(t, VNDF_LAW, 3),
-                                    column(t, VNDF_MORE, 0),
-                                    t->moments == 4 ? column(t, VNDF_MORE, 1) : NULL,
-                                    column(t, VNDF_MORE, 2),
-                                    column(t, VNDF_MORE, 3),
-                                    column(t, VNDF_LOW, 2),
-                                    column(t, VNDF_LOW, 3),
-                                    t->normalization,
-                                    t->scale,
-                                    t->certificate,
-                                    t->source,
-                                    t->tool};
+    static const int places[VNDF_ARRAYS][2] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0},  {VNDF_LAW, 1},  {VNDF_LAW, 2},
+                                               {VNDF_LAW, 3},  {VNDF_MORE, 0}, {VNDF_MORE, 1}, {VNDF_MORE, 2},
+                                               {VNDF_MORE, 3}, {VNDF_LOW, 2},  {VNDF_LOW, 3}};
+    vndf_table_draft draft = {.cells = (unsigned)t->cells,
+                              .moments = (unsigned)t->moments,
+                              .squarings = (unsigned)t->squarings,
+                              .stride = 4,
+                              .normalization = t->normalization,
+                              .scale = t->scale,
+                              .certificate = t->certificate,
+                              .source = t->source,
+                              .tool = t->tool};
+    for (int a = 0; a < VNDF_ARRAYS; a++)
+        draft.array[a] = row(t, places[a][0], 0) + places[a][1];
+    draft.cubes = t->moments == 4 ? draft.cubes : NULL;
     return draft;
 }
 
@@ -244,26 +247,20 @@ size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *b
 
 int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
 {
-    size_t n = (size_t)table->cells + 1;
-    *draft = draft_within(table);
-    float **const array[] = {&draft->knot,  &draft->g0, &draft->g1, &draft->m0,   &draft->m1,   &draft->m2,
-                             &draft->cubes, &draft->b0, &draft->b1, &draft->area, &draft->slope};
-    size_t arrays = sizeof array / sizeof *array;
-    float *block = malloc(arrays * n * sizeof *block);
-    if (!block)
-        return 0;
-    for (size_t a = 0; a < arrays; a++) {
-        for (size_t i = 0; *array[a] && i < n; i++)
-            block[a * n + i] = (*array[a])[4 * i];
-        *array[a] = *array[a] ? block + a * n : NULL;
-    }
+    vndf_table_draft within = *draft = draft_within(table);
     draft->stride = 1;
+    if (!vndf_table_draft_allocate(draft))
+        return 0;
+    for (int a = 0; a < VNDF_ARRAYS; a++)
+        for (size_t i = 0; within.array[a] && i <= draft->cells; i++)
+            draft->array[a][i] = within.array[a][4 * i];
+    draft->cubes = within.cubes ? draft->cubes : NULL;
     return 1;
 }
 
 size_t vndf_table_memory(const vndf_distribution *table)
 {
-    size_t floats = table->number_count + vndf_table_columns((unsigned)table->cells);
+    size_t floats = table->number_count + column_floats(table);
     return sizeof *table + floats * sizeof(float) + strlen(table->source) + strlen(table->tool) + 2;
 }
 

@@ -72,21 +72,32 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
     return d->kind == VNDF_KIND_TABLE;
 }
 
+enum { VNDF_ARRAYS = 11, VNDF_ARRAY_OF_CUBES = 6 };
+
 /* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has `cubes` if `moments` is 4. */
 typedef struct vndf_table_draft {
     unsigned cells, moments, squarings;
     unsigned stride; /* from number to number of an array; 0 for 1 */
-    float *knot;     /* R_i */
-    float *g0,
-        *g1; /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit of it for xi -> 1 */
-    float *m0, *m1, *m2;
-    float *cubes;        /* mean of R^-3 in f/R of the cell; no law reads the first */
-    float *b0, *b1;      /* shares below the horizon at rho = R_i */
-    float *area, *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
+    union {
+        float *array[VNDF_ARRAYS]; /* in the order of the file */
+        struct {
+            float *knot; /* R_i */
+            float *g0,
+                *g1; /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit for xi -> 1 */
+            float *m0, *m1, *m2;
+            float *cubes;   /* mean of R^-3 in f/R of the cell; no law reads the first */
+            float *b0, *b1; /* shares below the horizon at rho = R_i */
+            float *area,
+                *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
+        };
+    };
     double normalization, scale;
     vndf_certificate certificate;
     const char *source, *tool;
 } vndf_table_draft;
+
+/* Arrays of zeros in one block, draft->knot, to be freed; 0 if there is no memory. */
+int vndf_table_draft_allocate(vndf_table_draft *draft);
 
 /* Writes the file (table/file.h) into bytes[0..capacity) if it fits; returns the size of the whole. */
 size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity);
@@ -94,8 +105,8 @@ size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, si
 /* The same of a table as it was loaded. */
 size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity);
 
-/* The draft that an encoded table was made of; its arrays are one block, draft->knot, to be freed. The texts belong to
- * the table. 0 if there is no memory. */
+/* The draft that an encoded table was made of, its arrays allocated. The texts belong to the table. 0 if there is no
+ * memory. */
 int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "bsdf/bsdf_case.h"
 #include "harness/constants.h"
-#include "measure/statistics.h"
+#include "evidence/measure/statistics.h"
 #include "statistics/grid.h"
 
 /* ---- bins of the sphere ---- */

@@ -11,7 +11,7 @@
 #include "source/source.h"
 #include "table/file.h"
 #include "harness/test.h"
-#include "vndf_albedo.h"
+#include "vndf_bsdf.h"
 
 #ifdef VNDF_TEST_WRAP
 
@@ -204,17 +204,14 @@ static int use_family(const subject *of, vndf_error *error)
     return built != NULL;
 }
 
-/* A table of albedos, from the building to what was saved and loaded again. */
+/* A table of albedos. */
 static int albedo(const subject *of, vndf_error *error)
 {
-    vndf_albedo_options options = {.columns = 8, .rows = 8};
+    vndf_albedo *built = vndf_albedo_build(vndf_ggx(), 0.0f, error);
+    int good = built != NULL;
     (void)of;
-    vndf_albedo *built = vndf_albedo_build(vndf_ggx(), &options, error);
-    int good = built && vndf_albedo_save(built, saved, error) == VNDF_OK;
-    vndf_albedo *loaded = good ? vndf_albedo_load(saved, error) : NULL;
-    vndf_albedo_free(loaded);
     vndf_albedo_free(built);
-    return loaded != NULL;
+    return good;
 }
 
 /* ---- the trial ---- */

@@ -1,8 +1,9 @@
-/* What the fuzz targets share: the entry point that libFuzzer (or fuzz_replay.c) calls, a check that
- * stops the program, and input as text. */
+/* What the fuzz targets share: the entry point that libFuzzer (or fuzz_replay.c) calls, which hands each input to the
+ * target's fuzz_one, checks that stop the program, and files of this library whose checksum is put right. */
 #ifndef TESTS_FUZZ_FUZZ_H
 #define TESTS_FUZZ_FUZZ_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -12,7 +13,24 @@
 #include "core/checksum.h"
 #include "vndf.h"
 
+/* The bytes in a block of exactly their size, so that memory checkers see a read beyond it; and a copy, to change or
+ * to read as text, with a 0 behind. */
+static void fuzz_one(const uint8_t *data, size_t size, char *text);
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    char *text = malloc(size + 1);
+    if (text == NULL)
+        abort();
+    if (size > 0)
+        memcpy(text, data, size);
+    text[size] = '\0';
+    fuzz_one(data, size, text);
+    free(text);
+    return 0;
+}
 
 static inline void fuzz_require(int good, const char *claim)
 {
@@ -22,23 +40,23 @@ static inline void fuzz_require(int good, const char *claim)
     abort();
 }
 
-/* What a loader that gave NULL or not left in its error. */
-static inline void fuzz_require_error(int loaded, const vndf_error *error)
+/* What a loader that gave NULL or not left in its error. Returns whether it loaded. */
+static inline int fuzz_loaded(const void *loaded, const vndf_error *error)
 {
-    fuzz_require(loaded == (error->status == VNDF_OK), "NULL and an error come together");
-    fuzz_require(loaded || error->message[0] != '\0', "an error has a message");
+    fuzz_require((loaded != NULL) == (error->status == VNDF_OK), "NULL and an error come together");
+    fuzz_require(loaded != NULL || error->message[0] != '\0', "an error has a message");
+    return loaded != NULL;
 }
 
-/* Files of this library: magic (8 bytes), version, size, ..., CRC-32 of all before it: the last two put right. */
-enum { FUZZ_MENDABLE = 20 };
-static inline void fuzz_mend(uint8_t *bytes, size_t size)
+/* Whether this input is one of a few, for what takes long. */
+static inline int fuzz_is_seldom(const uint8_t *data, size_t size, uint32_t of)
 {
-    const uint32_t crc_at = (uint32_t)size - 4;
-    for (int i = 0; i < 4; i++)
-        bytes[12 + i] = (uint8_t)(size >> (8 * i));
-    const uint32_t crc = vndf_crc32(0, bytes, crc_at);
-    for (int i = 0; i < 4; i++)
-        bytes[crc_at + (uint32_t)i] = (uint8_t)(crc >> (8 * i));
+    return size > 0 && vndf_crc32(0, data, size) % of == 0;
+}
+
+static inline int fuzz_is_finite(vndf_vec3 v)
+{
+    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
 }
 
 /* Keeps a value that only a fault on the way to it is interesting of. */
@@ -49,16 +67,16 @@ static inline void fuzz_use(double value)
     (void)sink;
 }
 
-/* The bytes with a 0 behind them, in a block of exactly that size; the caller frees it. */
-static inline char *fuzz_text(const uint8_t *data, size_t size)
+/* Files of this library: magic (8 bytes), version, size, ..., CRC-32 of all before it: the last two put right. */
+enum { FUZZ_MENDABLE = 20 };
+static inline void fuzz_mend(uint8_t *bytes, size_t size)
 {
-    char *text = malloc(size + 1);
-    if (text == NULL)
-        abort();
-    if (size > 0)
-        memcpy(text, data, size);
-    text[size] = '\0';
-    return text;
+    const size_t crc_at = size - 4;
+    for (int i = 0; i < 4; i++)
+        bytes[12 + i] = (uint8_t)(size >> (8 * i));
+    const uint32_t crc = vndf_crc32(0, bytes, crc_at);
+    for (int i = 0; i < 4; i++)
+        bytes[crc_at + (size_t)i] = (uint8_t)(crc >> (8 * i));
 }
 
 #endif

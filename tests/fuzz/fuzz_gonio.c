@@ -1,49 +1,21 @@
 /* No bytes crash the reader of goniometer tables: they are refused with a message that names the file, or D is a curve
  * over ascending angles; and no bytes crash the reader of MERL files, which are read as its head, and now and then as
  * what its numbers repeat. */
-#include <math.h>
-
-#include "fuzz/fuzz.h"
-#include "measured/brdf/gonio.h"
-#include "measured/brdf/merl.h"
+#include "fuzz/measured.h"
+#include "measured/brdf.h"
 
 enum { MERL_SIZE = 12 + 3 * 8 * 90 * 90 * 180, SELDOM = 8192 };
 
-static void judge(int good, profile *rows, const notes *said, const refusal *why)
-{
-    fuzz_require(good || (strncmp(why->message, "fuzz: ", 6) == 0 && rows->x == NULL),
-                 "a refusal has a reason alone");
-    for (size_t i = 0; good && i < rows->count; i++)
-        fuzz_require(isfinite(rows->value[i]) && rows->value[i] >= 0 && (i == 0 || rows->x[i] > rows->x[i - 1]),
-                     "rows are a curve");
-    fuzz_require(strstr(said->text, "nan") == NULL, "what is said is a number");
-    if (good)
-        profile_free(rows);
-}
-
-static void try_gonio(const char *bytes, size_t size)
-{
-    gonio_points points;
-    profile rows = {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, NULL, NULL, 0, NULL};
-    notes said = {"", 0};
-    refusal why = {""};
-    int good =
-        gonio_read(&points, "fuzz", bytes, size, &why) && gonio_law(&points, -1, "fuzz", &rows, &said, &why);
-    judge(good, &rows, &said, &why);
-    gonio_free(&points);
-}
-
-static void try_merl(const unsigned char *bytes, size_t size)
+static void try_merl(const uint8_t *bytes, size_t size)
 {
     profile rows;
-    notes said = {"", 0};
-    refusal why = {""};
-    int good = merl_read(&rows, "fuzz", bytes, size, MERL_GREEN, &said, &why);
-    judge(good, &rows, &said, &why);
+    data_file file = fuzz_file(bytes, size);
+    int good = merl_read(&file, MERL_GREEN, &rows);
+    fuzz_judge(good, &rows, &file);
 }
 
 /* A whole file whose numbers are the bytes over and over. */
-static void try_whole_merl(const unsigned char *bytes, size_t size)
+static void try_whole_merl(const uint8_t *bytes, size_t size)
 {
     static const unsigned char head[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180};
     unsigned char *whole = malloc(MERL_SIZE);
@@ -56,20 +28,14 @@ static void try_whole_merl(const unsigned char *bytes, size_t size)
     free(whole);
 }
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
-    uint32_t hash = 1;
-    uint8_t *exact = calloc(size ? size : 1, 1);
-    if (exact == NULL)
-        abort();
-    for (size_t i = 0; i < size; i++) {
-        exact[i] = data[i];
-        hash = (hash ^ data[i]) * 16777619u;
-    }
-    try_gonio((const char *)exact, size);
-    try_merl(exact, size);
-    if (size > 0 && (hash >> 8) % SELDOM == 0)
-        try_whole_merl(exact, size);
-    free(exact);
-    return 0;
+    const uint8_t *bytes = size ? data : (uint8_t *)text;
+    profile rows;
+    data_file file = fuzz_file(bytes, size);
+    int good = gonio_read(&file, -1, &rows);
+    fuzz_judge(good, &rows, &file);
+    try_merl(bytes, size);
+    if (fuzz_is_seldom(data, size, SELDOM))
+        try_whole_merl(data, size);
 }

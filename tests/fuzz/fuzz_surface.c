@@ -1,63 +1,38 @@
 /* No bytes crash the readers of heights and of normal maps: they are refused with a message that names the file, or
  * their slopes are finite; and no slopes crash what looks for their law: its rows are a curve, or it says why not. */
-#include <math.h>
+#include "fuzz/measured.h"
+#include "measured/surface.h"
 
-#include "fuzz/fuzz.h"
-#include "measured/surface/heights.h"
-#include "measured/surface/maps.h"
-
-static void judge(slope_set *slopes, int good, const refusal *why)
+static void judge(slope_set *slopes, int good, data_file *file)
 {
-    slope_law law;
-    notes said = {"", 0};
-    refusal reason = {""};
-    fuzz_require(good || strncmp(why->message, "fuzz: ", 6) == 0, "a message begins with the file");
+    profile rows = {0};
+    fuzz_require(good || strncmp(file->refused, "fuzz: ", 6) == 0, "a message begins with the file");
     fuzz_require(good || slopes->x == NULL, "what is refused holds no memory");
     for (size_t i = 0; i < slopes->count; i++)
         fuzz_require(isfinite(slopes->x[i]) && isfinite(slopes->y[i]), "slopes are finite");
-    if (good && slopes_law(slopes, "fuzz", &law, &said, &reason)) {
-        vndf_source *source = profile_source(&law.rows, "fuzz", &reason);
-        fuzz_require(source != NULL && law.rows.count >= 4, "rows are a curve");
-        fuzz_require(isfinite(law.matrix[0]) && law.anisotropy >= 1 && law.residual >= 0 && law.residual <= 1,
-                     "the shape is one");
+    if (good && slopes_law(slopes, file, &rows)) {
+        vndf_source *source = profile_source(&rows, file);
+        fuzz_require(source != NULL && rows.count >= 4, "rows are a curve");
+        fuzz_require(strstr(file->notes, "nan") == NULL, "what is said is a number");
         vndf_source_free(source);
-        profile_free(&law.rows);
-    } else if (good)
-        fuzz_require(strncmp(reason.message, "fuzz: ", 6) == 0, "a refused law has a reason");
+    } else
+        fuzz_require(strncmp(file->refused, "fuzz: ", 6) == 0 && rows.x == NULL,
+                     "a refused law has a reason alone");
+    profile_free(&rows);
     slopes_free(slopes);
 }
 
-static void try_heights(const void *bytes, size_t size, const height_form *form)
+static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
     height_field field;
-    slope_set slopes = {NULL, NULL, NULL, 0, 0, 0};
-    refusal why = {""};
-    if (!heights_read(&field, "fuzz", bytes, size, form, &why)) {
-        fuzz_require(field.z == NULL, "refused heights hold no memory");
-        judge(&slopes, 0, &why);
-        return;
-    }
-    fuzz_require((size_t)field.width * (size_t)field.height <= size, "a height takes a byte at least");
-    fuzz_use(heights_smith(&field, 1.3));
-    int good = heights_slopes(&field, 1, "fuzz", &slopes, &why);
+    slope_set slopes = {0};
+    data_file heights = fuzz_file(size ? data : (uint8_t *)text, size), normals = heights;
+    int good = heights_read(&heights, &field);
+    fuzz_require(good || field.z == NULL, "refused heights hold no memory");
+    fuzz_require(!good || (size_t)field.width * (size_t)field.height <= size, "a height takes a byte at least");
+    good = good && heights_slopes(&field, 1, &slopes, &heights);
     heights_free(&field);
-    judge(&slopes, good, &why);
-}
-
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
-{
-    const height_form plain = {0, 0, 0, 0}, raw = {32, (int)(size / 128), 0.5, 0.25};
-    uint8_t *exact = malloc(size ? size : 1);
-    slope_set slopes;
-    notes said = {"", 0};
-    refusal why = {""};
-    if (exact == NULL)
-        abort();
-    memcpy(exact, data, size);
-    try_heights(exact, size, &plain);
-    try_heights(exact, size, &raw);
-    int good = maps_read(&slopes, "fuzz", exact, size, &said, &why);
-    free(exact);
-    judge(&slopes, good, &why);
-    return 0;
+    judge(&slopes, good, &heights);
+    good = normals_slopes(&normals, &slopes);
+    judge(&slopes, good, &normals);
 }

@@ -151,4 +151,15 @@ static inline void test_damaged_file(const file_kind *kind, const char *path, si
     fprintf(stderr, "%s: %lu flips were taken once the checksum was mended\n", path, (unsigned long)taken);
 }
 
+/* Bytes that break one rule, with the right size and checksum, are refused for a reason that holds `part`. */
+static inline void test_refused_for(const file_kind *kind, unsigned char *bytes, size_t size, const char *part)
+{
+    vndf_error error = {VNDF_OK, ""};
+    put_u32(bytes + 12, (unsigned long)size);
+    mend_checksum(bytes, size);
+    verdict found = kind->load(bytes, size, &error);
+    if (!(TEST(found == REFUSED) & TEST(error.status == VNDF_ERROR_TABLE) & TEST_HAS(error.message, part)))
+        fprintf(stderr, "  asked for: %s, had: %s\n", part, error.message);
+}
+
 #endif

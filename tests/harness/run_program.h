@@ -3,6 +3,10 @@
 #ifndef TESTS_HARNESS_RUN_PROGRAM_H
 #define TESTS_HARNESS_RUN_PROGRAM_H
 
+#ifndef _XOPEN_SOURCE
+#  define _XOPEN_SOURCE 700 /* where this is the first header */
+#endif
+
 #include <dirent.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -198,6 +202,16 @@ static inline int run_same(const char *a, const char *b)
     return same;
 }
 
+static inline int run_copy(const char *from, const char *to)
+{
+    size_t size;
+    char *bytes = run_file(from, &size);
+    FILE *file = fopen(to, "wb");
+    int good = bytes && file && fwrite(bytes, 1, size, file) == size;
+    free(bytes);
+    return file && fclose(file) == 0 && good;
+}
+
 /* A scene of a ball, small and quick. */
 static const char run_scene[] = "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
                                 "material gold conductor of gold distribution ggx alpha 0.2\n"
@@ -210,6 +224,43 @@ static inline void run_tell(const char *const *words, const run_outcome *o)
     for (int i = 0; i < RUN_WORDS && words[i]; i++)
         fprintf(stderr, " %s", words[i]);
     fprintf(stderr, ": status %d, signal %d\n%.300s\n", o->status, o->signal, o->text);
+}
+
+/* The outcome of words that have to end with this status; `in` may be NULL. */
+static inline const run_outcome *run_expect(int status, const char *in, const char *const *words)
+{
+    const run_setting s = {.in = in};
+    const run_outcome *o = run_program(&s, words);
+    if (!TEST(o->status == status))
+        run_tell(words, o);
+    return o;
+}
+
+/* What they print, to be freed. */
+static inline char *run_printed(const char *in, const char *const *words)
+{
+    const char *text = run_expect(0, in, words)->text;
+    char *copy = malloc(strlen(text) + 1);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
+#define RUN_LIST(...)   \
+  (const char *const[]) \
+  {                     \
+    __VA_ARGS__, NULL   \
+  }
+#define PRINTED(in, ...) run_printed((in), RUN_LIST(__VA_ARGS__))
+
+/* A new folder to work in, which has to be empty at the end. */
+static inline int run_begin(char folder[])
+{
+    return TEST(mkdtemp(folder) && chdir(folder) == 0);
+}
+
+static inline int run_end(const char *folder)
+{
+    TEST(run_count(".", "") == 0 && chdir("..") == 0 && rmdir(folder) == 0);
+    return test_done();
 }
 
 #endif

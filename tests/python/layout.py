@@ -10,7 +10,7 @@ from vndf import _library
 NAMES = [name for name in vars(_library) if name.startswith("vndf_")]
 
 sys.stdout = open(sys.argv[1], "w")
-print("#include <stddef.h>\n#include <vndf.h>\n#include <vndf_albedo.h>\n#include <vndf_bsdf.h>\n#include <vndf_build.h>")
+print("#include <stddef.h>\n#include <vndf.h>\n#include <vndf_bsdf.h>\n#include <vndf_build.h>")
 for name in NAMES:
     struct = getattr(_library, name)
     print(f'_Static_assert(sizeof({name}) == {ctypes.sizeof(struct)}, "{name}");')

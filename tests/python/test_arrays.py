@@ -6,24 +6,30 @@ import unittest
 
 import numpy as np
 import vndf
-from vndf._arrays import Arguments, as_float, components
+from vndf._arrays import Batch, components, stacked
 
 
 class Places(unittest.TestCase):
     def test_no_copy_of_what_is_contiguous(self):
         wi = np.zeros((3, 4, 5), np.float32)
-        arguments = Arguments(wi=components(wi, 3, "wi"))
-        self.assertEqual(arguments.addresses("wi"), [wi[i].ctypes.data for i in range(3)])
+        self.assertEqual(Batch(wi=components(wi, 3, "wi")).addresses("wi"), [wi[i].ctypes.data for i in range(3)])
 
     def test_a_copy_of_everything_else(self):
         for wi in (np.zeros((5, 3), np.float32).T, np.zeros((3, 5)), np.zeros((3, 10), np.float32)[:, ::2]):
-            kept = Arguments(wi=components(wi, 3, "wi"))
-            self.assertNotEqual(kept.addresses("wi")[0], wi.ctypes.data)
+            batch = Batch(wi=components(wi, 3, "wi"))
+            self.assertNotEqual(batch.addresses("wi")[0], wi.ctypes.data)
 
     def test_one_number_for_all_is_not_repeated(self):
-        arguments = Arguments(wi=components((0.0, 0.6, 0.8), 3, "wi"), u=components(np.zeros((2, 9)), 2, "u"))
-        self.assertTrue(arguments.is_shared("wi"))
-        self.assertEqual([array.size for array in arguments.arrays("wi")], [1, 1, 1])
+        batch = Batch(wi=components((0.0, 0.6, 0.8), 3, "wi"), u=components(np.zeros((2, 9)), 2, "u"))
+        self.assertTrue(batch.is_shared("wi") and not batch.is_shared("u"))
+        self.assertEqual(np.diff(batch.addresses("wi", share=True)).tolist(), [4, 4])
+        self.assertEqual(np.diff(batch.addresses("wi")).tolist(), [36, 36])
+
+    def test_components_of_several_shapes(self):
+        x = np.arange(4.0)
+        np.testing.assert_array_equal(components((x, 0.0, x[:1]), 3, "wi"), [x, 0 * x, 0 * x])
+        with self.assertRaises(ValueError):
+            stacked("ggx")
 
     def test_results_of_a_number_are_numbers(self):
         self.assertEqual(np.shape(vndf.Surface(vndf.ggx(), 0.5).g1((0.0, 0.6, 0.8))), ())
@@ -67,7 +73,7 @@ class Places(unittest.TestCase):
             vndf.Affine(vndf.ggx(), 0.5)
 
     def test_numbers_of_float64_are_rounded(self):
-        self.assertEqual(as_float(0.1), np.float32(0.1))
+        self.assertEqual(stacked(0.1), np.float32(0.1))
 
     def test_memory_of_a_shape_lives_as_long_as_the_call(self):
         surface = vndf.Surface(vndf.ggx(), np.full(1000, 0.5), np.full(1000, 0.25))

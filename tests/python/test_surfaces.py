@@ -68,9 +68,8 @@ class Surfaces(unittest.TestCase):
                 self.assertLess(np.quantile(abs(surface.pdf(wi, wm) / pdf - 1), 0.99), 1e-3)
                 again = surface.sample(wi, surface.invert(wi, wm)).wm
                 self.assertLess(np.quantile(abs(again - wm), 0.99), 1e-3)
-                if isinstance(surface, vndf.Surface):
-                    weight = surface.sample_weight(wi, u).weight
-                    self.assertLess(np.quantile(abs(surface.visible(wi, wm) / pdf / weight - 1), 0.99), 1e-3)
+                weight = surface.sample_weight(wi, u).weight
+                self.assertLess(np.quantile(abs(surface.visible(wi, wm) / pdf / weight - 1), 0.99), 1e-3)
 
     def test_mixtures_are_sums(self):
         """With one weight for each element; the lobe that is told is drawn as often as it is seen."""

@@ -5,7 +5,7 @@
  * weight is the visible density over the one drawn. It notices a bound, a twin or a factor that is wrong. */
 #include <float.h>
 
-#include "measure/statistics.h"
+#include "evidence/measure/statistics.h"
 #include "sampler/sampler.h"
 #include "sampler/seen.h"
 

@@ -2,7 +2,7 @@
  * smooth roughness and rough, anisotropic, sheared and leaning surfaces and mixtures, from straight above to below the
  * horizon. It notices a cell, an arc or a lobe that is drawn too often, and a density that is not the one drawn. Seeds
  * are fixed; the level, 0.01, is that of all tests together. test_chi_square SUBJECT SAMPLES: all views of one. */
-#include "measure/statistics.h"
+#include "evidence/measure/statistics.h"
 #include "sampler/seen.h"
 
 /* Roughness, mean slope, angle and azimuth of wi in degrees; alpha_y 0: the same as alpha_x. */

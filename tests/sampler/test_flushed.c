@@ -2,7 +2,7 @@
  * them as zero, as renderers do: all that test_stress asks, by single calls; and batches of every instruction set give
  * the same bits, for directions of length 1e-37 to 3e38, roughness from one end of its range to the other, and numbers
  * at their ends. */
-#include "measure/stress.h"
+#include "evidence/measure/stress.h"
 #include "sampler/seen.h"
 
 #if defined(__SSE2__)

@@ -11,7 +11,8 @@
 static const char *const formulas[] = {
     "r", "1/r", "-r+2-r/3", "(r-1)*(r-2)", "(r-1)/(r^2+1)", "1/(r-1.5)", "exp(-r)", "exp(-(r/1e-3)^2)", "log(r)",
     "sqrt(r)", "sqrt(abs(r-1))", "sqrt(max(0,1-r))", "sin(r)", "cos(3*r)", "tan(r)", "sin(1e10*r)", "asin(r/3)",
-    "acos(r/100)", "atan(r-1)", "atan(1e9*(r-1))", "sinh(r-1)", "cosh(r)", "tanh(r-1)", "tanh((r-1)/1e-6)", "erf(r-1)",
+    "acos(r/100)", "atan(r-1)", "atan(1e9*(r-1))", "sinh(r-1)", "cosh(r)", "tanh(r-1)", "tanh((r-1)/1e-6)",
+    "log1p(r-1)", "log1p(1e-9*r)", "erf(r-1)",
     "erfc(r-1)", "erfc(10*r)", "lgamma(r)", "lgamma(r+2)", "gamma(r+1)", "gamma(-0.5)*r", "abs(r-1)", "min(r,1)",
     "max(r,1/r)", "step(r-1)", "step(1-r)*exp(-r)", "r^2", "(r-1)^2", "(r-1)^3", "(r-1)^-2", "(r-1)^-1", "r^-1.7",
     "r^0.3", "(-r)^3", "(1-r)^0.5", "r^r", "2^(-r)", "pow(r,sin(r))", "cosh((r-1)/1e-4)^-2", "1/(1+exp((r-1)/1e-5))",
@@ -109,19 +110,10 @@ static void test_formula(const char *text, const vndf_parameter *parameters, siz
     vndf_expression_free(&expression);
 }
 
-/* A family's formula in words is its function. */
 static void test_family(const vndf_family_form *form, double a, double b)
 {
-    static const char *const variables[] = {"r"};
     const vndf_parameter parameters[] = {{"a", a}, {"b", b}};
-    const double values[] = {a, b};
-    vndf_names names = {variables, 1, parameters, form->count};
     test_formula(form->formula, parameters, form->count);
-    if (!TEST(vndf_expression_parse(form->formula, &names, &expression, NULL) == VNDF_OK))
-        return;
-    for (double r = 0.01; r < 30; r *= 1.3)
-        TEST_RELATIVE(value_of(r), form->p22(values, r), 1e-12);
-    vndf_expression_free(&expression);
 }
 
 /* A bound is of use: over a narrow piece of a smooth formula it is close. */
@@ -132,7 +124,7 @@ static void test_closeness(void)
     for (int i = 0; i < 4; i++) {
         TEST(vndf_expression_parse(smooth[i], &names, &expression, NULL) == VNDF_OK);
         vndf_jet r = vndf_jet_of_slope(1, 1.01), p22 = vndf_expression_jet(&expression, &r);
-        vndf_reach reach = vndf_reach_from(&p22, &r, 1, 1.01);
+        vndf_reach reach = vndf_reach_from(p22, r, 1, 1.01);
         TEST(reach.stray < 1e-9 && reach.high < 1.05 * reach.low);
         vndf_expression_free(&expression);
     }

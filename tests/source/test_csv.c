@@ -1,22 +1,81 @@
-/* A CSV of D or P22 becomes a curve that meets its rows, stays between neighbouring rows, never goes below
- * zero (at the ends of double: fuzz_csv) and has the tail that csv.h states; what is not such a CSV is refused with the
- * number of the line. */
-#include "harness/constants.h"
-#include "harness/test.h"
-
-#include <stdlib.h>
-
+/* Rows of D or P22 become a curve that meets them, stays between neighbours, never goes below zero (at the ends of
+ * double: fuzz_csv) and has the tail that csv.h states, whatever their columns, from a CSV as from memory; what is no
+ * such curve is refused with the number of the line or row. */
 #include "core/checksum.h"
-#include "source/csv/csv.h"
-#include "source/source.h"
+#include "source/sources.h"
+#include "vndf_build.h"
 
-static vndf_source *read_text(const char *text)
+static vndf_source *csv(const char *text)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = vndf_source_csv_text("test.csv", text, strlen(text), &error);
-    if (!TEST(source != NULL))
-        fprintf(stderr, "  %s\n", error.message);
-    return source;
+    return made(vndf_source_csv_text("test.csv", text, strlen(text), &error), &error, text);
+}
+
+/* The same numbers as a CSV and from memory, where the columns are not in degrees. */
+static char text[1 << 20];
+static const char *const headers[] = {"theta,ndf", "theta,p22", "slope,ndf", "slope,p22", "theta_deg,ndf"};
+enum { THETA_NDF, THETA_P22, SLOPE_NDF, SLOPE_P22, DEGREES_NDF };
+
+static vndf_source *csv_of(int columns, const double *x, const double *y, size_t count)
+{
+    size_t used = (size_t)sprintf(text, "%s\n", headers[columns]);
+    for (size_t i = 0; i < count; i++)
+        used += (size_t)sprintf(text + used, "%.17g,%.17g\n", x[i], y[i]);
+    return csv(text);
+}
+
+static vndf_source *rows_of(int columns, const double *x, const double *y, size_t count)
+{
+    vndf_error error = {VNDF_OK, ""};
+    return made(
+        vndf_source_rows((vndf_rows_over)(columns / 2), (vndf_rows_of)(columns % 2), x, y, count, "test", &error),
+        &error, headers[columns]);
+}
+
+/* The same curve in every unit; comments, blanks, CRLF, a byte order mark, and no newline at the end. */
+static void test_units(void)
+{
+    vndf_source *all[] = {csv("slope,p22\n0,4\n1,2\n1.7320508075688772,1"),
+                          csv("# measured\r\n\r\n slope ,\tndf \r\n0,4\r\n#\r\n1 , 8\r\n1.7320508075688772,16\r"),
+                          csv("\xEF\xBB\xBFtheta_deg,p22\n0,4\n45,2\n60,1\n"),
+                          csv("theta,p22\n0,4\n0.78539816339744831,2\n1.0471975511965977,1\n")};
+    for (size_t i = 0; i < 4; i++) {
+        TEST_RELATIVE(vndf_source_p22(all[i], 0), 4.0, 1e-14);
+        TEST_RELATIVE(vndf_source_p22(all[i], 1), 2.0, 1e-14);
+        TEST_RELATIVE(vndf_source_p22(all[i], 1.7320508075688772), 1.0, 1e-14);
+        TEST(vndf_source_p22(all[i], 0.5) < 4 && vndf_source_p22(all[i], 0.5) > 2);
+    }
+    for (double r = 0; r < 2; r += 0.01)
+        TEST_RELATIVE(vndf_source_p22(all[2], r), vndf_source_p22(all[3], r), 1e-14);
+    for (size_t i = 0; i < 4; i++)
+        vndf_source_free(all[i]);
+}
+
+/* From memory, to the bits of a table. */
+static void test_memory(void)
+{
+    enum { ROWS = 60 };
+    for (int columns = 0; columns < DEGREES_NDF; columns++) {
+        const vndf_build_options options = {.max_bytes = 4096};
+        double x[ROWS], y[ROWS];
+        float numbers[2][4096];
+        size_t count[2] = {0, 0};
+        for (int i = 0; i < ROWS; i++) {
+            x[i] = columns < SLOPE_NDF ? i * PI / 2 / ROWS : i * 0.05;
+            y[i] = exp(-4 * x[i]) * (1 + 0.5 * cos(9 * x[i]));
+        }
+        vndf_source *both[2] = {rows_of(columns, x, y, ROWS), csv_of(columns, x, y, ROWS)};
+        for (double r = 0; r < 100; r = r * 1.1 + 1e-3)
+            TEST(vndf_source_p22(both[0], r) == vndf_source_p22(both[1], r));
+        for (int i = 0; i < 2; i++) {
+            vndf_distribution *table = columns == 0 ? vndf_build(both[i], &options, NULL, NULL) : NULL;
+            count[i] = vndf_numbers(table, numbers[i], 4096);
+            vndf_free(table);
+            vndf_source_free(both[i]);
+        }
+        TEST(count[0] == count[1] && memcmp(numbers[0], numbers[1], count[0] * sizeof(float)) == 0);
+        TEST(columns > 0 || count[0] > 100);
+    }
 }
 
 /* GGX of roughness 0.3; at 1, D would be constant. */
@@ -26,60 +85,25 @@ static double ggx(double r)
     return 1 / (0.09 * PI * q * q);
 }
 
-/* The same curve in every unit; comments, blanks, CRLF, a byte order mark, and no newline at the end. */
-static void test_units(void)
-{
-    vndf_source *slope = read_text("slope,p22\n0,4\n1,2\n1.7320508075688772,1");
-    vndf_source *ndf = read_text("# measured\r\n\r\n"
-                                 " slope ,\tndf \r\n0,4\r\n#\r\n1 , 8\r\n1.7320508075688772,16\r");
-    vndf_source *degrees = read_text("\xEF\xBB\xBFtheta_deg,p22\n0,4\n45,2\n60,1\n");
-    vndf_source *radians = read_text("theta,p22\n0,4\n0.78539816339744831,2\n1.0471975511965977,1\n");
-    const vndf_source *all[] = {slope, ndf, degrees, radians};
-    for (size_t i = 0; i < 4; i++) {
-        TEST_RELATIVE(vndf_source_p22(all[i], 0), 4.0, 1e-14);
-        TEST_RELATIVE(vndf_source_p22(all[i], 1), 2.0, 1e-14);
-        TEST_RELATIVE(vndf_source_p22(all[i], 1.7320508075688772), 1.0, 1e-14);
-        TEST(vndf_source_p22(all[i], 0.5) < 4 && vndf_source_p22(all[i], 0.5) > 2);
-    }
-    for (double r = 0; r < 2; r += 0.01)
-        TEST_RELATIVE(vndf_source_p22(degrees, r), vndf_source_p22(radians, r), 1e-14);
-    vndf_source_free(slope);
-    vndf_source_free(ndf);
-    vndf_source_free(degrees);
-    vndf_source_free(radians);
-}
-
-static size_t add_row(char *text, size_t used, double x, double y)
-{
-    return used + (size_t)sprintf(text + used, "%.17g,%.17g\n", x, y);
-}
-
-/* Between the rows of smooth curves, at points that are no rows; first is the first point. */
-static double worst_error(const vndf_source *source, double first, double last)
-{
-    double worst = 0;
-    for (double r = first; r < last; r = r * 1.013 + 1e-5)
-        worst = fmax(worst, fabs(vndf_source_p22(source, r) / ggx(r) - 1));
-    return worst;
-}
-
+/* Between the rows of a smooth curve, at points that are no rows. */
 static void test_accuracy(void)
 {
-    static char text[1 << 20];
-    size_t used = (size_t)sprintf(text, "theta_deg,ndf\n");
+    double x[300], y[300];
     for (int i = 0; i <= 180; i++) {
-        double theta = i * PI / 360, c = cos(theta);
-        used = add_row(text, used, i * 0.5, i == 180 ? 0.09 / PI : ggx(tan(theta)) / (c * c * c * c));
+        double c = cos(i * PI / 360);
+        x[i] = i * 0.5;
+        y[i] = i == 180 ? 0.09 / PI : ggx(tan(i * PI / 360)) / (c * c * c * c);
     }
-    vndf_source *even = read_text(text);
-    used = (size_t)sprintf(text, "slope,p22\n0,%.17g\n", ggx(0));
-    for (double r = 1e-3; r < 1e3; r *= 1.05)
-        used = add_row(text, used, r, ggx(r));
-    vndf_source *geometric = read_text(text);
-    printf("GGX 0.3 from CSV: worst error %.2g from rows every half degree, %.2g from 283 rows 5%% apart\n",
-           worst_error(even, 0, 1e4), worst_error(geometric, 1e-3, 1e6));
-    TEST(worst_error(even, 0, 1e4) < 1e-5);
-    TEST(worst_error(geometric, 1e-3, 1e6) < 1e-5);
+    vndf_source *even = csv_of(DEGREES_NDF, x, y, 181);
+    for (int i = 0; i < 284; i++) {
+        x[i] = i ? 1e-3 * pow(1.05, i - 1) : 0;
+        y[i] = ggx(x[i]);
+    }
+    vndf_source *geometric = csv_of(SLOPE_P22, x, y, 284);
+    for (double r = 1e-3; r < 1e4; r *= 1.013) {
+        TEST_RELATIVE(vndf_source_p22(even, r), ggx(r), 1e-5);
+        TEST_RELATIVE(vndf_source_p22(geometric, r), ggx(r), 1e-5);
+    }
     vndf_source_free(even);
     vndf_source_free(geometric);
 }
@@ -87,18 +111,15 @@ static void test_accuracy(void)
 /* Random rows, some zero, over many decades: every point lies between its two rows. */
 static void test_shape(void)
 {
-    static char text[1 << 16];
     unsigned long long state = 5;
     for (int trial = 0; trial < 200; trial++) {
         double x[40], y[40];
-        size_t used = (size_t)sprintf(text, "slope,p22\n");
         int count = 2 + trial % 38;
         for (int i = 0; i < count; i++) {
             x[i] = (i > 0 ? x[i - 1] : 0) + pow(10, 6 * test_uniform_double(&state) - 4);
             y[i] = trial % 2 && i % 5 == 3 ? 0 : pow(10, 20 * test_uniform_double(&state) - 10);
-            used = add_row(text, used, x[i], y[i]);
         }
-        vndf_source *source = read_text(text);
+        vndf_source *source = csv_of(SLOPE_P22, x, y, (size_t)count);
         TEST(vndf_source_p22(source, x[0] / 2) == vndf_source_p22(source, 0));
         for (int i = 1; i < count; i++)
             for (double t = 0; t <= 1; t += 0.0625) {
@@ -122,47 +143,72 @@ static void test_tails(void)
         {"slope,p22\n0,1\n2,3\n", 20, 3e-4},           /* it rises */
         {"slope,p22\n0,1\n1,1\n1.000001,0\n", 1e300, 0},
         {"slope,p22\n0,1\n1,1\n1.000001,0\n", 0.7, 1},
-        {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e9, 1e-36}, /* D at 90 degrees is given */
+        {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e9, 1e-36},        /* D at 90 degrees is given */
+        {"theta,ndf\n0,3\n0.5,2\n1.5707963263,1\n", 1e9, 1e-36}, /* or nearly there */
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1, 0.5},
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e300, 0},
     };
     for (size_t i = 0; i < sizeof tails / sizeof *tails; i++) {
-        vndf_source *source = read_text(tails[i].text);
+        vndf_source *source = csv(tails[i].text);
         TEST_RELATIVE(vndf_source_p22(source, tails[i].r), tails[i].want, 1e-8);
         vndf_source_free(source);
     }
-    vndf_source *steep = read_text(tails[0].text), *full = read_text(tails[5].text);
+    vndf_source *steep = csv(tails[0].text), *full = csv(tails[5].text);
     TEST(full->break_count == 1 && fabs(full->breaks[0] - 1) < 1e-15);
     TEST(steep->break_count == 2 && steep->breaks[1] == 2);
     vndf_source_free(steep);
     vndf_source_free(full);
 }
 
+/* D that falls to 0 at 90 degrees, as cos^k: it joins, it keeps its digits, and a table is made of it. */
+static void test_falling(void)
+{
+    const vndf_build_options options = {0};
+    for (int k = 1; k <= 4; k *= 2)
+        for (size_t count = 10; count <= 91; count += 81) {
+            double x[91], y[91], last = (double)(count - 1);
+            for (size_t i = 0; i < count; i++) {
+                x[i] = PI / 2 * (double)i / last;
+                y[i] = i < count - 1 ? pow(cos(x[i]), k) : 0;
+            }
+            vndf_source *source = rows_of(THETA_NDF, x, y, count);
+            double join = tan(x[count - 2]), power;
+            TEST_RELATIVE(vndf_source_p22(source, join * (1 + 1e-12)), vndf_source_p22(source, join), 1e-10);
+            power = log10(vndf_source_p22(source, 1e11) / vndf_source_p22(source, 1e12));
+            TEST(fabs(power - 5) < 1e-6 || fabs(power - 6) < 1e-6);
+            vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
+            TEST(table != NULL);
+            vndf_free(table);
+            vndf_source_free(source);
+        }
+}
+
+/* Of more rows than can be breaks every n-th is one. */
 static void test_thinning(void)
 {
-    static char text[1 << 20];
-    size_t used = (size_t)sprintf(text, "slope,p22\n");
-    for (int i = 0; i < 20000; i++)
-        used = add_row(text, used, i, 1.0 / (1 + i));
-    vndf_source *source = read_text(text);
+    static double x[20000], y[20000];
+    for (int i = 0; i < 20000; i++) {
+        x[i] = i;
+        y[i] = 1.0 / (1 + i);
+    }
+    vndf_source *source = rows_of(SLOPE_P22, x, y, 20000);
     TEST(source->break_count == 4095 && source->breaks[4094] == 19999); /* the row at 0 is no break */
     for (size_t i = 1; i < source->break_count; i++)
         TEST(source->breaks[i] > source->breaks[i - 1]);
     vndf_source_free(source);
 }
 
-static void test_error_size(const char *text, size_t size, const char *message)
+/* ---- refusals ---- */
+
+static void refuse_text(const char *bytes, size_t size, const char *message)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = vndf_source_csv_text("t.csv", text, size, &error);
-    if (!(TEST(source == NULL) & TEST(error.status == VNDF_ERROR_SYNTAX) & TEST_HAS(error.message, message)))
-        fprintf(stderr, "  %s\n", error.message);
-    vndf_source_free(source);
+    refused(vndf_source_csv_text("t.csv", bytes, size, &error), &error, VNDF_ERROR_SYNTAX, message);
 }
 
-static void test_errors(void)
+static void test_refused_texts(void)
 {
-    static const char *const refused[][2] = {
+    static const char *const texts[][2] = {
         {"", "t.csv: line 1: no header line"},
         {"# only\n\n", "no header line"},
         {"slope\n0\n", "line 1: 1 field; two are needed"},
@@ -171,76 +217,108 @@ static void test_errors(void)
         {"0,1\n1,2\n", "line 1: the first column is called '0'"},
         {"slope,p22\n0,1\n", "line 2: the text ends with 1 row; at least two"},
         {"slope,p22\n0,1\n1\n", "line 3: 1 field;"},
+        {"material,channel,alpha\n", "line 1: 3 fields; two are needed"},
         {"slope,p22\n0,1\n#\n\n1,abc\n", "line 5: p22 is 'abc', which is no number"},
         {"slope,p22\n0,1\n1,2x\n", "line 3: p22 is '2x', a number with something behind it"},
         {"slope,p22\n0,1\n1 1,2\n", "line 3: slope is '1 1', a number with something behind it"},
         {"slope,p22\n0,1\n,2\n", "line 3: slope is missing"},
         {"slope,p22\n0,1\n1,nan\n", "line 3: p22 is 'nan', which is no number"},
         {"slope,p22\n0,1\n1,1e999\n", "line 3: p22 is '1e999', too large"},
-        {"slope,p22\n0,1\n1,-1e-9\n", "line 3: p22 is -1e-9; it must not be negative"},
-        {"slope,p22\n-1,1\n1,1\n", "line 2: slope is -1; it must not be negative"},
+        {"slope,p22\n0,1\n1,-1e-9\n", "t.csv: line 3: p22 is -1e-09; it must be finite and not negative"},
+        {"slope,p22\n-1,1\n1,1\n", "line 2: slope is -1; it must be finite and not negative"},
         {"slope,p22\n0,1\n2,1\n\n1,1\n", "line 5: slope is 1, which is not above that of line 3; rows"},
         {"theta_deg,ndf\n0,1\n90.5,1\n", "line 3: theta_deg is 90.5; angles from the normal are at most 90"},
         {"theta_deg,p22\n0,1\n90,0\n", "line 3: at 90 degrees the slope is infinite"},
     };
-    for (size_t i = 0; i < sizeof refused / sizeof *refused; i++)
-        test_error_size(refused[i][0], strlen(refused[i][0]), refused[i][1]);
-    test_error_size("slope,p22\n0,1\n1\0,2\n", 20, "line 3: a byte of value 0");
-}
-
-static void test_limits(void)
-{
     static char line[5000];
-    vndf_error error = {VNDF_OK, ""};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        refuse_text(texts[i][0], strlen(texts[i][0]), texts[i][1]);
+    refuse_text("slope,p22\n0,1\n1\0,2\n", 20, "line 3: a byte of value 0");
     memset(line, ' ', sizeof line);
     memcpy(line, "slope,p22\n", 10);
-    test_error_size(line, sizeof line, "line 2: 4990 characters; at most 4096");
-    TEST(vndf_source_csv_text("x", NULL, 0, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
-    size_t used = 10, rows = 1000001, size = 20 * rows;
-    char *many = malloc(size);
-    if (!many)
-        return;
+    refuse_text(line, sizeof line, "line 2: 4990 characters; at most 4096");
+    size_t used = 10, rows = 1000001;
+    char *many = malloc(20 * rows);
     memcpy(many, "slope,p22\n", 10);
     for (size_t i = 0; i < rows; i++)
         used += (size_t)sprintf(many + used, "%zu,1\n", i);
-    test_error_size(many, used, "line 1000002: more than 1000000 rows");
+    refuse_text(many, used, "line 1000002: more than 1000000 rows");
     free(many);
 }
 
-static void test_files(void)
+static void test_refused_files(void)
 {
     vndf_error error = {VNDF_OK, ""};
-    TEST(vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/merl_abc.csv", &error) == NULL);
-    TEST_HAS(error.message, "merl_abc.csv: line 4: 3 fields");
-    TEST(vndf_source_csv_file("no/such/file.csv", &error) == NULL && error.status == VNDF_ERROR_IO);
-    TEST_HAS(error.message, "no/such/file.csv: cannot be opened: ");
-    TEST(vndf_source_csv_file(NULL, &error) == NULL && error.status == VNDF_ERROR_ARGUMENT);
-    TEST(vndf_source_csv_file(VNDF_SOURCE_DIR, &error) == NULL && error.status == VNDF_ERROR_IO);
+    refused(vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/manifest.csv", &error), &error, VNDF_ERROR_SYNTAX,
+            "manifest.csv: line 1: ");
+    refused(vndf_source_csv_file("no/such/file.csv", &error), &error, VNDF_ERROR_IO,
+            "no/such/file.csv: cannot be opened: ");
+    refused(vndf_source_csv_file(NULL, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
+    refused(vndf_source_csv_file(VNDF_SOURCE_DIR, &error), &error, VNDF_ERROR_IO, "");
+    refused(vndf_source_csv_text("x", NULL, 0, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
 }
 
-static void test_description(void)
+static void test_refused_rows(void)
 {
-    const char *text = "slope,p22\n0,1\n1,0\n";
-    char want[80];
-    TEST(vndf_crc32(0, "123456789", 9) == 0xCBF43926u);
-    TEST(vndf_crc32(vndf_crc32(0, "1234", 4), "56789", 5) == 0xCBF43926u);
-    TEST(vndf_crc32(0, "", 0) == 0);
-    sprintf(want, "--csv 'my gloss.csv' (crc32 %08lx)", (unsigned long)vndf_crc32(0, text, strlen(text)));
-    vndf_source *source = vndf_source_csv_text("my gloss.csv", text, strlen(text), NULL);
-    TEST(strcmp(vndf_source_description(source), want) == 0 && !source->rebuildable);
-    vndf_source_free(source);
+    static const struct {
+        vndf_rows_of of;
+        double x, value;
+        const char *message;
+    } rows[] = {
+        {VNDF_ROWS_OF_P22, NAN, 1, "row 1: theta is nan; it must be finite"},
+        {VNDF_ROWS_OF_P22, INFINITY, 1, "row 1: theta is inf; it must be finite"},
+        {VNDF_ROWS_OF_P22, -1, 1, "row 1: theta is -1; it must be finite and not negative"},
+        {VNDF_ROWS_OF_P22, 0.2, NAN, "row 1: p22 is nan; it must be finite"},
+        {VNDF_ROWS_OF_P22, 0.2, -1e-300, "row 1: p22 is -1e-300; it must be finite and not negative"},
+        {VNDF_ROWS_OF_P22, 0.1, 1, "row 1: theta is 0.1, which is not above that of row 0; rows must ascend"},
+        {VNDF_ROWS_OF_P22, 0.1 * (1 + 5e-13), 1, "which is not above that of row 0"},
+        {VNDF_ROWS_OF_P22, 1.5, 1, "row 2: theta is 1.5, which is not above that of row 1"},
+        {VNDF_ROWS_OF_P22, PI / 2, 1, "row 1: at 90 degrees the slope is infinite"},
+        {VNDF_ROWS_OF_NDF, 1.6, 1, "row 1: theta is 1.6; angles from the normal are at most pi/2"},
+    };
+    vndf_error error = {VNDF_OK, ""};
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        const double x[3] = {0.1, rows[i].x, 1.5}, y[3] = {1, rows[i].value, 1};
+        refused(vndf_source_rows(VNDF_ROWS_OVER_THETA, rows[i].of, x, y, 3, NULL, &error), &error,
+                VNDF_ERROR_DISTRIBUTION, rows[i].message);
+    }
+}
+
+static void test_refused_arguments(void)
+{
+    static const double x[2] = {0, 1};
+    static const struct {
+        int over, of, has_x, has_y;
+        size_t count;
+        const char *message;
+    } calls[] = {
+        {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, 1, 0, 2, "the array of p22 is NULL"},
+        {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, 0, 1, 2, "the array of slope is NULL"},
+        {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, 1, 1, 1, "1 rows; from 2 to 1000000"},
+        {VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, 1, 1, 1000001, "1000001 rows; from 2"},
+        {7, VNDF_ROWS_OF_P22, 1, 1, 2, "the columns are neither"},
+        {VNDF_ROWS_OVER_SLOPE, -1, 1, 1, 2, "the columns are neither"},
+    };
+    vndf_error error = {VNDF_OK, ""};
+    for (size_t i = 0; i < sizeof calls / sizeof *calls; i++)
+        refused(vndf_source_rows((vndf_rows_over)calls[i].over, (vndf_rows_of)calls[i].of,
+                                 calls[i].has_x ? x : NULL, calls[i].has_y ? x : NULL, calls[i].count, NULL,
+                                 &error),
+                &error, VNDF_ERROR_ARGUMENT, calls[i].message);
 }
 
 int main(void)
 {
     test_units();
+    test_memory();
     test_accuracy();
     test_shape();
     test_tails();
+    test_falling();
     test_thinning();
-    test_errors();
-    test_limits();
-    test_files();
-    test_description();
+    test_refused_texts();
+    test_refused_files();
+    test_refused_rows();
+    test_refused_arguments();
     return test_done();
 }

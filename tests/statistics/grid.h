@@ -1,11 +1,11 @@
 /* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against expected
  * counts. Borders are even, or every second one is a quantile of a pilot run, so that half of the bins lie where
- * the samples go, however narrow the law is. tools/measure/bins.h, which knows visible normals, is finer. */
+ * the samples go, however narrow the law is. tools/evidence/measure/bins.h, which knows visible normals, is finer. */
 #ifndef TESTS_STATISTICS_GRID_H
 #define TESTS_STATISTICS_GRID_H
 
-#include "measure/bins.h"
-#include "measure/pearson.h"
+#include "evidence/measure/bins.h"
+#include "evidence/measure/pearson.h"
 
 enum { GRID_ROWS = 65, GRID_COLUMNS = 130, GRID_BINS = GRID_ROWS * GRID_COLUMNS };
 

@@ -7,7 +7,7 @@
 
 #include "harness/constants.h"
 #include "harness/test.h"
-#include "measure/pearson.h"
+#include "evidence/measure/pearson.h"
 
 /* ---- the frame ---- */
 

@@ -110,17 +110,7 @@ static const struct rule {
     {PARAMETERS, 12, WORD, 0xfffffff0u, "do not fill the file"},
 };
 
-static void test_refused(unsigned char *bytes, size_t size, const char *part)
-{
-    vndf_error error = {VNDF_OK, ""};
-    mend_checksum(bytes, size);
-    vndf_family *family = vndf_family_load_memory(bytes, size, &error);
-    TEST(!family && error.status == VNDF_ERROR_TABLE);
-    TEST_HAS(error.message, part);
-    vndf_family_free(family);
-}
-
-static void test_rules(const unsigned char *sound, size_t size)
+static void test_rules(const file_kind *families, const unsigned char *sound, size_t size)
 {
     static unsigned char bytes[ROOM];
     size_t parameters = parameters_at(sound), second = parameters + 16 + get_u32(sound + parameters + 12) + 4;
@@ -132,15 +122,14 @@ static void test_rules(const unsigned char *sound, size_t size)
             put_f32(at, (float)r->value);
         else
             put_u32(at, (unsigned long)r->value);
-        test_refused(bytes, size, r->message);
+        test_refused_for(families, bytes, size, r->message);
     }
     memcpy(bytes, sound, size);
     bytes[second + 200] ^= 1;
-    test_refused(bytes, size, "table 2: the checksum does not match");
+    test_refused_for(families, bytes, size, "table 2: the checksum does not match");
     memcpy(bytes, sound, size);
     memset(bytes + size, 0, 4);
-    put_u32(bytes + 12, size + 4);
-    test_refused(bytes, size + 4, "do not fill the file");
+    test_refused_for(families, bytes, size + 4, "do not fill the file");
 }
 
 int main(void)
@@ -152,7 +141,7 @@ int main(void)
         return test_done();
     test_same(bytes, size);
     test_not_saved();
-    test_rules(bytes, size);
+    test_rules(&families, bytes, size);
     test_damaged_file(&families, path, test_quick() ? 11 : 1);
     return test_done();
 }

@@ -61,6 +61,14 @@ int option_number(const char *command, const char *what, const words *values, do
 int option_count(const char *command, const char *what, const words *values, double low, double high,
                  unsigned long long *count);
 
+/* Which of these a word is, {"csv", "f32", NULL} say; -1 after a complaint that names `what` (an option), them and the
+ * nearest. */
+int word_among(const char *command, const char *what, const char *word, const char *const *candidates);
+
+/* "csv, md or json", with `before` in front of each; the candidates end with NULL. */
+enum { LISTED_LENGTH = 256 };
+void list_words(const char *const *candidates, const char *before, char listed[LISTED_LENGTH]);
+
 /* The candidate nearest to a misspelt word, or NULL if none is near. */
 const char *nearest_word(const char *word, const char *const *candidates, size_t count);
 

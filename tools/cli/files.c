@@ -3,12 +3,14 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "cli/arguments.h"
 #include "core/replace_file.h"
 
 /* ---- the standard descriptors -------------------------------------------------------------------- */
@@ -36,38 +38,21 @@ typedef struct noted_file {
     int role;
 } noted_file;
 
-static noted_file *noted;
-static size_t noted_count, noted_room;
+enum { NOTED_MAX = 4096 };
 
-static int make_room(void)
-{
-    if (noted_count < noted_room)
-        return 1;
-    size_t room = noted_room ? 2 * noted_room : 16;
-    noted_file *larger = realloc(noted, room * sizeof *noted);
-    if (!larger)
-        return 0;
-    noted = larger;
-    noted_room = room;
-    return 1;
-}
+static noted_file noted[NOTED_MAX];
+static size_t noted_count;
 
 static const char *note(const struct stat *file, int role)
 {
-    int known = 0;
     if (!S_ISREG(file->st_mode))
         return NULL;
-    for (size_t i = 0; i < noted_count; i++) {
-        if (noted[i].device != file->st_dev || noted[i].inode != file->st_ino)
-            continue;
-        if (noted[i].role != role)
-            return role_names[noted[i].role];
-        known = 1;
-    }
-    if (!known && !make_room())
-        return "one file more than there is memory for";
-    if (!known)
-        noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
+    for (size_t i = 0; i < noted_count; i++)
+        if (noted[i].device == file->st_dev && noted[i].inode == file->st_ino)
+            return noted[i].role == role ? NULL : role_names[noted[i].role];
+    if (noted_count == NOTED_MAX)
+        return "one file more than this program reads";
+    noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
     return NULL;
 }
 
@@ -87,22 +72,17 @@ const char *files_note_output(const char *path)
     return note_path(path, IS_OUTPUT);
 }
 
-const char *files_note_stdin(void)
-{
-    struct stat file;
-    return fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
-}
-
 int files_begin(void)
 {
     struct stat file;
+#ifdef SIGXFSZ /* a file that outgrows a limit of the shell fails to be written, as on a full disk */
+    signal(SIGXFSZ, SIG_IGN);
+#endif
     for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
         if (fcntl(descriptor, F_GETFD) < 0 && !open_in_place(descriptor))
             return 0;
     return fstat(STDOUT_FILENO, &file) != 0 || !note(&file, IS_STDOUT);
 }
-
-/* ---- one file under two names -------------------------------------------------------------------- */
 
 static int same_inode(const char *a, const char *b)
 {
@@ -110,21 +90,19 @@ static int same_inode(const char *a, const char *b)
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
-/* Of two names without links, which are cut: the same last name in the same folder. */
-static int same_place(char *a, char *b)
-{
-    size_t in_a = vndf_replace_folder_length(a), in_b = vndf_replace_folder_length(b);
-    int same = strcmp(a + in_a, b + in_b) == 0;
-    a[in_a] = b[in_b] = '\0';
-    return same && same_inode(in_a ? a : ".", in_b ? b : ".");
-}
-
+/* What is not there yet is known by its last name and its folder, behind all links. */
 int files_same(const char *a, const char *b)
 {
     if (strcmp(a, b) == 0 || same_inode(a, b))
         return 1;
     char *end_of_a = vndf_replace_end_of_links(a), *end_of_b = vndf_replace_end_of_links(b);
-    int same = end_of_a && end_of_b && same_place(end_of_a, end_of_b);
+    int same = 0;
+    if (end_of_a && end_of_b) {
+        size_t in_a = vndf_replace_folder_length(end_of_a), in_b = vndf_replace_folder_length(end_of_b);
+        same = strcmp(end_of_a + in_a, end_of_b + in_b) == 0;
+        end_of_a[in_a] = end_of_b[in_b] = '\0';
+        same = same && same_inode(in_a ? end_of_a : ".", in_b ? end_of_b : ".");
+    }
     free(end_of_a);
     free(end_of_b);
     return same;
@@ -132,9 +110,19 @@ int files_same(const char *a, const char *b)
 
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-static const char *why(void)
+/* NULL, or why stdin cannot be read; what is read once is gone. */
+static const char *take_stdin(void)
 {
-    return errno ? strerror(errno) : "it cannot be read";
+    static int is_taken;
+    struct stat file;
+    const char *role = fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
+    if (role)
+        return role == role_names[IS_STDOUT] ? "it is the standard output of this command as well"
+                                             : "it is an output of this command as well";
+    if (is_taken)
+        return "this command reads it twice";
+    is_taken = 1;
+    return NULL;
 }
 
 /* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
@@ -156,7 +144,7 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
     if (!bytes)
         snprintf(reason, reason_size, "there is no memory for it");
     else if (ferror(file))
-        snprintf(reason, reason_size, "%s", why());
+        snprintf(reason, reason_size, "%s", errno ? strerror(errno) : "it cannot be read");
     else if (count > most)
         snprintf(reason, reason_size, "it has more than %zu bytes", most);
     else {
@@ -169,18 +157,39 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
 
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
-    const char *role = files_note_input(path);
-    if (role) {
-        snprintf(reason, reason_size, "it is %s as well", role);
-        return NULL;
-    }
+    const int is_stdin = strcmp(path, "-") == 0;
+    const char *role = is_stdin ? take_stdin() : files_note_input(path);
     errno = 0;
-    FILE *file = fopen(path, "rb");
+    FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
     if (!file) {
-        snprintf(reason, reason_size, "%s", why());
+        snprintf(reason, reason_size, role && !is_stdin ? "it is %s as well" : "%s",
+                 role ? role : strerror(errno));
         return NULL;
     }
     char *bytes = read_all(file, most, size, reason, reason_size);
-    fclose(file);
+    if (!is_stdin)
+        fclose(file);
     return bytes;
+}
+
+const char *input_name(const char *path)
+{
+    return strcmp(path, "-") == 0 ? "stdin" : path;
+}
+
+char *input_read(const char *command, const char *path, size_t most, size_t *size)
+{
+    char reason[128];
+    char *bytes = files_read(path, most, size, reason, sizeof reason);
+    if (!bytes)
+        complain(command, "cannot read %s: %s", input_name(path), reason);
+    return bytes;
+}
+
+int input_stdin(const char *command)
+{
+    const char *why = take_stdin();
+    if (why)
+        complain(command, "cannot read stdin: %s", why);
+    return !why;
 }

@@ -16,14 +16,20 @@ int files_begin(void);
 const char *files_note_input(const char *path);
 const char *files_note_output(const char *path);
 
-/* Of stdin, where a command reads it. */
-const char *files_note_stdin(void);
-
 /* Whether two paths lead to one file, be it there already or not. */
 int files_same(const char *a, const char *b);
 
-/* All bytes of a file that is not trusted, noted as an input, with a 0 behind them; to be freed. NULL and the reason if
- * it cannot be read, has more than `most` bytes, or there is no memory. */
+/* All bytes of a file that is not trusted, or of stdin for "-", noted as an input, with a 0 behind them; to be freed.
+ * NULL and the reason if it cannot be read, has more than `most` bytes, or there is no memory. */
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size);
+
+/* The same, or NULL after a complaint. */
+char *input_read(const char *command, const char *path, size_t most, size_t *size);
+
+/* "stdin" for "-". */
+const char *input_name(const char *path);
+
+/* Takes stdin for a command that reads it line by line: it can be taken once. 1, or 0 after a complaint. */
+int input_stdin(const char *command);
 
 #endif

@@ -61,18 +61,6 @@ int output_stopping(unsigned held)
     return 0;
 }
 
-int output_interrupted(const output_file *output)
-{
-    return output->path && output_stopping(output->held);
-}
-
-void output_ignore_size_signal(void)
-{
-#ifdef SIGXFSZ
-    signal(SIGXFSZ, SIG_IGN);
-#endif
-}
-
 /* ---- opening ------------------------------------------------------------------------------------- */
 
 int output_is_stdout(const char *path)
@@ -80,57 +68,38 @@ int output_is_stdout(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-int input_named(const char *command, const char *path)
-{
-    const char *role = files_note_input(path);
-    if (role)
-        complain(command, "'%s' cannot be read: it is %s as well", path, role);
-    return !role;
-}
-
-int input_stdin(const char *command)
-{
-    const char *role = files_note_stdin();
-    if (role)
-        complain(command, "stdin cannot be read: it is %s as well", role);
-    return !role;
-}
-
 int output_replaceable(const char *command, const char *path)
 {
     struct stat status;
-    if (path[0] == '\0') {
-        complain(command, "the name of the output file is empty");
-        return 0;
-    }
+    if (path[0] == '\0')
+        return complain(command, "the name of the output file is empty"), 0;
     if (output_is_stdout(path))
         return 1;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode)) {
-        complain(command, "'%s' is not a file that can be replaced", path);
-        return 0;
-    }
+    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
+        return complain(command, "'%s' is a %s; the output has to be a file", path,
+                        S_ISDIR(status.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
+               0;
     const char *role = files_note_output(path);
     if (role)
         complain(command, "'%s' is not replaced: it is %s", path, role);
     return !role;
 }
 
-static int open_file(output_file *output)
-{
-    output->held = output_hold_signals();
-    if (vndf_replace_begin(&output->replaces, output->path)) {
-        output->file = output->replaces.file;
-        return 1;
-    }
-    complain(output->command, "cannot write '%s': %s", output->path, strerror(errno));
-    output_release_signals(output->held);
-    return 0;
-}
-
 int output_open(output_file *output, const char *command, const char *path)
 {
     *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
-    return !output->path || (output_replaceable(command, path) && open_file(output));
+    if (!output->path)
+        return 1;
+    if (!output_replaceable(command, path))
+        return 0;
+    output->held = output_hold_signals();
+    if (vndf_replace_begin(&output->replaces, path)) {
+        output->file = output->replaces.file;
+        return 1;
+    }
+    complain(command, "cannot write '%s': %s", path, strerror(errno));
+    output_release_signals(output->held);
+    return 0;
 }
 
 /* ---- closing ------------------------------------------------------------------------------------- */
@@ -164,74 +133,18 @@ int output_give_up(output_file *output, const char *why)
 {
     if (output->path)
         vndf_replace_discard(&output->replaces);
-    complain(output->command, "%s", why);
-    if (output->path)
-        output_release_signals(output->held);
+    if (why)
+        complain(output->command, "%s", why);
+    output_release_signals(output->held);
     return STATUS_USE;
 }
 
 void output_discard(output_file *output)
 {
-    if (!output->path)
-        return;
-    vndf_replace_discard(&output->replaces);
-    output_release_signals(output->held);
+    output_give_up(output, NULL);
 }
 
-/* ---- before the work ----------------------------------------------------------------------------- */
-
-static int is_usable(const char *command, const char *path)
-{
-    output_file output;
-    if (!path || !output_open(&output, command, path))
-        return !path;
-    output_discard(&output);
-    return 1;
-}
-
-int outputs_distinct(const char *command, const char *csv, const char *markdown)
-{
-    if (!is_usable(command, csv) || !is_usable(command, markdown))
-        return 0;
-    if (csv && markdown && files_same(csv, markdown)) {
-        complain(command, "--csv and --markdown both name '%s'", csv);
-        return 0;
-    }
-    return 1;
-}
-
-int output_is_earlier(const char *command, const char *path, const char *head, const char *hint)
-{
-    char start[OUTPUT_HEAD_MAX] = "";
-    FILE *file = output_is_stdout(path) ? NULL : fopen(path, "r");
-    if (!file)
-        return 1;
-    size_t size = fread(start, 1, strlen(head), file);
-    fclose(file);
-    if (size == 0 || strncmp(start, head, strlen(head)) == 0)
-        return 1;
-    complain(command, "--csv %s: the file is no earlier result of this command and is kept; %s", path, hint);
-    return 0;
-}
-
-static int print_to(const char *command, const char *path, int (*print)(FILE *, const void *), const void *rows)
-{
-    output_file output;
-    if (!path)
-        return STATUS_GOOD;
-    if (!output_open(&output, command, path))
-        return STATUS_USE;
-    return print(output.file, rows) ? output_commit(&output) : output_give_up(&output, "no memory for the table");
-}
-
-int outputs_print(const char *command, const char *csv, const char *markdown, const output_printers *as,
-                  const void *rows)
-{
-    int is_taken = (csv && output_is_stdout(csv)) || (markdown && output_is_stdout(markdown));
-    int text = print_to(command, is_taken ? NULL : "-", as->text, rows);
-    int first = print_to(command, csv, as->csv, rows), second = print_to(command, markdown, as->markdown, rows);
-    return text != STATUS_GOOD ? text : first != STATUS_GOOD ? first : second;
-}
+/* ---- forms --------------------------------------------------------------------------------------- */
 
 static const char *extension_of(const char *path)
 {
@@ -239,16 +152,16 @@ static const char *extension_of(const char *path)
     return dot && !strchr(dot, '/') ? dot + 1 : "";
 }
 
-int output_form(const char *command, const char *path, const char *format, const char *const forms[2])
+int output_form(const char *command, const char *path, const char *format, const char *const *forms)
 {
-    const char *chosen = format ? format : output_is_stdout(path) ? forms[0] : extension_of(path);
-    for (int i = 0; i < 2 && forms[i]; i++)
-        if (strcmp(chosen, forms[i]) == 0)
-            return i;
+    char known[LISTED_LENGTH];
     if (format)
-        complain(command, "--format '%s' is none of %s and %s", format, forms[0], forms[1]);
-    else
-        complain(command, "-o '%s': the name must end in .%s%s%s, or be - for stdout", path, forms[0],
-                 forms[1] ? " or ." : "", forms[1] ? forms[1] : "");
-    return -1;
+        return word_among(command, "--format", format, forms);
+    if (output_is_stdout(path))
+        return 0;
+    for (int i = 0; forms[i]; i++)
+        if (strcmp(extension_of(path), forms[i]) == 0)
+            return i;
+    list_words(forms, ".", known);
+    return complain(command, "-o '%s': the name must end in %s, or be - for stdout", path, known), -1;
 }

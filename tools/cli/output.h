@@ -1,5 +1,5 @@
 /* Files that appear whole or not at all (core/replace_file.h), none of which is an input as well (files.h). While the
- * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_interrupted() now and then, and
+ * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_stopping(held) now and then, and
  * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
  * global state.) */
 #ifndef TOOLS_CLI_OUTPUT_H
@@ -17,22 +17,11 @@ typedef struct output_file {
     unsigned held;             /* stopping signals that wait; see output_hold_signals */
 } output_file;
 
-/* Notes a file that is read, or stdin. 1, or 0 after a complaint: it is an output of the same command. */
-int input_named(const char *command, const char *path);
-int input_stdin(const char *command);
-
 /* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
-/* 1 if one of the signals that wait has come: for work between output_hold_signals and output_release_signals. */
+/* 1 if one of the signals that wait has come; close with output_give_up then. */
 int output_stopping(unsigned held);
-
-/* A file that outgrows a limit of the shell then fails to be written, as on a full disk, instead of ending the
- * program. */
-void output_ignore_size_signal(void);
-
-/* 1 if the user asked to stop; close with output_give_up then. */
-int output_interrupted(const output_file *output);
 
 /* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
 int output_commit(output_file *output);
@@ -50,28 +39,6 @@ int output_is_stdout(const char *path);
  * is free or another file, which is noted as an output, or "-". */
 int output_replaceable(const char *command, const char *path);
 
-/* Whether a CSV and a table in Markdown, NULL or "-" or a path each, can be written, before what they hold is
- * measured; and whether they are two files. 1, or 0 after a complaint. */
-int outputs_distinct(const char *command, const char *csv, const char *markdown);
-
-/* Whether --csv, which other commands read, names an earlier result of this one, beginning with `head`, or a
- * new file: a file with a D in it is not to be replaced by a slip. 1, or 0 after a complaint that ends with
- * `hint`. */
-enum { OUTPUT_HEAD_MAX = 64 };
-int output_is_earlier(const char *command, const char *path, const char *head, const char *hint);
-
-/* Three ways to print the same rows; 0 if there was no memory. */
-typedef struct output_printers {
-    int (*text)(FILE *file, const void *rows);
-    int (*markdown)(FILE *file, const void *rows);
-    int (*csv)(FILE *file, const void *rows);
-} output_printers;
-
-/* Prints rows to the CSV and the Markdown that were asked for (NULL, "-" or a path each), and as text to stdout unless
- * one of the two goes there. An exit status. */
-int outputs_print(const char *command, const char *csv, const char *markdown, const output_printers *as,
-                  const void *rows);
-
 /* Makes the stopping signals wait, for a library call that writes a file. The result tells
  * output_release_signals which ones it stopped, and is of no other use. */
 unsigned output_hold_signals(void);
@@ -80,8 +47,8 @@ void output_release_signals(unsigned held);
 /* Flushes stdout; an exit status, with a complaint if what was printed could not be delivered. */
 int output_finish_stdout(const char *command);
 
-/* Which of up to two forms, "csv" say, an output has: the one that --format names, if there is one, else the end of -o
- * path; the first for stdout. The second may be NULL. -1 after a complaint. */
-int output_form(const char *command, const char *path, const char *format, const char *const forms[2]);
+/* Which of these forms, {"csv", "f32", NULL} say, an output has: the one that --format names, if there is one, else the
+ * end of -o path; the first for stdout. -1 after a complaint. */
+int output_form(const char *command, const char *path, const char *format, const char *const *forms);
 
 #endif

@@ -1,9 +1,11 @@
 #include "cli/source_words.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
-#include "cli/output.h"
+#include "cli/files.h"
 
 enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
 
@@ -31,24 +33,39 @@ static vndf_source *source_from_expression(const char *command, const source_wor
         if (!read_parameter(command, given->set.item[i], names[i], &parameters[i]))
             return NULL;
     const char *formula = only_word(given->ndf.count ? &given->ndf : &given->slope);
-    return given->ndf.count ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
-                            : vndf_source_slope_expression(formula, parameters, given->set.count, error);
+    vndf_source *source = given->ndf.count
+                              ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
+                              : vndf_source_slope_expression(formula, parameters, given->set.count, error);
+    return source;
+}
+
+vndf_source *source_from_csv(const char *command, const char *path)
+{
+    vndf_error error = {VNDF_OK, ""};
+    size_t size;
+    char *text = input_read(command, path, VNDF_LIMIT_CSV_BYTES, &size);
+    vndf_source *source = text ? vndf_source_csv_text(input_name(path), text, size, &error) : NULL;
+    if (text && !source)
+        complain(command, "%s", error.message);
+    free(text);
+    return source;
 }
 
 vndf_source *source_from_words(const char *command, const source_words *given)
 {
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source;
-    if (given->csv.count && !input_named(command, only_word(&given->csv)))
-        return NULL;
     if (given->csv.count)
-        source = vndf_source_csv_file(only_word(&given->csv), &error);
-    else if (given->family.count)
+        return source_from_csv(command, only_word(&given->csv));
+    if (given->family.count)
         source = vndf_source_family(only_word(&given->family), &error);
     else
         source = source_from_expression(command, given, &error);
-    if (!source && error.status != VNDF_OK)
+    if (!source && error.status != VNDF_OK) {
         complain(command, "%s", error.message);
+        if (strstr(error.message, "unknown name") && !strstr(error.message, "did you mean"))
+            complain(command, "a parameter of your own has its value by --set NAME=X");
+    }
     return source;
 }
 
@@ -66,85 +83,48 @@ int source_words_check_set(const char *command, const source_words *given)
 
 /* ---- as text ------------------------------------------------------------------------------------- */
 
-typedef struct text_end {
-    char *at, *end; /* end: of the buffer, where the zero may stand at last */
-} text_end;
-
-static void put(text_end *t, char letter)
+/* Adds what fits. */
+static void add(char *text, size_t size, const char *more)
 {
-    if (t->at < t->end)
-        *t->at++ = letter;
-}
-
-static void put_text(text_end *t, const char *text)
-{
-    while (*text)
-        put(t, *text++);
+    size_t at = strlen(text);
+    snprintf(text + at, size - at, "%s", more);
 }
 
 /* Between quotes where a shell would make something else of it. */
-static void put_word(text_end *t, const char *word)
+static void add_word(char *text, size_t size, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
-    if (*word && strspn(word, plain) == strlen(word)) {
-        put_text(t, word);
-        return;
+    const int is_plain = *word && strspn(word, plain) == strlen(word);
+    add(text, size, is_plain ? "" : "'");
+    for (; *word; word++) {
+        const char letter[2] = {*word, '\0'};
+        add(text, size, *word == '\'' ? "'\\''" : letter);
     }
-    put(t, '\'');
-    for (; *word; word++)
-        if (*word == '\'')
-            put_text(t, "'\\''");
-        else
-            put(t, *word);
-    put(t, '\'');
-}
-
-static void put_option(text_end *t, const char *option, const words *values)
-{
-    for (size_t i = 0; i < values->count; i++) {
-        put_text(t, option);
-        put_word(t, values->item[i]);
-    }
-}
-
-void source_text(const source_words *given, char *text, size_t size)
-{
-    text_end t = {text, text + size - 1};
-    put_option(&t, "--ndf ", &given->ndf);
-    put_option(&t, "--slope ", &given->slope);
-    put_option(&t, "--csv ", &given->csv);
-    put_option(&t, "--family ", &given->family);
-    put_option(&t, " --set ", &given->set);
-    *t.at = '\0';
+    add(text, size, is_plain ? "" : "'");
 }
 
 void source_text_add(const char *option, const words *values, char *text, size_t size)
 {
-    text_end t = {text + strlen(text), text + size - 1};
     for (size_t i = 0; i < values->count; i++) {
-        if (t.at > text)
-            put(&t, ' ');
-        put_text(&t, option);
+        add(text, size, *text ? " " : "");
+        add(text, size, option);
         if (strcmp(values->item[i], option) == 0) /* a flag */
             continue;
-        put(&t, ' ');
-        put_word(&t, values->item[i]);
+        add(text, size, " ");
+        add_word(text, size, values->item[i]);
     }
-    *t.at = '\0';
 }
 
 void source_text_name(const source_words *given, char *text, size_t size)
 {
     const words *all[] = {&given->ndf, &given->slope, &given->csv, &given->family};
-    text_end t = {text, text + size - 1};
+    text[0] = '\0';
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        if (all[i]->count)
-            put_text(&t, only_word(all[i]));
+        add(text, size, all[i]->count ? only_word(all[i]) : "");
     for (size_t i = 0; i < given->set.count; i++) {
-        put_text(&t, ", ");
-        put_text(&t, given->set.item[i]);
+        add(text, size, ", ");
+        add(text, size, given->set.item[i]);
     }
-    *t.at = '\0';
 }
 
 /* ---- as a table ---- */

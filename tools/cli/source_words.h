@@ -19,14 +19,15 @@ int source_words_check_set(const char *command, const source_words *given);
 /* The source of the one that was given; NULL after a complaint. */
 vndf_source *source_from_words(const char *command, const source_words *given);
 
+/* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
+vndf_source *source_from_csv(const char *command, const char *path);
+
 /* A table of that source of the default size, to be freed, and its name for people (source_text_name); NULL
  * after a complaint. */
 vndf_distribution *table_from_words(const char *command, const source_words *given, char *name, size_t size);
 
-/* As a shell would take it, with quotes where they are needed; cut where `size` ends. */
-void source_text(const source_words *given, char *text, size_t size);
-
-/* Adds " OPTION VALUE" for each of the values to what stands in text, cut in the same way; " OPTION" for a flag. */
+/* Adds " OPTION VALUE" for each of the values to what stands in text, with quotes where a shell needs them;
+ * " OPTION" for a flag. Cut where `size` ends. */
 void source_text_add(const char *option, const words *values, char *text, size_t size);
 
 /* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */

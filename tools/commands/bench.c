@@ -1,106 +1,200 @@
-/* vndf bench: what a normal costs and what it is worth, beside everything else a user could pick. */
+/* vndf bench, vndf bench effects: what a normal and what each effect of a BSDF costs and is worth, beside
+ * everything else a user could pick. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "bench/bench.h"
-#include "command.h"
+#include "cli/clock.h"
+#include "cli/figures.h"
 #include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/source_words.h"
+#include "cli/subject.h"
+#include "command.h"
+#include "evidence/evidence.h"
 
-static const char name[] = "vndf bench";
+static const char normals_name[] = "vndf bench", effects_name[] = "vndf bench effects",
+                  student[] = "student-t:2.5";
 
-static const char help[] =
-    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv-data FILE | --family NAME[:PARAM,...]] [options]\n"
+static const char normals_help[] =
+    "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options]\n"
     "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
     "\n"
     "Times view, sample and density of every method, scalar and batch, and measures their error, largest weight\n"
     "and efficiency: closed forms for GGX and Beckmann, published and ours; for the distribution that is named,\n"
-    "tables of 2, 4 and 8 KiB with 2, 3 and 4 moments, one of 32 KiB, and the published ways for any D. All take\n"
-    "turns in one process, with random directions over the hemisphere and random roughness, data in cache; results\n"
-    "are verified before they count.\n"
+    "tables of 2, 4 and 8 KiB with 2, 3 and 4 moments, one of 32 KiB, and the published ways for any D; and a table\n"
+    "of student-t:2.5 beside it. All take turns in one process, with random directions over the hemisphere and\n"
+    "random roughness, data in cache; results are verified before they count.\n"
     "\n"
     "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
     "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "  --csv-data FILE  what `vndf build` takes as --csv\n"
+    "  --csv FILE       rows of D or P22, as `vndf build` reads them\n"
     "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
     "                   may take longer\n"
-    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n"
-    "  --csv FILE       all numbers as CSV (empty: does not apply); - for stdout\n"
-    "  --markdown FILE  the table in Markdown; - for stdout\n"
-    "\n"
+    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n" ROWS_HELP "\n"
     "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench --only avx512\n"
-    "         vndf bench --slope 'exp(-3*r)' --csv bench.csv --markdown -\n";
+    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n";
 
+static const char effects_help[] =
+    "usage: vndf bench effects [--distribution FILE|ggx|beckmann] ... [options]\n"
+    "\n"
+    "Times hit and sample, value and density of each set of effects that vndf_bsdf.h has, from bare reflection\n"
+    "upward, beside bare reflection written by hand; and measures mean, lost samples, largest weight, variance\n"
+    "and efficiency. Further rows compare visible with bounded normals by roughness and angle. All take turns in\n"
+    "one process, with the same random directions over the hemisphere; results are verified before they count.\n"
+    "\n"
+    "  --distribution D  a table file, ggx or beckmann, up to 8 times (default: ggx, beckmann and\n"
+    "                    student-t:2.5, which is built)\n"
+    "  --alpha AX[,AY]   roughness, but of the further rows (default 0.5)\n"
+    "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
+    "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the further\n"
+    "                    rows\n"
+    "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n" ROWS_HELP "\n"
+    "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
+    "\n"
+    "example: vndf bench effects --distribution ggx --only masking\n"
+    "         vndf bench effects -o effects.csv\n";
+
+/* What both commands take. */
 typedef struct bench_words {
-    source_words source;
-    words seconds, only, csv, markdown;
+    const char *command;
+    words seconds, only;
+    figure_words figures;
+    source_words source;              /* of normals */
+    words distribution, alpha, theta; /* of effects */
 } bench_words;
 
-/* ---- output ------------------------------------------------------------------------------------ */
+/* ---- output -------------------------------------------------------------------------------------- */
 
-static int judge(const bench_rows *rows)
+static int judge(const char *command, const evidence_rows *found)
 {
     int status = STATUS_GOOD;
-    for (size_t i = 0; i < rows->count; i++) {
-        const bench_row *row = &rows->row[i];
-        if (row->wrong)
-            complain(name, "%s of %s, %s: wrong results, not timed", row->method, row->distribution,
-                     row->instructions);
-        if (row->wrong && row->kind != BENCH_PUBLISHED)
+    for (size_t i = 0; i < found->count; i++) {
+        const evidence_row *r = &found->row[i];
+        if (!(r->number[COL_WRONG] > 0))
+            continue;
+        complain(command, "%s of %s, %s: wrong results, not timed", r->method, r->distribution, r->instructions);
+        if (r->kind != ROW_PUBLISHED)
             status = STATUS_NO;
     }
     return status;
 }
 
-/* ---- running ----------------------------------------------------------------------------------- */
-
-static int run_plan(bench_plan *plan, const bench_words *given, unsigned held)
+static int run_plan(evidence_plan *plan, const bench_words *given)
 {
-    progress p = progress_begin("bench", held);
     vndf_error error = {VNDF_OK, ""};
-    bench_rows rows;
-    plan->progress = progress_show;
-    plan->progress_user = &p;
-    vndf_status status = bench_run(plan, &rows, &error);
+    evidence_rows found;
+    unsigned held = output_hold_signals();
+    progress p = progress_begin(given->command, held);
+    p.is_seen &= !given->figures.quiet.count;
+    plan->progress = &p;
+    plan->only = only_word(&given->only);
+    plan->start = clock_seconds();
+    vndf_status status = evidence_run(plan, &found, &error);
     progress_end(&p);
-    if (status != VNDF_OK)
-        return complain(name, "%s", error.message);
-    int printed = outputs_print(name, only_word(&given->csv), only_word(&given->markdown), &bench_printers, &rows);
-    int judged = judge(&rows);
-    bench_rows_free(&rows);
+    int printed = status != VNDF_OK ? complain(given->command, "%s", error.message)
+                                    : rows_print(given->command, &given->figures, evidence_print, &found);
+    int judged = judge(given->command, &found);
+    rows_free(&found);
+    output_release_signals(held);
     return printed == STATUS_GOOD ? judged : printed;
 }
 
-static int outputs_usable(const bench_words *given)
+/* ---- vndf bench effects -------------------------------------------------------------------------- */
+
+typedef struct opened {
+    chosen_distribution of[MATERIALS_MAX];
+    size_t count;
+    vndf_distribution *built;
+} opened;
+
+static int open_one(opened *o, evidence_plan *plan, const char *word)
 {
-    const char *csv = only_word(&given->csv);
-    return outputs_distinct(name, csv, only_word(&given->markdown)) &&
-           (!csv || output_is_earlier(name, csv, "method,distribution,", "a D is read by --csv-data"));
+    if (!distribution_open(&o->of[o->count], effects_name, word))
+        return 0;
+    plan->of[plan->count].name = word;
+    plan->of[plan->count++].distribution = o->of[o->count++].distribution;
+    return 1;
 }
 
-static int run_words(const bench_words *given)
+/* The named distributions, or both closed forms and a table built for the purpose. */
+static int open_all(opened *o, evidence_plan *plan, const words *names)
 {
-    bench_plan plan = {.seconds = 40, .only = only_word(&given->only), .name = "student-t:2.5"};
     vndf_error error = {VNDF_OK, ""};
-    if (!option_number(name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) || !outputs_usable(given))
+    for (size_t i = 0; i < names->count; i++)
+        if (!open_one(o, plan, names->item[i]))
+            return 0;
+    if (names->count)
+        return 1;
+    if (!open_one(o, plan, "ggx") || !open_one(o, plan, "beckmann"))
+        return 0;
+    vndf_source *source = vndf_source_family(student, &error);
+    o->built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
+    vndf_source_free(source);
+    if (!o->built)
+        complain(effects_name, "%s", error.message);
+    plan->of[plan->count].name = student;
+    plan->of[plan->count++].distribution = o->built;
+    return o->built != NULL;
+}
+
+static int run_effects(const bench_words *given)
+{
+    vndf_surface alpha;
+    evidence_plan plan = {.theta = 60, .seconds = 15};
+    opened o = {.count = 0, .built = NULL};
+    const char *text = only_word(&given->alpha);
+    if (!roughness_from(effects_name, text ? text : "0.5", &alpha) ||
+        !option_number(effects_name, "--seconds", &given->seconds, 0.01, 3600, &plan.seconds) ||
+        !option_number(effects_name, "--theta", &given->theta, 0, 89.9, &plan.theta) ||
+        !rows_check(given->command, &given->figures))
+        return STATUS_USE;
+    plan.alpha_x = alpha.alpha_x;
+    plan.alpha_y = alpha.alpha_y;
+    int status = open_all(&o, &plan, &given->distribution) ? run_plan(&plan, given) : STATUS_USE;
+    for (size_t i = 0; i < o.count; i++)
+        distribution_close(&o.of[i]);
+    vndf_free(o.built);
+    return status;
+}
+
+int command_bench_effects(int argc, char **argv)
+{
+    bench_words given = {.command = effects_name};
+    words positional = {{NULL}, 0};
+    const option_form options[] = {
+        {"--distribution", 1, MATERIALS_MAX, &given.distribution},
+        {"--alpha", 1, 1, &given.alpha},
+        {"--theta", 1, 1, &given.theta},
+        {"--only", 1, 1, &given.only},
+        {"--seconds", 1, 1, &given.seconds},
+        ROWS_OPTIONS(given.figures),
+    };
+    const command_form form = {effects_name, effects_help, options, sizeof options / sizeof options[0], "", 0, 0};
+    int parsed = parse_arguments(&form, argc, argv, &positional);
+    return parsed == PARSE_GO_ON ? run_effects(&given) : parsed;
+}
+
+/* ---- vndf bench ---------------------------------------------------------------------------------- */
+
+static int run_normals(const bench_words *given)
+{
+    subject s;
+    evidence_plan plan = {.at_hand = &s, .seconds = 40};
+    vndf_error error = {VNDF_OK, ""};
+    if (!option_number(normals_name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) ||
+        !rows_check(given->command, &given->figures))
         return STATUS_USE;
     int own = source_words_count(&given->source) != 0;
-    vndf_source *source = own ? source_from_words(name, &given->source) : vndf_source_family(plan.name, &error);
+    vndf_source *source =
+        own ? source_from_words(normals_name, &given->source) : vndf_source_family(student, &error);
     if (!source)
-        return own ? STATUS_USE : complain(name, "%s", error.message);
-    plan.source = source;
-    if (given->source.family.count)
-        plan.name = only_word(&given->source.family);
-    else if (own)
-        plan.name = vndf_source_description(source);
-    unsigned held = output_hold_signals();
-    int status = run_plan(&plan, given, held);
-    vndf_source_free(source);
-    output_release_signals(held);
+        return own ? STATUS_USE : complain(normals_name, "%s", error.message);
+    const char *family = only_word(&given->source.family);
+    subject_begin(&s, source, !own ? student : family ? family : vndf_source_description(source));
+    int status = run_plan(&plan, given);
+    subject_free(&s);
     return status;
 }
 
@@ -108,24 +202,24 @@ int command_bench(int argc, char **argv)
 {
     if (argc > 0 && strcmp(argv[0], "effects") == 0)
         return command_bench_effects(argc - 1, argv + 1);
-    bench_words given = {0};
+    bench_words given = {.command = normals_name};
     words positional = {{NULL}, 0};
     const option_form options[] = {
         {"--ndf", 1, 1, &given.source.ndf},
         {"--slope", 1, 1, &given.source.slope},
-        {"--csv-data", 1, 1, &given.source.csv},
+        {"--csv", 1, 1, &given.source.csv},
         {"--family", 1, 1, &given.source.family},
         {"--set", 1, WORDS_MAX, &given.source.set},
         {"--seconds", 1, 1, &given.seconds},
         {"--only", 1, 1, &given.only},
-        {"--csv", 1, 1, &given.csv},
-        {"--markdown", 1, 1, &given.markdown},
+        ROWS_OPTIONS(given.figures),
     };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "", 0, 0};
+    const command_form form = {normals_name, normals_help, options, sizeof options / sizeof options[0], "", 0, 0};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed == PARSE_GO_ON && source_words_count(&given.source) > 1)
-        return complain(name, "more than one of --ndf, --slope, --csv-data and --family; one at most is needed");
+        return complain(normals_name,
+                        "more than one of --ndf, --slope, --csv and --family; one at most is needed");
     if (parsed == PARSE_GO_ON)
-        parsed = source_words_check_set(name, &given.source);
-    return parsed == PARSE_GO_ON ? run_words(&given) : parsed;
+        parsed = source_words_check_set(normals_name, &given.source);
+    return parsed == PARSE_GO_ON ? run_normals(&given) : parsed;
 }

@@ -1,5 +1,5 @@
-/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that end with
- * good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that
+ * end with good or FAILED:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
@@ -9,14 +9,14 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "measure/chi_square.h"
+#include "evidence/measure/chi_square.h"
 #include "command.h"
-#include "measure/consistency.h"
-#include "cli/subject.h"
-#include "cli/output.h"
+#include "evidence/measure/consistency.h"
 #include "cli/progress.h"
-#include "measure/statistics.h"
-#include "measure/stress.h"
+#include "cli/source_words.h"
+#include "cli/subject.h"
+#include "evidence/measure/statistics.h"
+#include "evidence/measure/stress.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf check";
@@ -63,7 +63,8 @@ static const char *verdict(int good)
 
 /* ---- certificate --------------------------------------------------------------------------------- */
 
-/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may be. */
+/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may
+ * be. */
 static int compare(const char *what, float stored, float measured, double floor, double factor)
 {
     double allowed = floor + factor * ((double)stored - floor) + 1e-7;
@@ -92,14 +93,11 @@ static int compare_certificates(const vndf_certificate *stored, const vndf_certi
 static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
-    *failed = csv && !input_named(name, csv);
-    if (*failed)
-        return NULL;
-    vndf_source *source = csv ? vndf_source_csv_file(csv, &error) : vndf_source_of(table, &error);
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(table, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
-    if (*failed)
+    if (*failed && !csv)
         complain(name, "%s", error.message);
-    else if (!source)
+    else if (!source && !csv)
         printf("certificate  not measured again: %s\n", error.message);
     return source;
 }

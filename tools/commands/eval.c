@@ -5,9 +5,10 @@
 #include <string.h>
 
 #include "cli/arguments.h"
+#include "cli/figures.h"
+#include "cli/files.h"
+#include "cli/subject.h"
 #include "command.h"
-#include "cli/output.h"
-#include "cli/surface.h"
 
 static const char name[] = "vndf eval";
 
@@ -23,11 +24,7 @@ static const char help[] =
     "  pdf     density per steradian with which `vndf sample` draws wm from this incident direction\n"
     "  lambda  Smith's Lambda of the incident direction\n"
     "  g1      Smith's masking of the incident direction, 1/(1 + lambda); 0 below the horizon\n"
-    "\n"
-    "  --theta DEG      angle of the incident direction from the normal, 0 to 180\n"
-    "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"
-    "  --alpha AX[,AY]  roughness along x and y (default 1)\n"
-    "\n" SURFACE_HELP "\n"
+    "\n" AIM_HELP FIGURES_HELP "\n" SURFACE_HELP "\n"
     "Then all four numbers are of the whole surface. Where lobes have mean slopes, the mean plane of the whole stands\n"
     "for the horizon in lambda and g1.\n"
     "\n"
@@ -37,49 +34,56 @@ static const char help[] =
 
 enum { LINE_MAX_LENGTH = 256 };
 
-/* Without the line's end. 1, or 0 after a complaint. */
-static int trim_line(char *line, unsigned long long number)
-{
-    size_t length = strlen(line);
-    if (length + 1 == LINE_MAX_LENGTH && line[length - 1] != '\n') {
-        complain(name, "stdin, line %llu: longer than %d characters", number, LINE_MAX_LENGTH - 2);
-        return 0;
-    }
-    while (length && (line[length - 1] == '\n' || line[length - 1] == '\r'))
-        line[--length] = '\0';
-    return 1;
-}
-
-/* Normalised, so that nine digits of a text file are as good as the float. 1, or 0 after a complaint. */
-static int read_normal(const char *line, unsigned long long number, vndf_vec3 *wm)
+/* A line of stdin, `number` of them counted from 1: normalised, so that nine digits of a text file are as good as the
+ * float. 1, or 0 after a complaint. */
+static int read_normal(char *line, unsigned long long number, vndf_vec3 *wm)
 {
     char where[48];
     double v[3];
+    size_t end = strcspn(line, "\r\n");
+    if (end == LINE_MAX_LENGTH - 1)
+        return complain(name, "stdin, line %llu: longer than %d characters", number, LINE_MAX_LENGTH - 2), 0;
+    line[end] = '\0';
     snprintf(where, sizeof where, "stdin, line %llu:", number);
-    if (!parse_numbers(name, where, line, -2, 2, 3, 3, v)) {
-        complain(name, "a line has to be wm.x,wm.y,wm.z, a unit vector");
-        return 0;
-    }
+    if (!parse_numbers(name, where, line, -2, 2, 3, 3, v))
+        return complain(name, "a line has to be wm.x,wm.y,wm.z, a unit vector"), 0;
     double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (fabs(length - 1) > 1e-3) {
-        complain(name, "%s '%s' has length %.6g; a normal has length 1 within 1e-3", where, line, length);
-        return 0;
-    }
+    if (fabs(length - 1) > 1e-3)
+        return complain(name, "%s '%s' has length %.6g; a normal has length 1 within 1e-3", where, line, length),
+               0;
     *wm = (vndf_vec3){(float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length)};
     return 1;
 }
 
-static int evaluate_lines(const chosen_surface *surface)
+/* One lobe gives the bits of its distribution alone. */
+static double ndf_of(const vndf_mixture *m, vndf_vec3 wm)
+{
+    return (double)(m->count == 1 ? vndf_affine_ndf(&m->lobe[0].surface, wm) : vndf_mixture_ndf(m, wm));
+}
+
+static int evaluate_lines(const chosen_surface *surface, figures *f)
 {
     char line[LINE_MAX_LENGTH];
-    vndf_mixture_view view = vndf_mixture_view_from(&surface->mixture, surface->wi);
-    double lambda = (double)surface_lambda(surface), g1 = (double)surface_g1(surface);
+    const vndf_mixture *m = &surface->mixture;
+    const vndf_affine *alone = m->count == 1 ? &m->lobe[0].surface : NULL;
+    vndf_mixture_view view = vndf_mixture_view_from(m, surface->wi);
+    double lambda = (double)(alone ? vndf_affine_lambda(alone, surface->wi) : vndf_mixture_lambda(m, surface->wi));
+    double g1 = (double)(alone ? vndf_affine_g1(alone, surface->wi) : vndf_mixture_g1(m, surface->wi));
     for (unsigned long long number = 1; fgets(line, sizeof line, stdin); number++) {
         vndf_vec3 wm;
-        if (!trim_line(line, number) || !read_normal(line, number, &wm))
+        if (!read_normal(line, number, &wm))
             return STATUS_USE;
-        double ndf = (double)surface_ndf(surface, wm), pdf = (double)vndf_mixture_pdf(&view, wm);
-        if (printf("%.9g,%.9g,%.9g,%.9g\n", ndf, pdf, lambda, g1) < 0)
+        double ndf = ndf_of(m, wm), pdf = (double)vndf_mixture_pdf(&view, wm);
+        if (f->form == FIGURES_TEXT)
+            printf("%.9g,%.9g,%.9g,%.9g\n", ndf, pdf, lambda, g1);
+        else {
+            figures_record(f);
+            figures_number(f, "ndf", 9, ndf, "per steradian");
+            figures_number(f, "pdf", 9, pdf, "per steradian");
+            figures_number(f, "lambda", 9, lambda, "ratio");
+            figures_number(f, "g1", 9, g1, "ratio");
+        }
+        if (ferror(stdout))
             return STATUS_USE; /* main says why */
     }
     if (ferror(stdin))
@@ -90,19 +94,24 @@ static int evaluate_lines(const chosen_surface *surface)
 int command_eval(int argc, char **argv)
 {
     aim_words aim = {0};
+    figure_words asked = {0};
     words positional = {{NULL}, 0};
     chosen_surface surface;
-    const option_form options[] = {{"--theta", 1, 1, &aim.theta},
-                                   {"--phi", 1, 1, &aim.phi},
-                                   {"--alpha", 1, 1, &aim.alpha},
-                                   {"--lobe", 1, VNDF_MIXTURE_LOBES, &aim.lobes}};
+    const option_form options[] = {AIM_OPTIONS(aim), FIGURES_OPTIONS(asked)};
     const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
     if (!surface_open(&surface, name, &aim, &positional))
         return STATUS_USE;
-    int status = input_stdin(name) ? evaluate_lines(&surface) : STATUS_USE;
+    int status = STATUS_USE;
+    if (input_stdin(name)) {
+        figures f = figures_begin(&asked);
+        figures_list(&f, "values");
+        status = evaluate_lines(&surface, &f);
+        figures_list_end(&f);
+        figures_end(&f);
+    }
     surface_close(&surface);
     return status;
 }

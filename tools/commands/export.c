@@ -80,17 +80,11 @@ enum { NOTICE_MAX = 1 << 16 };
 /* The text of a file, or NULL after a complaint. */
 static char *read_notice_file(const char *path)
 {
-    FILE *file = input_named(name, path) ? fopen(path, "rb") : NULL;
-    char *text = file ? malloc(NOTICE_MAX + 1) : NULL;
-    size_t length = text ? fread(text, 1, NOTICE_MAX + 1, file) : 0;
-    int bad = !text || ferror(file) || length > NOTICE_MAX || memchr(text, '\0', length);
-    if (file)
-        fclose(file);
-    if (!bad) {
-        text[length] = '\0';
+    size_t length;
+    char *text = input_read(name, path, NOTICE_MAX, &length);
+    if (!text || strlen(text) == length)
         return text;
-    }
-    complain(name, "--notice '@%s': a text file of at most %d bytes is needed", path, NOTICE_MAX);
+    complain(name, "--notice '@%s': it is no text, a byte of it is 0", path);
     free(text);
     return NULL;
 }

@@ -6,7 +6,6 @@
 #include "cli/output.h"
 #include "command.h"
 #include "manual/manual.h"
-#include "vndf.h"
 
 const subcommand subcommands[] = {
     {"build", command_build, "make a table from a formula, a CSV, a named family or a file of measurements"},
@@ -86,37 +85,15 @@ int print_help(void)
 
 int refuse_subcommand(const char *command, const char *wrong)
 {
-    const char *names[WORDS_MAX];
-    for (size_t i = 0; i < subcommand_count && i < WORDS_MAX; i++)
-        names[i] = subcommands[i].name;
-    const char *hint = nearest_word(wrong, names, subcommand_count);
+    const char *names[WORDS_MAX] = {"--help", "--version"};
+    for (size_t i = 0; i < subcommand_count; i++)
+        names[2 + i] = subcommands[i].name;
+    const char *hint = nearest_word(wrong, names, 2 + subcommand_count);
     if (hint)
         return complain(command, "there is no command '%s'; did you mean '%s'?", wrong, hint);
+    if (strchr(wrong, '.'))
+        return complain(command, "there is no command '%s'; did you mean `vndf info %s`?", wrong, wrong);
     return complain(command, "there is no command '%s'; `vndf --help` lists them", wrong);
-}
-
-static void take(const command_form *form, void *command)
-{
-    manual_command_from(form, command);
-}
-
-/* All commands, and the mode of one that has a help of its own, each behind the other. */
-enum { COMMANDS_MAX = sizeof subcommands / sizeof subcommands[0] + 1 };
-
-static size_t take_all(manual_command command[COMMANDS_MAX])
-{
-    size_t count = 0;
-    for (size_t i = 0; i < subcommand_count; i++) {
-        command[count].name = subcommands[i].name;
-        command[count].purpose = subcommands[i].purpose;
-        take_form(subcommands[i].run, take, &command[count++]);
-        if (subcommands[i].run == command_bench) {
-            command[count].name = "bench effects";
-            command[count].purpose = "what each effect of a BSDF costs";
-            take_form(command_bench_effects, take, &command[count++]);
-        }
-    }
-    return count;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
@@ -125,8 +102,10 @@ static int show(const words *asked)
 {
     static char word[] = "--help";
     char *argv[] = {word, NULL};
-    if (asked->count == 2 && strcmp(asked->item[0], "bench") == 0 && strcmp(asked->item[1], "effects") == 0)
-        return command_bench_effects(1, argv);
+    static const char *const modes[] = {"effects", NULL};
+    if (asked->count == 2 && strcmp(asked->item[0], "bench") == 0)
+        return word_among(name, "what follows bench,", asked->item[1], modes) < 0 ? STATUS_USE
+                                                                                  : command_bench_effects(1, argv);
     if (asked->count == 2)
         return complain(name, "'%s' is one word too many", asked->item[1]);
     for (size_t i = 0; i < subcommand_count; i++)
@@ -135,32 +114,24 @@ static int show(const words *asked)
     return refuse_subcommand(name, asked->item[0]);
 }
 
-typedef void writer(const manual *from, FILE *to);
-
-static int write(writer *as, const char *path)
+static int write(int is_man, const char *path)
 {
     char head[HEAD_SIZE];
-    manual_command command[COMMANDS_MAX];
     output_file output;
-    write_head(head);
-    const manual from = {"vndf " VNDF_VERSION, head, command, take_all(command)};
     if (!output_open(&output, name, path ? path : "-"))
         return STATUS_USE;
-    as(&from, output.file);
+    write_head(head);
+    if (is_man)
+        manual_write_man(output.file, head);
+    else
+        manual_write_bash(output.file);
     return output_commit(&output);
-}
-
-static writer *writer_for(const char *shell)
-{
-    if (strcmp(shell, "bash") == 0)
-        return manual_write_bash;
-    complain(name, "--completion '%s' is not bash", shell);
-    return NULL;
 }
 
 int command_help(int argc, char **argv)
 {
     words asked = {{NULL}, 0}, man = {{NULL}, 0}, completion = {{NULL}, 0}, output = {{NULL}, 0};
+    static const char *const shells[] = {"bash", NULL};
     const option_form options[] = {
         {"--man", 0, 1, &man}, {"--completion", 1, 1, &completion}, {"-o", 1, 1, &output}};
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "COMMAND", 0, 2};
@@ -173,6 +144,7 @@ int command_help(int argc, char **argv)
         return complain(name, "one of a command, --man and --completion is possible");
     if (asked.count)
         return show(&asked);
-    writer *as = man.count ? manual_write_man : writer_for(only_word(&completion));
-    return as ? write(as, only_word(&output)) : STATUS_USE;
+    if (completion.count && word_among(name, "--completion", only_word(&completion), shells) < 0)
+        return STATUS_USE;
+    return write(man.count > 0, only_word(&output));
 }

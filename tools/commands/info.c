@@ -1,18 +1,16 @@
 /* vndf info: what a file of this program says of itself; nothing is measured (`vndf check` does). */
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "commands/describe.h"
-#include "commands/parts/albedo_print.h"
+#include "commands/parts/describe.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 
 static const char help[] =
-    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs|FILE.albedo\n"
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs [--json] [-q]\n"
     "\n"
-    "Prints `key value` lines:\n"
+    "Prints lines of a name, a value and its unit:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
     "  tool           the version that made it\n"
     "  bytes          size of the table's file; 0 for the closed forms\n"
@@ -26,7 +24,7 @@ static const char help[] =
     "  tv_theta       incident angle where it was found, degrees\n"
     "  tv_above, tv_above_theta    the same for directions from 0 to 90 degrees\n"
     "  max_weight     largest true/sampled density over all but 1e-6 of the mass\n"
-    "  weight_bounded 1 if true/sampled is bounded everywhere\n"
+    "  weight_bounded yes if true/sampled is bounded everywhere\n"
     "  area_error     largest relative error of the projected area, Lambda and G1\n"
     "  consistency    largest |integral of pdf - 1|\n"
     "  ndf_error      largest relative error of ndf over all but 1e-6 of the mass\n"
@@ -43,162 +41,57 @@ static const char help[] =
     "  distance       largest total variation distance of slopes between family and mixture, without tables\n"
     "  grazing        the same of the normals that are visible at grazing incidence\n"
     "  tables_tv      the largest tv of the tables\n"
-    "  knot P bytes B tv T distance D    a line for each table, D up to the next knot\n"
+    "  knot at P bytes B tv T distance D    a line for each table, D up to the next knot\n"
     "\n"
-    "Of a table of albedos (vndf albedo --save FILE.albedo):\n"
-    "  source, tool   of the distribution, as above\n"
-    "  eta            its ratio of indices; 0: a mirror\n"
-    "  error          largest error of an albedo, and where; error_usual the same for usual roughness\n"
-    "  split_error, split_usual    the same of the parts that are reflected and transmitted\n"
-    "  average_error, quadrature_error    of averages over angles, and of the quadrature itself\n"
-    "  grid, values, bytes    points, numbers in the table, size of the file\n"
-    "\n"
-    "example: vndf info wavy.vndf\n";
+    "FILE is - for a table on stdin.\n"
+    "\n" FIGURES_HELP "\n"
+    "example: vndf info wavy.vndf\n"
+    "         vndf info wavy.vndf --json\n";
 
-void describe_certificate(const vndf_certificate *certificate)
+static int info_of_family(const char *command, const char *path, figures *f)
 {
-    printf("tv %.4g\n", (double)certificate->tv);
-    printf("tv_theta %.6g\n", (double)certificate->tv_theta);
-    printf("tv_above %.4g\n", (double)certificate->tv_above);
-    printf("tv_above_theta %.6g\n", (double)certificate->tv_above_theta);
-    printf("max_weight %.6g\n", (double)certificate->max_weight);
-    printf("weight_bounded %d\n", certificate->weight_bounded > 0);
-    printf("area_error %.4g\n", (double)certificate->area_error);
-    printf("consistency %.4g\n", (double)certificate->consistency);
-    printf("ndf_error %.4g\n", (double)certificate->ndf_error);
-    printf("hidden %.4g\n", (double)certificate->hidden);
-    printf("finest %.4g\n", (double)certificate->finest);
-    printf("horizon_power %.4g\n", (double)certificate->horizon_power);
-}
-
-void describe_info(const vndf_info *info)
-{
-    printf("source %s\n", info->source);
-    printf("tool %s\n", info->tool);
-    printf("bytes %zu\n", info->bytes);
-    printf("memory %zu\n", info->memory);
-    printf("cells %zu\n", info->cells);
-    printf("moments %d\n", info->moments);
-    printf("normalization %.17g\n", info->normalization);
-    printf("scale %.9g\n", info->scale);
-}
-
-int describe_verdict(const vndf_info *info, int by_default, char verdict[DESCRIBE_VERDICT])
-{
-    const double poor = 5e-2, aim_above = 1e-3, aim_below = 3e-2;
-    const vndf_certificate *c = &info->certificate;
-    double above = (double)c->tv_above, below = (double)c->tv;
-    char within[128];
-    snprintf(within, sizeof within, "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB",
-             100 * above, 100 * below, (double)info->bytes / 1024);
-    if (!(above <= poor && below <= poor)) {
-        snprintf(verdict, DESCRIBE_VERDICT, "%s; worth little at %.0f degrees: try a larger --max-bytes%s", within,
-                 (double)(above > poor ? c->tv_above_theta : c->tv_theta),
-                 above > poor && info->moments < 4 ? " or --moments 4" : "");
-        return 0;
-    }
-    if (by_default && !(above <= aim_above && below <= aim_below)) {
-        snprintf(verdict, DESCRIBE_VERDICT, "%s; %g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
-                 within, 100 * aim_above, 100 * aim_below);
-        return 0;
-    }
-    snprintf(verdict, DESCRIBE_VERDICT, "%s; good to ship", within);
-    return 1;
-}
-
-static void describe_knot(const vndf_family *family, size_t i)
-{
-    vndf_info info = vndf_distribution_info(vndf_family_distribution(family, i));
-    printf("knot %.7g bytes %zu tv %.4g", (double)vndf_family_parameter(family, i), info.bytes,
-           (double)info.certificate.tv);
-    if (i + 1 < vndf_family_info(family).count)
-        printf(" distance %.4g", (double)vndf_family_distance(family, i));
-    putchar('\n');
-}
-
-static double largest_tv(const vndf_family *family, size_t count)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++) {
-        double tv = (double)vndf_distribution_info(vndf_family_distribution(family, i)).certificate.tv;
-        most = tv > most ? tv : most;
-    }
-    return most;
-}
-
-void describe_family(const vndf_family *family)
-{
-    vndf_family_facts facts = vndf_family_info(family);
-    printf("source %s\n", facts.source);
-    printf("tool %s\n", facts.tool);
-    printf("bytes %zu\n", facts.bytes);
-    printf("memory %zu\n", facts.memory);
-    printf("knots %zu\n", facts.count);
-    printf("low %.7g\n", (double)facts.low);
-    printf("high %.7g\n", (double)facts.high);
-    printf("linear_in %s\n", facts.reciprocal ? "1/p" : "p");
-    printf("distance %.4g\n", (double)facts.distance);
-    printf("grazing %.4g\n", (double)facts.grazing);
-    printf("tables_tv %.4g\n", largest_tv(family, facts.count));
-    for (size_t i = 0; i < facts.count; i++)
-        describe_knot(family, i);
-}
-
-static int info_of_family(const char *command, const char *path)
-{
+    char verdict[DESCRIBE_VERDICT];
     vndf_family *family = family_open(command, path);
     if (!family)
         return STATUS_USE;
-    describe_family(family);
+    describe_family(f, family);
+    describe_family_verdict(family, verdict);
+    figures_text(f, "verdict", verdict);
     vndf_family_free(family);
     return STATUS_GOOD;
 }
 
-/* Known by its name, as a family is. */
-static int is_albedo_file(const char *name)
+static int info_of_table(const char *command, const char *name, figures *f)
 {
-    static const char end[] = ".albedo";
-    size_t length = strlen(name), its = sizeof end - 1;
-    return length > its && strcmp(name + length - its, end) == 0;
-}
-
-static int info_of_albedo(const char *command, const char *path)
-{
-    vndf_error error = {VNDF_OK, ""};
-    if (!input_named(command, path))
+    chosen_distribution chosen;
+    char verdict[DESCRIBE_VERDICT];
+    if (!distribution_open(&chosen, command, name))
         return STATUS_USE;
-    vndf_albedo *albedo = vndf_albedo_load(path, &error);
-    if (!albedo)
-        return complain(command, "%s", error.message);
-    vndf_albedo_properties is = vndf_albedo_info(albedo);
-    printf("source %s\ntool %s\neta %.7g\n", is.source, is.tool, (double)is.eta);
-    albedo_print_facts(stdout, &is);
-    vndf_albedo_free(albedo);
+    vndf_info info = vndf_distribution_info(chosen.distribution);
+    describe_info(f, &info);
+    if (chosen.owned) {
+        describe_certificate(f, &info.certificate);
+        describe_verdict(&info, 0, verdict);
+        figures_text(f, "verdict", verdict);
+    }
+    distribution_close(&chosen);
     return STATUS_GOOD;
 }
 
 int command_info(int argc, char **argv)
 {
-    const command_form form = {"vndf info", help, NULL, 0, "FILE|ggx|beckmann|FILE.vndfs|FILE.albedo", 1, 1};
+    figure_words asked = {0};
     words positional = {{NULL}, 0};
-    chosen_distribution chosen;
+    const option_form options[] = {FIGURES_OPTIONS(asked)};
+    const command_form form = {"vndf info", help, options, 2, "FILE|ggx|beckmann|FILE.vndfs", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    if (is_family_file(only_word(&positional)))
-        return info_of_family(form.command, only_word(&positional));
-    if (is_albedo_file(only_word(&positional)))
-        return info_of_albedo(form.command, only_word(&positional));
-    if (!distribution_open(&chosen, form.command, only_word(&positional)))
-        return STATUS_USE;
-    vndf_info info = vndf_distribution_info(chosen.distribution);
-    describe_info(&info);
-    if (chosen.owned) {
-        char verdict[DESCRIBE_VERDICT];
-        describe_certificate(&info.certificate);
-        describe_verdict(&info, 0, verdict);
-        printf("verdict %s\n", verdict);
-    }
-    distribution_close(&chosen);
-    return STATUS_GOOD;
+    const char *name = only_word(&positional);
+    figures f = figures_begin(&asked);
+    int status =
+        is_family_file(name) ? info_of_family(form.command, name, &f) : info_of_table(form.command, name, &f);
+    if (status == STATUS_GOOD)
+        figures_end(&f);
+    return status;
 }

@@ -1,5 +1,5 @@
-/* vndf plot: one figure that shows a distribution and its visible normals. This file reads the options
- * and lays out the page; panel_ndf.c and panel_disc.c draw. */
+/* vndf plot: one figure that shows a distribution and its visible normals. This file reads the options and lays
+ * out the page; draw/panels.c draws. */
 #include <stdio.h>
 #include <string.h>
 
@@ -7,6 +7,7 @@
 #include "command.h"
 #include "cli/subject.h"
 #include "cli/output.h"
+#include "draw/chart.h"
 #include "draw/panels.h"
 #include "draw/svg.h"
 
@@ -51,24 +52,10 @@ static void draw_header(FILE *file, const figure_plan *figure, double width)
     snprintf(title, sizeof title, "Visible normals of %.*s%s", shown, source, cut);
     snprintf(roughness, sizeof roughness, "αx = %.4g, αy = %.4g", (double)figure->surface.alpha_x,
              (double)figure->surface.alpha_y);
-    svg_text(file, margin, 30, 18, SVG_START, title);
-    svg_text(file, margin, 50, 13, SVG_START, roughness);
-}
-
-/* What colour, dots and marks of the discs mean. */
-static int draw_key(FILE *file, double x, double y)
-{
-    svg_text(file, x, y, 12, SVG_START, "density of visible normals, relative to the darkest of each disc");
-    int good = svg_ramp(file, x, y + 8, 300, 12);
-    svg_text(file, x, y + 34, 11, SVG_START, "0");
-    svg_text(file, x + 75, y + 34, 11, SVG_MIDDLE, "1/16");
-    svg_text(file, x + 150, y + 34, 11, SVG_MIDDLE, "1/4");
-    svg_text(file, x + 300, y + 34, 11, SVG_END, "1");
-    svg_circle(file, x + 5, y + 50, 1.8, "#f76707", "none", 0);
-    svg_text(file, x + 16, y + 54, 12, SVG_START, "sample");
-    svg_circle(file, x + 87, y + 50, 5, "none", "#212529", 1.6);
-    svg_text(file, x + 99, y + 54, 12, SVG_START, "incident direction (arrow: beyond the rim)");
-    return good;
+    fputs("<g style=\"font-size:18px\">", file);
+    svg_text(file, "ink", SVG_START, margin, 30, title);
+    fputs("</g>\n", file);
+    svg_text(file, "quiet", SVG_START, margin, 50, roughness);
 }
 
 static int draw_figure(FILE *file, const figure_plan *figure)
@@ -77,16 +64,17 @@ static int draw_figure(FILE *file, const figure_plan *figure)
     double width = 2 * margin + left_width + disc_width * (double)columns;
     double height = header + disc_height * (double)(rows > 1 ? rows : 1) + (rows > 1 ? margin : 120);
     panel_box left = {margin, header, left_width, height - header - 80};
-    svg_begin(file, width, height);
+    chart_begin_alone(file, width, height,
+                      "a distribution of normals, and the normals visible from some directions");
     draw_header(file, figure, width);
     panel_ndf(file, left, &figure->surface);
-    int good = draw_key(file, margin + 20, height - 72);
+    int good = panel_key(file, margin + 20, height - 72);
     for (size_t i = 0; i < figure->count && good; i++) {
         panel_box box = {margin + left_width + disc_width * (double)(i % columns),
                          header + disc_height * (double)(i / columns), disc_width, disc_height};
         good = panel_disc(file, box, &figure->surface, figure->theta[i], (unsigned)(i + 1));
     }
-    svg_end(file);
+    fputs("</svg>\n", file);
     return good;
 }
 
@@ -95,12 +83,12 @@ static int draw_figure(FILE *file, const figure_plan *figure)
 static int plot_to_file(const figure_plan *figure, const char *path)
 {
     output_file output;
-    static const char *const forms[2] = {"svg", NULL};
+    static const char *const forms[] = {"svg", NULL};
     if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
-    if (draw_figure(output.file, figure) && !output_interrupted(&output))
+    if (draw_figure(output.file, figure) && !output_stopping(output.held))
         return output_commit(&output);
-    return output_give_up(&output, output_interrupted(&output) ? "interrupted" : "no memory");
+    return output_give_up(&output, output_stopping(output.held) ? "interrupted" : "no memory");
 }
 
 int command_plot(int argc, char **argv)

@@ -120,7 +120,7 @@ static int read_choice(const render_words *given, render_choice *r, comparison *
 /* Whether OUT is a PNG (0) or a PFM (1); -1 after a complaint. */
 static int form_of(const render_choice *r)
 {
-    static const char *const forms[2] = {"png", "pfm"};
+    static const char *const forms[] = {"png", "pfm", NULL};
     return output_form(name, r->output, r->format, forms);
 }
 
@@ -326,8 +326,8 @@ static int render_picture(comparison *c, const render_choice *r, const scene *s,
         return STATUS_USE;
     const int is_whole = render_ways(c, s, output.held);
     if (!is_whole && (r->compares || !c->way[0].film.samples))
-        return output_give_up(&output, !output_interrupted(&output) ? "no memory for the films"
-                                       : r->compares                ? "interrupted; nothing was written"
+        return output_give_up(&output, !output_stopping(output.held) ? "no memory for the films"
+                                       : r->compares                 ? "interrupted; nothing was written"
                                                      : "interrupted before every pixel had a sample");
     const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */

@@ -9,8 +9,9 @@
 #include "cli/arguments.h"
 #include "command.h"
 #include "cli/output.h"
+#include "cli/progress.h"
 #include "cli/random.h"
-#include "cli/surface.h"
+#include "cli/subject.h"
 
 static const char name[] = "vndf sample";
 
@@ -20,15 +21,12 @@ static const char help[] =
     "       vndf sample --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG] -n N -o OUT [options]\n"
     "\n"
     "Draws visible normals from one incident direction, each with its density per steradian.\n"
-    "\n"
-    "  --theta DEG      angle of the incident direction from the normal, 0 to 180; above 90 is below the surface\n"
-    "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"
-    "  --alpha AX[,AY]  roughness along x and y (default 1: the distribution as the builder received it)\n"
-    "  -n N             the number of samples\n"
+    "\n" AIM_HELP "  -n N             the number of samples\n"
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
     "                   wm.x wm.y wm.z pdf; -: stdout\n"
     "  --format NAME    csv or f32, whatever OUT ends in (default, for -: csv)\n"
+    "  -q               prints no progress\n"
     "\n" SURFACE_HELP "\n"
     "Then pdf is the density of the whole surface, and a CSV has one more column, lobe: which --lobe the normal was\n"
     "drawn from, counted from 0 (not where there is but one).\n"
@@ -39,7 +37,7 @@ static const char help[] =
 
 typedef struct sample_words {
     aim_words aim;
-    words number, seed, format, output;
+    words number, seed, format, output, quiet;
 } sample_words;
 
 typedef void write_normal(FILE *file, vndf_vec3 wm, float pdf, int lobe);
@@ -71,7 +69,7 @@ static void write_f32(FILE *file, vndf_vec3 wm, float pdf, int lobe)
 
 static write_normal *writer_for(const char *path, const char *format, size_t lobes)
 {
-    static const char *const forms[2] = {"csv", "f32"};
+    static const char *const forms[] = {"csv", "f32", NULL};
     int form = output_form(name, path, format, forms);
     return form < 0 ? NULL : form == 1 ? write_f32 : lobes > 1 ? write_csv_with_lobe : write_csv;
 }
@@ -82,31 +80,27 @@ static void write_header(FILE *file, write_normal *write)
         fprintf(file, "wm.x,wm.y,wm.z,pdf%s\n", write == write_csv_with_lobe ? ",lobe" : "");
 }
 
-/* The --lobe that a lobe of the mixture belongs to; 0 where nothing is drawn. */
-static int option_of(const chosen_surface *surface, int lobe)
-{
-    return lobe < 0 ? 0 : surface->option[lobe];
-}
-
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
 static int write_samples(output_file *output, write_normal *write, const chosen_surface *surface,
-                         unsigned long long count, uint64_t seed)
+                         unsigned long long count, uint64_t seed, int is_quiet)
 {
     random_stream stream = random_from(seed);
     vndf_mixture_view view = vndf_mixture_view_from(&surface->mixture, surface->wi);
+    progress p = progress_begin("sampling", output->held);
+    p.tells_left = 1;
+    p.is_seen &= output->path && !is_quiet; /* lines on the terminal are progress enough */
     write_header(output->file, write);
-    for (unsigned long long i = 0; i < count; i++) {
+    for (unsigned long long i = 0; i < count && !ferror(output->file); i++) {
         float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
         int lobe;
         vndf_vec3 wm = vndf_mixture_sample(&view, u1, u2, &pdf, &lobe);
-        write(output->file, wm, pdf, option_of(surface, lobe));
-        if (i % 4096 != 0)
-            continue;
-        if (ferror(output->file))
-            break;
-        if (output_interrupted(output))
+        write(output->file, wm, pdf, lobe < 0 ? 0 : surface->option[lobe]); /* -1: nothing is drawn */
+        if (i % 4096 == 0 && progress_tell((double)i / (double)count, &p) && output->path) {
+            progress_end(&p);
             return output_give_up(output, "interrupted");
+        }
     }
+    progress_end(&p);
     return output_commit(output);
 }
 
@@ -119,7 +113,7 @@ static int sample_to_file(const sample_words *given, const chosen_surface *surfa
     if (!write || !option_count(name, "-n", &given->number, 1, 1e12, &count) ||
         !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed) || !output_open(&output, name, path))
         return STATUS_USE;
-    return write_samples(&output, write, surface, count, seed);
+    return write_samples(&output, write, surface, count, seed, given->quiet.count > 0);
 }
 
 int command_sample(int argc, char **argv)
@@ -128,10 +122,8 @@ int command_sample(int argc, char **argv)
     words positional = {{NULL}, 0};
     chosen_surface surface;
     const option_form options[] = {
-        {"--theta", 1, 1, &given.aim.theta}, {"--phi", 1, 1, &given.aim.phi},
-        {"--alpha", 1, 1, &given.aim.alpha}, {"--lobe", 1, VNDF_MIXTURE_LOBES, &given.aim.lobes},
-        {"-n", 1, 1, &given.number},         {"--seed", 1, 1, &given.seed},
-        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
+        AIM_OPTIONS(given.aim),      {"-n", 1, 1, &given.number},       {"--seed", 1, 1, &given.seed},
+        {"-o", 1, 1, &given.output}, {"--format", 1, 1, &given.format}, {"-q", 0, 1, &given.quiet},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);

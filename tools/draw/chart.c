@@ -1,14 +1,18 @@
 #include "draw/chart.h"
-#include "draw/svg.h"
 
 #include <math.h>
+#include <stdlib.h>
 
-static const double mark_radius = 4;
+#include "draw/svg.h"
+#include "draw/table.h"
+
+static const double radius = 4, text_height = 12, glyph_width = 5.9, line_step = 15;
 
 /* ---- colours ------------------------------------------------------------------------------------- */
 
+/* For curves and marks; for texts, which need more contrast. */
 typedef struct ink {
-    const char *mark, *text; /* for curves and marks; for texts, which need more contrast */
+    const char *mark, *text;
 } ink;
 
 static const ink light[CHART_COLOURS] = {{"#0072b2", "#005f96"}, {"#d55e00", "#a94a00"}, {"#009e73", "#007354"},
@@ -27,51 +31,105 @@ static void write_rules(FILE *file, const ink *inks)
 
 void chart_style(FILE *file)
 {
-    fputs(".chart{font:12px 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif}\n"
-          ".chart .line{fill:none;stroke-width:2;stroke-linejoin:round}\n"
-          ".chart .mark{stroke-width:2}.chart .hollow{fill:none}\n"
-          ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}\n"
-          ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
-          ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}\n"
-          ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}\n",
-          file);
+    fputs(
+        ".chart{font:12px 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif}\n"
+        ".chart .line{fill:none;stroke-width:2;stroke-linejoin:round}\n"
+        ".chart .mark{stroke-width:2}.chart .hollow{fill:none}\n"
+        ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}\n"
+        ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
+        ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}.pen{stroke:#212529;stroke-width:1.6;fill:none}\n"
+        ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}.edge{stroke:#fff;fill:none}\n",
+        file);
     write_rules(file, light);
     fputs("@media screen and (prefers-color-scheme:dark){\n"
-          ".paper{fill:#16191d}.ink{fill:#e9ecef}.quiet{fill:#b6bec6}\n"
+          ".paper{fill:#16191d}.ink{fill:#e9ecef}.quiet{fill:#b6bec6}.pen{stroke:#e9ecef}.edge{stroke:#16191d}\n"
           ".grid{stroke:#343a40}.axis{stroke:#868e96}.lead{stroke:#868e96}\n",
           file);
     write_rules(file, dark);
     fputs("}\n", file);
 }
 
-/* ---- frame --------------------------------------------------------------------------------------- */
+/* ---- axes ---------------------------------------------------------------------------------------- */
 
-static chart_frame frame_of(const chart *c)
+double chart_place(const chart_axis *axis, double value)
 {
-    double band = c->zero ? c->band : 0, top = c->title ? 30 : 10;
-    top += c->key_count ? 20 : 0;
-    chart_frame frame = {66, top, c->width - 66 - c->right, c->height - top - 50 - band, band};
-    return frame;
+    if (axis->scale == CHART_LINEAR)
+        return (value - axis->low) / (axis->high - axis->low);
+    return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : (double)NAN;
 }
 
-static double pixel_x(const chart *c, const chart_frame *f, double x)
+void chart_fit(chart_axis *axis, double low, double high)
 {
-    return f->left + f->width * chart_place(&c->x, x);
+    int is_bytes = axis->scale == CHART_BYTES;
+    double base = is_bytes ? 2 : 10, room = is_bytes ? 1.15 : 1;
+    double loose = is_bytes ? 0.06 : 1e-3; /* files stay a little below what they may have */
+    double first = floor(log(low) / log(base) + loose), last = ceil(log(high) / log(base) - loose);
+    if (!(low > 0 && low <= high && high < HUGE_VAL)) /* nothing is known */
+        first = -1, last = 0;
+    axis->low = pow(base, first) / room;
+    axis->high = pow(base, last > first ? last : first + 1) * room;
+}
+
+void chart_fit_series(chart *c, double least)
+{
+    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0, 0};
+    for (size_t k = 0; k < c->count; k++)
+        for (size_t i = 0; i < c->series[k].count; i++) {
+            const double at[2] = {c->series[k].x[i], c->series[k].y[i]};
+            for (int axis = 0; axis < 2; axis++)
+                if (at[axis] > 0) {
+                    low[axis] = fmin(low[axis], at[axis]);
+                    high[axis] = fmax(high[axis], at[axis]);
+                }
+        }
+    if (!(c->x.high > c->x.low))
+        chart_fit(&c->x, low[0], high[0]);
+    if (!(c->y.high > c->y.low))
+        chart_fit(&c->y, fmax(low[1], least), high[1]);
+}
+
+/* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
+ * not. */
+static void name_number(const chart_axis *axis, char name[16], double value)
+{
+    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    int power = (int)floor(log10(value) + 1e-9), size = abs(power);
+    int is_wide = axis->low < 9e-4 || axis->high > 2e5;
+    if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
+        snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
+                 digits[size % 10]);
+    else
+        snprintf(name, 16, "%.6g", value);
+}
+
+/* ---- the picture --------------------------------------------------------------------------------- */
+
+typedef struct box {
+    double left, top, right, bottom;
+} box;
+
+enum { BOXES_MAX = 1024, ENDS_MAX = 32 };
+
+/* The inside of the frame, with the height of the band of zeros below; and what may not be written over. */
+typedef struct picture {
+    FILE *file;
+    const chart *c;
+    double left, top, width, height, band;
+    box taken[BOXES_MAX];
+    size_t count, marks; /* what comes after the marks and lines is labels */
+} picture;
+
+static double pixel_x(const picture *p, double x)
+{
+    return p->left + p->width * chart_place(&p->c->x, x);
 }
 
 /* A zero lies in the band, if the chart has one. */
-static double pixel_y(const chart *c, const chart_frame *f, double y)
+static double pixel_y(const picture *p, double y)
 {
-    if (f->band > 0 && y == 0)
-        return f->top + f->height + f->band / 2;
-    return f->top + f->height * (1 - chart_place(&c->y, y));
-}
-
-static void write_text(FILE *file, const char *kind, const char *anchor, double x, double y, const char *text)
-{
-    fprintf(file, "<text class=\"%s\" text-anchor=\"%s\" x=\"%.1f\" y=\"%.1f\">", kind, anchor, x, y);
-    svg_escape(file, text);
-    fputs("</text>\n", file);
+    if (p->band > 0 && y == 0)
+        return p->top + p->height + p->band / 2;
+    return p->top + p->height * (1 - chart_place(&p->c->y, y));
 }
 
 static void write_line(FILE *file, const char *kind, double x1, double y1, double x2, double y2)
@@ -79,163 +137,226 @@ static void write_line(FILE *file, const char *kind, double x1, double y1, doubl
     fprintf(file, "<path class=\"%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", kind, x1, y1, x2, y2);
 }
 
-static void draw_x_axis(FILE *file, const chart *c, const chart_frame *f)
+static void draw_tick(picture *p, int is_y, double value, int is_named)
 {
-    chart_tick ticks[CHART_TICKS_MAX];
-    size_t count = chart_ticks(&c->x, ticks);
-    double bottom = f->top + f->height + f->band;
-    for (size_t i = 0; i < count; i++) {
-        double x = pixel_x(c, f, ticks[i].value);
-        write_line(file, ticks[i].name[0] ? "grid" : "grid fine", x, f->top, x, bottom);
-        write_text(file, "tick quiet", "middle", x, bottom + 16, ticks[i].name);
+    const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
+    double place = chart_place(axis, value), bottom = p->top + p->height + p->band;
+    const char *kind = is_named ? "grid" : "grid fine";
+    char name[16] = "";
+    if (!(place > -1e-9 && place < 1 + 1e-9))
+        return;
+    if (is_named && axis->scale == CHART_BYTES)
+        table_bytes_text(name, value);
+    else if (is_named && axis->scale == CHART_LOG)
+        name_number(axis, name, value);
+    else if (is_named)
+        snprintf(name, sizeof name, "%.4g", value);
+    if (is_y) {
+        write_line(p->file, kind, p->left, pixel_y(p, value), p->left + p->width, pixel_y(p, value));
+        svg_text(p->file, "tick quiet", SVG_END, p->left - 6, pixel_y(p, value) + 4, name);
+    } else {
+        write_line(p->file, kind, pixel_x(p, value), p->top, pixel_x(p, value), bottom);
+        svg_text(p->file, "tick quiet", SVG_MIDDLE, pixel_x(p, value), bottom + 16, name);
     }
-    write_text(file, "ink", "middle", f->left + f->width / 2, bottom + 38, c->x.label);
 }
 
-static void draw_y_axis(FILE *file, const chart *c, const chart_frame *f)
+/* Linear axes have a tick every step. Logarithmic ones have decades with names, and small ticks at 2 to 9
+ * between; where fewer than three decades are shown, 2 and 5 have names too. Bytes have powers of two, every
+ * second of them named where there are many. */
+static void draw_ticks(picture *p, int is_y)
 {
-    chart_tick ticks[CHART_TICKS_MAX];
-    size_t count = chart_ticks(&c->y, ticks);
-    for (size_t i = 0; i < count; i++) {
-        double y = pixel_y(c, f, ticks[i].value);
-        write_line(file, ticks[i].name[0] ? "grid" : "grid fine", f->left, y, f->left + f->width, y);
-        write_text(file, "tick quiet", "end", f->left - 6, y + 4, ticks[i].name);
+    const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
+    if (axis->scale == CHART_LINEAR)
+        for (double i = ceil(axis->low / axis->step); i * axis->step <= axis->high * (1 + 1e-9); i++)
+            draw_tick(p, is_y, i * axis->step, 1);
+    if (axis->scale == CHART_LINEAR)
+        return;
+    double base = axis->scale == CHART_BYTES ? 2 : 10, many = log(axis->high / axis->low) / log(base);
+    int first = (int)floor(log(axis->low) / log(base)), last = (int)ceil(log(axis->high) / log(base));
+    for (int power = first; power <= last; power++) {
+        int every = many > (base < 3 ? 7 : 9) ? 2 : 1;
+        draw_tick(p, is_y, pow(base, power), (power - (base < 3 ? 11 : 0)) % every == 0);
+        for (int digit = 2; digit < base; digit++)
+            draw_tick(p, is_y, digit * pow(base, power), many < 2.5 && (digit == 2 || digit == 5));
     }
-    if (f->band > 0)
-        write_text(file, "tick quiet", "end", f->left - 6, f->top + f->height + f->band / 2 + 4, c->zero);
-    fprintf(file, "<text class=\"ink\" text-anchor=\"middle\" transform=\"translate(15 %.1f) rotate(-90)\">",
-            f->top + f->height / 2);
-    svg_escape(file, c->y.label);
-    fputs("</text>\n", file);
 }
 
-static void draw_frame(FILE *file, const chart *c, const chart_frame *f)
+static void draw_frame(picture *p)
 {
-    draw_x_axis(file, c, f);
-    draw_y_axis(file, c, f);
-    fprintf(file, "<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", f->left, f->top,
-            f->width, f->height + f->band);
-    if (f->band > 0)
-        write_line(file, "axis", f->left, f->top + f->height, f->left + f->width, f->top + f->height);
-    if (c->title)
-        write_text(file, "title ink", "start", f->left, 18, c->title);
+    FILE *file = p->file;
+    double bottom = p->top + p->height + p->band;
+    draw_ticks(p, 0);
+    draw_ticks(p, 1);
+    svg_text(file, "ink", SVG_MIDDLE, p->left + p->width / 2, bottom + 38, p->c->x.label);
+    fprintf(file, "<g transform=\"translate(15 %.1f) rotate(-90)\">", p->top + p->height / 2);
+    svg_text(file, "ink", SVG_MIDDLE, 0, 0, p->c->y.label);
+    fprintf(file, "</g>\n<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p->left,
+            p->top, p->width, p->height + p->band);
+    if (p->band > 0) {
+        write_line(file, "axis", p->left, p->top + p->height, p->left + p->width, p->top + p->height);
+        svg_text(file, "tick quiet", SVG_END, p->left - 6, bottom - p->band / 2 + 4, p->c->zero);
+    }
+    if (p->c->title)
+        svg_text(file, "title ink", SVG_START, p->left, 18, p->c->title);
 }
 
 /* ---- series -------------------------------------------------------------------------------------- */
 
-static int is_inside(const chart *c, const chart_frame *f, double x, double y)
+static void take(picture *p, double x, double y, double around)
 {
-    double across = chart_place(&c->x, x), up = chart_place(&c->y, y);
-    return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (f->band > 0 && y == 0));
+    if (p->count < BOXES_MAX)
+        p->taken[p->count++] = (box){x - around, y - around, x + around, y + around};
 }
 
-static void draw_line(FILE *file, const chart *c, const chart_frame *f, const chart_series *s)
+static int is_inside(const picture *p, double x, double y)
 {
-    static const char *const dashes[] = {"", "", "7 4", "2 3"};
-    int inside = 0;
-    fprintf(file, "<path class=\"line l%u\"%s%s%s d=\"", s->colour,
-            s->line > CHART_SOLID ? " stroke-dasharray=\"" : "", dashes[s->line],
-            s->line > CHART_SOLID ? "\"" : "");
+    double across = chart_place(&p->c->x, x), up = chart_place(&p->c->y, y);
+    return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (p->band > 0 && y == 0));
+}
+
+static void draw_line(picture *p, const chart_series *s)
+{
+    static const char *const dashes[] = {"", "", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""};
+    double last_x = NAN, last_y = NAN;
+    fprintf(p->file, "<path class=\"line l%u\"%s d=\"", s->colour, dashes[s->line]);
     for (size_t i = 0; i < s->count; i++) {
-        if (!is_inside(c, f, s->x[i], s->y[i])) {
-            inside = 0;
-            continue;
+        double x = pixel_x(p, s->x[i]), y = pixel_y(p, s->y[i]);
+        if (is_inside(p, s->x[i], s->y[i])) {
+            fprintf(p->file, "%c%.1f %.1f", isnan(last_x) ? 'M' : 'L', x, y);
+            double steps = s->texts && !isnan(last_x) ? ceil(hypot(x - last_x, y - last_y) / 6) : 0;
+            for (double k = 0; k < steps; k++) /* labels keep off the line */
+                take(p, last_x + (x - last_x) * k / steps, last_y + (y - last_y) * k / steps, 3);
         }
-        fprintf(file, "%c%.1f %.1f", inside ? 'L' : 'M', pixel_x(c, f, s->x[i]), pixel_y(c, f, s->y[i]));
-        inside = 1;
+        last_x = is_inside(p, s->x[i], s->y[i]) ? x : (double)NAN;
+        last_y = y;
     }
-    fputs("\"/>\n", file);
+    fputs("\"/>\n", p->file);
 }
 
 static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, double y)
 {
     static const char *const outlines[] = {
-        "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L5 0L0 5L-5 0z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
+        "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
     if (mark == CHART_DOT)
-        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y, mark_radius);
+        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y, radius);
     else if (mark == CHART_RING)
         fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
-                mark_radius);
+                radius + 4);
     else
         fprintf(file, "<path class=\"%s%u\" transform=\"translate(%.1f %.1f)\" d=\"%s\"/>\n",
                 mark == CHART_CROSS ? "mark l" : "f", colour, x, y, outlines[mark]);
 }
 
-/* Keeps labels off a line. */
-static void take_line(chart_taken *taken, double x1, double y1, double x2, double y2)
+static double text_width(const char *text)
 {
-    double steps = ceil(hypot(x2 - x1, y2 - y1) / 6);
-    for (double i = 0; i < steps; i++)
-        chart_take(taken, x1 + (x2 - x1) * i / steps, y1 + (y2 - y1) * i / steps, 3);
+    double glyphs = 0;
+    for (; *text; text++)
+        glyphs += ((unsigned char)*text & 0xc0) != 0x80; /* the first byte of each character of UTF-8 */
+    return glyphs * glyph_width;
 }
 
-static void take_curve(const chart *c, const chart_frame *f, const chart_series *s, chart_taken *taken)
+/* The entries one after the other, from the left of the frame. */
+static void draw_key(const picture *p)
 {
-    for (size_t i = 0; i + 1 < s->count; i++)
-        if (is_inside(c, f, s->x[i], s->y[i]) && is_inside(c, f, s->x[i + 1], s->y[i + 1]))
-            take_line(taken, pixel_x(c, f, s->x[i]), pixel_y(c, f, s->y[i]), pixel_x(c, f, s->x[i + 1]),
-                      pixel_y(c, f, s->y[i + 1]));
-}
-
-static void draw_series(FILE *file, const chart *c, const chart_frame *f, const chart_series *s,
-                        chart_taken *taken)
-{
-    if (s->line != CHART_NO_LINE)
-        draw_line(file, c, f, s);
-    if (s->line != CHART_NO_LINE && s->texts)
-        take_curve(c, f, s, taken);
-    for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
-        if (is_inside(c, f, s->x[i], s->y[i])) {
-            double x = pixel_x(c, f, s->x[i]), y = pixel_y(c, f, s->y[i]);
-            draw_mark(file, s->mark, s->colour, x, y);
-            chart_take(taken, x, y, mark_radius + 2);
-        }
-}
-
-/* Draws the entries one after the other, from the left of the frame. */
-static void draw_key(FILE *file, const chart *c, const chart_frame *f)
-{
-    double x = f->left, y = f->top - 14;
-    for (size_t i = 0; i < c->key_count; i++) {
-        const chart_key *key = &c->key[i];
+    double x = p->left, y = p->top - 14;
+    for (size_t i = 0; i < p->c->key_count; i++) {
+        const chart_key *key = &p->c->key[i];
         if (key->mark != CHART_NO_MARK)
-            draw_mark(file, key->mark, key->colour, x + 6, y);
+            draw_mark(p->file, key->mark, key->colour, x + 6, y);
         else
-            fprintf(file, "<path class=\"line swatch l%u\" d=\"M%.1f %.1fh14\"/>\n", key->colour, x, y);
-        write_text(file, "tick quiet", "start", x + 18, y + 4, key->text);
-        x += 32 + chart_text_width(key->text);
+            fprintf(p->file, "<path class=\"line swatch l%u\" d=\"M%.1f %.1fh14\"/>\n", key->colour, x, y);
+        svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, key->text);
+        x += 36 + text_width(key->text);
     }
 }
 
 /* ---- labels -------------------------------------------------------------------------------------- */
 
-enum { ENDS_MAX = 32 };
-
-static void write_ends(FILE *file, const chart *c, const chart_frame *f)
+static double overlap(const box *a, const box *b)
 {
-    chart_end ends[ENDS_MAX];
-    size_t count = 0;
-    for (size_t k = 0; k < c->count; k++) {
-        const chart_series *s = &c->series[k];
-        size_t last = s->count;
-        while (last > 0 && !is_inside(c, f, s->x[last - 1], s->y[last - 1]))
-            last--;
-        if (s->label && last > 0 && count < ENDS_MAX)
-            ends[count++] =
-                (chart_end){pixel_x(c, f, s->x[last - 1]), pixel_y(c, f, s->y[last - 1]), 0, s->colour, s->label};
-    }
-    chart_label_ends(file, ends, count, f->left + f->width + 14, f->top + 4, f->top + f->height + f->band - 2);
+    double width = fmin(a->right, b->right) - fmax(a->left, b->left);
+    double height = fmin(a->bottom, b->bottom) - fmax(a->top, b->top);
+    return width > 0 && height > 0 ? width * height : 0;
 }
 
-static void write_texts(FILE *file, const chart *c, const chart_frame *f, chart_taken *taken)
+static void write_name(FILE *file, double x, double y, unsigned colour, const char *text)
 {
-    chart_box bounds = {f->left + 2, f->top + 2, f->left + f->width - 2, f->top + f->height + f->band - 2};
-    for (size_t k = 0; k < c->count; k++) {
-        const chart_series *s = &c->series[k];
-        for (size_t i = 0; s->texts && i < s->count; i++)
-            if (s->texts[i][0] && is_inside(c, f, s->x[i], s->y[i]))
-                chart_label_beside(file, taken, &bounds, pixel_x(c, f, s->x[i]), pixel_y(c, f, s->y[i]), s->colour,
-                                   s->texts[i]);
+    char kind[16];
+    snprintf(kind, sizeof kind, "name t%u", colour);
+    svg_text(file, kind, SVG_START, x, y, text);
+}
+
+/* Tries places around the point, near ones first, and takes the one where the text covers least of the drawing;
+ * where a third of it would cover something, or any of it a label, it is left out. */
+static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
+{
+    static const double distances[] = {7, 12, 20, 30, 42, 56};
+    const box bounds = {p->left + 2, p->top + 2, p->left + p->width - 2, p->top + p->height + p->band - 2};
+    double width = text_width(text), area = width * text_height, least = HUGE_VAL, least_covered = 0, chosen = 0;
+    box best = {0, 0, 0, 0};
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 12; k++) {
+            double turn = k * acos(-1.0) / 6, cx = x + cos(turn) * (distances[i] + width / 2);
+            double cy = y + sin(turn) * (distances[i] + text_height / 2), sum = 0;
+            box at = {cx - width / 2, cy - text_height / 2, cx + width / 2, cy + text_height / 2};
+            for (size_t n = 0; n < p->count; n++)
+                sum += (n < p->marks ? 1 : 20) * overlap(&at, &p->taken[n]);
+            sum += 20 * (area - overlap(&at, &bounds));
+            double cost = sum + 1.5 * distances[i] + (k % 6 == 0 ? 0 : 2);
+            if (cost < least) {
+                least = cost;
+                least_covered = sum;
+                best = at;
+                chosen = distances[i];
+            }
+        }
+    if (least_covered > area / 3 || p->count == BOXES_MAX)
+        return;
+    if (chosen > 14)
+        write_line(p->file, "lead", x, y, fmin(fmax(x, best.left), best.right),
+                   fmin(fmax(y, best.top), best.bottom));
+    p->taken[p->count++] = best;
+    write_name(p->file, best.left, best.bottom - 2.5, colour, text);
+}
+
+/* A label at the end of a curve at (x, y). */
+typedef struct end {
+    double x, y, at; /* at: the height where it is written */
+    unsigned colour;
+    const char *text;
+} end;
+
+static int by_height(const void *a, const void *b)
+{
+    const end *p = a, *q = b;
+    return (p->y > q->y) - (p->y < q->y);
+}
+
+/* In a column right of the frame: each label at least a line below the one before, then up from the bottom in
+ * the same way. */
+static void label_ends(picture *p)
+{
+    end ends[ENDS_MAX];
+    size_t count = 0;
+    double column = p->left + p->width + 14, bottom = p->top + p->height + p->band - 2, at = p->top + 4;
+    for (size_t k = 0; k < p->c->count; k++) {
+        const chart_series *s = &p->c->series[k];
+        size_t last = s->count;
+        while (last > 0 && !is_inside(p, s->x[last - 1], s->y[last - 1]))
+            last--;
+        if (s->label && last > 0 && count < ENDS_MAX)
+            ends[count++] = (end){pixel_x(p, s->x[last - 1]), pixel_y(p, s->y[last - 1]), 0, s->colour, s->label};
+    }
+    qsort(ends, count, sizeof ends[0], by_height);
+    for (size_t i = 0; i < count; i++) {
+        ends[i].at = fmax(ends[i].y, at);
+        at = ends[i].at + line_step;
+    }
+    for (size_t i = count; i-- > 0; bottom = ends[i].at - line_step)
+        ends[i].at = fmin(ends[i].at, bottom);
+    for (size_t i = 0; i < count; i++) {
+        write_line(p->file, "lead", ends[i].x + 4, ends[i].y, column - 4, ends[i].at);
+        write_name(p->file, column, ends[i].at + 4, ends[i].colour, ends[i].text);
     }
 }
 
@@ -243,41 +364,63 @@ static void write_texts(FILE *file, const chart *c, const chart_frame *f, chart_
 
 static void draw_inside(FILE *file, const chart *c)
 {
-    chart_frame f = frame_of(c);
-    chart_taken taken = {.count = 0};
-    draw_frame(file, c, &f);
-    draw_key(file, c, &f);
-    if (f.band > 0)
-        take_line(&taken, f.left, f.top + f.height, f.left + f.width, f.top + f.height);
+    double band = c->zero ? c->band : 0, top = (c->title ? 30 : 10) + (c->key_count ? 20 : 0);
+    picture p = {file,           c, 66, top, c->width - 66 - c->right, c->height - top - 50 - band, band,
+                 {{0, 0, 0, 0}}, 0, 0};
+    draw_frame(&p);
+    draw_key(&p);
+    for (double x = 0; band > 0 && x < p.width; x += 6)
+        take(&p, p.left + x, p.top + p.height, 3);
+    for (size_t k = 0; k < c->count; k++) {
+        const chart_series *s = &c->series[k];
+        if (s->line != CHART_NO_LINE)
+            draw_line(&p, s);
+        for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
+            if (is_inside(&p, s->x[i], s->y[i])) {
+                draw_mark(file, s->mark, s->colour, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]));
+                take(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), radius + (s->mark == CHART_RING ? 6 : 2));
+            }
+    }
+    p.marks = p.count;
     for (size_t k = 0; k < c->count; k++)
-        draw_series(file, c, &f, &c->series[k], &taken);
-    write_texts(file, c, &f, &taken);
-    write_ends(file, c, &f);
+        for (size_t i = 0; c->series[k].texts && i < c->series[k].count; i++) {
+            const chart_series *s = &c->series[k];
+            if (s->texts[i][0] && is_inside(&p, s->x[i], s->y[i]))
+                label_point(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), s->colour, s->texts[i]);
+        }
+    label_ends(&p);
 }
 
-static void open_element(FILE *file, const chart *c)
+static void open_element(FILE *file, double left, double top, double width, double height, const char *about)
 {
-    fprintf(file,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"chart\" width=\"%.0f\" height=\"%.0f\" "
-            "viewBox=\"0 0 %.0f %.0f\" role=\"img\" aria-label=\"",
-            c->width, c->height, c->width, c->height);
-    svg_escape(file, c->about ? c->about : c->title);
+    fprintf(
+        file,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart\" "
+        "x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
+        "aria-label=\"",
+        left, top, width, height, width, height);
+    svg_escape(file, about);
     fputs("\">\n", file);
 }
 
 void chart_draw(FILE *file, const chart *c)
 {
-    open_element(file, c);
+    open_element(file, c->left, c->top, c->width, c->height, c->about ? c->about : c->title);
     draw_inside(file, c);
     fputs("</svg>\n", file);
 }
 
-void chart_draw_alone(FILE *file, const chart *c)
+void chart_begin_alone(FILE *file, double width, double height, const char *about)
 {
-    open_element(file, c);
+    open_element(file, 0, 0, width, height, about);
     fputs("<style>\n", file);
     chart_style(file);
     fputs("</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n", file);
+}
+
+void chart_draw_alone(FILE *file, const chart *c)
+{
+    chart_begin_alone(file, c->width, c->height, c->about ? c->about : c->title);
     draw_inside(file, c);
     fputs("</svg>\n", file);
 }

@@ -1,26 +1,24 @@
 #define _POSIX_C_SOURCE 200809L
 #include "draw/page.h"
 
-#include <ctype.h>
+#include <dirent.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "cli/arguments.h"
+#include "cli/output.h"
+#include "command.h"
 #include "draw/chart.h"
 #include "draw/svg.h"
 #include "vndf.h"
 
-void page_mark(char mark[PAGE_MARK_MAX], const char *command)
+/* The mark near the beginning of a page that names its command. */
+static void mark_of(char mark[96], const char *command)
 {
-    snprintf(mark, PAGE_MARK_MAX, "<meta name=\"generator\" content=\"%s\">", command);
-}
-
-void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what)
-{
-    size_t room = PAGE_NAME_MAX - strlen(what) - 2;
-    snprintf(made, PAGE_NAME_MAX, "%.*s", (int)room, of);
-    for (char *at = made; *at; at++)
-        *at = (char)(isalnum((unsigned char)*at) ? tolower((unsigned char)*at) : '-');
-    snprintf(made + strlen(made), PAGE_NAME_MAX - strlen(made), "-%s", what);
+    snprintf(mark, 96, "<meta name=\"generator\" content=\"%s\">", command);
 }
 
 /* ---- files --------------------------------------------------------------------------------------- */
@@ -91,24 +89,18 @@ int page_data(html_page *page, const char *name, const char *what, text_table t)
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
-/* The figures of tools/draw/panels.h carry their colours as attributes, so that they also stand alone. On a dark
- * screen the colours on the background are replaced; pictures keep theirs. */
 static const char style[] =
     ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;--good:#00694c;"
     "--bad:#a94a00;--box:#f1f6fb;--link:#005f96}\n"
     "@media screen and (prefers-color-scheme:dark){:root{--back:#16191d;--ink:#e9ecef;--quiet:#b6bec6;"
-    "--rule:#3a4149;--good:#5ad6b2;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}\n"
-    ".panel text[fill=\"#212529\"]:not([stroke]){fill:#e9ecef}.panel line[stroke=\"#212529\"]{stroke:#e9ecef}\n"
-    ".panel line[stroke=\"#e9ecef\"]{stroke:#343a40}.panel [stroke=\"#1a4f8e\"]{stroke:#7fbfec}\n"
-    ".panel circle[stroke=\"#ffffff\"][stroke-width=\"8.0\"]{stroke:#16191d}}\n"
+    "--rule:#3a4149;--good:#5ad6b2;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}}\n"
     "*{box-sizing:border-box}\n"
     "body{font:16px/1.5 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;color:var(--ink);background:var(--back);"
     "max-width:1180px;margin:0 auto;padding:24px}\n"
     "h1{font-size:1.7em;margin:0 0 .2em}h2{font-size:1.3em;margin:2.2em 0 .2em;padding-top:.6em;"
     "border-top:1px solid var(--rule)}h3{font-size:1.05em;margin:1.4em 0 .4em}\n"
-    "p{margin:.4em 0;max-width:75ch}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
-    "img{max-width:100%;height:auto}"
-    ".pixels{image-rendering:pixelated}a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
+    "p{margin:.4em 0}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
+    "a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
@@ -130,9 +122,9 @@ static const char style[] =
 
 int page_begin(html_page *page, const char *command, const char *title)
 {
-    char mark[PAGE_MARK_MAX];
+    char mark[96];
     *page = (html_page){.command = command};
-    page_mark(mark, command);
+    mark_of(mark, command);
     page->html = open_file(page, "index.html");
     if (!page->html)
         return 0;
@@ -178,4 +170,141 @@ void page_section(html_page *page, const char *id, const char *title, const char
 void page_section_end(html_page *page)
 {
     fputs("</section>\n", page->html);
+}
+
+/* ---- the folder ---------------------------------------------------------------------------------- */
+
+static char *path_in(const char *folder, const char *name)
+{
+    size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+static int has_our_page(const char *command, const char *folder)
+{
+    char head[1024 + 1], mark[96];
+    char *path = path_in(folder, "index.html");
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    free(path);
+    if (!file)
+        return 0;
+    head[fread(head, 1, 1024, file)] = '\0';
+    fclose(file);
+    mark_of(mark, command);
+    return strstr(head, mark) != NULL;
+}
+
+/* Returns 1 or 0; -1 if the folder cannot be read. */
+static int is_empty(const char *folder)
+{
+    DIR *directory = opendir(folder);
+    const struct dirent *entry;
+    int empty = 1;
+    if (!directory)
+        return -1;
+    while (empty && (entry = readdir(directory)) != NULL)
+        empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
+    closedir(directory);
+    return empty;
+}
+
+/* Whether a folder can be made at `path`: the folder around it must exist. */
+static int can_be_made(const char *path)
+{
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/')
+        length--;
+    while (length > 0 && path[length - 1] != '/')
+        length--;
+    char *parent = malloc(length + 2);
+    if (!parent)
+        return 0;
+    snprintf(parent, length + 2, "%.*s", length ? (int)length : 1, length ? path : ".");
+    int good = access(parent, W_OK | X_OK) == 0;
+    int reason = errno;
+    free(parent);
+    errno = reason;
+    return good;
+}
+
+page_place page_examine(const char *command, const char *path)
+{
+    struct stat status;
+    if (path[0] == '\0') {
+        complain(command, "the name of the folder is empty");
+        return PAGE_REFUSED;
+    }
+    if (output_is_stdout(path)) {
+        complain(command, "'-' is stdout, and this needs a folder for its files; one of that name is './-'");
+        return PAGE_REFUSED;
+    }
+    if (stat(path, &status) != 0 && errno == ENOENT) {
+        if (can_be_made(path))
+            return PAGE_NEW;
+        complain(command, "cannot make the folder '%s': %s", path, strerror(errno));
+        return PAGE_REFUSED;
+    }
+    int empty = is_empty(path);
+    if (empty < 0)
+        complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
+    else if (access(path, W_OK | X_OK) != 0)
+        complain(command, "cannot write into '%s': %s", path, strerror(errno));
+    else if (!empty && !has_our_page(command, path))
+        complain(command,
+                 "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
+                 "page, which is replaced",
+                 path, command);
+    else
+        return empty ? PAGE_EMPTY : PAGE_OURS;
+    return PAGE_REFUSED;
+}
+
+/* The files but those that are already committed, without a message: the reason has been reported. */
+static void discard(output_file *output, size_t from, size_t count)
+{
+    for (size_t i = from; i < count; i++)
+        output_discard(&output[i]);
+}
+
+static int write_temporaries(const html_page *page, char **path, output_file *output, size_t *count)
+{
+    for (; *count < page->count; ++*count) {
+        const page_file *file = &page->file[page->count - 1 - *count]; /* the page, which is the first, last */
+        if (!output_open(&output[*count], page->command, path[page->count - 1 - *count]))
+            return STATUS_USE;
+        FILE *to = output[*count].file;
+        if (fwrite(file->text, 1, file->size, to) == file->size && fflush(to) == 0)
+            continue;
+        ++*count;
+        return complain(page->command, "cannot write '%s': %s", file->name, strerror(errno));
+    }
+    return STATUS_GOOD;
+}
+
+int page_write(const html_page *page, const char *folder, unsigned held)
+{
+    output_file output[PAGE_FILES_MAX];
+    char *path[PAGE_FILES_MAX];
+    size_t count = 0, done = 0;
+    int made = mkdir(folder, 0777) == 0, status = STATUS_GOOD;
+    if (!made && errno != EEXIST)
+        return complain(page->command, "cannot make the folder '%s': %s", folder, strerror(errno));
+    for (size_t i = 0; i < page->count; i++)
+        if (!(path[i] = path_in(folder, page->file[i].name)))
+            status = STATUS_USE;
+    status = status == STATUS_GOOD ? write_temporaries(page, path, output, &count)
+                                   : complain(page->command, "no memory");
+    if (status == STATUS_GOOD && output_stopping(held))
+        status = complain(page->command, "interrupted; '%s' was not touched", folder);
+    while (status == STATUS_GOOD && done < count)
+        status = output_commit(&output[done++]);
+    discard(output, done, count);
+    for (size_t i = 0; i < page->count; i++)
+        free(path[i]);
+    if (status != STATUS_GOOD && made)
+        rmdir(folder); /* fails, and the folder stays, if a file was committed */
+    return status;
 }

@@ -1,5 +1,5 @@
-/* The page: a head with its style, sections with a title, and the data behind each plot, in a file beside the page
- * and again inside it. Memory holds the whole page until all files are written together. */
+/* A page in a folder: a head with its style, sections with a title, and the data behind each plot, in a file
+ * beside the page and again inside it. Memory holds all of it until the files are written together. */
 #ifndef TOOLS_DRAW_PAGE_H
 #define TOOLS_DRAW_PAGE_H
 
@@ -8,7 +8,7 @@
 
 #include "draw/table.h"
 
-enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
+enum { PAGE_FILES_MAX = 16, PAGE_NAME_MAX = 64 };
 
 typedef struct page_file {
     char name[PAGE_NAME_MAX];
@@ -23,13 +23,6 @@ typedef struct html_page {
     size_t count;
     FILE *data; /* open between page_file_begin and its end */
 } html_page;
-
-/* OF-WHAT, the name of a file beside the page: hyphens replace all but letters and digits of `of`. */
-void page_name(char made[PAGE_NAME_MAX], const char *of, const char *what);
-
-/* The mark near the beginning of a page that names its `command`; needs PAGE_MARK_MAX bytes. */
-enum { PAGE_MARK_MAX = 96 };
-void page_mark(char mark[PAGE_MARK_MAX], const char *command);
 
 /* Returns 0 if there is no memory; call page_free in any case. */
 int page_begin(html_page *page, const char *command, const char *title);
@@ -50,5 +43,17 @@ int page_data_end(html_page *page, const char *what);
 /* A table in the page, and as CSV a whole file of data; it is freed. 0 if there is no memory. */
 int page_table(html_page *page, text_table t);
 int page_data(html_page *page, const char *name, const char *what, text_table t);
+
+/* ---- folders ---- */
+
+/* A folder is made if it does not exist; if it does, it has to be empty or hold a page of the same command,
+ * whose files are replaced, and nothing else is touched. Complains if it is refused. */
+typedef enum page_place { PAGE_REFUSED, PAGE_NEW, PAGE_EMPTY, PAGE_OURS } page_place;
+page_place page_examine(const char *command, const char *folder);
+
+/* All files are written to temporaries first and renamed when all are complete, the page last; a failure or a
+ * signal before that leaves the folder as it was. `held` are the blocked signals (tools/cli/output.h). An exit
+ * status, after a complaint if it is not good. */
+int page_write(const html_page *page, const char *folder, unsigned held);
 
 #endif

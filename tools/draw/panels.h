@@ -1,5 +1,5 @@
-/* The two kinds of panel of a figure: D against the angle of the normal, and the visible normals from
- * one incident direction on a disc. */
+/* The two kinds of panel of a figure: D against the angle of the normal, and the visible normals from one incident
+ * direction on a disc. */
 #ifndef TOOLS_DRAW_PANELS_H
 #define TOOLS_DRAW_PANELS_H
 
@@ -13,17 +13,19 @@ typedef struct panel_box {
     double x, y, width, height; /* pixels, labels included */
 } panel_box;
 
-/* D(theta_m) on a logarithmic scale, along x and along y where the roughness differs, beside GGX of the
- * same median slope; legend below. */
+/* D(theta_m) on a logarithmic scale, along x and along y where the roughness differs, beside GGX of the same
+ * median slope. */
 void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface);
 
-/* Visible normals from (theta, azimuth 0): density as colour, samples as dots, on the hemisphere seen
- * from above in the equal-area projection (radius ~ sin(theta_m/2)), so that dots are as dense as the
- * colour says. The rim is the smallest round angle that holds 95% of the samples. 0: no memory. */
+/* The largest angle of the normal that panel_ndf shows. */
+double panel_widest(const vndf_surface *surface);
+
+/* Visible normals from (theta, azimuth 0): density as colour, samples as dots, on the hemisphere seen from above
+ * in the equal-area projection (radius ~ sin(theta_m/2)), so that dots are as dense as the colour says. The rim
+ * is the smallest round angle that holds 95% of the samples. 0: no memory. */
 int panel_disc(FILE *file, panel_box box, const vndf_surface *surface, double theta, unsigned seed);
 
-/* The smallest of 90, 60, 30, 15, 6, 3, 1.5, 0.6 ... degrees that is not below `degrees`; each can be
- * cut into three readable parts. */
-double round_angle(double degrees);
+/* What colour, dots and marks of the discs mean. 0: no memory. */
+int panel_key(FILE *file, double x, double y);
 
 #endif

@@ -1,14 +1,13 @@
-/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are a zlib stream
- * (deflate.h) of rows, each with a byte for its filter before it. A palette has no filter; colours take the one of
- * the five filters with the smallest sum of differences (12.8): 30% fewer bytes for smooth noise, 3% for a noisy
- * rendering. */
+/* PNG (ISO/IEC 15948): signature, then chunks of length, name, data, CRC. The pixels are rows, each with a byte
+ * for its filter before it - none for a palette, for colours Paeth's (12.8) - in a zlib stream (RFC 1950) of one
+ * deflate block with the codes that the standard fixes (RFC 1951, 3.2.6): codes of its own would save an eighth
+ * of a noisy picture, and take 200 lines. Repeats are found greedily, by the last place where the same three
+ * bytes began. */
 #include "draw/png.h"
 
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "draw/deflate.h"
 
 typedef struct bytes {
     unsigned char *data; /* owned by the caller of put_*; large enough for all */
@@ -72,48 +71,140 @@ static int paeth(int left, int up, int corner)
     return a <= b && a <= c ? left : b <= c ? up : corner;
 }
 
-/* The prediction of filter `kind` for byte i; the row above is NULL for the first row. */
-static int expected(int kind, const unsigned char *row, const unsigned char *above, size_t i)
+/* Filters all rows of three bytes a pixel; each row takes one byte more in `to`. */
+static void filter_rows(const unsigned char *rgb, size_t size, size_t height, unsigned char *to)
 {
-    int left = i >= 3 ? row[i - 3] : 0, up = above ? above[i] : 0, corner = i >= 3 && above ? above[i - 3] : 0;
-    switch (kind) {
-    case 1: return left;
-    case 2: return up;
-    case 3: return (left + up) / 2;
-    case 4: return paeth(left, up, corner);
-    default: return 0;
-    }
-}
-
-static unsigned long filter_row(int kind, const unsigned char *row, const unsigned char *above, size_t size,
-                                unsigned char *filtered)
-{
-    unsigned long sum = 0;
-    *filtered++ = (unsigned char)kind;
-    for (size_t i = 0; i < size; i++) {
-        filtered[i] = (unsigned char)((row[i] - expected(kind, row, above, i)) & 255);
-        sum += filtered[i] < 128 ? filtered[i] : 256u - filtered[i];
-    }
-    return sum;
-}
-
-/* Filters all rows of three bytes a pixel; each row takes one byte more in `best`. */
-static void filter_rows(const unsigned char *rgb, size_t width, size_t height, unsigned char *best)
-{
-    size_t size = 3 * width;
-    for (size_t y = 0; y < height; y++, best += size + 1) {
-        const unsigned char *row = rgb + y * size, *above = y ? row - size : NULL;
-        int chosen = 0;
-        unsigned long least = filter_row(0, row, above, size, best);
-        for (int kind = 1; kind < 5; kind++) {
-            unsigned long sum = filter_row(kind, row, above, size, best);
-            if (sum < least) {
-                least = sum;
-                chosen = kind;
-            }
+    for (size_t y = 0; y < height; y++) {
+        const unsigned char *row = rgb + y * size, *above = y ? row - size : row;
+        *to++ = 4;
+        for (size_t i = 0; i < size; i++) {
+            int left = i >= 3 ? row[i - 3] : 0, up = y ? above[i] : 0, corner = i >= 3 && y ? above[i - 3] : 0;
+            *to++ = (unsigned char)((row[i] - paeth(left, up, corner)) & 255);
         }
-        filter_row(chosen, row, above, size, best);
     }
+}
+
+/* ---- deflate ---- */
+
+enum { WINDOW = 32768, HASH_BITS = 15, MATCH_MIN = 3, MATCH_MAX = 258, END = 256 };
+
+typedef struct bits {
+    unsigned char *data; /* with room for all */
+    size_t size;
+    uint32_t hold; /* the lowest come first */
+    unsigned count;
+} bits;
+
+static void put_bits(bits *b, unsigned value, unsigned count)
+{
+    b->hold |= (uint32_t)value << b->count;
+    for (b->count += count; b->count >= 8; b->count -= 8, b->hold >>= 8)
+        b->data[b->size++] = (unsigned char)(b->hold & 255u);
+}
+
+/* Codes have their highest bit first. */
+static void put_code(bits *b, unsigned code, unsigned count)
+{
+    for (unsigned i = count; i-- > 0;)
+        put_bits(b, code >> i & 1u, 1);
+}
+
+static void put_symbol(bits *b, unsigned symbol)
+{
+    if (symbol < 144)
+        put_code(b, 48 + symbol, 8);
+    else if (symbol < 256)
+        put_code(b, 400 + symbol - 144, 9);
+    else if (symbol < 280)
+        put_code(b, symbol - 256, 7);
+    else
+        put_code(b, 192 + symbol - 280, 8);
+}
+
+/* A length or a distance: groups of two or four symbols, each with twice the range of the one before (3.2.5). */
+typedef struct span {
+    unsigned symbol, extra, rest; /* the symbol, the number of extra bits behind it, and their value */
+} span;
+
+static span span_of(unsigned value, unsigned group)
+{
+    span s = {0, 0, value};
+    for (;; s.symbol++) {
+        s.extra = s.symbol < 2 * group ? 0 : s.symbol / group - 1;
+        if (s.rest < 1u << s.extra)
+            return s;
+        s.rest -= 1u << s.extra;
+    }
+}
+
+static void put_match(bits *b, unsigned length, unsigned distance)
+{
+    const span last = {28, 0, 0}; /* the longest has a symbol of its own */
+    span l = length < MATCH_MAX ? span_of(length - MATCH_MIN, 4) : last, d = span_of(distance - 1, 2);
+    put_symbol(b, 257 + l.symbol);
+    put_bits(b, l.rest, l.extra);
+    put_code(b, d.symbol, 5);
+    put_bits(b, d.rest, d.extra);
+}
+
+static uint32_t hash_of(const unsigned char *at)
+{
+    uint32_t three = (uint32_t)at[0] << 16 | (uint32_t)at[1] << 8 | at[2];
+    return three * 2654435761u >> (32 - HASH_BITS);
+}
+
+/* head: 1 + the last place of each hash. */
+static void pack(bits *b, uint32_t *head, const unsigned char *data, size_t size)
+{
+    for (size_t at = 0, length; at < size; at += length) {
+        size_t most = size - at < MATCH_MAX ? size - at : MATCH_MAX, distance = WINDOW;
+        length = 0;
+        if (most >= MATCH_MIN) {
+            uint32_t *last = &head[hash_of(data + at)];
+            distance = *last ? at + 1 - *last : WINDOW;
+            while (distance < WINDOW && length < most && data[at + length - distance] == data[at + length])
+                length++;
+            *last = (uint32_t)at + 1;
+        }
+        if (length < MATCH_MIN) {
+            put_symbol(b, data[at]);
+            length = 1;
+            continue;
+        }
+        put_match(b, (unsigned)length, (unsigned)distance);
+        for (size_t i = 1; i < length && size - at - i >= MATCH_MIN; i++)
+            head[hash_of(data + at + i)] = (uint32_t)(at + i) + 1;
+    }
+}
+
+static uint32_t adler_of(const unsigned char *data, size_t size)
+{
+    uint32_t a = 1, b = 0;
+    for (size_t i = 0; i < size; i++) {
+        a = (a + data[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    return b << 16 | a;
+}
+
+/* The stream of `size` bytes; the caller frees it. NULL if there is no memory. */
+static unsigned char *deflate_bytes(const unsigned char *data, size_t size, size_t *packed)
+{
+    uint32_t *head = size < UINT32_MAX ? calloc((size_t)1 << HASH_BITS, sizeof *head) : NULL;
+    bits b = {head ? malloc(size + size / 8 + 64) : NULL, 0, 0, 0}; /* nine bits a byte, at most */
+    if (b.data) {
+        uint32_t adler = adler_of(data, size);
+        put_bits(&b, 0x0178, 16); /* deflate, a window of 32 KiB, no dictionary */
+        put_bits(&b, 3, 3);       /* the last block, fixed codes */
+        pack(&b, head, data, size);
+        put_symbol(&b, END);
+        put_bits(&b, 0, (8 - b.count) % 8);
+        for (int i = 3; i >= 0; i--)
+            put_bits(&b, adler >> 8 * i & 255u, 8);
+        *packed = b.size;
+    }
+    free(head);
+    return b.data;
 }
 
 /* ---- files ---- */
@@ -178,7 +269,7 @@ int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t hei
     unsigned char *rows = malloc((3 * width + 1) * height);
     if (!rows)
         return 0;
-    filter_rows(rgb, width, height, rows);
+    filter_rows(rgb, 3 * width, height, rows);
     int good = make_file(&image, rows, 3 * width + 1, width, height, NULL);
     good = good && fwrite(image.data, 1, image.size, file) == image.size;
     free(image.data);

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/figures.h"
 #include "draw/svg.h"
 
 void table_free(text_table *t)
@@ -260,6 +261,37 @@ int table_print_csv(FILE *file, const text_table *t)
             fputs(t->cell[i].text, file);
     }
     fputc('\n', file);
+    return 1;
+}
+
+/* ---- JSON -------------------------------------------------------------------------------------- */
+
+/* A number is one that strtod reads whole; infinities are none in JSON. */
+static void put_json(FILE *file, table_kind kind, const char *text)
+{
+    char *end;
+    int is_number = kind == TABLE_NUMBER && isfinite(strtod(text, &end)) && end != text && *end == '\0';
+    if (is_number)
+        fputs(text, file);
+    else if (kind == TABLE_NUMBER)
+        fputs("null", file);
+    else
+        figures_json_text(file, text);
+}
+
+int table_print_json(FILE *file, const text_table *t)
+{
+    if (t->failed)
+        return 0;
+    fputc('[', file);
+    for (size_t i = 0; i < t->count; i++) {
+        size_t column = i % t->columns;
+        fputs(column ? ", " : i ? "},\n{" : "\n{", file);
+        figures_json_text(file, t->heading[column]);
+        fputs(": ", file);
+        put_json(file, t->kind[column], t->cell[i].text);
+    }
+    fputs(t->count ? "}\n]\n" : "]\n", file);
     return 1;
 }
 

@@ -1,4 +1,4 @@
-/* Rows of cells, filled once and printed as text for a terminal, as Markdown, as CSV or into a page.
+/* Rows of cells, filled once and printed as text for a terminal, as Markdown, CSV or JSON, or into a page.
  *
  * A column is named where its cell is filled, so that a list of columns is a function of a row:
  *
@@ -63,6 +63,7 @@ void table_mark(text_table *t, const char *mark);
 int table_print_text(FILE *file, const text_table *t);
 int table_print_markdown(FILE *file, const text_table *t);
 int table_print_csv(FILE *file, const text_table *t);
+int table_print_json(FILE *file, const text_table *t); /* an array of objects */
 int table_print_html(FILE *file, const text_table *t);
 
 /* A field of CSV between quotes. */

@@ -1,36 +1,209 @@
 #include "manual/manual.h"
 
+#include <ctype.h>
 #include <string.h>
 
-void manual_command_from(const command_form *form, manual_command *command)
+#include "cli/arguments.h"
+#include "command.h"
+#include "vndf.h"
+
+/* All commands, and the mode of one that has a help of its own. */
+static void take_all(form_taker *take, FILE *to)
 {
-    command->help = form->help;
-    command->positional = form->positional;
-    command->option_count = 0;
-    for (size_t i = 0; i < form->option_count && i < WORDS_MAX; i++) {
-        const option_form *option = &form->options[i];
-        manual_option taken = {option->name, option->takes_value};
-        command->option[command->option_count++] = taken;
+    for (size_t i = 0; i < subcommand_count; i++) {
+        take_form(subcommands[i].run, take, to);
+        if (subcommands[i].run == command_bench)
+            take_form(command_bench_effects, take, to);
     }
 }
 
-const char *manual_mode(const manual *from, const manual_command *command)
+/* ---- the manual page, in the macros that man and mandoc share ------------------------------------ */
+
+/* With what troff reads otherwise escaped. */
+static void put_text(FILE *to, const char *text, size_t length)
 {
-    size_t length = strlen(command->name);
-    for (size_t i = 0; i < from->count; i++)
-        if (strncmp(from->command[i].name, command->name, length) == 0 && from->command[i].name[length] == ' ')
-            return from->command[i].name + length + 1;
-    return NULL;
+    static const char special[] = "\\-'`^~\"";
+    static const char *const as[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti", "\\(dq"};
+    fputs("\\&", to); /* a dot in front would be a request */
+    for (size_t i = 0; i < length; i++) {
+        const char *found = strchr(special, text[i]);
+        if (found)
+            fputs(as[found - special], to);
+        else
+            fputc(text[i], to);
+    }
+    fputc('\n', to);
 }
 
-values manual_positional(const manual *from, const manual_command *command)
+static void put_heading(FILE *to, const char *text, size_t length)
 {
-    values may = values_of(command->positional);
-    const char *mode = manual_mode(from, command);
-    if (mode)
-        values_add(&may, mode);
-    for (size_t i = 0; i < from->count && strcmp(command->positional, "COMMAND") == 0; i++)
-        if (!strchr(from->command[i].name, ' '))
-            values_add(&may, from->command[i].name);
-    return may;
+    fputs(".SH \"", to);
+    for (size_t i = 0; i < length; i++)
+        fputc(toupper((unsigned char)text[i]), to);
+    fputs("\"\n", to);
+}
+
+/* "TERM  what it is" */
+static void put_item(FILE *to, const char *text, size_t length)
+{
+    size_t term = 0;
+    while (term < length && (text[term] != ' ' || term + 1 == length || text[term + 1] != ' '))
+        term++;
+    fputs(".TP\n.B ", to);
+    put_text(to, text, term);
+    term += strspn(text + term, " ");
+    put_text(to, text + term, term < length ? length - term : 0);
+}
+
+typedef enum block { PARAGRAPH, ITEM, LITERAL } block;
+
+static void put_help(FILE *to, const char *help)
+{
+    block at = PARAGRAPH;
+    for (size_t length; *help; help += length + (help[length] == '\n')) {
+        length = strcspn(help, "\n");
+        size_t indent = strspn(help, " ");
+        const int is_usage = strncmp(help, "usage: ", 7) == 0;
+        const int is_literal = is_usage || strncmp(help, "example: ", 9) == 0;
+        if (at == LITERAL && (indent == 0 || length == 0))
+            fputs(".fi\n", to);
+        if (length == 0) {
+            fputs(".PP\n", to);
+            at = PARAGRAPH;
+        } else if (is_literal) {
+            fputs(is_usage ? ".nf\n" : "For example:\n.PP\n.nf\n", to);
+            put_text(to, strchr(help, ' ') + 1, length - (size_t)(strchr(help, ' ') + 1 - help));
+            at = LITERAL;
+        } else if (at == LITERAL && indent > 0) { /* below the first line, behind "usage: " or "example: " */
+            size_t skip = indent < 9 ? indent : 9;
+            put_text(to, help + skip, length - skip);
+        } else if (indent == 2) {
+            put_item(to, help + indent, length - indent);
+            at = ITEM;
+        } else {
+            if (at == ITEM && (indent == 6 || indent == 0))
+                fputs(indent ? ".br\n" : ".PP\n", to);
+            put_text(to, help + indent, length - indent);
+            at = indent ? at : PARAGRAPH;
+        }
+    }
+    fputs(at == LITERAL ? ".fi\n" : "", to);
+}
+
+static void put_command(const command_form *form, void *to)
+{
+    put_heading(to, form->command, strlen(form->command));
+    put_help(to, form->help);
+}
+
+void manual_write_man(FILE *to, const char *head)
+{
+    static const char *const sections[] = {"exit status", "files"};
+    const char *purpose = strstr(head, " - ") + 3;
+    fputs(".\\\" Made by `vndf help --man`.\n.TH VNDF 1 \"\" \"vndf " VNDF_VERSION
+          "\" \"User Commands\"\n.nh\n.ad l\n"
+          ".SH NAME\nvndf \\- ",
+          to);
+    fprintf(to, "%.*s\n", (int)strcspn(purpose, "\n"), purpose);
+    fputs(
+        ".SH SYNOPSIS\n\\fBvndf\\fP \\fICOMMAND\\fP ...\n.br\n\\fBvndf\\fP \\fICOMMAND\\fP \\fB\\-\\-help\\fP\n.br\n"
+        "\\fBvndf \\-\\-version\\fP\n.SH COMMANDS\n",
+        to);
+    for (size_t i = 0; i < subcommand_count; i++) {
+        fputs(".TP\n.B ", to);
+        put_text(to, subcommands[i].name, strlen(subcommands[i].name));
+        put_text(to, subcommands[i].purpose, strlen(subcommands[i].purpose));
+    }
+    take_all(put_command, to);
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) { /* paragraphs "files: ..." of the head */
+        const char *at = strstr(head, sections[i]);
+        size_t title = strlen(sections[i]);
+        put_heading(to, at, title);
+        for (at += title + 2; *at && *at != '\n'; at += strcspn(at, "\n") + 1)
+            put_text(to, at, strcspn(at, "\n"));
+    }
+}
+
+/* ---- completion ---------------------------------------------------------------------------------- */
+
+/* What may stand for "FILE|ggx|beckmann": its words in lower case, and whether a file may. Returns the latter. */
+static int put_words(FILE *to, const char *text, size_t length)
+{
+    static const char *const places[] = {"FILE", "OUT", "DIR", "SCENE", "PAGE", "RAW"};
+    int files = length == 1 && *text == 'F';
+    for (const char *end = text + length; text < end;) {
+        size_t word = 0, plain = 0;
+        while (text + word < end && text[word] != '|')
+            plain += islower((unsigned char)text[word]) || isdigit((unsigned char)text[word]), word++;
+        if (plain == word && word > 0)
+            fprintf(to, "%.*s ", (int)word, text);
+        for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
+            files |= word >= strlen(places[i]) && memcmp(text, places[i], strlen(places[i])) == 0;
+        text += word + (text + word < end);
+    }
+    return files;
+}
+
+/* The first word behind an option where the help names it with one, "FILE" or "2|3|4", and its length. */
+static const char *value_of(const char *help, const char *option, size_t *length)
+{
+    size_t letters = strlen(option);
+    for (const char *at = help; (at = strstr(at, option)) != NULL; at += letters)
+        if (at > help && strchr(" [(|\n", at[-1]) && at[letters] == ' ' &&
+            isalnum((unsigned char)at[letters + 1])) {
+            *length = strcspn(at + letters + 1, " ]),\n");
+            return at + letters + 1;
+        }
+    *length = 0;
+    return "";
+}
+
+static void put_completion(const command_form *form, void *to)
+{
+    const char *name = form->command + strlen("vndf ");
+    fprintf(to, "    '%s ') words='", name);
+    if (strcmp(form->positional, "COMMAND") == 0)
+        for (size_t i = 0; i < subcommand_count; i++)
+            fprintf(to, "%s ", subcommands[i].name);
+    fputs(strcmp(name, "bench") == 0 ? "effects " : "", to);
+    int files = put_words(to, form->positional, strlen(form->positional));
+    fprintf(to, "' files=%d options='", files);
+    for (size_t i = 0; i < form->option_count; i++)
+        fprintf(to, "%s ", form->options[i].name);
+    fputs("--help' ;;\n", to);
+    for (size_t i = 0; i < form->option_count; i++) {
+        size_t length;
+        const char *value = value_of(form->help, form->options[i].name, &length);
+        if (!form->options[i].takes_value)
+            continue;
+        fprintf(to, "    '%s %s') words='", name, form->options[i].name);
+        files = put_words(to, value, length);
+        fprintf(to, "' files=%d ;;\n", files);
+    }
+}
+
+void manual_write_bash(FILE *to)
+{
+    fputs(
+        "# bash completion for vndf; made by `vndf help --completion bash`.\n"
+        "_vndf_of() # the words, options and files behind \"COMMAND OPTION\", an option with a value, or \"COMMAND \"\n"
+        "{\n    case $1 in\n    ' ') options='--help --version' words='",
+        to);
+    for (size_t i = 0; i < subcommand_count; i++)
+        fprintf(to, "%s ", subcommands[i].name);
+    fputs("' ;;\n", to);
+    take_all(put_completion, to);
+    fputs("    *) return 1 ;;\n    esac\n}\n"
+          "_vndf()\n{\n"
+          "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
+          "    local command=${COMP_WORDS[1]} options='' words='' files=0\n"
+          "    ((COMP_CWORD == 1)) && command=''\n"
+          "    if ((COMP_CWORD > 2)) && [[ $command == bench && ${COMP_WORDS[2]} == effects ]]; then\n"
+          "        command='bench effects'\n    fi\n"
+          "    _vndf_of \"$command $previous\" || _vndf_of \"$command \"\n"
+          "    [[ $current == -* ]] && words=$options\n"
+          "    ((files)) && files=-f || files=''\n"
+          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
+          "complete -o filenames -F _vndf vndf\n",
+          to);
 }

@@ -1,6 +1,9 @@
 #include "measured/model.h"
 
 #include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
 
 direction direction_at(double theta, double phi)
 {
@@ -18,29 +21,9 @@ direction direction_mirrored(direction w, direction m)
     return (direction){twice * m.x - w.x, twice * m.y - w.y, twice * m.z - w.z};
 }
 
-direction direction_between(direction a, direction b)
-{
-    direction sum = {a.x + b.x, a.y + b.y, a.z + b.z};
-    double length = sqrt(direction_dot(sum, sum));
-    return length > 0 ? (direction){sum.x / length, sum.y / length, sum.z / length} : (direction){0, 0, 1};
-}
-
-double model_ndf(const vndf_surface *surface, double theta)
-{
-    vndf_vec3 wm = {(float)sin(theta), 0.0f, (float)fmax(cos(theta), 0)};
-    return (double)vndf_ndf(surface, wm);
-}
-
-double model_area(const vndf_surface *surface, direction w)
-{
-    return (double)vndf_projected_area(surface, (vndf_vec3){(float)w.x, (float)w.y, (float)w.z});
-}
-
 double model_masked(double area_i, double cos_i, double area_o, double cos_o)
 {
-    if (!(cos_o > 0))
-        return 0;
-    return area_i * cos_o / (area_i * cos_o + area_o * cos_i - cos_i * cos_o);
+    return cos_o > 0 ? area_i * cos_o / (area_i * cos_o + area_o * cos_i - cos_i * cos_o) : 0;
 }
 
 double model_schlick(double cosine)
@@ -49,12 +32,109 @@ double model_schlick(double cosine)
     return square * square * away;
 }
 
-double model_reflected(const vndf_surface *surface, direction wi, direction wo)
+double model_ndf(const vndf_surface *surface, double theta)
 {
-    if (!(wi.z > 0) || !(wo.z > 0))
-        return 0;
-    direction m = direction_between(wi, wo);
-    double area_i = model_area(surface, wi), area_o = model_area(surface, wo);
-    double theta = atan2(hypot(m.x, m.y), m.z);
-    return model_ndf(surface, theta) * model_masked(area_i, wi.z, area_o, wo.z) / (4 * area_i);
+    return (double)vndf_ndf(surface, (vndf_vec3){(float)sin(theta), 0.0f, (float)fmax(cos(theta), 0)});
+}
+
+double model_area(const vndf_surface *surface, double theta)
+{
+    return (double)vndf_projected_area(surface, (vndf_vec3){(float)sin(theta), 0.0f, (float)cos(theta)});
+}
+
+/* ---- D that was measured ------------------------------------------------------------------------- */
+
+/* The integral over phi of |a + b cos(phi)|, b >= 0. */
+static double around(double a, double b)
+{
+    return fabs(a) >= b ? 2 * pi * fabs(a) : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
+}
+
+/* A bin reaches half way to its neighbours, and the last one to 90 degrees. */
+void law_even(law *made, int count, double place)
+{
+    memset(made, 0, sizeof *made);
+    made->count = count;
+    for (int i = 0; i < count; i++) {
+        double at = i + place, from = fmax(at - 0.5, 0) / count, to = i + 1 < count ? (at + 0.5) / count : 1;
+        double bin = pi / 2 * at * at / count / count;
+        made->theta[i] = bin;
+        made->share[i] = cos(pi / 2 * from * from) - cos(pi / 2 * to * to);
+        for (int k = 0; k < LAW_AREAS; k++) {
+            double theta = pi / 2 * k / (LAW_AREAS - 1);
+            made->both_sides[k][i] = made->share[i] * around(cos(theta) * cos(bin), sin(theta) * sin(bin));
+        }
+    }
+}
+
+double law_normalise(law *l)
+{
+    double whole = 0;
+    for (int i = 0; i < l->count; i++)
+        whole += 2 * pi * l->share[i] * cos(l->theta[i]) * l->ndf[i];
+    for (int i = 0; i < l->count && whole > 0; i++)
+        l->ndf[i] /= whole;
+    for (int k = 0; k < LAW_AREAS; k++) {
+        double both = 0;
+        for (int i = 0; i < l->count; i++)
+            both += l->both_sides[k][i] * l->ndf[i];
+        l->area[k] = (both + cos(pi / 2 * k / (LAW_AREAS - 1))) / 2;
+    }
+    return whole;
+}
+
+double law_of_source(law *made, const vndf_source *source)
+{
+    law_even(made, LAW_ANGLES, 0.5);
+    for (int i = 0; i < made->count; i++)
+        made->ndf[i] = vndf_source_p22(source, tan(made->theta[i])) / pow(cos(made->theta[i]), 4);
+    return law_normalise(made);
+}
+
+double law_ndf(const law *of, double theta)
+{
+    int low = 0, high = of->count - 1;
+    if (theta <= of->theta[0])
+        return of->ndf[0];
+    if (theta >= of->theta[high])
+        return of->ndf[high];
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        *(of->theta[middle] <= theta ? &low : &high) = middle;
+    }
+    double part = (theta - of->theta[low]) / (of->theta[high] - of->theta[low]);
+    if (of->ndf[low] > 0 && of->ndf[high] > 0)
+        return exp((1 - part) * log(of->ndf[low]) + part * log(of->ndf[high]));
+    return (1 - part) * of->ndf[low] + part * of->ndf[high];
+}
+
+double law_area(const law *of, double theta)
+{
+    double place = fmin(theta / (pi / 2), 1) * (LAW_AREAS - 1);
+    int at = place < LAW_AREAS - 2 ? (int)place : LAW_AREAS - 2;
+    return of->area[at] + (place - at) * (of->area[at + 1] - of->area[at]);
+}
+
+/* ---- F that was measured ------------------------------------------------------------------------- */
+
+int model_reflectance(const probe *probes, size_t count, reflectance *found)
+{
+    double aa = 0, ab = 0, bb = 0, fa = 0, fb = 0, off = 0, whole = 0;
+    for (size_t i = 0; i < count; i++) {
+        const probe *p = &probes[i];
+        aa += p->weight * p->low * p->low;
+        ab += p->weight * p->low * p->high;
+        bb += p->weight * p->high * p->high;
+        fa += p->weight * p->found * p->low;
+        fb += p->weight * p->found * p->high;
+    }
+    double det = aa * bb - ab * ab;
+    *found = (reflectance){(fa * bb - fb * ab) / det, (fb * aa - fa * ab) / det, 0};
+    for (size_t i = 0; i < count; i++) {
+        const probe *p = &probes[i];
+        off += p->light * fabs(p->found - found->f0 * p->low - found->f90 * p->high) / 2;
+        whole += p->light * p->found;
+    }
+    found->residual = off / whole;
+    return det > 0 && whole > 0 && isfinite(found->residual) && isfinite(found->f0) && isfinite(found->f90);
 }

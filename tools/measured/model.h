@@ -8,6 +8,7 @@
 #ifndef TOOLS_MEASURED_MODEL_H
 #define TOOLS_MEASURED_MODEL_H
 
+#include "measured/data.h"
 #include "vndf.h"
 
 typedef struct direction {
@@ -22,20 +23,56 @@ double direction_dot(direction a, direction b);
 /* w mirrored at m. */
 direction direction_mirrored(direction w, direction m);
 
-/* Half way between two directions, unit. */
-direction direction_between(direction a, direction b);
-
-/* D and A of an isotropic surface at an angle from z. */
-double model_ndf(const vndf_surface *surface, double theta);
-double model_area(const vndf_surface *surface, direction w);
-
 /* R; 0 where wo is below the horizon. */
 double model_masked(double area_i, double cos_i, double area_o, double cos_o);
 
 /* (1 - cosine)^5 */
 double model_schlick(double cosine);
 
-/* D R / (4 A_i), f cos_o where F is 1; 0 below the horizon. */
-double model_reflected(const vndf_surface *surface, direction wi, direction wo);
+/* D and A of an isotropic surface that the library knows, at an angle from z. */
+double model_ndf(const vndf_surface *surface, double theta);
+double model_area(const vndf_surface *surface, double theta);
+
+/* ---- D that was measured ------------------------------------------------------------------------- */
+
+enum { LAW_ANGLES = 256, LAW_AREAS = 181 };
+
+/* D at angles theta[i], the middles of bins from 0 to 90 degrees with the solid angles 2 pi share[i], and its projected
+ * area every half degree. 400 KB. */
+typedef struct law {
+    int count; /* at most LAW_ANGLES */
+    double theta[LAW_ANGLES], share[LAW_ANGLES], ndf[LAW_ANGLES], area[LAW_AREAS];
+    double both_sides[LAW_AREAS][LAW_ANGLES]; /* what a bin with D = 1 adds to the integral of |w.m| D(m) dm */
+} law;
+
+/* Bins that are even in sqrt(theta), as MERL files have them; theta stands `place` of the way through its bin: 1/2 in
+ * the middle, 0 at the lower end. */
+void law_even(law *made, int count, double place);
+
+/* Scales D to the integral 1 over the projected hemisphere and finds its areas; returns what the integral was. */
+double law_normalise(law *changed);
+
+/* D of a curve, normalised; returns what its integral was. */
+double law_of_source(law *made, const vndf_source *source);
+
+/* Between the bins: of D logarithms where they can be, on theta. */
+double law_ndf(const law *of, double theta);
+double law_area(const law *of, double theta);
+
+/* ---- F that was measured ------------------------------------------------------------------------- */
+
+/* Light that was found, and what the model has there with F = 1 - rise and with F = rise; how much the light weighs,
+ * and how much the square of what is left. */
+typedef struct probe {
+    double found, low, high, light, weight;
+} probe;
+
+typedef struct reflectance {
+    double f0, f90;  /* nearest by least squares */
+    double residual; /* half of |found - model| over what was found */
+} reflectance;
+
+/* 0 if the probes do not tell. */
+int model_reflectance(const probe *probes, size_t count, reflectance *found);
 
 #endif

@@ -50,6 +50,16 @@ typedef struct placement {
     vec3 move;
 } placement;
 
+static inline vec3 placement_turn(const placement *where, vec3 p)
+{
+    const double angle = where->turn * (PI / 180), c = cos(angle), s = sin(angle);
+    return vec(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+}
+
+/* Adds a torus knot that stands within [-0.85, 1.03] x [-0.45, 0.45] x [-0.98, 0.98] before it is placed. 0 if there
+ * is no memory. */
+int knot_add(geometry *g, const placement *where, int material);
+
 /* Adds the triangles of a file. Returns 1; or 0 and "NAME:LINE: what is wrong", and then adds nothing. Files that
  * are not trusted are safe. */
 int obj_read(geometry *g, const char *path, const placement *where, int material, char *message, size_t size);

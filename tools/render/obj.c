@@ -124,18 +124,12 @@ static int append(reader *r, table *t, vec3 v)
     return 1;
 }
 
-static vec3 turned(const placement *where, vec3 p)
-{
-    const double angle = where->turn * (PI / 180), c = cos(angle), s = sin(angle);
-    return vec(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
-}
-
 static int read_v(reader *r)
 {
     double p[3];
     if (!read_numbers(r, "v", 3, p))
         return 0;
-    const vec3 placed = along(r->where->move, r->where->scale, turned(r->where, vec(p[0], p[1], p[2])));
+    const vec3 placed = along(r->where->move, r->where->scale, placement_turn(r->where, vec(p[0], p[1], p[2])));
     const double reach = 1e7;
     if (!(fabs(placed.x) <= reach && fabs(placed.y) <= reach && fabs(placed.z) <= reach))
         return complain_at(r, "this corner lies farther than %g from the origin", reach);
@@ -159,7 +153,7 @@ static int read_vn(reader *r)
     if (!read_numbers(r, "vn", 3, p))
         return 0;
     const double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
-    const vec3 n = turned(r->where, vec(p[0], p[1], p[2]));
+    const vec3 n = placement_turn(r->where, vec(p[0], p[1], p[2]));
     return append(r, &r->vn, largest > 0 ? unit(scale(n, 1 / largest)) : n);
 }
 

@@ -1,10 +1,11 @@
 /* Patterns: images by formulas of (u, v), from the left and the top, averaged over each pixel: fine detail, and a
- * studio as an environment (longitude across, latitude down; the zenith is the top row). */
+ * studio as an environment (longitude across, latitude down; the zenith is the top row); and a mesh by a formula. */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
 #include "cli/arguments.h"
+#include "render/geometry.h"
 #include "render/image.h"
 
 static void grey(float value, float rgb[3])
@@ -129,4 +130,58 @@ int image_make_pattern(image *made, const char *name, int width, int height, ima
         for (int x = 0; x < width; x++)
             shade_pixel(p, made, x, y);
     return 1;
+}
+
+/* ---- a torus knot (2, 3) ----
+ *
+ * A closed tube about the axis
+ *
+ *     P(t) = ((R + r cos 3t) cos 2t, 1.15 r sin 3t, (R + r cos 3t) sin 2t),    R = 0.62, r = 0.26, 0 <= t <= 2 pi,
+ *
+ * which is nowhere vertical, so that each ring of the tube begins at its top. */
+
+enum { RINGS = 96, SIDES = 12 };
+
+static const double tube = 0.15;
+
+/* A corner and its normal. */
+static void corner_at(int ring, int side, vec3 *place, vec3 *normal)
+{
+    const double t = 2 * PI * (ring % RINGS) / RINGS, turn = 2 * PI * (side % SIDES) / SIDES;
+    const double from_axis = 0.62 + 0.26 * cos(3 * t), change = -0.78 * sin(3 * t);
+    const vec3 axis = {from_axis * cos(2 * t), 0.299 * sin(3 * t), from_axis * sin(2 * t)};
+    const vec3 tangent = {change * cos(2 * t) - 2 * from_axis * sin(2 * t), 0.897 * cos(3 * t),
+                          change * sin(2 * t) + 2 * from_axis * cos(2 * t)};
+    const frame f = frame_about(unit(tangent), vec(0, 1, 0));
+    *normal = along(scale(f.x, cos(turn)), sin(turn), f.y);
+    *place = along(axis, tube, *normal);
+}
+
+/* The triangle with these corners, counter-clockwise seen from outside: {ring, side} each. */
+static int add_triangle(geometry *g, const int at[3][2], const placement *where, int material)
+{
+    shape s = {.kind = SHAPE_TRIANGLE, .material = material};
+    vec3 place[3], normal;
+    for (int i = 0; i < 3; i++) {
+        corner_at(at[i][0], at[i][1], &place[i], &normal);
+        place[i] = along(where->move, where->scale, placement_turn(where, place[i]));
+        normal = placement_turn(where, normal);
+        s.normal[i] = (vndf_vec3){(float)normal.x, (float)normal.y, (float)normal.z};
+    }
+    s.corner = place[0];
+    s.edge_u = subtract(place[1], place[0]);
+    s.edge_v = subtract(place[2], place[0]);
+    return geometry_add(g, &s);
+}
+
+int knot_add(geometry *g, const placement *where, int material)
+{
+    int good = 1;
+    for (int ring = 0; ring < RINGS; ring++)
+        for (int side = 0; side < SIDES; side++) {
+            const int one[3][2] = {{ring, side}, {ring, side + 1}, {ring + 1, side + 1}};
+            const int other[3][2] = {{ring, side}, {ring + 1, side + 1}, {ring + 1, side}};
+            good = good && add_triangle(g, one, where, material) && add_triangle(g, other, where, material);
+        }
+    return good;
 }

@@ -524,23 +524,34 @@ static int read_rectangle(reader *r)
     return add_shape(r, &made);
 }
 
+/* A file, or the knot. */
 static int read_mesh(reader *r)
 {
-    static const clause_form forms[] = {{"file", "PATH", CLAUSE_WORDS, 1, 1, 1, 0, 0},
+    static const char *const patterns[] = {"knot"};
+    static const clause_form forms[] = {{"file", "PATH", CLAUSE_WORDS, 1, 1, 0, 0, 0},
                                         {"scale", "FACTOR", CLAUSE_NUMBERS, 1, 1, 0, 1e-6, 1e6},
                                         {"turn", "DEGREES", CLAUSE_NUMBERS, 1, 1, 0, -360, 360},
                                         {"move", "X Y Z", CLAUSE_NUMBERS, 3, 3, 0, -1e6, 1e6},
-                                        {"material", "NAME", CLAUSE_WORDS, 1, 1, 1, 0, 0}};
+                                        {"material", "NAME", CLAUSE_WORDS, 1, 1, 1, 0, 0},
+                                        {"pattern", "NAME", CLAUSE_WORDS, 1, 1, 0, 0, 0}};
+    const clause *file = &r->c[0], *pattern = &r->c[5];
     char why[512];
+    size_t which;
     int of;
     if (!clauses(r, 1, FORMS(forms)) || !find_material(r, &r->c[4], &of))
         return 0;
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return refuse_word(&r->words, r->c[4].value, "a light is a sphere or a rectangle, not a mesh");
+    if (!file->at == !pattern->at)
+        return refuse_word(&r->words, &r->list[0], "'mesh' needs one of 'file PATH' and 'pattern knot'");
     const placement where = {r->c[1].at ? r->c[1].number[0] : 1, r->c[2].number[0], vector_of(&r->c[3])};
-    char *path = path_of(r, r->c[0].value);
+    if (pattern->at)
+        return read_choice(&r->words, pattern, "pattern of a mesh", patterns, 1, &which) &&
+               (knot_add(&r->made->geometry, &where, of) ||
+                refuse_word(&r->words, &r->list[0], "there is no memory for this shape"));
+    char *path = path_of(r, file->value);
     int good = path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) ||
-                        refuse_word(&r->words, r->c[0].value, "%s", why));
+                        refuse_word(&r->words, file->value, "%s", why));
     free(path);
     return good;
 }

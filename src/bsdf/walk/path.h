@@ -44,7 +44,7 @@ VNDF_INLINE int vndf_walk_travel(const vndf_walk *walk, vndf_walk_path *path, vn
     if (back.z < 0.0f && !(path->depth > 0.0))
         return 0;
     path->from = back;
-    path->view = vndf_affine_view_from(walk->surface, back);
+    vndf_view_make(&path->view, walk->surface, back);
     return 1;
 }
 

@@ -33,7 +33,8 @@ static double p22_of(const vndf_profile *profile, double r, double given)
     const vndf_source *source = profile->source;
     double scale = profile->scale, at = r * scale;
     if (given == HUGE_VAL && r > 0.0) {
-        given = fmin(source->p22(source, nextafter(at, 0.0)), source->p22(source, nextafter(at, HUGE_VAL)));
+        given =
+            fmin(vndf_source_p22(source, nextafter(at, 0.0)), vndf_source_p22(source, nextafter(at, HUGE_VAL)));
         vndf_guard_spend(profile->guard, 2 * source->operations);
     }
     double p = profile->normalization * scale * scale * given;
@@ -46,7 +47,7 @@ static double p22_of(const vndf_profile *profile, double r, double given)
 double vndf_profile_p22(const vndf_profile *profile, double r)
 {
     int going = vndf_guard_spend(profile->guard, profile->source->operations);
-    return p22_of(profile, r, going ? profile->source->p22(profile->source, r * profile->scale) : 0.0);
+    return p22_of(profile, r, going ? vndf_source_p22(profile->source, r * profile->scale) : 0.0);
 }
 
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22)
@@ -55,13 +56,8 @@ void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t 
     double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY] = {0.0};
     for (size_t i = 0; i < count; i++)
         at[i] = r[i] * profile->scale;
-    if (vndf_guard_spend(profile->guard, (double)count * source->operations)) {
-        if (source->p22_many)
-            source->p22_many(source, at, count, given);
-        else
-            for (size_t i = 0; i < count; i++)
-                given[i] = source->p22(source, at[i]);
-    }
+    if (vndf_guard_spend(profile->guard, (double)count * source->operations))
+        source->p22(source, at, count, given);
     for (size_t i = 0; i < count; i++)
         p22[i] = p22_of(profile, r[i], given[i]);
 }

@@ -21,6 +21,8 @@
 
 #include "vndf_build.h"
 
+#define VNDF_RIGHT_ANGLE 1.57079632679489661923
+
 typedef enum vndf_csv_first { VNDF_CSV_THETA_DEG, VNDF_CSV_THETA, VNDF_CSV_SLOPE } vndf_csv_first;
 typedef enum vndf_csv_second { VNDF_CSV_NDF, VNDF_CSV_P22 } vndf_csv_second;
 

@@ -12,7 +12,6 @@
 enum { BREAKS = 4096, OPERATIONS = 8 };
 
 static const double ROUNDING_MOST = 1e-6; /* of P22: rows of six digits */
-static const double RIGHT_ANGLE = 1.57079632679489661923;
 
 /* Points with x ascending, at least two, and dy/dx there. */
 typedef struct curve {
@@ -39,23 +38,16 @@ typedef struct csv_source {
     int falls_to_0;      /* the last row is 0 at 90 degrees, the row before is not 0 ... */
     double last_but_one; /* ... and stands at this slope */
     many_rows rows;      /* empty up to BREAKS rows */
-    double *breaks;
-    double *block; /* owned: all these numbers */
+    double *breaks;      /* owned: the block of all these numbers */
 } csv_source;
 
 /* ---- the cubic -------------------------------------------------------------------------------- */
 
-static double secant(const curve *c, size_t i)
-{
-    return (c->y[i + 1] - c->y[i]) / (c->x[i + 1] - c->x[i]);
-}
-
-/* The slope of the parabola at a point between the secants a and b of widths p and q, reduced until both sides are
- * monotone; 0 at a local extremum. */
+/* The slope between the secants a and b of widths p and q: that of the parabola, reduced until both sides are monotone;
+ * 0 at a local extremum. */
 static double inner_slope(double a, double p, double b, double q)
 {
-    double parabola = fabs((a * q + b * p) / (p + q));
-    double most = 2 * fmin(fabs(a), fabs(b));
+    double parabola = fabs((a * q + b * p) / (p + q)), most = 2 * fmin(fabs(a), fabs(b));
     return (a > 0) != (b > 0) ? 0 : copysign(fmin(parabola, most), a);
 }
 
@@ -70,17 +62,17 @@ static double end_slope(double a, double p, double b, double q)
 
 static void fit_cubic(curve *c)
 {
-    const double *x = c->x;
     size_t last = c->count - 1;
-    if (last == 1) {
-        c->slope[0] = c->slope[1] = secant(c, 0);
-        return;
+    double a = 0, p = 0; /* secant and width of the piece before */
+    for (size_t i = 0; i < last; i++) {
+        double q = c->x[i + 1] - c->x[i], b = (c->y[i + 1] - c->y[i]) / q;
+        c->slope[i] = i > 0 ? inner_slope(a, p, b, q) : b;
+        if (i == 1)
+            c->slope[0] = end_slope(a, p, b, q);
+        c->slope[last] = i > 0 ? end_slope(b, q, a, p) : b;
+        a = b;
+        p = q;
     }
-    for (size_t i = 1; i < last; i++)
-        c->slope[i] = inner_slope(secant(c, i - 1), x[i] - x[i - 1], secant(c, i), x[i + 1] - x[i]);
-    c->slope[0] = end_slope(secant(c, 0), x[1] - x[0], secant(c, 1), x[2] - x[1]);
-    c->slope[last] =
-        end_slope(secant(c, last - 1), x[last] - x[last - 1], secant(c, last - 2), x[last - 1] - x[last - 2]);
 }
 
 /* The first place in ascending x beyond u. */
@@ -140,13 +132,12 @@ static double cosine4(double r)
  * known with all its digits. */
 static double distance_to_grazing(double scale, double r)
 {
-    double a = RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
+    double a = VNDF_RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
     return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
 }
 
-static double p22(const vndf_source *self, double r)
+static double p22_at(const csv_source *source, double r)
 {
-    const csv_source *source = (const csv_source *)self;
     if (r > source->last_slope)
         return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
     double x = source->first == VNDF_CSV_SLOPE ? r : atan(r);
@@ -155,6 +146,12 @@ static double p22(const vndf_source *self, double r)
                    : value_at(&source->curve, asinh(x / source->scale));
     double value = source->logarithmic ? exp(y) : y;
     return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
+}
+
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = p22_at((const csv_source *)self, r[i]);
 }
 
 /* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
@@ -177,7 +174,7 @@ static double stray_of(const many_rows *rows, double u0, double f0, double u1, d
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
     const csv_source *source = (const csv_source *)self;
-    vndf_reach at = {p22(self, low), p22(self, high), 0};
+    vndf_reach at = {p22_at(source, low), p22_at(source, high), 0};
     if (source->rows.count)
         at.stray = stray_of(&source->rows, log(low), at.low * low * low, log(high), at.high * high * high);
     return at;
@@ -185,7 +182,7 @@ static vndf_reach reach(const vndf_source *self, double low, double high)
 
 static void destroy(vndf_source *self)
 {
-    free(((csv_source *)self)->block);
+    free(((csv_source *)self)->breaks);
     free(self->description);
     free(self);
 }
@@ -196,7 +193,7 @@ static double slope_of_row(const vndf_csv_rows *rows, size_t i)
 {
     if (rows->first == VNDF_CSV_SLOPE)
         return rows->x[i];
-    return rows->x[i] >= RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
+    return rows->x[i] >= VNDF_RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
 }
 
 static double p22_of_row(const vndf_csv_rows *rows, size_t i)
@@ -246,27 +243,23 @@ static void fill_breaks(csv_source *source, const vndf_csv_rows *rows)
     source->base.break_count = kept;
 }
 
-/* How far the curve is from the chord between row i and the next. */
-static double bend_of(const curve *c, size_t i)
-{
-    double h = c->x[i + 1] - c->x[i], rise = c->y[i + 1] - c->y[i];
-    return 4.0 / 27 * (fabs(c->slope[i] * h - rise) + fabs(c->slope[i + 1] * h - rise));
-}
-
 /* Leaves out rows at slope 0 and at 90 degrees. */
 static void fill_rows(csv_source *source, const vndf_csv_rows *given)
 {
     many_rows *rows = &source->rows;
+    const curve *c = &source->curve;
     for (size_t i = 0; i < given->count; i++) {
-        double r = slope_of_row(given, i), f = p22_of_row(given, i) * r * r;
-        double bend = i + 1 < given->count ? bend_of(&source->curve, i) : 0;
+        double r = slope_of_row(given, i), f = p22_of_row(given, i) * r * r, bend = 0;
         if (!(r > 0) || !isfinite(r))
             continue;
+        if (i + 1 < given->count) { /* of the curve from its chord, in its own unit */
+            double h = c->x[i + 1] - c->x[i], rise = c->y[i + 1] - c->y[i];
+            bend = 4.0 / 27 * (fabs(c->slope[i] * h - rise) + fabs(c->slope[i + 1] * h - rise));
+        }
+        double unit = source->logarithmic ? f : given->value[i] > 0 ? f / given->value[i] : 0;
         rows->u[rows->count] = log(r);
         rows->f[rows->count] = f;
-        rows->bend[rows->count++] = bend * (source->logarithmic   ? f
-                                            : given->value[i] > 0 ? f / given->value[i]
-                                                                  : 0);
+        rows->bend[rows->count++] = bend * unit;
     }
 }
 
@@ -289,8 +282,7 @@ vndf_source *vndf_csv_source(const vndf_csv_rows *rows, char *description, vndf_
 {
     csv_source *source = calloc(1, sizeof *source);
     size_t n = rows->count;
-    int many = n > BREAKS;
-    double *block = malloc(((many ? 6 : 3) * n + BREAKS) * sizeof *block);
+    double *block = malloc(((n > BREAKS ? 6 : 3) * n + BREAKS) * sizeof *block);
     if (!source || !block) {
         free(source);
         free(block);
@@ -302,15 +294,13 @@ vndf_source *vndf_csv_source(const vndf_csv_rows *rows, char *description, vndf_
         .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS, .reach = reach};
     source->first = rows->first;
     source->second = rows->second;
-    source->block = source->breaks = block;
+    source->breaks = block;
     source->curve = (curve){block + BREAKS, block + BREAKS + n, block + BREAKS + 2 * n, n};
     fit_curve(source, rows);
     fit_tail(source, rows);
     fill_breaks(source, rows);
-    if (many) {
-        source->rows.u = block + BREAKS + 3 * n;
-        source->rows.f = source->rows.u + n;
-        source->rows.bend = source->rows.f + n;
+    if (n > BREAKS) {
+        source->rows = (many_rows){block + BREAKS + 3 * n, block + BREAKS + 4 * n, block + BREAKS + 5 * n, 0};
         fill_rows(source, rows);
         source->base.rounding = rounding_of(source);
     }

@@ -17,64 +17,19 @@
 #include "source/source.h"
 #include "source/words.h"
 
-enum { OPERATIONS = 8 }; /* of a lobe */
-
 static const char mix_usage[] = "mix:(W,S,FAMILY)+(W,S,FAMILY), as in mix:(0.8,0.1,ggx)+(0.2,0.5,student-t:2)";
 
 typedef struct lobe {
     const vndf_family_form *form;
     double parameter[VNDF_FAMILY_PARAMETERS];
-    double factor, scale;    /* factor * P22(r/scale) */
-    vndf_expression formula; /* owned; of P22 */
+    double weight, scale; /* weight 0: P22 as it is, not divided by its mass */
 } lobe;
-
-typedef struct family_source {
-    vndf_source base; /* first: a vndf_source* is cast back to this */
-    lobe lobes[2];
-    size_t count;
-} family_source;
 
 /* A part of the specification; `column` is the column of its first character, from 1. */
 typedef struct part {
     const char *text;
     size_t size, column;
 } part;
-
-/* At 1e75 every form is below 1e-220; squares of slopes overflow from there on. */
-static double p22(const vndf_source *self, double r)
-{
-    const family_source *source = (const family_source *)self;
-    double sum = 0;
-    for (size_t i = 0; i < source->count; i++) {
-        const lobe *l = &source->lobes[i];
-        double unit = r / l->scale;
-        sum += unit > 1e75 ? 0 : l->factor * l->form->p22(l->parameter, unit);
-    }
-    return sum;
-}
-
-static vndf_reach reach(const vndf_source *self, double low, double high)
-{
-    const family_source *source = (const family_source *)self;
-    vndf_jet r = vndf_jet_of_slope(low, high), sum = vndf_jet_number(0);
-    for (size_t i = 0; i < source->count; i++) {
-        const lobe *l = &source->lobes[i];
-        vndf_jet factor = vndf_jet_number(l->factor), scale = vndf_jet_number(l->scale);
-        vndf_jet unit = vndf_jet_quotient(&r, &scale), p22_of_unit = vndf_expression_jet(&l->formula, &unit);
-        vndf_jet product = vndf_jet_product(&factor, &p22_of_unit);
-        sum = vndf_jet_sum(&sum, &product);
-    }
-    return vndf_reach_from(&sum, &r, low, high);
-}
-
-static void destroy(vndf_source *self)
-{
-    family_source *source = (family_source *)self;
-    for (size_t i = 0; i < source->count; i++)
-        vndf_expression_free(&source->lobes[i].formula);
-    free(self->description);
-    free(self);
-}
 
 /* ---- parts ------------------------------------------------------------------------------------ */
 
@@ -115,16 +70,19 @@ static vndf_status check_range(const vndf_family_range *range, double value, con
 
 static vndf_status unknown_family(part name, vndf_error *error)
 {
-    char excerpt[VNDF_EXCERPT], known[160] = "";
-    size_t used = 0;
+    char excerpt[VNDF_EXCERPT], known[160] = "", hint[48] = "";
+    size_t used = 0, least = vndf_word_slip(name.size);
     const vndf_family_form *form;
     if (name.size >= 3 && memcmp(name.text, "mix", 3) == 0)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: a mix is %s, of families that are no mix",
                          name.column, mix_usage);
-    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL && used < sizeof known; i++)
+    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL && used < sizeof known; i++) {
         used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", form->name);
-    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown family '%s'; known are %smix", name.column,
-                     vndf_excerpt(excerpt, name.text, name.size), known);
+        if (vndf_word_is_nearer(name.text, name.size, form->name, &least))
+            snprintf(hint, sizeof hint, "did you mean '%s'? ", form->name);
+    }
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown family '%s'; %sknown are %smix", name.column,
+                     vndf_excerpt(excerpt, name.text, name.size), hint, known);
 }
 
 static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
@@ -177,7 +135,7 @@ static int is_material(const vndf_family_form *form, part rest)
 static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
 {
     part rest = whole, name = cut(&rest, ':');
-    *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 1, 1, {NULL, 0}};
+    *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
     if (!l->form)
         return unknown_family(name, error);
     return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
@@ -216,76 +174,91 @@ static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
         status = read_lobe(inside, l, error);
     if (status != VNDF_OK)
         return status;
+    l->weight = weight;
     l->scale = scale;
-    l->factor = weight / (l->form->mass(l->parameter) * scale * scale);
     return VNDF_OK;
 }
 
-static vndf_status read_mix(part rest, family_source *source, vndf_error *error)
+static vndf_status read_mix(part rest, lobe lobes[VNDF_LOBES], vndf_error *error)
 {
-    vndf_status status = read_component(&rest, &source->lobes[0], error);
+    vndf_status status = read_component(&rest, &lobes[0], error);
     if (status != VNDF_OK)
         return status;
     part plus = rest;
     if (cut(&rest, '+').size > 0)
         return bad_mix(plus, error);
-    status = read_component(&rest, &source->lobes[1], error);
-    if (status == VNDF_OK && rest.size > 0)
-        return bad_mix(rest, error);
-    source->count = 2;
-    return status;
+    status = read_component(&rest, &lobes[1], error);
+    return status == VNDF_OK && rest.size > 0 ? bad_mix(rest, error) : status;
 }
 
 /* ---- the whole -------------------------------------------------------------------------------- */
 
-static vndf_status read_specification(const char *specification, family_source *source, vndf_error *error)
+static vndf_status read_specification(const char *specification, lobe lobes[VNDF_LOBES], size_t *count,
+                                      vndf_error *error)
 {
-    part whole = {specification, strlen(specification), 1};
+    if (!specification)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
+    part whole = {specification, strlen(specification), 1}, rest = whole, name = cut(&rest, ':');
     if (whole.size > VNDF_LIMIT_FAMILY_LENGTH)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %zu characters; at most %d are possible",
                          whole.size, VNDF_LIMIT_FAMILY_LENGTH);
-    part rest = whole, name = cut(&rest, ':');
-    if (name.size == 3 && memcmp(name.text, "mix", 3) == 0)
-        return read_mix(rest, source, error);
-    source->count = 1;
-    return read_lobe(whole, &source->lobes[0], error);
+    *count = vndf_is_word(name.text, name.size, "mix") ? 2 : 1;
+    return *count == 2 ? read_mix(rest, lobes, error) : read_lobe(whole, lobes, error);
 }
 
-static vndf_status compile(lobe *l, vndf_error *error)
+/* A formula in r, of a form that has these parameters. */
+static vndf_status compile(const vndf_family_form *form, const char *text, const double *parameter,
+                           vndf_expression *formula, vndf_error *error)
 {
     static const char *const variables[] = {"r"};
-    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = {{"a", l->parameter[0]}, {"b", l->parameter[1]}};
-    vndf_names names = {variables, 1, parameters, l->form->count};
-    return vndf_expression_parse(l->form->formula, &names, &l->formula, error);
+    const vndf_parameter parameters[VNDF_FAMILY_PARAMETERS] = {{"a", parameter[0]}, {"b", parameter[1]}};
+    const vndf_names names = {variables, 1, parameters, form->count};
+    return vndf_expression_parse(text, &names, formula, error);
 }
 
-static vndf_status compile_all(family_source *source, vndf_error *error)
+/* Quadrature: 2 pi integral P22 r^2 ds over s = log r by the trapezoidal rule, whose error for an integrand that is
+ * analytic for |Im s| < d is of the order of exp(-2 pi d/h). All that need it have d >= pi/4: exp(-158) at h = 1/32.
+ * Below e^-64 = 1.6e-28 the mass goes as r^2, beyond e^64 as r^-2 at least, with scales within [1e-11, 1e3]: less than
+ * 1e-20 of the mass is cut off. */
+double vndf_family_mass(const vndf_family_form *form, const double *parameter)
 {
-    vndf_status status = VNDF_OK;
-    for (size_t i = 0; i < source->count && status == VNDF_OK; i++)
-        status = compile(&source->lobes[i], error);
-    return status;
+    const int steps = 32, end = form->mass ? 0 : 64 * steps;
+    double sum = 0;
+    vndf_expression formula;
+    if (compile(form, form->mass ? form->mass : form->formula, parameter, &formula, NULL) != VNDF_OK)
+        return 0;
+    for (int i = -end; i <= end; i++) {
+        double r = exp((double)i / steps), value;
+        vndf_points variables[1] = {{r}};
+        vndf_expression_run(&formula, formula.count, variables, 1, &value, NULL);
+        sum += value * r * r;
+    }
+    vndf_expression_free(&formula);
+    return form->mass ? sum : 2 * 3.14159265358979323846 * sum / steps;
 }
 
 vndf_source *vndf_source_family(const char *specification, vndf_error *error)
 {
+    lobe lobes[VNDF_LOBES];
+    vndf_lobe made[VNDF_LOBES] = {{{NULL, 0}, 1, 1}, {{NULL, 0}, 1, 1}};
     vndf_text words = {NULL, 0, 0, 0};
-    family_source *source = calloc(1, sizeof *source);
-    if (!specification || !source) {
-        free(source);
-        vndf_fail(error, specification ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT, "%s",
-                  specification ? "no memory for a source" : "the family's name is NULL");
+    size_t count = 0, done = 0;
+    if (read_specification(specification, lobes, &count, error) != VNDF_OK)
         return NULL;
+    for (const lobe *l = lobes; done < count; l++, done++) {
+        made[done].scale = l->scale;
+        if (l->weight > 0)
+            made[done].factor = l->weight / (vndf_family_mass(l->form, l->parameter) * l->scale * l->scale);
+        if (compile(l->form, l->form->formula, l->parameter, &made[done].formula, error) != VNDF_OK)
+            break;
     }
-    source->base = (vndf_source){.p22 = p22, .destroy = destroy, .rebuildable = 1, .reach = reach};
-    if (read_specification(specification, source, error) == VNDF_OK && compile_all(source, error) == VNDF_OK) {
+    if (done == count && isfinite(made[0].factor) && isfinite(made[1].factor)) {
         vndf_text_add_word(&words, "--family");
         vndf_text_add_word(&words, specification);
-        source->base.description = vndf_text_finish(&words, error);
-        source->base.operations = OPERATIONS * (double)source->count;
+        return vndf_formula_source(VNDF_FORMULA_OF_P22, made, count, vndf_text_finish(&words, error), error);
     }
-    if (source->base.description)
-        return &source->base;
-    destroy(&source->base);
+    for (size_t i = 0; i < done; i++)
+        vndf_expression_free(&made[i].formula);
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
     return NULL;
 }

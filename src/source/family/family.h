@@ -1,7 +1,7 @@
 /* Families of distributions by name: the form of each as P22(r), its parameters, and the area under it.
  *
- * family_forms.c holds the formulas and the words for people, family.c reads specifications ("student-t:2.5",
- * "mix:(...)+(...)"), materials.c holds the parameters of measured materials. */
+ * forms.c holds the formulas and the words for people, family.c reads specifications ("student-t:2.5",
+ * "mix:(...)+(...)") and makes sources of them, materials.c holds the parameters of measured materials. */
 #ifndef VNDF_SOURCE_FAMILY_FAMILY_H
 #define VNDF_SOURCE_FAMILY_FAMILY_H
 
@@ -21,15 +21,17 @@ typedef struct vndf_family_form {
     const char *name, *usage; /* "gtr", "gtr:GAMMA[,ALPHA]" */
     size_t required, count;   /* numbers of parameters: the fewest and the most */
     vndf_family_range range[VNDF_FAMILY_PARAMETERS];
-    const char *reason;                               /* of the limits, for messages */
-    double (*p22)(const double *parameter, double r); /* any scale, finite for 0 <= r <= 1e75 */
-    double (*mass)(const double *parameter);          /* 2 pi integral P22(r) r dr */
-    const char *formula;                              /* p22 in r, with the parameters a and b: for bounds */
+    const char *reason;  /* of the limits, for messages */
+    const char *formula; /* P22 in r and the parameters a and b, at any scale */
+    const char *mass;    /* 2 pi integral P22(r) r dr in a and b; NULL: by quadrature */
 } vndf_family_form;
 
 /* The form of this name, NULL if there is none; the i-th form, NULL past the last. */
 const vndf_family_form *vndf_family_form_find(const char *name, size_t size);
 const vndf_family_form *vndf_family_form_at(size_t index);
+
+/* The mass under P22; 0 if there is no memory. */
+double vndf_family_mass(const vndf_family_form *form, const double *parameter);
 
 /* The shipped measured materials. */
 typedef struct vndf_material_fit {

@@ -5,8 +5,7 @@
  * abc: J. Low, J. Kronander, A. Ynnerman, J. Unger, "BRDF models for accurate and efficient rendering of glossy
  *      surfaces", ACM Transactions on Graphics 31(1), 2012: B and C.
  *
- * The materials come from the MERL database. This list was made from tables/merl_sgd.csv and tables/merl_abc.csv;
- * tests/source/test_family.c compares them. */
+ * The materials come from the MERL database; numbers as published. tests/source/test_family.c has their checksum. */
 #include <string.h>
 
 #include "source/family/family.h"

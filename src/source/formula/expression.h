@@ -1,4 +1,4 @@
-/* Formulas: text -> a postfix program -> a double.
+/* Formulas: text -> a postfix program -> a double, or bounds.
  *
  *     sum     = product { (+ | -) product }
  *     product = sign { (* | /) sign }
@@ -7,9 +7,9 @@
  *     primary = number | name | function ( sum [, sum] ) | ( sum )
  *
  * A name stands for a variable of the formula, for pi or for a parameter of the caller. A parenthesis behind a
- * name makes it a function, so a parameter may be called gamma. Blanks separate. expression_parse.c reads,
- * expression.c evaluates at points and bounds what lies between them, expression_breaks.c finds kinks and jumps,
- * and expression_source.c makes a distribution of it. */
+ * name makes it a function, so a parameter may be called gamma. Blanks separate. parse.c reads, functions.c has the
+ * functions, expression.c runs the program over numbers and over bounds, breaks.c finds kinks and jumps, and formula.c
+ * makes a distribution of it. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
@@ -18,6 +18,7 @@
 #include "vndf_build.h"
 
 enum {
+    VNDF_VARIABLES = 3,
     VNDF_EXPRESSION_STACK = 320 /* operands on the stack: at most 4 for each level of depth, see the grammar */
 };
 
@@ -25,14 +26,14 @@ enum {
  * two arguments are equal. */
 typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
 
-/* A function of one argument or of two; the other pointers are NULL. */
+/* A function of one argument or of two, its values and its bounds; the other pointers are NULL. */
 typedef struct vndf_function {
     const char *name;
     double (*one)(double);
     double (*two)(double, double);
     vndf_kink kink;
-    vndf_jet (*jet_one)(const vndf_jet *);
-    vndf_jet (*jet_two)(const vndf_jet *, const vndf_jet *);
+    vndf_jet (*jet_one)(vndf_jet);
+    vndf_jet (*jet_two)(vndf_jet, vndf_jet);
 } vndf_function;
 
 typedef enum vndf_operation {
@@ -69,8 +70,7 @@ typedef struct vndf_names {
 } vndf_names;
 
 /* Compiles text; parameters become constants. VNDF_ERROR_SYNTAX with the column (from 1) and what would
- * be right; VNDF_ERROR_ARGUMENT for a parameter that is bad or not used. On failure *expression needs no freeing.
- */
+ * be right; VNDF_ERROR_ARGUMENT for a parameter that is bad or not used. On failure *expression needs no freeing. */
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error);
 void vndf_expression_free(vndf_expression *expression);
@@ -87,11 +87,11 @@ void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_
 /* Bounds on all slopes between two: r itself, the value of the formula, and p22 with the stray of p22 r^2. */
 vndf_jet vndf_jet_of_slope(double low, double high);
 vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables);
-vndf_reach vndf_reach_from(const vndf_jet *p22, const vndf_jet *r, double low, double high);
+vndf_reach vndf_reach_from(vndf_jet p22, vndf_jet r, double low, double high);
 
-/* The function of this name, NULL if there is none; the name of the i-th, NULL past the last. */
+/* The function of this name, NULL if there is none; the i-th, NULL past the last. */
 const vndf_function *vndf_function_find(const char *name, size_t size);
-const char *vndf_function_name(size_t index);
+const vndf_function *vndf_function_at(size_t index);
 
 /* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
  * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
@@ -101,5 +101,21 @@ const char *vndf_function_name(size_t index);
 typedef void vndf_variables_of_slope(const double *r, size_t count, vndf_points *variables);
 int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
                            size_t limit, size_t *count);
+
+/* ---- distributions ---- */
+
+/* One lobe of P22: factor F(r/scale), F by a formula in r, or by one of D in c, theta, t. */
+typedef struct vndf_lobe {
+    vndf_expression formula; /* owned */
+    double factor, scale;
+} vndf_lobe;
+
+enum { VNDF_LOBES = 2 };
+typedef enum vndf_formula_of { VNDF_FORMULA_OF_P22, VNDF_FORMULA_OF_NDF } vndf_formula_of;
+
+/* The source that is the sum of `count` lobes, of which only the first may have kinks. It takes the formulas and the
+ * description, also where it fails. */
+vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
+                                 vndf_error *error);
 
 #endif

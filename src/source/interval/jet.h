@@ -13,34 +13,29 @@ typedef struct vndf_jet {
     vndf_interval at[VNDF_JET + 1];
 } vndf_jet;
 
+vndf_jet vndf_jet_constant(vndf_interval value);
 vndf_jet vndf_jet_number(double x);
+int vndf_jet_is_number(vndf_jet x); /* a finite one, known exactly */
 
-vndf_jet vndf_jet_negative(const vndf_jet *x);
-vndf_jet vndf_jet_sum(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_difference(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_product(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_quotient(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_pow(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_min(const vndf_jet *x, const vndf_jet *y);
-vndf_jet vndf_jet_max(const vndf_jet *x, const vndf_jet *y);
+/* A function of x of which only the value is known. */
+vndf_jet vndf_jet_value(vndf_interval value, vndf_jet x);
 
-vndf_jet vndf_jet_exp(const vndf_jet *x);
-vndf_jet vndf_jet_log(const vndf_jet *x);
-vndf_jet vndf_jet_sqrt(const vndf_jet *x);
-vndf_jet vndf_jet_sin(const vndf_jet *x);
-vndf_jet vndf_jet_cos(const vndf_jet *x);
-vndf_jet vndf_jet_tan(const vndf_jet *x);
-vndf_jet vndf_jet_asin(const vndf_jet *x);
-vndf_jet vndf_jet_acos(const vndf_jet *x);
-vndf_jet vndf_jet_atan(const vndf_jet *x);
-vndf_jet vndf_jet_sinh(const vndf_jet *x);
-vndf_jet vndf_jet_cosh(const vndf_jet *x);
-vndf_jet vndf_jet_tanh(const vndf_jet *x);
-vndf_jet vndf_jet_erf(const vndf_jet *x);
-vndf_jet vndf_jet_erfc(const vndf_jet *x);
-vndf_jet vndf_jet_lgamma(const vndf_jet *x);
-vndf_jet vndf_jet_gamma(const vndf_jet *x);
-vndf_jet vndf_jet_abs(const vndf_jet *x);
-vndf_jet vndf_jet_step(const vndf_jet *x);
+vndf_jet vndf_jet_negative(vndf_jet x);
+vndf_jet vndf_jet_sum(vndf_jet x, vndf_jet y);
+vndf_jet vndf_jet_difference(vndf_jet x, vndf_jet y);
+vndf_jet vndf_jet_product(vndf_jet x, vndf_jet y);
+vndf_jet vndf_jet_quotient(vndf_jet x, vndf_jet y);
+
+/* y and its derivative by x, which is d. */
+vndf_jet vndf_jet_integral(vndf_interval value, vndf_jet x, vndf_jet d);
+
+/* y and z with y' = z and z' = sign y, where sign is 1 or -1: sin, cosh and their kin. */
+vndf_jet vndf_jet_wave(vndf_jet x, vndf_interval y, vndf_interval z, int sign);
+
+vndf_jet vndf_jet_exp(vndf_jet x);
+vndf_jet vndf_jet_log(vndf_jet x);
+vndf_jet vndf_jet_power(vndf_jet x, double exponent);
+vndf_jet vndf_jet_pow(vndf_jet x, vndf_jet y);
+vndf_jet vndf_jet_max(vndf_jet x, vndf_jet y);
 
 #endif

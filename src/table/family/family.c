@@ -35,54 +35,43 @@ void vndf_family_free(vndf_family *family)
     free(family);
 }
 
-static int is_share(float x)
-{
-    return x >= 0.0f && x <= 1.0f;
-}
-
 const char *vndf_family_invalid(const vndf_family *family)
 {
-    const float *p = family->parameter;
+    const float *p = family->parameter, *distance = family->distance;
     if (family->reciprocal && !(p[0] > 0.0f))
         return "parameters that are mixed by 1/p must be positive";
     for (size_t i = 0; i < family->count; i++)
-        if (!(fabsf(p[i]) < HUGE_VALF))
+        if (!isfinite(p[i]))
             return "a parameter is infinite or not a number";
     for (size_t i = 0; i + 1 < family->count; i++)
         if (!(p[i] < p[i + 1]))
             return "parameters must ascend";
-    for (size_t i = 0; i + 1 < family->count; i++)
-        if (!is_share(family->distance[i]))
+    for (size_t i = 0; i < family->count; i++) {
+        float x = i + 1 < family->count ? distance[i] : family->grazing;
+        if (!(x >= 0.0f && x <= 1.0f))
             return "a distance is no part of 1";
-    return is_share(family->grazing) ? NULL : "a distance is no part of 1";
+    }
+    return NULL;
 }
 
 /* ---- the calls ---- */
 
-static int is_complete(const vndf_distribution *const *distributions, const float *parameters, size_t count)
+vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const float *parameters, size_t count,
+                            vndf_error *error)
 {
     int complete = distributions && parameters && count >= 1 && count <= VNDF_LIMIT_FAMILY_KNOTS;
     for (size_t i = 0; complete && i < count; i++)
         complete = distributions[i] != NULL;
-    return complete;
-}
-
-vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const float *parameters, size_t count,
-                            vndf_error *error)
-{
-    if (!is_complete(distributions, parameters, count)) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a family needs 1 to %d distributions, each with a parameter",
+    vndf_family *family = complete ? vndf_family_allocate(count) : NULL;
+    if (!family) {
+        vndf_fail(error, complete ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
+                  complete ? "no memory for a family"
+                           : "a family needs 1 to %d distributions, each with a parameter",
                   VNDF_LIMIT_FAMILY_KNOTS);
         return NULL;
     }
-    vndf_family *family = vndf_family_allocate(count);
-    if (!family) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu", (unsigned long)count);
-        return NULL;
-    }
     memcpy(family->parameter, parameters, count * sizeof *parameters);
-    for (size_t i = 0; i < count; i++)
-        family->distribution[i] = distributions[i];
+    memcpy((void *)family->distribution, (const void *)distributions, count * sizeof *distributions);
     const char *why = vndf_family_invalid(family);
     if (!why)
         return family;
@@ -93,7 +82,7 @@ vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const
 
 vndf_family_facts vndf_family_info(const vndf_family *family)
 {
-    vndf_family_facts facts = {"", "", 0, 0, 0, 0.0f, 0.0f, 0, 0.0f, 0.0f};
+    vndf_family_facts facts = {.source = "", .tool = ""};
     if (!family)
         return facts;
     facts.source = family->source ? family->source : "";

@@ -49,19 +49,9 @@ size_t vndf_family_encode(const vndf_family *family, unsigned char *bytes, size_
 
 /* ---- reading ---- */
 
-/* 0 if the bytes end early (the reader fails) or memory is short. */
-static int read_numbers(vndf_reader *r, vndf_family *family)
+static vndf_status inconsistent(const char *why, vndf_error *error)
 {
-    family->grazing = vndf_read_f32(r);
-    family->source = vndf_read_text(r);
-    family->tool = vndf_read_text(r);
-    if (!family->source || !family->tool)
-        return 0;
-    for (size_t i = 0; i < family->count; i++)
-        family->parameter[i] = vndf_read_f32(r);
-    for (size_t i = 0; i + 1 < family->count; i++)
-        family->distance[i] = vndf_read_f32(r);
-    return !r->failed;
+    return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: %s", why);
 }
 
 static vndf_status read_table(vndf_reader *r, vndf_family *family, size_t index, vndf_error *error)
@@ -70,46 +60,37 @@ static vndf_status read_table(vndf_reader *r, vndf_family *family, size_t index,
     uint32_t size = vndf_read_u32(r);
     const unsigned char *bytes = vndf_read_bytes(r, size);
     if (!bytes)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: its tables do not fill the file");
+        return inconsistent("its tables do not fill the file", error);
     family->distribution[index] = vndf_load_memory(bytes, size, &inner);
-    return family->distribution[index]
-               ? VNDF_OK
-               : vndf_fail(error, inner.status, "table %lu: %s", (unsigned long)index + 1, inner.message);
-}
-
-static vndf_status read_tables(vndf_reader *r, vndf_family *family, vndf_error *error)
-{
-    for (size_t i = 0; i < family->count; i++) {
-        vndf_status status = read_table(r, family, i, error);
-        if (status != VNDF_OK)
-            return status;
-    }
-    if (r->at + 4 != r->size)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: its tables do not fill the file");
-    return VNDF_OK;
-}
-
-static vndf_status no_memory(size_t size, vndf_error *error)
-{
-    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size);
+    if (family->distribution[index])
+        return VNDF_OK;
+    return vndf_fail(error, inner.status, "table %lu: %s", (unsigned long)index + 1, inner.message);
 }
 
 static vndf_status read_family(vndf_reader *r, vndf_family *family, vndf_error *error)
 {
-    if (!read_numbers(r, family))
-        return r->failed ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: it ends early")
-                         : no_memory(r->size, error);
+    family->grazing = vndf_read_f32(r);
+    family->source = vndf_read_text(r);
+    family->tool = vndf_read_text(r);
+    for (size_t i = 0; i < family->count; i++)
+        family->parameter[i] = vndf_read_f32(r);
+    for (size_t i = 0; i + 1 < family->count; i++)
+        family->distance[i] = vndf_read_f32(r);
+    if (r->failed)
+        return inconsistent("it ends early", error);
+    if (!family->source || !family->tool)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)r->size);
     const char *why = vndf_family_invalid(family);
-    return why ? vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: %s", why)
-               : read_tables(r, family, error);
+    vndf_status status = why ? inconsistent(why, error) : VNDF_OK;
+    for (size_t i = 0; i < family->count && status == VNDF_OK; i++)
+        status = read_table(r, family, i, error);
+    if (status == VNDF_OK && r->at + 4 != r->size)
+        return inconsistent("its tables do not fill the file", error);
+    return status;
 }
 
 vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
-    if (!bytes) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "no bytes: NULL was given");
-        return NULL;
-    }
     if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
     vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
@@ -120,7 +101,7 @@ vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error 
     }
     vndf_family *family = vndf_family_allocate(count);
     if (!family) {
-        no_memory(size, error);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size);
         return NULL;
     }
     family->owns = 1;

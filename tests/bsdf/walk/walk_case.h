@@ -6,7 +6,7 @@
 #include <stdlib.h>
 
 #include "oracle/oracle.h"
-#include "measure/statistics.h"
+#include "evidence/measure/statistics.h"
 #include "statistics/grid.h"
 #include "harness/constants.h"
 #include "harness/test.h"

@@ -6,8 +6,7 @@
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
-#include "measured/brdf/merl.h"
-#include "measured/rgl/rgl.h"
+#include "measured/brdf.h"
 
 const char brdf_help[] =
     "As reflectances, for hosts that read measured ones: what a surface of this D mirrors once, F by Schlick, masked\n"

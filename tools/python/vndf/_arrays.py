@@ -1,12 +1,12 @@
 """From arrays of numpy to the structures of arrays that batches take.
 
-A direction, a pair of numbers, a matrix has its components along its first axes, so that each component is one
+A direction, a pair of numbers, a matrix has its components along its first axis, so that each component is one
 contiguous array: directions have shape (3, ...). What follows broadcasts.
 """
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Iterable, Optional, Sequence
+from typing import Any, Callable, Optional, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -15,109 +15,89 @@ import numpy.typing as npt
 Floats = npt.NDArray[np.float32]
 #: what arguments may be: numbers, sequences, arrays
 Numbers = npt.ArrayLike
+Generator = Optional[np.random.Generator]
+Size = Union[None, int, tuple[int, ...]]
 
 
-def as_float(value: Numbers) -> Floats:
-    """`value` in float32: itself where it is that."""
-    return np.asarray(value, dtype=np.float32)
-
-
-def _length(value: Any) -> int:
+def stacked(values: Any) -> Floats:
+    """One array, float32, of numbers or arrays that broadcast; itself where it is one."""
     try:
-        return len(value)
-    except TypeError:  # a number, or an array of no axes
-        return 0
+        return np.asarray(values, dtype=np.float32)
+    except ValueError:  # of several shapes
+        if not isinstance(values, (tuple, list)):
+            raise
+        return np.stack(np.broadcast_arrays(*(stacked(value) for value in values)))
 
 
-def components(value: Any, count: int, name: str) -> list[Floats]:
-    """The `count` components of `value`: an array of shape (count, ...), or a tuple of arrays that broadcast."""
-    length = _length(value)
+def components(values: Any, count: int, name: str) -> Floats:
+    """The same of shape (count, ...)."""
+    array = stacked(values)
+    length = len(array) if array.ndim else 0
     if length != count:
         raise ValueError(f"{name}: its first axis has length {length}, it must have {count}")
-    return [as_float(value[i]) for i in range(count)]
+    return array
 
 
-def matrix_components(value: Any, name: str) -> list[Floats]:
-    """The components xx, xy, yx, yy of `value`, whose shape is (2, 2, ...)."""
-    if _length(value) != 2:
-        raise ValueError(f"{name}: it must have shape (2, 2, ...)")
-    return components(value[0], 2, name) + components(value[1], 2, name)
-
-
-def uniform(
-    u: Any, count: int, rng: Optional[np.random.Generator], size: Any, shape: Callable[[], Any]
-) -> list[Floats]:  # fmt: skip
+def uniform(u: Any, count: int, rng: Generator, size: Size, shape: Callable[[], Any]) -> Floats:
     """`count` uniform numbers for each element: those of u, in [0, 1], or drawn from `rng` for an array of this size
     (a number or a tuple; None: of `shape()`)."""
     if (u is None) == (rng is None) or (u is not None and size is not None):
         raise TypeError("a sample takes u, or rng=numpy.random.default_rng() and size=")
-    if u is None:
-        assert rng is not None
+    if rng is not None:
         axes = shape() if size is None else tuple(np.atleast_1d(size))
-        return list(rng.random((count, *axes), dtype=np.float32))
-    rows = components(u, count, "u")
-    for row in rows:
-        if not (0 <= row.item() <= 1 if row.size == 1 else bool(((row >= 0) & (row <= 1)).all())):
-            raise ValueError("u: its numbers must lie in [0, 1]")
-    return rows
+        return rng.random((count, *axes), dtype=np.float32)
+    numbers = components(u, count, "u")
+    few = numbers.ravel().tolist() if numbers.size < 10 else [numbers.min(), numbers.max()]  # quick for one element
+    if not all(0 <= number <= 1 for number in few):  # false for NaN, which min() keeps
+        raise ValueError("u: its numbers must lie in [0, 1]")
+    return numbers
 
 
-class Arguments:
-    """The arrays of one batch, in groups by name, broadcast to one shape. They live as long as this does."""
+class Batch:
+    """The arguments of one call by name, each an array (components, ...), broadcast to one shape. What C reads lives as
+    long as this does."""
 
-    def __init__(self, **groups: Sequence[Floats]) -> None:
-        self._groups = groups
-        shapes_of_all = {array.shape for group in groups.values() for array in group}
+    def __init__(self, **groups: Floats) -> None:
+        self.groups = groups
+        shapes = {array.shape[1:] for array in groups.values()}
         try:
-            self.shape = shapes_of_all.pop() if len(shapes_of_all) == 1 else np.broadcast_shapes(*shapes_of_all)
+            self.shape = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
         except ValueError:
-            shapes = ", ".join(f"{name} {tuple(a.shape for a in group)}" for name, group in groups.items())
-            raise ValueError(f"shapes of components do not broadcast: {shapes}") from None
+            given = ", ".join(f"{name} {array.shape}" for name, array in groups.items())
+            raise ValueError(f"shapes of components do not broadcast: {given}") from None
         self.count = math.prod(self.shape)
         self._kept: list[Any] = []
 
-    def names(self) -> Iterable[str]:
-        return self._groups.keys()
-
     def is_shared(self, name: str) -> bool:
         """One number for each component serves all elements."""
-        return all(array.size == 1 for array in self._groups[name])
+        array = self.groups[name]
+        return bool(array.size == len(array))
 
-    def addresses(self, name: str) -> list[int]:
-        """Where the components lie: in place where they are contiguous and of the whole shape, else copied."""
-        whole = not self.is_shared(name)
-        return [self._address(array, whole) for array in self._groups[name]]
+    def whole(self, name: str) -> Floats:
+        """A group of the whole shape."""
+        array = self.groups[name]
+        if array.shape[1:] == self.shape:
+            return array
+        axes = (1,) * (len(self.shape) - array.ndim + 1)
+        return np.broadcast_to(array.reshape(array.shape[0], *axes, *array.shape[1:]), (array.shape[0], *self.shape))
 
-    def whole_addresses(self, name: str) -> list[int]:
-        """The same of arrays that cannot be shared."""
-        return [self._address(array, True) for array in self._groups[name]]
-
-    def arrays(self, name: str) -> list[Any]:
-        """The arrays of a group, of size 1 where it is shared, else of the whole shape."""
-        whole = not self.is_shared(name)
-        return [np.broadcast_to(array, self.shape) if whole else array for array in self._groups[name]]
-
-    def keep(self, array: Any) -> int:
-        """Keeps an array as long as this; returns where it lies."""
-        self._kept.append(array)
-        return address(array)
-
-    def _address(self, array: Any, whole: bool) -> int:
-        if whole and array.shape != self.shape:
-            array = np.broadcast_to(array, self.shape)
+    def addresses(self, name: str, share: bool = False) -> list[int]:
+        """Where the components of a group lie: in place where they are contiguous and of the whole shape, else copied;
+        `share`: one number for all elements is not repeated."""
+        array = self.groups[name] if share and self.is_shared(name) else self.whole(name)
         return self.keep(array if array.flags.c_contiguous else np.ascontiguousarray(array))
 
-    def result(self, *leading: int, dtype: Any = np.float32) -> Any:
-        """An array for results: `leading` axes and those of the batch."""
-        return np.empty(leading + self.shape, dtype)
+    def keep(self, array: Any) -> list[int]:
+        """Keeps an array as long as this; where its components lie."""
+        self._kept.append(array)
+        return addresses_of(array)
 
-
-def address(array: Any) -> int:
-    """Where an array lies; array.ctypes.data takes five times as long."""
-    return int(array.__array_interface__["data"][0])
+    def result(self, count: int) -> Floats:
+        """An array for `count` results."""
+        return np.empty((count, *self.shape), np.float32)
 
 
 def addresses_of(array: Any) -> list[int]:
-    """Where the components of a result lie."""
-    first = address(array)
-    return [first + i * array.strides[0] for i in range(array.shape[0])]
+    """Where the components of a contiguous array lie. array.ctypes.data takes five times as long."""
+    first, step = array.__array_interface__["data"][0], array.nbytes // (len(array) or 1)
+    return list(range(first, first + step * len(array), step)) if step else [first] * len(array)

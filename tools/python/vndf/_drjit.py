@@ -4,14 +4,13 @@ and is differentiable: samples and densities are piecewise smooth functions of d
 """
 from __future__ import annotations
 
-import abc
-from typing import Any, NamedTuple
+from typing import Any, Callable, NamedTuple, Union
 
 import drjit as dr
 import mitsuba as mi
 
 from . import _kernel as kernel
-from .distribution import Distribution
+from .distribution import Distribution, load
 
 
 class View(NamedTuple):
@@ -23,27 +22,16 @@ class View(NamedTuple):
     area: Any  # projected area along wi
 
 
-class Law(abc.ABC):
+class Law:
     """A law of normals, for the variant of Mitsuba that is set. Directions wi are unit with wi.z >= 0, roughness is
-    above 0, u1 and u2 are in [0, 1]."""
+    above 0, u1 and u2 are in [0, 1]. Subclasses have it in the unit problem: `_see` makes what it needs of a direction,
+    and its area; `_draw` a normal; `_density` is that with which a normal is drawn, `_p22` that of slopes over z^4."""
 
     scale = 1.0  # the slope of the law's unit roughness
-
-    @abc.abstractmethod
-    def _see(self, frame: Any) -> tuple[Any, Any]:
-        """What the law makes of a direction, and its area in the unit problem."""
-
-    @abc.abstractmethod
-    def _draw(self, view: View, u1: Any, u2: Any) -> Any:
-        """A normal of the unit problem."""
-
-    @abc.abstractmethod
-    def _density(self, view: View, n: Any) -> Any:
-        """The density with which a normal of the unit problem is drawn."""
-
-    @abc.abstractmethod
-    def _p22(self, n: Any) -> Any:
-        """The density of slopes over z^4."""
+    _see: Callable[[Any], tuple[Any, Any]]
+    _draw: Callable[[View, Any, Any], Any]
+    _density: Callable[[View, Any], Any]
+    _p22: Callable[[Any], Any]
 
     def _frame(self, alpha_x: Any, alpha_y: Any, wi: Any) -> Any:
         x, y = alpha_x * self.scale, alpha_y * self.scale
@@ -75,38 +63,17 @@ class Law(abc.ABC):
         return dr.select(wm.z >= 0.0, self._p22(n) / frame.determinant, 0.0)
 
 
-class Ggx(Law):
-    """GGX."""
+class Closed(Law):
+    """A closed form, "ggx" or "beckmann"."""
 
-    def _see(self, frame: Any) -> tuple[Any, Any]:
-        w = frame.ux, frame.uy, frame.uz
-        return kernel.vndf_ggx_see(*w), kernel.vndf_ggx_area(*w)
-
-    def _draw(self, view: View, u1: Any, u2: Any) -> Any:
-        return kernel.vndf_ggx_draw(view.seen, u1, u2)
-
-    def _density(self, view: View, n: Any) -> Any:
-        return kernel.vndf_ggx_density(view.seen, n.x, n.y, n.z, n.facing)
-
-    def _p22(self, n: Any) -> Any:
-        return kernel.vndf_ggx_p22(n.x, n.y, n.z)
-
-
-class Beckmann(Law):
-    """Beckmann."""
-
-    def _see(self, frame: Any) -> tuple[Any, Any]:
-        w = frame.ux, frame.uy, frame.uz
-        return kernel.vndf_beckmann_see(*w), kernel.vndf_beckmann_area(*w)
-
-    def _draw(self, view: View, u1: Any, u2: Any) -> Any:
-        return kernel.vndf_beckmann_draw(view.seen, u1, u2)
-
-    def _density(self, view: View, n: Any) -> Any:
-        return kernel.vndf_beckmann_density(view.seen, n.x, n.y, n.z, n.facing)
-
-    def _p22(self, n: Any) -> Any:
-        return kernel.vndf_beckmann_p22(n.x, n.y, n.z)
+    def __init__(self, name: str) -> None:
+        see, area, draw, density, p22 = (
+            getattr(kernel, f"vndf_{name}_{call}") for call in ("see", "area", "draw", "density", "p22")
+        )
+        self._see = lambda f: (see(f.ux, f.uy, f.uz), area(f.ux, f.uy, f.uz))
+        self._draw = lambda view, u1, u2: draw(view.seen, u1, u2)
+        self._density = lambda view, n: density(view.seen, n.x, n.y, n.z, n.facing)
+        self._p22 = lambda n: p22(n.x, n.y, n.z)
 
 
 class Table(Law):
@@ -143,3 +110,10 @@ class Table(Law):
 
     def _p22(self, n: Any) -> Any:
         return kernel.vndf_table_p22(self, kernel.vndf_table_given(self, n.x, n.y, n.z))
+
+
+def law_of(distribution: Union[Distribution, str]) -> Law:
+    """Of a distribution, "ggx", "beckmann", or a table file."""
+    if isinstance(distribution, str):
+        return Closed(distribution) if distribution in ("ggx", "beckmann") else Table(load(distribution))
+    return Closed(distribution.info.source.split()[-1]) if distribution.info.bytes == 0 else Table(distribution)

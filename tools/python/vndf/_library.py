@@ -1,6 +1,6 @@
 """The C library: its structs, its functions and its errors. The rest of the package knows no ctypes type but these.
 
-The structs repeat vndf.h, vndf_build.h, vndf_bsdf.h and vndf_albedo.h; tests/python/layout.py has a C compiler compare
+The structs repeat vndf.h, vndf_build.h and vndf_bsdf.h; tests/python/layout.py has a C compiler compare
 size and members. Pointers are plain addresses (c_void_p), which is the quickest way to hand over an array of numpy.
 """
 from __future__ import annotations
@@ -112,16 +112,6 @@ vndf_family_options = _struct(
     ("max_distance", c_double), ("knots", c_size_t), ("max_bytes", c_size_t), ("moments", c_int),
     ("progress", progress_function), ("progress_user", c_void_p),
 )  # fmt: skip
-vndf_albedo_options = _struct(
-    "vndf_albedo_options",
-    ("eta", c_float), ("columns", c_int), ("rows", c_int), ("progress", progress_function), ("progress_user", c_void_p),
-)  # fmt: skip
-vndf_albedo_properties = _struct(
-    "vndf_albedo_properties",
-    ("source", c_char_p), ("tool", c_char_p), *_floats("eta", "scale"), ("columns", c_int), ("rows", c_int),
-    ("values", c_size_t), ("bytes", c_size_t), *_floats("error", "error_cosine", "error_alpha", "error_usual"),
-    *_floats("split_error", "split_usual", "average_error", "quadrature_error"),
-)  # fmt: skip
 
 EFFECTS = ["lobes", "fresnel", "masking", "normals", "scattering", "transport", "shape", "reflection"]
 vndf_effects = _struct("vndf_effects", *[(name, c_int) for name in EFFECTS])
@@ -166,6 +156,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "distribution_info": (vndf_info, [_p]),
     "numbers": (c_size_t, [_p, _p, c_size_t]),
     "sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
+    "affine_sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
     "instructions_used": (_i, [_i]),
     "family_load": (_p, [_s, _error]),
     "family_load_memory": (_p, [_p, c_size_t, _error]),
@@ -197,14 +188,10 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "build_family": (_p, [_s, _d, _d, _p, _error]),
     "family_save": (_i, [_p, _s, _error]),
     "family_save_memory": (_i, [_p, _p, c_size_t, _error]),
-    # vndf_albedo.h
-    "albedo_build": (_p, [_p, _p, _error]),
+    "albedo_build": (_p, [_p, _f, _error]),
     "albedo_free": (None, [_p]),
     "albedo_directional": (_f, [_p, _f, _f]),
     "albedo_average": (_f, [_p, _f, _i]),
-    "albedo_info": (vndf_albedo_properties, [_p]),
-    "albedo_load": (_p, [_s, _error]),
-    "albedo_save": (_i, [_p, _s, _error]),
     # vndf_bsdf.h
     "material_resolve": (_i, [_p, _p, _error]),
     "bsdf_sample_n": (None, [_p, _p, vndf_scattered_n]),

@@ -7,16 +7,15 @@ from __future__ import annotations
 
 import inspect
 from ctypes import addressof, byref, c_void_p
-from typing import Any, NamedTuple, Optional, Sequence, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
 
 from . import _library
-from ._arrays import Arguments, Floats, Numbers, address, addresses_of, as_float, components, uniform
-from ._library import Immutable, Owner, checked, library, members, path_bytes, want
-from .build import Progress, Reporter
-from .distribution import Distribution, Path
-from .surface import Blend, Generator, Mixture, Size, roughness, stretched
+from ._arrays import Batch, Floats, Generator, Numbers, Size, addresses_of, components, stacked, uniform
+from ._library import Immutable, Owner, checked, library, want
+from .distribution import Distribution
+from .surface import Blend, Mixture, roughness, stretched
 
 _CHOICES = {
     "lobes": ["reflection", "transmission", "both"],
@@ -44,45 +43,26 @@ class Scattered(NamedTuple):
 
 
 class Albedo(Owner):
-    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_albedo.h)."""
+    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_bsdf.h)."""
 
     _free = "albedo_free"
-    _makers = "vndf.Albedo.build or vndf.Albedo.load"
+    _makers = "vndf.Albedo.build"
 
     @staticmethod
-    def build(
-        distribution: Distribution, *, eta: float = 0.0, columns: int = 0, rows: int = 0,
-        progress: Optional[Progress] = None,
-    ) -> Albedo:  # fmt: skip
-        """Of a mirror (eta = 0; a second or two) or a dielectric (some ten seconds), by quadrature."""
+    def build(distribution: Distribution, *, eta: float = 0.0) -> Albedo:
+        """Of a mirror (eta = 0) or a dielectric, by quadrature; a tenth of a second to two."""
         want(distribution, Distribution)
-        reporter = Reporter(progress)
-        options = _library.vndf_albedo_options(eta, columns, rows, reporter.pointer, None)
-        return reporter.run(lambda: Albedo._of(checked("albedo_build", distribution._pointer, byref(options))))
-
-    @staticmethod
-    def load(path: Path) -> Albedo:
-        """Reads a file of ``vndf albedo``."""
-        return Albedo._of(checked("albedo_load", path_bytes(path)))
-
-    def save(self, path: Path) -> None:
-        """Writes the file."""
-        checked("albedo_save", self._pointer, path_bytes(path))
-
-    @property
-    def info(self) -> dict[str, Any]:
-        """source, tool, eta, scale, columns, rows, bytes, errors (vndf_albedo_properties)."""
-        return members(library.albedo_info(self._pointer))
+        return Albedo._of(checked("albedo_build", distribution._pointer, eta))
 
     def directional(self, cosine: Numbers, alpha: Numbers) -> Floats:
         """E of light from a direction with this cosine, 0 to 1. One C call for each element."""
         look = np.frompyfunc(lambda c, a: library.albedo_directional(self._pointer, c, a), 2, 1)
-        return as_float(look(cosine, alpha))[()]
+        return stacked(look(cosine, alpha))[()]
 
     def average(self, alpha: Numbers, side: int = 1) -> Floats:
         """2 integral E mu dmu; side >= 0: the side of z, < 0: the other one. One C call for each element."""
         look = np.frompyfunc(lambda a: library.albedo_average(self._pointer, a, side), 1, 1)
-        return as_float(look(alpha))[()]
+        return stacked(look(alpha))[()]
 
 
 class Material(Immutable):
@@ -125,7 +105,7 @@ class Material(Immutable):
             shape = "matrix" if mean is None else "affine"
         else:
             shape = "aligned" if rotation is None else "rotated"
-        optics = {"f0": as_float(f0), "eta": as_float(eta), "k": as_float(k)}
+        optics = {"f0": stacked(f0), "eta": stacked(eta), "k": stacked(k)}
         if wavelengths is None:
             wavelengths = max(array.size for array in optics.values())
             wavelengths = 3 if wavelengths == 1 else wavelengths
@@ -148,7 +128,7 @@ class Material(Immutable):
             setattr(description.effects, effect, _CHOICES[effect].index(word))
         self._material = _library.vndf_material()
         checked("material_resolve", byref(description), byref(self._material))
-        self._groups = _shape_of_hits(shape, distribution, alpha, alpha_y, rotation, matrix, mean)
+        self._groups = _shape_of_hits(distribution, alpha, alpha_y, rotation, matrix, mean)
 
     def __reduce__(self) -> Any:
         return _material_of, (self._made,)
@@ -161,80 +141,68 @@ class Material(Immutable):
     def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Scattered:
         """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1]: two for the normal, one for the lobe; in
         place of u an `rng` draws them, of shape (3, *size)."""
-        numbers = uniform(u, 3, rng, size, lambda: self._open(wi)[0].shape)
-        arguments, batch = self._open(wi, u=numbers)
-        count = self.wavelengths
-        wo, wm, weight = arguments.result(3), arguments.result(3), arguments.result(count)
-        density, lobe = arguments.result(), arguments.result(dtype=np.uint8)
-        normals = [_library.vndf_normals(*addresses_of(array)) for array in (wo, wm)]
-        weights = _pointers(addresses_of(weight))
-        results = _library.vndf_scattered_n(normals[0], weights, address(density), address(lobe), normals[1])
-        uniforms = (c_void_p * 3)(*arguments.whole_addresses("u"))
-        library.bsdf_sample_n(byref(batch), uniforms, results)
-        return Scattered(wo, weight, density[()], lobe[()], wm)
+        w, count = components(wi, 3, "wi"), self.wavelengths
+        numbers = uniform(u, 3, rng, size, lambda: Batch(**self._groups, wi=w).shape)
+        batch, struct = self._open(wi=w, u=numbers)
+        result, lobe = batch.result(7 + count), np.empty(batch.shape, np.uint8)
+        at = addresses_of(result)
+        wo, wm, weights = _library.vndf_normals(*at[:3]), _library.vndf_normals(*at[3:6]), _pointers(at[7:])
+        results = _library.vndf_scattered_n(wo, weights, at[6], addresses_of(lobe[None])[0], wm)
+        library.bsdf_sample_n(byref(struct), (c_void_p * 3)(*batch.addresses("u")), results)
+        return Scattered(result[:3], result[7:], result[6], lobe[()], result[3:6])
 
     def eval(self, wi: Any, wo: Any, seed: Any = 0) -> Floats:
         """f, without the cosine, shape (wavelengths, ...). `seed`, whole numbers, is for random walks."""
-        return self._look("bsdf_eval_n", wi, wo, seed, values=True)[0]  # type: ignore[no-any-return]
+        return self._look("bsdf_eval_n", wi, wo, seed, self.wavelengths, 0)
 
     def pdf(self, wi: Any, wo: Any) -> Floats:
         """Density per steradian with which :meth:`sample` draws wo, shape (...)."""
-        return self._look("bsdf_pdf_n", wi, wo, None, values=False)[1][()]  # type: ignore[no-any-return]
+        return self._look("bsdf_pdf_n", wi, wo, None, 0, 1)[0]  # type: ignore[no-any-return]
 
     def eval_pdf(self, wi: Any, wo: Any, seed: Any = 0) -> tuple[Floats, Floats]:
         """Both at once."""
-        value, pdf = self._look("bsdf_eval_pdf_n", wi, wo, seed, values=True)
-        return value, pdf[()]
+        result = self._look("bsdf_eval_pdf_n", wi, wo, seed, self.wavelengths, 1)
+        return result[:-1], result[-1]
 
-    def _open(self, wi: Any, **inputs: list[Any]) -> tuple[Arguments, Any]:
-        arguments = Arguments(**self._groups, wi=components(wi, 3, "wi"), **inputs)
-        shared = sum(
-            bit for name, bit in (("shape", _library.SHARED_ALPHA), ("wi", _library.SHARED_WI)) if arguments.is_shared(name)
-        )
-        batch = _library.vndf_bsdf_batch(addressof(self._material), arguments.count, shared, 0)
-        batch.wi_x, batch.wi_y, batch.wi_z = arguments.addresses("wi")
-        self._put_shape(arguments, batch)
-        return arguments, batch
-
-    def _put_shape(self, arguments: Arguments, batch: Any) -> None:
+    def _open(self, **given: Any) -> tuple[Batch, Any]:
+        batch = Batch(**self._groups, **given)
+        bits = {"shape": _library.SHARED_ALPHA, "wi": _library.SHARED_WI}
+        shared = sum(bit for name, bit in bits.items() if batch.is_shared(name))
+        struct = _library.vndf_bsdf_batch(addressof(self._material), batch.count, shared, 0)
+        struct.wi_x, struct.wi_y, struct.wi_z = batch.addresses("wi", share=True)
         shape = _CHOICES["shape"][getattr(self._material, "is").effects.shape]
         if shape in ("aligned", "rotated"):
-            members_of_batch = ["alpha_x", "alpha_y", "cos_rotation", "sin_rotation"]
-            for name, address in zip(members_of_batch, arguments.addresses("shape")):
-                setattr(batch, name, address)
-            return
-        arrays = arguments.arrays("shape")
-        count = arrays[0].size
+            names = ["alpha_x", "alpha_y", "cos_rotation", "sin_rotation"]
+            for name, address in zip(names, batch.addresses("shape", share=True)):
+                setattr(struct, name, address)
+            return batch, struct
+        rows = batch.groups["shape"] if batch.is_shared("shape") else batch.whole("shape")
+        rows = rows.reshape(len(rows), -1)
+        structs = np.zeros(rows.shape[1], _MIXTURE if shape == "mixture" else _AFFINE)
         if shape == "mixture":
-            structs = np.zeros(count, _MIXTURE)
-            lobes = _lobes_of(self._made["distribution"], arrays)
+            lobes = _lobes_of(self._made["distribution"], rows)
             structs["count"] = len(lobes)
-            for i, (pointer, *parts, weight) in enumerate(lobes):
-                lobe = structs["lobe"][:, i]
-                _put_affine(lobe["surface"], pointer, parts)
-                lobe["weight"] = weight.ravel()
-            batch.mixture = arguments.keep(structs)
+            for i, (pointer, parts, weight) in enumerate(lobes):
+                _put_affine(structs["lobe"][:, i]["surface"], pointer, parts)
+                structs["lobe"][:, i]["weight"] = weight
+            (struct.mixture,) = batch.keep(structs[None])
         else:
-            structs = np.zeros(count, _AFFINE)
-            _put_affine(structs, 0, arrays)
-            batch.affine = arguments.keep(structs)
+            _put_affine(structs, 0, rows)
+            (struct.affine,) = batch.keep(structs[None])
+        return batch, struct
 
-    def _look(self, name: str, wi: Any, wo: Any, seed: Any, *, values: bool) -> Any:
-        inputs = {"wo": components(wo, 3, "wo")}
+    def _look(self, name: str, wi: Any, wo: Any, seed: Any, values: int, pdf: int) -> Floats:
+        """What C answers: so many values, and the density after them where that is asked for."""
+        given: dict[str, Any] = {"wi": components(wi, 3, "wi"), "wo": components(wo, 3, "wo")}
         if seed is not None:
-            inputs["seed"] = [np.asarray(seed, np.uint64)]
-        arguments, batch = self._open(wi, **inputs)
-        directions = _library.vndf_normals(*arguments.whole_addresses("wo"))
-        value, pdf = arguments.result(self.wavelengths), arguments.result()
-        call = [byref(batch), directions]
-        if seed is not None:
-            call += arguments.whole_addresses("seed")
-        if values:
-            call.append(_pointers(addresses_of(value)))
-        if name != "bsdf_eval_n":
-            call.append(address(pdf))
-        getattr(library, name)(*call)
-        return value, pdf
+            given["seed"] = np.asarray(seed, np.uint64)[None]
+        batch, struct = self._open(**given)
+        result = batch.result(values + pdf)
+        at: list[Any] = addresses_of(result)
+        seeds = batch.addresses("seed") if seed is not None else []
+        to = [*([_pointers(at[:values])] if values else []), *at[values:]]
+        getattr(library, name)(byref(struct), _library.vndf_normals(*batch.addresses("wo")), *seeds, *to)
+        return result
 
 
 _AFFINE = np.dtype(_library.vndf_affine)
@@ -245,25 +213,26 @@ def _material_of(made: dict[str, Any]) -> Material:
     return Material(**made)
 
 
-def _lobes_of(surface: Union[Mixture, Blend], arrays: Sequence[Any]) -> list[Sequence[Any]]:
-    """Of each lobe its distribution for all hits or for each, its matrix, its mean slope and its weight."""
+def _lobes_of(surface: Union[Mixture, Blend], rows: Floats) -> list[tuple[Any, Any, Any]]:
+    """Of each lobe its distribution for all hits or for each, its matrix with its mean slope, and its weight."""
     if isinstance(surface, Mixture):
-        return [[lobe.distribution._pointer, *arrays[7 * i : 7 * i + 7]] for i, lobe in enumerate(surface.lobes)]
-    parameter, x, y = arrays
-    index, share = surface.family.places(parameter.ravel())
+        count = len(surface.lobes)
+        return [(lobe.distribution._pointer, rows[6 * i : 6 * i + 6], rows[6 * count + i])
+                for i, lobe in enumerate(surface.lobes)]  # fmt: skip
+    parameter, x, y = rows
+    index, share = surface.family.places(parameter)
     pointers = np.array([d._pointer for d in surface.family.distributions], np.uintp)
-    none = np.zeros_like(x)
-    pair = (index, 1 - share), (np.minimum(index + 1, len(pointers) - 1), share)
-    return [[pointers[at], x, none, none, y, none, none, weight] for at, weight in pair]
+    parts, beyond = (x, 0, 0, y, 0, 0), np.minimum(index + 1, len(pointers) - 1)
+    return [(pointers[index], parts, 1 - share), (pointers[beyond], parts, share)]
 
 
-def _put_affine(structs: Any, distribution: Any, arrays: Sequence[Any]) -> None:
+def _put_affine(structs: Any, distribution: Any, parts: Any) -> None:
     structs["distribution"] = distribution
-    for name, array in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], arrays):
-        structs[name] = array.ravel()
+    for name, values in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], parts):
+        structs[name] = values
 
 
-def _pointers(addresses: Sequence[int]) -> Any:
+def _pointers(addresses: list[int]) -> Any:
     return (c_void_p * _library.WAVELENGTHS)(*addresses)
 
 
@@ -274,19 +243,16 @@ def _fill(member: Any, values: Floats, count: int, name: str) -> None:
         member[i] = value
 
 
-def _shape_of_hits(
-    shape: str, distribution: Any, alpha: Any, alpha_y: Any, rotation: Any, matrix: Any, mean: Any
-) -> dict[str, list[Floats]]:
+def _shape_of_hits(distribution: Any, alpha: Any, alpha_y: Any, rotation: Any, matrix: Any, mean: Any) -> dict[str, Floats]:
     """The arrays that hits bring, as one group, in the order of the C struct."""
+    if isinstance(distribution, Mixture):
+        return {"shape": stacked([*distribution._groups["shape"], *distribution.weights])}
     if isinstance(distribution, Blend):
-        return {"shape": distribution._shape}
-    if shape == "mixture":
-        parts = [[*lobe._shape, weight] for lobe, weight in zip(distribution.lobes, distribution.weights)]
-        return {"shape": [array for part in parts for array in part]}
-    if shape in ("matrix", "affine"):
+        return dict(distribution._groups)
+    if matrix is not None:
         return {"shape": stretched(matrix, (0.0, 0.0) if mean is None else mean)}
-    shapes = roughness(alpha, alpha_y)
+    shape = roughness(alpha, alpha_y)
     if rotation is not None:
         angle = np.asarray(rotation, np.float64)
-        shapes += [as_float(np.cos(angle)), as_float(np.sin(angle))]
-    return {"shape": shapes}
+        shape = stacked([*shape, np.cos(angle), np.sin(angle)])
+    return {"shape": shape}

@@ -31,13 +31,13 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any
+from typing import Any, Union
 
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import Beckmann, Ggx, Law, Table
-from .distribution import load
+from ._drjit import Law, Table, law_of
+from .distribution import Distribution
 from .surface import Family
 
 _MOST_LOBES = 8
@@ -46,6 +46,43 @@ _LEAST_ALPHA = 1e-4
 
 def _texture(props: Any, name: str, default: float) -> Any:
     return props.get_texture(name, default)
+
+
+class MicrofacetDistribution:
+    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
+    are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann"."""
+
+    def __init__(self, distribution: Union[Distribution, str], alpha_u: Any, alpha_v: Any = None) -> None:
+        self._law = law_of(distribution)
+        self._alphas = [mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)]
+
+    def eval(self, m: Any) -> Any:
+        """D(m)."""
+        return self._law.ndf(*self._alphas, m)
+
+    def pdf(self, wi: Any, m: Any) -> Any:
+        """The density with which `sample` draws m."""
+        return self._law.pdf(self._law.view(*self._alphas, wi), m)
+
+    def sample(self, wi: Any, sample: Any) -> tuple[Any, Any]:
+        """A visible normal and its density."""
+        return self._law.sample(self._law.view(*self._alphas, wi), sample.x, sample.y)
+
+    def smith_g1(self, v: Any, m: Any) -> Any:
+        """Smith's masking, 0 where v sees the back of m."""
+        up = abs(v.z)
+        g1 = up / self._law.view(*self._alphas, mi.Vector3f(v.x, v.y, up)).area
+        return dr.select(dr.dot(v, m) * v.z > 0.0, g1, 0.0)
+
+    def G(self, wi: Any, wo: Any, m: Any) -> Any:
+        """The product of both ways, which Mitsuba's plugins use."""
+        return self.smith_g1(wi, m) * self.smith_g1(wo, m)
+
+    def alpha_u(self) -> Any:
+        return self._alphas[0]
+
+    def alpha_v(self) -> Any:
+        return self._alphas[1]
 
 
 class _Tails:
@@ -73,12 +110,10 @@ class _Lobe:
     def __init__(self, props: Any, suffix: str) -> None:
         name = str(props["distribution" + suffix])
         self.name = name
-        closed = {"ggx": Ggx, "beckmann": Beckmann}
         path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
         self.parameter = {parameter: _texture(props, parameter, 1.0)} if parameter in props else {}
         self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
-        one: list[Law] = [] if self.tails else [closed[name]() if name in closed else Table(load(path))]
-        self.laws = self.tails.laws if self.tails else one
+        self.laws = self.tails.laws if self.tails else [law_of(name if name in ("ggx", "beckmann") else path)]
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
@@ -363,7 +398,7 @@ def register() -> None:
             wi, wo = hit.turned(si.wi), hit.turned(wo)
             views, area = hit.seen_from(_up(wi))
             eta = dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
-            wm = dr.normalize(wi + wo * dr.select(reflects, 1.0, eta))
+            wm = dr.normalize(dr.fma(wo, dr.select(reflects, 1.0, eta), wi))
             wm = dr.mulsign(wm, wi.z * wm.z)  # on the side of wi
             facing = dr.dot(wi, wm)
             active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)

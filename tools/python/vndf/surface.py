@@ -9,7 +9,6 @@ while C works, so threads may share the work.
 """
 from __future__ import annotations
 
-import abc
 import functools
 from ctypes import byref
 from typing import Any, NamedTuple, Optional, Sequence, Union
@@ -17,7 +16,7 @@ from typing import Any, NamedTuple, Optional, Sequence, Union
 import numpy as np
 
 from . import _library
-from ._arrays import Arguments, Floats, Numbers, address, addresses_of, as_float, components, matrix_components, uniform
+from ._arrays import Batch, Floats, Generator, Numbers, Size, addresses_of, components, stacked, uniform
 from ._library import Owner, checked, library, members, path_bytes, text_bytes, want
 from .build import Progress, Reporter
 from .distribution import Distribution, Path
@@ -46,26 +45,25 @@ class MixtureSample(NamedTuple):
     lobe: np.ndarray[Any, np.dtype[np.int32]]  #: its index, -1 of what is invalid, shape (...)
 
 
-Generator = Optional[np.random.Generator]
-Size = Union[None, int, tuple[int, ...]]
-_NO_DIRECTION = object()  # of calls that have no wi
-
-
-def roughness(alpha: Any, alpha_y: Any) -> list[Floats]:
+def roughness(alpha: Any, alpha_y: Any) -> Floats:
     """alpha along x and y. A single number that is no roughness is refused; in arrays it scatters nothing."""
-    both = [as_float(alpha), as_float(alpha if alpha_y is None else alpha_y)]
-    for array in both:
-        if array.size == 1 and not 0 < array.item() < np.inf:
-            raise ValueError(f"alpha is {array.item()}; it must be above 0")
+    both = stacked((alpha, alpha if alpha_y is None else alpha_y))
+    if both.size == 2:
+        for a in both.ravel().tolist():
+            if not 0 < a < np.inf:
+                raise ValueError(f"alpha is {a}; it must be above 0")
     return both
 
 
-def stretched(matrix: Any, mean: Any) -> list[Floats]:
-    """The components of a matrix of slopes and of a mean slope. Single numbers that are no surface are refused; in
-    arrays they scatter nothing."""
-    shape = matrix_components(matrix, "matrix") + components(mean, 2, "mean")
-    if all(array.size == 1 for array in shape):
-        xx, xy, yx, yy, *moved = (array.item() for array in shape)
+def stretched(matrix: Any, mean: Any) -> Floats:
+    """A matrix of slopes and a mean slope. Single numbers that are no surface are refused; in arrays they scatter
+    nothing."""
+    rows = stacked(matrix)
+    if rows.shape[:2] != (2, 2):
+        raise ValueError(f"matrix: its shape is {rows.shape}, it must be (2, 2, ...)")
+    shape = stacked([*rows.reshape(4, *rows.shape[2:]), *components(mean, 2, "mean")])
+    if shape.size == 6:
+        xx, xy, yx, yy, *moved = shape.ravel().tolist()
         if not (xx * yy != xy * yx and np.isfinite([xx, xy, yx, yy]).all()):
             raise ValueError(f"matrix is (({xx}, {xy}), ({yx}, {yy})); it must be finite and not singular")
         if not np.isfinite(moved).all():
@@ -73,61 +71,45 @@ def stretched(matrix: Any, mean: Any) -> list[Floats]:
     return shape
 
 
-class _Rough(abc.ABC):
+class _Rough:
     """What all surfaces answer."""
 
-    _prefix: str  # of the C calls
+    _prefix = ""  # of the C calls
+    _groups: dict[str, Floats]  # "shape", and "weight" of mixtures
 
-    @abc.abstractmethod
-    def _shape_groups(self) -> dict[str, list[Floats]]:
-        """The arrays of the surface itself, in groups that may be shared."""
-
-    @abc.abstractmethod
-    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
+    def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
         """The C struct of a batch."""
+        raise NotImplementedError
 
-    def _says(self) -> str:
-        """Shape in words."""
-        numbers = [f"{a.item():.4g}" if a.size == 1 else f"array{a.shape}" for a in self._shape_groups()["shape"]]
-        return f"{'alpha' if len(numbers) == 2 else 'matrix and mean'} {', '.join(numbers)}"
+    def _shared(self, batch: Batch) -> int:
+        bits = {"shape": _library.SHARED_ALPHA, "wi": _library.SHARED_WI, "weight": _library.SHARED_WEIGHT}
+        return sum(bit for name, bit in bits.items() if name in batch.groups and batch.is_shared(name))
 
-    def _open(self, wi: Any, **inputs: list[Floats]) -> tuple[Arguments, Any]:
-        groups = self._shape_groups()
-        if wi is not _NO_DIRECTION:
-            groups["wi"] = components(wi, 3, "wi")
-        arguments = Arguments(**groups, **inputs)
-        return arguments, self._batch(arguments, arguments.addresses("wi") if "wi" in groups else [None] * 3)
+    def _ask(self, name: str, rows: int, *, lobe: bool = False, **given: Floats) -> Floats:
+        """What C answers: `rows` numbers for each element, and the bits of the lobe's index after them."""
+        batch = Batch(**self._groups, **given)
+        struct = self._struct(batch, batch.addresses("wi", share=True) if "wi" in given else [None] * 3)
+        result = batch.result(rows + lobe)
+        to: list[Any] = addresses_of(result)
+        if "u" in given:
+            to = [*batch.addresses("u"), _library.vndf_normals(*to[:3]), *to[3:]]
+        elif "wm" in given:
+            to = [_library.vndf_normals(*batch.addresses("wm")), *([None] if lobe else []), *to]
+        getattr(library, f"{self._prefix}{name}_n")(byref(struct), *to)
+        return result
 
-    def _shared(self, arguments: Arguments) -> int:
-        names = {"shape": _library.SHARED_ALPHA, "wi": _library.SHARED_WI, "weight": _library.SHARED_WEIGHT}
-        return sum(bit for name, bit in names.items() if name in arguments.names() and arguments.is_shared(name))
-
-    def _call(self, name: str, *arguments: Any) -> None:
-        getattr(library, f"{self._prefix}{name}_n")(*arguments)
+    def _draw(self, name: str, rows: int, wi: Any, u: Any, rng: Generator, size: Size, lobe: bool = False) -> list[Any]:
+        """Normals, then what else was asked for."""
+        w = components(wi, 3, "wi")
+        numbers = uniform(u, 2, rng, size, lambda: Batch(**self._groups, wi=w).shape)
+        result = self._ask(name, rows, lobe=lobe, wi=w, u=numbers)
+        return [result[:3], *result[3:rows], *(result[rows:].view(np.int32))]
 
     def _of_normal(self, name: str, wi: Any, wm: Any) -> Floats:
-        arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
-        result = arguments.result()
-        normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
-        self._call(name, byref(batch), normals, address(result))
-        return result[()]  # type: ignore[no-any-return]
+        return self._ask(name, 1, wi=components(wi, 3, "wi"), wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
 
     def _of_direction(self, name: str, w: Any) -> Floats:
-        arguments, batch = self._open(w)
-        result = arguments.result()
-        self._call(name, byref(batch), address(result))
-        return result[()]  # type: ignore[no-any-return]
-
-    def _draw(self, name: str, wi: Any, u: Any, rng: Generator, size: Size, *, extra: Sequence[Any]) -> Any:
-        numbers = uniform(u, 2, rng, size, lambda: self._open(wi)[0].shape)
-        arguments, batch = self._open(wi, u=numbers)
-        wm = arguments.result(3)
-        results = [arguments.result(dtype=dtype) for dtype in extra]
-        self._call(
-            name, byref(batch), *arguments.whole_addresses("u"), _library.vndf_normals(*addresses_of(wm)),
-            *[address(result) for result in results],
-        )  # fmt: skip
-        return wm, [result[()] for result in results]
+        return self._ask(name, 1, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
 
     def pdf(self, wi: Any, wm: Any) -> Floats:
         """Density per steradian with which ``sample`` draws wm (3, ...), a unit normal."""
@@ -138,16 +120,14 @@ class _Rough(abc.ABC):
         return self._of_normal("visible", wi, wm)
 
     def invert(self, wi: Any, wm: Any) -> Floats:
-        """The numbers u, shape (2, ...), that ``sample`` turns into wm."""
-        arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
-        u = arguments.result(2)
-        normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
-        self._call("invert", byref(batch), normals, *addresses_of(u))
-        return u  # type: ignore[no-any-return]
+        """The numbers u, shape (2, ...), that ``sample`` turns into wm; of a mixture from the lobe that draws it most
+        often."""
+        lobe = self._prefix == "mixture_"
+        return self._ask("invert", 2, lobe=lobe, wi=components(wi, 3, "wi"), wm=components(wm, 3, "wm"))[:2]
 
     def ndf(self, wm: Any) -> Floats:
         """D(wm), per steradian; integral of D cos(theta) is 1."""
-        return self._of_normal("ndf", _NO_DIRECTION, wm)
+        return self._ask("ndf", 1, wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
 
     def projected_area(self, w: Any) -> Floats:
         """A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere."""
@@ -164,56 +144,53 @@ class _Rough(abc.ABC):
     def g2(self, wi: Any, wo: Any, model: str = "height-correlated") -> Floats:
         """Masking and shadowing of two directions, 0 to 1; 0 if one is below the horizon. "height-correlated" or
         "separable". From :meth:`g1` of both, in double."""
-        one, other = np.float64(self.g1(wi)), np.float64(self.g1(wo))
-        if model == "separable":
-            return as_float(one * other)[()]
-        if model != "height-correlated":
+        if model not in ("height-correlated", "separable"):
             raise ValueError(f'model is "height-correlated" or "separable", not {model!r}')
+        one, other = np.float64(self.g1(wi)), np.float64(self.g1(wo))
         product = one * other
-        return as_float(np.divide(product, one + other - product, out=np.zeros_like(product), where=product > 0))[()]
+        under = 1.0 if model == "separable" else one + other - product
+        return stacked(np.divide(product, under, out=np.zeros_like(product), where=product > 0))[()]
 
 
 class _OneLobe(_Rough):
     """Surfaces of one distribution."""
 
-    distribution: Distribution
+    _batch: Any  # the C struct
+
+    def __init__(self, distribution: Distribution, shape: Floats) -> None:
+        want(distribution, Distribution)
+        self.distribution = distribution
+        self._groups = {"shape": shape}
+
+    def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
+        shape = batch.addresses("shape", share=True)
+        return self._batch(self.distribution._pointer, batch.count, self._shared(batch), 0, *shape, *wi)
 
     def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Sample:
         """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]; in place of u an `rng`
         (``numpy.random.default_rng()``) draws them, of shape (2, *size), by default one sample an element. An invalid
         direction or roughness gives the normal (0, 0, 1) and density 0."""
-        wm, (pdf,) = self._draw("sample", wi, u, rng, size, extra=[np.float32])
-        return Sample(wm, pdf)
+        return Sample(*self._draw("sample", 4, wi, u, rng, size))
+
+    def sample_weight(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> WeightedSample:
+        """:meth:`sample` with the weight visible/pdf, for less than two calls cost."""
+        return WeightedSample(*self._draw("sample_weight", 5, wi, u, rng, size))
 
     def __repr__(self) -> str:
-        return f"<vndf.{type(self).__name__} of {self.distribution!r}, {self._says()}>"
+        shape = self._groups["shape"]
+        numbers = [f"{row.item():.4g}" if row.size == 1 else f"array{row.shape}" for row in shape]
+        what = "alpha" if len(shape) == 2 else "matrix and mean"
+        return f"<vndf.{type(self).__name__} of {self.distribution!r}, {what} {', '.join(numbers)}>"
 
 
 class Surface(_OneLobe):
     """A distribution stretched by roughness: ``alpha`` along x, ``alpha_y`` along y (None: the same), > 0, numbers or
     arrays. alpha = 1 is the distribution as it was built."""
 
-    _prefix = ""
+    _batch = _library.vndf_batch
 
     def __init__(self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> None:
-        want(distribution, Distribution)
-        self.distribution = distribution
-        self._alpha = roughness(alpha, alpha_y)
-
-    def _shape_groups(self) -> dict[str, list[Floats]]:
-        return {"shape": self._alpha}
-
-    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
-        return _library.vndf_batch(
-            self.distribution._pointer, arguments.count, self._shared(arguments), 0, *arguments.addresses("shape"), *wi
-        )
-
-    def sample_weight(
-        self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None
-    ) -> WeightedSample:  # fmt: skip
-        """:meth:`sample` with the weight visible/pdf, for less than two calls cost."""
-        wm, (pdf, weight) = self._draw("sample_weight", wi, u, rng, size, extra=[np.float32, np.float32])
-        return WeightedSample(wm, pdf, weight)
+        super().__init__(distribution, roughness(alpha, alpha_y))
 
 
 class Affine(_OneLobe):
@@ -221,11 +198,10 @@ class Affine(_OneLobe):
     ``mean``, shape (2, ...): slopes s = M u + mean, as filtered normal maps have them (vndf.h)."""
 
     _prefix = "affine_"
+    _batch = _library.vndf_affine_batch
 
     def __init__(self, distribution: Distribution, matrix: Any, mean: Any = (0.0, 0.0)) -> None:
-        want(distribution, Distribution)
-        self.distribution = distribution
-        self._shape = stretched(matrix, mean)
+        super().__init__(distribution, stretched(matrix, mean))
 
     @staticmethod
     def rotated(distribution: Distribution, alpha: Numbers, alpha_y: Numbers, angle: Numbers) -> Affine:
@@ -234,20 +210,12 @@ class Affine(_OneLobe):
         along, across = np.asarray(alpha), np.asarray(alpha_y)
         return Affine(distribution, ((c * along, -s * across), (s * along, c * across)))
 
-    def _shape_groups(self) -> dict[str, list[Floats]]:
-        return {"shape": self._shape}
-
-    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
-        return _library.vndf_affine_batch(
-            self.distribution._pointer, arguments.count, self._shared(arguments), 0, *arguments.addresses("shape"), *wi
-        )
-
 
 def _as_affine(surface: Union[Surface, Affine]) -> Affine:
     want(surface, (Surface, Affine))
     if isinstance(surface, Affine):
         return surface
-    x, y = surface._alpha
+    x, y = surface._groups["shape"]
     return Affine(surface.distribution, ((x, 0.0), (0.0, y)))
 
 
@@ -263,37 +231,27 @@ class Mixture(_Rough):
         if not all(isinstance(lobe, tuple) and len(lobe) == 2 for lobe in lobes):
             raise TypeError("the lobes of a mixture are pairs (surface, weight), one argument each")
         self.lobes = [_as_affine(surface) for surface, _ in lobes]
-        self.weights = [as_float(weight) for _, weight in lobes]
-        single = [weight.item() for weight in self.weights if weight.size == 1]
-        if not all(0 <= weight < np.inf for weight in single) or (len(single) == len(lobes) and not any(single)):
+        self.weights = stacked([weight for _, weight in lobes])
+        shapes = stacked([part for lobe in self.lobes for part in lobe._groups["shape"]])
+        self._groups = {"shape": shapes, "weight": self.weights}
+        single = self.weights.ravel().tolist() if self.weights.size == len(lobes) else []
+        if single and not (all(0 <= weight < np.inf for weight in single) and any(single)):
             raise ValueError(f"weights are {single}; they must be 0 or above, and not all 0")
 
-    def _shape_groups(self) -> dict[str, list[Floats]]:
-        return {"shape": [part for lobe in self.lobes for part in lobe._shape], "weight": self.weights}
-
-    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
-        shapes, weights = arguments.addresses("shape"), arguments.addresses("weight")
-        batch = _library.vndf_mixture_batch(arguments.count, self._shared(arguments), 0, *wi, len(self.lobes))
+    def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
+        shapes, weights = batch.addresses("shape", share=True), batch.addresses("weight", share=True)
+        struct = _library.vndf_mixture_batch(batch.count, self._shared(batch), 0, *wi, len(self.lobes))
         for i, lobe in enumerate(self.lobes):
-            pointer = lobe.distribution._pointer
-            batch.lobe[i] = _library.vndf_lobe_batch(pointer, *shapes[6 * i : 6 * i + 6], weights[i])
-        return batch
+            parts = shapes[6 * i : 6 * i + 6]
+            struct.lobe[i] = _library.vndf_lobe_batch(lobe.distribution._pointer, *parts, weights[i])
+        return struct
 
     def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
         """As of other surfaces; u[0] chooses the lobe too, which is told."""
-        wm, (pdf, lobe) = self._draw("sample", wi, u, rng, size, extra=[np.float32, np.int32])
-        return MixtureSample(wm, pdf, lobe)
+        return MixtureSample(*self._draw("sample", 4, wi, u, rng, size, lobe=True))
 
     def __repr__(self) -> str:
         return f"<vndf.Mixture of {', '.join(repr(lobe) for lobe in self.lobes)}>"
-
-    def invert(self, wi: Any, wm: Any) -> Floats:
-        """The numbers u, shape (2, ...), that draw wm from the lobe that draws it most often."""
-        arguments, batch = self._open(wi, wm=components(wm, 3, "wm"))
-        u, lobe = arguments.result(2), arguments.result(dtype=np.int32)
-        normals = _library.vndf_normals(*arguments.whole_addresses("wm"))
-        self._call("invert", byref(batch), normals, None, *addresses_of(u), address(lobe))
-        return u  # type: ignore[no-any-return]
 
 
 class Family(Owner):
@@ -360,11 +318,10 @@ class Family(Owner):
         """source, tool, bytes, memory, count, low, high, reciprocal, distance, grazing (vndf_family_facts)."""
         return members(library.family_info(self._pointer))
 
-    @property
+    @functools.cached_property
     def parameters(self) -> Floats:
         """Where its distributions stand, shape (count,)."""
-        count = self.info["count"]
-        return as_float([library.family_parameter(self._pointer, i) for i in range(count)])
+        return stacked([library.family_parameter(self._pointer, i) for i in range(self.info["count"])])
 
     @functools.cached_property
     def distributions(self) -> list[Distribution]:
@@ -381,7 +338,7 @@ class Family(Owner):
     def places(self, parameter: Numbers) -> tuple[Any, Any]:
         """Of each parameter the index of the distribution below it, and the share of the next one."""
         knots, reciprocal = self.axis
-        p = np.clip(np.asarray(parameter, np.float32), self.parameters[0], self.parameters[-1]).astype(np.float64)
+        p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
         x = -1.0 / p if reciprocal else p
         index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
         beyond = np.minimum(index + 1, len(knots) - 1)
@@ -404,52 +361,32 @@ class Blend(_Rough):
     """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. There is
     one call of C for each pair of neighbours that elements lie between."""
 
+    _prefix = "mixture_"
+
     def __init__(
         self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None
     ) -> None:  # fmt: skip
         want(family, Family)
         self.family = family
-        self._shape = [as_float(parameter), *roughness(alpha, alpha_y)]
+        self._groups = {"shape": stacked([parameter, *roughness(alpha, alpha_y)])}
 
-    def _shape_groups(self) -> dict[str, list[Floats]]:
-        return {"shape": self._shape}
-
-    def _batch(self, arguments: Arguments, wi: list[Any]) -> Any:
-        return None  # there is one for each pair of neighbours
-
-    def _ask(self, method: str, **inputs: list[Floats]) -> list[Any]:
-        arguments = Arguments(shape=self._shape, **inputs)
-        parameter, x, y = (np.broadcast_to(row, arguments.shape).ravel() for row in self._shape)
-        rows = [np.stack([np.broadcast_to(row, arguments.shape).ravel() for row in of]) for of in inputs.values()]
+    def _ask(self, name: str, rows: int, *, lobe: bool = False, **given: Floats) -> Floats:
+        batch = Batch(**self._groups, **given)
+        flat = {group: batch.whole(group).reshape(len(array), -1) for group, array in batch.groups.items()}
+        parameter, x, y = flat.pop("shape")
         index, share = self.family.places(parameter)
-        results: list[Any] = []
-        for i in np.unique(index) if index.size else [0]:
+        result = batch.result(rows + lobe)
+        for i in np.unique(index):
             here = np.flatnonzero(index == i)
             pair = zip(self.family.distributions[i : i + 2], (1 - share[here], share[here]))
             mixture = Mixture(*((Surface(d, x[here], y[here]), weight) for d, weight in pair))
-            answer = getattr(mixture, method)(*(of[:, here] for of in rows))
-            answers = answer if isinstance(answer, tuple) else (answer,)
-            results = results or [np.empty((*a.shape[:-1], arguments.count), a.dtype) for a in answers]
-            for result, part in zip(results, answers):
-                result[..., here] = part
-        return [result.reshape((*result.shape[:-1], *arguments.shape)) for result in results]
-
-    def _of_normal(self, name: str, wi: Any, wm: Any) -> Floats:
-        seen = {} if wi is _NO_DIRECTION else {"wi": components(wi, 3, "wi")}
-        return self._ask(name, **seen, wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
-
-    def _of_direction(self, name: str, w: Any) -> Floats:
-        method = "lambda_" if name == "lambda" else name
-        return self._ask(method, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
-
-    def invert(self, wi: Any, wm: Any) -> Floats:
-        """As of a mixture."""
-        return self._of_normal("invert", wi, wm)
+            part = mixture._ask(name, rows, lobe=lobe, **{group: array[:, here] for group, array in flat.items()})
+            result.reshape(rows + lobe, -1)[:, here] = part
+        return result
 
     def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
         """As of other surfaces; the lobe is 0 or 1, the neighbour below or above."""
-        numbers = uniform(u, 2, rng, size, lambda: self._open(wi)[0].shape)
-        return MixtureSample(*self._ask("sample", wi=components(wi, 3, "wi"), u=numbers))
+        return MixtureSample(*self._draw("sample", 4, wi, u, rng, size, lobe=True))
 
     def __repr__(self) -> str:
-        return f"<vndf.Blend of {self.family!r} at parameters of shape {self._shape[0].shape}>"
+        return f"<vndf.Blend of {self.family!r} at parameters of shape {self._groups['shape'].shape[1:]}>"

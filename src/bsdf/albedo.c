@@ -1,0 +1,198 @@
+/* The table of albedos: quadrature in the nodes of a grid over cosine and roughness, and a polynomial of degree 3
+ * in each direction between them. With a = scale alpha, the median slope, and c = |cos_i|, its coordinates are
+ *
+ *     x = (t + t^(1/4))/2,  t = c (1 + K a)/(c + K a)         from X to 1
+ *     y = (a (1 + Q A)/(A (1 + Q a)))^(1/2),  A the largest a from 0 to 1
+ *
+ * E changes where c is of the size of a, at any roughness: in x that is one place, and E as a function of x tends
+ * to a limit for a = 0. Near c = 0 1 - E falls as c log c or as a low power of c, which a root makes smooth;
+ * elsewhere x is nearly even in c. What a dielectric transmits falls by a power so low that no root helps: there
+ * the grid begins at X > 0. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bsdf/bsdf.h"
+#include "bsdf/quadrature.h"
+#include "core/error.h"
+
+enum { COLUMNS = 32, ROWS = 24 };
+
+struct vndf_albedo {
+    float eta, scale, from;        /* eta 0: a mirror; from: X */
+    float value[2][ROWS][COLUMNS]; /* of light from the side of z, and from the other side of a dielectric */
+    float average[2][ROWS];
+    char source[]; /* of the distribution, as vndf_info has it */
+};
+
+static const float knee = 4.0f;  /* K */
+static const float bend = 0.25f; /* Q */
+
+/* NaN becomes 0. */
+static float clamp(float value, float most)
+{
+    return value > 0.0f ? value < most ? value : most : 0.0f;
+}
+
+/* ---- looking up ---- */
+
+/* The first of four nodes, and their weights. */
+typedef struct place {
+    int first;
+    float weight[4];
+} place;
+
+/* At a part of the way from the first of the nodes to the last. */
+static place place_of(float part, int nodes)
+{
+    float at = clamp(part, 1.0f) * (float)(nodes - 1);
+    int first = (int)at - 1;
+    first = first < 0 ? 0 : first > nodes - 4 ? nodes - 4 : first;
+    float p = at - (float)first, q = p - 1.0f, r = p - 2.0f, s = p - 3.0f;
+    return (place){first, {q * r * s / -6.0f, p * r * s / 2.0f, p * q * s / -2.0f, p * q * r / 6.0f}};
+}
+
+static float sum_at(const float *value, const place *at)
+{
+    const float *v = value + at->first;
+    return (v[0] * at->weight[0] + v[1] * at->weight[1]) + (v[2] * at->weight[2] + v[3] * at->weight[3]);
+}
+
+/* a, from any alpha. */
+static float slope_of(const vndf_albedo *albedo, float alpha)
+{
+    return clamp(alpha, VNDF_ALBEDO_ALPHA_MAX) * albedo->scale;
+}
+
+static place row_of(const vndf_albedo *albedo, float slope)
+{
+    float most = VNDF_ALBEDO_ALPHA_MAX * albedo->scale;
+    return place_of(sqrtf(slope * (1.0f + bend * most) / (most * (1.0f + bend * slope))), ROWS);
+}
+
+static place column_of(const vndf_albedo *albedo, float cosine, float slope)
+{
+    float c = clamp(fabsf(cosine), 1.0f), bent = knee * slope;
+    float t = c + bent > 0.0f ? c * (1.0f + bent) / (c + bent) : 0.0f;
+    return place_of((0.5f * (t + sqrtf(sqrtf(t))) - albedo->from) / (1.0f - albedo->from), COLUMNS);
+}
+
+float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alpha)
+{
+    if (!albedo)
+        return 1.0f;
+    float slope = slope_of(albedo, alpha), sum = 0.0f;
+    place x = column_of(albedo, cosine, slope), y = row_of(albedo, slope);
+    int side = albedo->eta > 0.0f && cosine < 0.0f;
+    for (int i = 0; i < 4; i++)
+        sum += y.weight[i] * sum_at(albedo->value[side][y.first + i], &x);
+    return clamp(sum, 1.0f);
+}
+
+float vndf_albedo_average(const vndf_albedo *albedo, float alpha, int side)
+{
+    if (!albedo)
+        return 1.0f;
+    place y = row_of(albedo, slope_of(albedo, alpha));
+    return clamp(sum_at(albedo->average[albedo->eta > 0.0f && side < 0], &y), 1.0f);
+}
+
+/* ---- building ---- */
+
+/* The inverse of the coordinate y. A thousandth of a node stands for 0. */
+static double alpha_at(const vndf_albedo *albedo, int row)
+{
+    double y = row > 0 ? row / (ROWS - 1.0) : 1e-3 / ROWS, scale = (double)albedo->scale;
+    double most = (double)VNDF_ALBEDO_ALPHA_MAX * scale, part = y * y * most;
+    return part / (1.0 + (double)bend * (most - part)) / scale;
+}
+
+/* The inverse of the coordinate x: q^4 + q = 2 x has q = t^(1/4), by Newton's steps from above. */
+static double cosine_at(const vndf_albedo *albedo, int column, double alpha)
+{
+    double from = (double)albedo->from, twice = 2.0 * (from + (1.0 - from) * column / (COLUMNS - 1)), q = 1.0;
+    for (int i = 0; i < 12; i++)
+        q -= (q * q * q * q + q - twice) / (4.0 * q * q * q + 1.0);
+    double t = q > 0.0 ? (q * q) * (q * q) : 0.0, bent = (double)knee * (double)albedo->scale * alpha;
+    double cosine = t * bent / (bent + (1.0 - t));
+    return cosine < 1.0 ? cosine : 1.0;
+}
+
+/* 2 integral E mu dmu of the look-ups, by midpoints of the root of mu, since E changes most at small cosines. */
+static double average_of(const vndf_albedo *albedo, float side, float alpha)
+{
+    enum { NODES = 1024 };
+    double sum = 0.0;
+    for (int i = 0; i < NODES; i++) {
+        double root = (i + 0.5) / NODES, mu = root * root;
+        sum += mu * root * (double)vndf_albedo_directional(albedo, side * (float)mu, alpha);
+    }
+    return 4.0 * sum / NODES;
+}
+
+static void fill(vndf_albedo *albedo, const vndf_quadrature *q, int side)
+{
+    double eta = side ? 1.0 / (double)albedo->eta : (double)albedo->eta;
+    for (int i = 0; i < ROWS; i++)
+        for (int j = 0; j < COLUMNS; j++) {
+            double alpha = alpha_at(albedo, i);
+            albedo->value[side][i][j] = (float)vndf_quadrature_albedo(q, cosine_at(albedo, j, alpha), alpha, eta);
+        }
+    for (int i = 0; i < ROWS; i++)
+        albedo->average[side][i] = (float)average_of(albedo, side ? -1.0f : 1.0f, (float)alpha_at(albedo, i));
+}
+
+vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error)
+{
+    if (!distribution) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "no distribution: NULL was given");
+        return NULL;
+    }
+    if (!(eta == 0.0f || (eta >= 0.01f && eta <= 100.0f && fabsf(eta - 1.0f) >= 1e-3f))) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                  "eta %g; 0 is a mirror, else it is from 0.01 to 100 and farther than 0.001 from 1", (double)eta);
+        return NULL;
+    }
+    vndf_info info = vndf_distribution_info(distribution);
+    if (!(info.scale >= 1e-6 && info.scale <= 1e6)) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the median slope is %g; from 1e-6 to 1e6 are possible", info.scale);
+        return NULL;
+    }
+    size_t letters = strlen(info.source) + 1;
+    vndf_albedo *albedo = malloc(sizeof *albedo + letters);
+    vndf_quadrature q;
+    if (!albedo) {
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of albedos");
+        return NULL;
+    }
+    *albedo = (vndf_albedo){.eta = eta, .scale = (float)info.scale, .from = eta > 0.0f ? 0.03f : 0.0f};
+    memcpy(albedo->source, info.source, letters);
+    vndf_quadrature_of(&q, distribution);
+    fill(albedo, &q, 0);
+    if (eta > 0.0f)
+        fill(albedo, &q, 1);
+    return albedo;
+}
+
+void vndf_albedo_free(vndf_albedo *albedo)
+{
+    free(albedo);
+}
+
+/* An albedo of something else would keep the wrong energy. */
+vndf_status vndf_albedo_check(const vndf_description *is, vndf_error *error)
+{
+    const char *source = vndf_distribution_info(is->distribution).source;
+    float eta = is->effects.lobes == VNDF_LOBES_BOTH ? is->eta : 0.0f;
+    if (!is->albedo)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "albedo is NULL: compensation needs the albedos of the distribution (vndf_albedo_build)");
+    if (!(fabsf(is->albedo->eta - eta) <= 1e-6f * eta))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "albedo is made for eta %g; this material needs %g (0: a mirror)",
+                         (double)is->albedo->eta, (double)eta);
+    if (strcmp(is->albedo->source, source) != 0)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "albedo is that of %.80s, the distribution is %.80s",
+                         is->albedo->source, source);
+    return VNDF_OK;
+}

@@ -1,0 +1,195 @@
+/* Distributions given by formulas: P22(r) itself, or D in c = cos(theta), theta, t = tan(theta), for
+ * which P22(r) = D c^4 at t = r. 1 + r^2 is never formed, so that r = 1e200 has its right cosine. */
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "source/formula/expression.h"
+#include "source/source.h"
+#include "source/words.h"
+
+enum {
+    BREAKS = 4096,
+    OPERATIONS = 4,     /* the cost of an evaluation besides its instructions */
+    CALL_OPERATIONS = 8 /* of a power, or a function other than abs, min, max and step */
+};
+
+static const double TIGHT = 1e-9; /* bounds this close count as a value */
+
+typedef struct formula_source {
+    vndf_source base; /* first: a vndf_source* is cast back to this */
+    vndf_formula_of of;
+    vndf_lobe lobe[VNDF_LOBES];
+    size_t count;
+    double *breaks; /* owned */
+} formula_source;
+
+/* ---- the two kinds of formula ---- */
+
+static const char *const names_of_p22[] = {"r"}, *const names_of_ndf[VNDF_VARIABLES] = {"c", "theta", "t"};
+
+static void slope_variables(const double *r, size_t count, vndf_points *variables)
+{
+    memcpy(variables[0], r, count * sizeof *r);
+}
+
+static void ndf_variables(const double *r, size_t count, vndf_points *variables)
+{
+    for (size_t i = 0; i < count; i++) {
+        variables[0][i] = 1 / hypot(1, r[i]);
+        variables[1][i] = atan(r[i]);
+        variables[2][i] = r[i];
+    }
+}
+
+/* F at r; of D, it is the formula times c^4. */
+static vndf_jet bounds(vndf_formula_of of, const vndf_expression *formula, vndf_jet r)
+{
+    if (of == VNDF_FORMULA_OF_P22)
+        return vndf_expression_jet(formula, &r);
+    vndf_jet q = vndf_jet_sum(vndf_jet_number(1), vndf_jet_product(r, r));
+    vndf_jet theta = vndf_function_find("atan", 4)->jet_one(r);
+    vndf_jet variables[VNDF_VARIABLES] = {vndf_jet_power(q, -0.5), theta, r};
+    return vndf_jet_quotient(vndf_expression_jet(formula, variables), vndf_jet_product(q, q));
+}
+
+/* ---- values and bounds of all lobes ---- */
+
+static vndf_jet p22_bounds(const formula_source *source, vndf_jet r)
+{
+    vndf_jet sum = vndf_jet_number(0);
+    for (size_t i = 0; i < source->count; i++) {
+        const vndf_lobe *l = &source->lobe[i];
+        vndf_jet unit = vndf_jet_quotient(r, vndf_jet_number(l->scale));
+        vndf_jet value = bounds(source->of, &l->formula, unit);
+        sum = vndf_jet_sum(sum, vndf_jet_product(vndf_jet_number(l->factor), value));
+    }
+    return sum;
+}
+
+static vndf_reach reach(const vndf_source *self, double low, double high)
+{
+    vndf_jet r = vndf_jet_of_slope(low, high);
+    return vndf_reach_from(p22_bounds((const formula_source *)self, r), r, low, high);
+}
+
+/* The value at a slope where doubles overflow on the way, as in r^11 exp(-r^2) far out: the value that the bounds
+ * leave, if they are close enough. At an infinite slope there is nothing. */
+static double bounded_value(const formula_source *source, double r, double value)
+{
+    if (!(r > 0) || isinf(r))
+        return r > 0 ? 0 : value;
+    vndf_interval at = p22_bounds(source, vndf_jet_number(r)).at[0];
+    double low = vndf_interval_low(at), high = vndf_interval_high(at), size = fmax(fabs(low), fabs(high));
+    return isfinite(size) && high - low <= fmax(TIGHT * size, 8 * DBL_MIN) ? fmax(low, 0) : value;
+}
+
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    const formula_source *source = (const formula_source *)self;
+    for (size_t k = 0; k < source->count; k++) {
+        const vndf_lobe *l = &source->lobe[k];
+        vndf_points variables[VNDF_VARIABLES], unit, value;
+        for (size_t i = 0; i < count; i++)
+            unit[i] = r[i] / l->scale;
+        (source->of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables)(unit, count, variables);
+        vndf_expression_run(&l->formula, l->formula.count, variables, count, value, NULL);
+        for (size_t i = 0; i < count; i++) {
+            double c2 = source->of == VNDF_FORMULA_OF_NDF ? variables[0][i] * variables[0][i] : 1;
+            values[i] = (k ? values[i] : 0) + l->factor * (value[i] * c2 * c2);
+        }
+    }
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            values[i] = bounded_value(source, r[i], values[i]);
+}
+
+static void release(formula_source *source)
+{
+    for (size_t i = 0; i < source->count; i++)
+        vndf_expression_free(&source->lobe[i].formula);
+    free(source->breaks);
+    free(source->base.description);
+}
+
+static void destroy(vndf_source *self)
+{
+    release((formula_source *)self);
+    free(self);
+}
+
+/* ---- making ---- */
+
+static double operations_of(const vndf_expression *expression)
+{
+    double sum = OPERATIONS;
+    for (size_t i = 0; i < expression->count; i++) {
+        const vndf_instruction *at = &expression->program[i];
+        int long_call = at->operation == VNDF_CALL && at->function->kink == VNDF_KINK_NONE;
+        sum += long_call || at->operation == VNDF_POWER ? CALL_OPERATIONS : 1;
+    }
+    return sum;
+}
+
+vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
+                                 vndf_error *error)
+{
+    formula_source made = {.of = of, .count = count, .breaks = malloc(BREAKS * sizeof *made.breaks)};
+    formula_source *source = malloc(sizeof *source);
+    vndf_variables_of_slope *variables = of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables;
+    made.base = (vndf_source){.p22 = p22,
+                              .destroy = destroy,
+                              .description = description,
+                              .breaks = made.breaks,
+                              .rebuildable = 1,
+                              .reach = reach};
+    for (size_t i = 0; i < count; i++) {
+        made.lobe[i] = lobes[i];
+        made.base.operations += operations_of(&lobes[i].formula);
+    }
+    if (source && description && made.breaks &&
+        vndf_expression_breaks(&lobes->formula, variables, made.breaks, BREAKS, &made.base.break_count)) {
+        *source = made;
+        return &source->base;
+    }
+    release(&made);
+    free(source);
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source"); /* without breaks the table would be another */
+    return NULL;
+}
+
+/* Its description is "--slope 'exp(-a*r)' --set a=0.3". */
+static vndf_source *read_formula(vndf_formula_of of, const char *text, const vndf_parameter *parameters,
+                                 size_t count, vndf_error *error)
+{
+    int is_ndf = of == VNDF_FORMULA_OF_NDF;
+    vndf_names names = {is_ndf ? names_of_ndf : names_of_p22, is_ndf ? VNDF_VARIABLES : 1, parameters, count};
+    vndf_text words = {NULL, 0, 0, 0};
+    vndf_lobe lobe = {{NULL, 0}, 1, 1};
+    if (vndf_expression_parse(text, &names, &lobe.formula, error) != VNDF_OK)
+        return NULL;
+    vndf_text_add_word(&words, is_ndf ? "--ndf" : "--slope");
+    vndf_text_add_word(&words, text);
+    for (size_t i = 0; i < count; i++) {
+        char value[VNDF_NUMBER_TEXT];
+        vndf_text_add_word(&words, "--set");
+        vndf_text_add_word(&words, parameters[i].name);
+        vndf_text_add(&words, "=");
+        vndf_text_add(&words, vndf_number_print(value, parameters[i].value));
+    }
+    return vndf_formula_source(of, &lobe, 1, vndf_text_finish(&words, error), error);
+}
+
+vndf_source *vndf_source_ndf_expression(const char *text, const vndf_parameter *parameters, size_t count,
+                                        vndf_error *error)
+{
+    return read_formula(VNDF_FORMULA_OF_NDF, text, parameters, count, error);
+}
+
+vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters, size_t count,
+                                          vndf_error *error)
+{
+    return read_formula(VNDF_FORMULA_OF_P22, text, parameters, count, error);
+}

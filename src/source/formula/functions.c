@@ -1,0 +1,335 @@
+/* The functions of formulas: of each its value, its bounds, and where it is not smooth. Every function lets NaN pass,
+ * so that the builder can say where a formula has no value; fmin and fmax of the C library would hide it. */
+#include <math.h>
+
+#include "source/formula/expression.h"
+#include "source/words.h"
+
+static const double PI = 3.14159265358979323846;
+static const double FAR = 25; /* cosh is half an exponential in doubles; erfc is near its smallest value */
+
+static double low_of(vndf_jet x)
+{
+    return vndf_interval_low(x.at[0]);
+}
+
+static double high_of(vndf_jet x)
+{
+    return vndf_interval_high(x.at[0]);
+}
+
+/* A function that rises, from its bounds at the two ends. */
+static vndf_interval rising(vndf_interval (*at)(vndf_interval), vndf_interval x)
+{
+    return (vndf_interval){at((vndf_interval){x.low, x.low}).low, at((vndf_interval){x.high, x.high}).high};
+}
+
+static vndf_interval rising_in_library(double (*f)(double), vndf_jet x, double least, double most)
+{
+    double low = low_of(x), high = high_of(x);
+    if (low > most || high < least)
+        return vndf_interval_all();
+    return vndf_interval_of_library(f(fmax(low, least)), f(fmin(high, most)));
+}
+
+static vndf_jet reciprocal(vndf_jet x)
+{
+    return vndf_jet_quotient(vndf_jet_number(1), x);
+}
+
+/* ---- logarithm and root ---- */
+
+static vndf_interval log1p_at(vndf_interval x)
+{
+    double low = vndf_interval_low(x);
+    if (low > 1)
+        return vndf_interval_log(vndf_interval_sum(vndf_interval_from(1, 1), x));
+    return low < -1 ? vndf_interval_from(-HUGE_VAL, -HUGE_VAL) : vndf_interval_of_library(log1p(low), log1p(low));
+}
+
+static vndf_jet log1p_of(vndf_jet x)
+{
+    vndf_jet sum = vndf_jet_sum(vndf_jet_number(1), x);
+    vndf_interval y = high_of(x) < -1 ? vndf_interval_all() : rising(log1p_at, x.at[0]);
+    return sum.at[0].low.m > 0 ? vndf_jet_integral(y, x, reciprocal(sum)) : vndf_jet_value(y, x);
+}
+
+static vndf_jet sqrt_of(vndf_jet x)
+{
+    return vndf_jet_power(x, 0.5);
+}
+
+/* ---- circular and hyperbolic functions ---- */
+
+/* Whether place + n period lies in [low, high] for some n, or nearly. */
+static int meets(double low, double high, double place, double period)
+{
+    double margin = 1e-15 * (1 + fabs(low) + fabs(high));
+    return floor((high + margin - place) / period) >= ceil((low - margin - place) / period);
+}
+
+/* sin and cos: 1 at top + 2 pi n, -1 half a turn later. */
+static vndf_interval wave(double (*f)(double), vndf_jet x, double top)
+{
+    double low = low_of(x), high = high_of(x);
+    if (!(high - low < 2 * PI) || fabs(low) > 1e9 || fabs(high) > 1e9)
+        return vndf_interval_from(-1, 1);
+    double a = f(low), b = f(high);
+    vndf_interval y = vndf_interval_of_library(fmin(a, b), fmax(a, b));
+    double least = vndf_interval_low(y), most = vndf_interval_high(y);
+    return vndf_interval_from(meets(low, high, top + PI, 2 * PI) ? -1 : fmax(least, -1),
+                              meets(low, high, top, 2 * PI) ? 1 : fmin(most, 1));
+}
+
+static vndf_jet sin_of(vndf_jet x)
+{
+    return vndf_jet_wave(x, wave(sin, x, PI / 2), wave(cos, x, 0), -1);
+}
+
+static vndf_jet cos_of(vndf_jet x)
+{
+    return vndf_jet_wave(x, wave(cos, x, 0), vndf_interval_negative(wave(sin, x, PI / 2)), -1);
+}
+
+static vndf_jet tan_of(vndf_jet x)
+{
+    double low = low_of(x), high = high_of(x);
+    int pole = !(high - low < PI) || fabs(low) > 1e9 || fabs(high) > 1e9 || meets(low, high, PI / 2, PI);
+    vndf_interval y = pole ? vndf_interval_all() : vndf_interval_of_library(tan(low), tan(high));
+    return vndf_jet_integral(y, x, vndf_jet_power(cos_of(x), -2));
+}
+
+/* (1 + sign x^2)^p. */
+static vndf_jet one_and_square(vndf_jet x, int sign, double p)
+{
+    vndf_jet square = vndf_jet_power(x, 2), one = vndf_jet_number(1);
+    return vndf_jet_power(sign > 0 ? vndf_jet_sum(one, square) : vndf_jet_difference(one, square), p);
+}
+
+static vndf_jet asin_of(vndf_jet x)
+{
+    return vndf_jet_integral(rising_in_library(asin, x, -1, 1), x, one_and_square(x, -1, -0.5));
+}
+
+static double acos_of_negative(double x)
+{
+    return acos(-x);
+}
+
+static vndf_jet acos_of(vndf_jet x)
+{
+    vndf_interval y = rising_in_library(acos_of_negative, vndf_jet_negative(x), -1, 1);
+    return vndf_jet_integral(y, x, vndf_jet_negative(one_and_square(x, -1, -0.5)));
+}
+
+static vndf_jet atan_of(vndf_jet x)
+{
+    return vndf_jet_integral(rising_in_library(atan, x, -HUGE_VAL, HUGE_VAL), x, one_and_square(x, 1, -1));
+}
+
+/* Half of exp(x) + sign exp(-x). */
+static vndf_interval half_exps(vndf_interval x, double sign)
+{
+    vndf_interval up = vndf_interval_exp(x), down = vndf_interval_exp(vndf_interval_negative(x));
+    return vndf_interval_scaled(vndf_interval_sum(up, vndf_interval_scaled(down, sign)), 0.5);
+}
+
+static vndf_interval sinh_at(vndf_interval x)
+{
+    double d = vndf_interval_low(x);
+    return fabs(d) < FAR ? vndf_interval_of_library(sinh(d), sinh(d)) : half_exps(x, -1);
+}
+
+static vndf_interval cosh_at(vndf_interval x)
+{
+    double d = vndf_interval_low(x);
+    return fabs(d) < FAR ? vndf_interval_of_library(cosh(d), cosh(d)) : half_exps(x, 1);
+}
+
+static vndf_jet sinh_of(vndf_jet x)
+{
+    return vndf_jet_wave(x, rising(sinh_at, x.at[0]), rising(cosh_at, vndf_interval_size(x.at[0])), 1);
+}
+
+static vndf_jet cosh_of(vndf_jet x)
+{
+    return vndf_jet_wave(x, rising(cosh_at, vndf_interval_size(x.at[0])), rising(sinh_at, x.at[0]), 1);
+}
+
+/* A function that rises from -1 to 1, and is 1 in doubles from x = full on. There the interval has no width, so
+ * that the difference of two such functions vanishes. */
+static vndf_interval saturating(double (*f)(double), vndf_jet x, double full)
+{
+    double low = low_of(x), high = high_of(x);
+    vndf_interval y = vndf_interval_of_library(f(low), f(high));
+    if (fabs(low) >= full)
+        y.low.m = low < 0 ? -1 : 1;
+    if (fabs(high) >= full)
+        y.high.m = high < 0 ? -1 : 1;
+    return y;
+}
+
+/* 1 - tanh^2 would lose its digits. */
+static vndf_jet tanh_of(vndf_jet x)
+{
+    return vndf_jet_integral(saturating(tanh, x, 20), x, vndf_jet_power(cosh_of(x), -2));
+}
+
+/* ---- the error function ---- */
+
+/* factor exp(-x^2), factor = 2/sqrt(pi) but for its sign. */
+static vndf_jet bell(vndf_jet x, double sign)
+{
+    vndf_interval factor = vndf_interval_scaled(vndf_interval_from(1.1283791670955125, 1.1283791670955127), sign);
+    return vndf_jet_product(vndf_jet_exp(vndf_jet_negative(vndf_jet_power(x, 2))), vndf_jet_constant(factor));
+}
+
+static vndf_jet erf_of(vndf_jet x)
+{
+    return vndf_jet_integral(saturating(erf, x, 6), x, bell(x, 1));
+}
+
+/* erfc(-x), which rises: exp(-x^2)/(2 |x|) < erfc |x| < 0.6 exp(-x^2)/|x| for |x| >= 25. */
+static vndf_interval erfc_of_negative(vndf_interval x)
+{
+    double d = vndf_interval_low(x);
+    if (d > -FAR || isinf(d))
+        return vndf_interval_of_library(erfc(-d), erfc(-d));
+    vndf_interval bell = vndf_interval_exp(vndf_interval_negative(vndf_interval_product(x, x)));
+    vndf_interval part = vndf_interval_quotient(vndf_interval_from(0.5, 0.6), vndf_interval_negative(x));
+    return vndf_interval_product(bell, part);
+}
+
+static vndf_jet erfc_of(vndf_jet x)
+{
+    return vndf_jet_integral(rising(erfc_of_negative, vndf_interval_negative(x.at[0])), x, bell(x, -1));
+}
+
+/* ---- gamma ---- */
+
+static vndf_interval lgamma_between(double low, double high)
+{
+    static const double place = 1.4616321449683623, least = -0.12148629053584961, error = 3e-15;
+    if (!(low > 0)) /* poles, unless x is a single number */
+        return low == high && low != floor(low) ? vndf_interval_of_library(lgamma(low), lgamma(low))
+                                                : vndf_interval_all();
+    double a = lgamma(low), b = lgamma(high), bottom = low <= place && high >= place ? least : fmin(a, b);
+    return vndf_interval_of_library(bottom - error, fmax(a, b) + error);
+}
+
+/* Derivatives 1 to 3 of lgamma, n from 0 to 2: by the recurrence up to 20, from where the next terms of the series are
+ * below a relative 1e-14. */
+static double polygamma(int n, double x)
+{
+    double sum = 0;
+    for (; x < 20; x++)
+        sum += n == 0 ? -1 / x : n == 1 ? 1 / (x * x) : -2 / (x * x * x);
+    double y = 1 / (x * x);
+    if (n == 0)
+        return sum + log(x) - 0.5 / x - y * (1.0 / 12 - y * (1.0 / 120 - y * (1.0 / 252 - y / 240)));
+    if (n == 1)
+        return sum + 1 / x + y * (0.5 + 1 / x * (1.0 / 6 - y * (1.0 / 30 - y * (1.0 / 42 - y / 30))));
+    return sum - y * (1 + 1 / x + y * (0.5 - y * (1.0 / 6 - y * (1.0 / 6 - y * 0.3))));
+}
+
+static vndf_interval polygamma_between(int n, double low, double high)
+{
+    double a = polygamma(n, low), b = polygamma(n, high), error = 1e-12 + 1e-12 * fmax(fabs(a), fabs(b));
+    return vndf_interval_from(fmin(a, b) - error, fmax(a, b) + error);
+}
+
+/* Its derivative is digamma, whose own is polygamma 1: of that the bounds of the third derivative are the last needed.
+ */
+static vndf_jet lgamma_of(vndf_jet x)
+{
+    double low = low_of(x), high = high_of(x);
+    vndf_interval y = lgamma_between(low, high);
+    if (x.constant || !(low > 0))
+        return vndf_jet_value(y, x);
+    vndf_jet third = vndf_jet_value(polygamma_between(2, low, high), x);
+    vndf_jet second = vndf_jet_integral(polygamma_between(1, low, high), x, third);
+    return vndf_jet_integral(y, x, vndf_jet_integral(polygamma_between(0, low, high), x, second));
+}
+
+static vndf_jet gamma_of(vndf_jet x)
+{
+    double value = tgamma(low_of(x)), error = 1e-13 * fabs(value);
+    if (x.at[0].low.m > 0)
+        return vndf_jet_exp(lgamma_of(x));
+    int known = vndf_jet_is_number(x) && isfinite(value);
+    return vndf_jet_value(known ? vndf_interval_from(value - error, value + error) : vndf_interval_all(), x);
+}
+
+/* ---- kinks and jumps ---- */
+
+static double step(double x)
+{
+    return isnan(x) ? x : x >= 0;
+}
+
+static double smaller(double x, double y)
+{
+    return isnan(x) || x < y ? x : y;
+}
+
+static double larger(double x, double y)
+{
+    return isnan(x) || x > y ? x : y;
+}
+
+static vndf_jet step_of(vndf_jet x)
+{
+    if (x.at[0].low.m >= 0 || x.at[0].high.m < 0)
+        return vndf_jet_number(x.at[0].low.m >= 0);
+    return vndf_jet_value(vndf_interval_from(0, 1), x);
+}
+
+static vndf_jet smaller_of(vndf_jet x, vndf_jet y)
+{
+    return vndf_jet_negative(vndf_jet_max(vndf_jet_negative(x), vndf_jet_negative(y)));
+}
+
+static vndf_jet size_of(vndf_jet x)
+{
+    return vndf_jet_max(x, vndf_jet_negative(x));
+}
+
+/* ---- the list ---- */
+
+static const vndf_function functions[] = {
+    {"exp", exp, NULL, VNDF_KINK_NONE, vndf_jet_exp, NULL},
+    {"log", log, NULL, VNDF_KINK_NONE, vndf_jet_log, NULL},
+    {"log1p", log1p, NULL, VNDF_KINK_NONE, log1p_of, NULL},
+    {"sqrt", sqrt, NULL, VNDF_KINK_NONE, sqrt_of, NULL},
+    {"sin", sin, NULL, VNDF_KINK_NONE, sin_of, NULL},
+    {"cos", cos, NULL, VNDF_KINK_NONE, cos_of, NULL},
+    {"tan", tan, NULL, VNDF_KINK_NONE, tan_of, NULL},
+    {"asin", asin, NULL, VNDF_KINK_NONE, asin_of, NULL},
+    {"acos", acos, NULL, VNDF_KINK_NONE, acos_of, NULL},
+    {"atan", atan, NULL, VNDF_KINK_NONE, atan_of, NULL},
+    {"sinh", sinh, NULL, VNDF_KINK_NONE, sinh_of, NULL},
+    {"cosh", cosh, NULL, VNDF_KINK_NONE, cosh_of, NULL},
+    {"tanh", tanh, NULL, VNDF_KINK_NONE, tanh_of, NULL},
+    {"erf", erf, NULL, VNDF_KINK_NONE, erf_of, NULL},
+    {"erfc", erfc, NULL, VNDF_KINK_NONE, erfc_of, NULL},
+    {"lgamma", lgamma, NULL, VNDF_KINK_NONE, lgamma_of, NULL},
+    {"gamma", tgamma, NULL, VNDF_KINK_NONE, gamma_of, NULL},
+    {"abs", fabs, NULL, VNDF_KINK_ZERO, size_of, NULL},
+    {"min", NULL, smaller, VNDF_KINK_EQUAL, NULL, smaller_of},
+    {"max", NULL, larger, VNDF_KINK_EQUAL, NULL, vndf_jet_max},
+    {"pow", NULL, pow, VNDF_KINK_NONE, NULL, vndf_jet_pow},
+    {"step", step, NULL, VNDF_KINK_ZERO, step_of, NULL},
+};
+
+const vndf_function *vndf_function_at(size_t index)
+{
+    return index < sizeof functions / sizeof *functions ? &functions[index] : NULL;
+}
+
+const vndf_function *vndf_function_find(const char *name, size_t size)
+{
+    for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+        if (vndf_is_word(name, size, functions[i].name))
+            return &functions[i];
+    return NULL;
+}

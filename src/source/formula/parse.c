@@ -1,0 +1,376 @@
+/* The parser of formulas: one function for each rule of the grammar in expression.h, each emitting its
+ * operands and then its operation. A rule returns 0 once an error has been reported; all callers pass it on. */
+#include "source/formula/expression.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/error.h"
+#include "source/words.h"
+
+typedef struct parser {
+    const char *text;
+    size_t length, at; /* at: the first character that has not been read */
+    size_t depth;      /* rules that are open around this one */
+    size_t stack;      /* operands on the stack of the program so far */
+    const vndf_names *names;
+    unsigned char used[VNDF_LIMIT_PARAMETERS];
+    vndf_expression *expression;
+    vndf_error *error;
+} parser;
+
+static int sum(parser *p);
+static int sign(parser *p);
+
+/* ---- text ------------------------------------------------------------------------------------- */
+
+static int is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
+}
+
+static char peek(parser *p)
+{
+    while (p->at < p->length && is_blank(p->text[p->at]))
+        p->at++;
+    return p->at < p->length ? p->text[p->at] : '\0';
+}
+
+static int is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+static int is_digit(char c)
+{
+    return c >= '0' && c <= '9';
+}
+
+static size_t name_length(const char *text, size_t size)
+{
+    size_t count = 0;
+    while (count < size && (is_letter(text[count]) || (count > 0 && is_digit(text[count]))))
+        count++;
+    return count;
+}
+
+/* "column 7: 'x' ..." or "column 7: the end ..." */
+static int unexpected(parser *p, const char *wanted)
+{
+    char excerpt[VNDF_EXCERPT];
+    char c = peek(p);
+    if (c == '\0')
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the expression ends here; %s", p->at + 1, wanted);
+    else
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s", p->at + 1,
+                  vndf_excerpt(excerpt, &p->text[p->at], 1), wanted);
+    return 0;
+}
+
+/* The same where two operands are side by side: "an operator ... would be right; a product is written 3*r". */
+static int unexpected_operand(parser *p, const char *wanted)
+{
+    char text[160];
+    size_t end = peek(p) ? p->at : p->length, start, next = name_length(p->text + p->at, p->length - p->at);
+    if (next == 0 && !is_digit(peek(p)) && peek(p) != '(')
+        return unexpected(p, wanted);
+    while (end > 0 && is_blank(p->text[end - 1]))
+        end--;
+    for (start = end; start > 0 && (is_letter(p->text[start - 1]) || is_digit(p->text[start - 1])); start--)
+        ;
+    size_t first = end - start;
+    if (first > 0 && first <= 20 && next > 0 && next <= 20)
+        snprintf(text, sizeof text, "%s; a product is written %.*s*%.*s", wanted, (int)first, p->text + start,
+                 (int)next, p->text + p->at);
+    else
+        snprintf(text, sizeof text, "%s; a product is written with *", wanted);
+    return unexpected(p, text);
+}
+
+/* ---- output ----------------------------------------------------------------------------------- */
+
+/* Every instruction comes from a character of its own, so the program cannot outgrow the text. */
+static int emit(parser *p, vndf_instruction instruction, int change)
+{
+    p->stack = (size_t)((long)p->stack + change);
+    if (p->stack > VNDF_EXPRESSION_STACK) {
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: too many operands wait here; nest less", p->at + 1);
+        return 0;
+    }
+    p->expression->program[p->expression->count++] = instruction;
+    return 1;
+}
+
+static int emit_operation(parser *p, vndf_operation operation, int change)
+{
+    return emit(p, (vndf_instruction){operation, 0, 0, NULL}, change);
+}
+
+static int emit_number(parser *p, double value)
+{
+    return emit(p, (vndf_instruction){VNDF_PUSH_NUMBER, 0, value, NULL}, 1);
+}
+
+static int enter(parser *p)
+{
+    if (++p->depth <= VNDF_LIMIT_EXPRESSION_DEPTH)
+        return 1;
+    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+              "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
+              VNDF_LIMIT_EXPRESSION_DEPTH);
+    return 0;
+}
+
+/* ---- the grammar ------------------------------------------------------------------------------ */
+
+static int number(parser *p)
+{
+    double value;
+    size_t size = vndf_number_read(p->text + p->at, p->length - p->at, &value);
+    if (size == 0)
+        return unexpected(p, "a number has digits, like 0.5 or 1e-3");
+    if (isinf(value)) {
+        char excerpt[VNDF_EXCERPT];
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double", p->at + 1,
+                  vndf_excerpt(excerpt, p->text + p->at, size));
+        return 0;
+    }
+    p->at += size;
+    return emit_number(p, value);
+}
+
+/* The known name of this index: variables, parameters, pi, functions; NULL past the last. */
+static const char *known_name(const vndf_names *n, size_t i)
+{
+    if (i < n->variable_count)
+        return n->variables[i];
+    i -= n->variable_count;
+    if (i < n->parameter_count)
+        return n->parameters[i].name;
+    i -= n->parameter_count;
+    const vndf_function *function = i > 0 ? vndf_function_at(i - 1) : NULL;
+    return i == 0 ? "pi" : function ? function->name : NULL;
+}
+
+static int unknown_name(parser *p, size_t size)
+{
+    char excerpt[VNDF_EXCERPT], known[320] = "", functions[160] = "", hint[VNDF_LIMIT_PARAMETER_NAME + 32] = "";
+    size_t least = vndf_word_slip(size), first_function = p->names->variable_count + p->names->parameter_count + 1;
+    const char *name, *text = p->text + p->at;
+    for (size_t i = 0; (name = known_name(p->names, i)) != NULL; i++) {
+        char *list = i < first_function ? known : functions, *end = list + strlen(list);
+        size_t room = i < first_function ? sizeof known : sizeof functions;
+        if (vndf_word_is_nearer(text, size, name, &least))
+            snprintf(hint, sizeof hint, "did you mean '%s'? ", name);
+        snprintf(end, room - strlen(list), "%s%s", end == list ? "" : i < first_function ? ", " : " ", name);
+    }
+    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+              "column %zu: unknown name '%s'; %sknown are %s, and with parentheses %s", p->at + 1,
+              vndf_excerpt(excerpt, text, size), hint, known, functions);
+    return 0;
+}
+
+static int name(parser *p, size_t size)
+{
+    const char *known, *text = p->text + p->at;
+    const vndf_names *n = p->names;
+    size_t i = 0;
+    while ((known = known_name(n, i)) != NULL && !vndf_is_word(text, size, known))
+        i++;
+    if (!known)
+        return unknown_name(p, size);
+    p->at += size;
+    if (i < n->variable_count)
+        return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
+    i -= n->variable_count;
+    if (i < n->parameter_count) {
+        p->used[i] = 1;
+        return emit_number(p, n->parameters[i].value);
+    }
+    if (i == n->parameter_count)
+        return emit_number(p, 3.14159265358979323846);
+    return unexpected(p, "the function before it needs its argument in parentheses");
+}
+
+static int close_parenthesis(parser *p, size_t opened)
+{
+    char wanted[80];
+    snprintf(wanted, sizeof wanted, "an operator, or ')' for the '(' of column %zu, would be right", opened + 1);
+    if (peek(p) != ')')
+        return unexpected_operand(p, wanted);
+    p->at++;
+    p->depth--;
+    return 1;
+}
+
+static int name_or_call(parser *p)
+{
+    size_t start = p->at, size = name_length(p->text + start, p->length - start);
+    const vndf_function *function = vndf_function_find(p->text + start, size);
+    p->at += size;
+    int is_call = peek(p) == '(';
+    size_t open = p->at;
+    if (!is_call || !function) {
+        p->at = start;
+        return name(p, size) &&
+               (!is_call || unexpected(p, "the name before it is no function; a product is written with *"));
+    }
+    p->at++;
+    if (!enter(p) || !sum(p))
+        return 0;
+    if (function->one && peek(p) == ',')
+        return unexpected(p, "this function takes one argument");
+    if (function->two) {
+        if (peek(p) != ',')
+            return unexpected(p, "min, max and pow take two arguments, separated by a comma");
+        p->at++;
+        if (!sum(p))
+            return 0;
+    }
+    return close_parenthesis(p, open) &&
+           emit(p, (vndf_instruction){VNDF_CALL, 0, 0, function}, function->two ? -1 : 0);
+}
+
+static int primary(parser *p)
+{
+    char c = peek(p);
+    size_t opened = p->at;
+    if (is_digit(c) || c == '.')
+        return number(p);
+    if (is_letter(c))
+        return name_or_call(p);
+    if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*')
+        return unexpected(p, "a power is written with ^, as in r^2");
+    if (c != '(')
+        return unexpected(p, "a number, a name or '(' would be right");
+    p->at++;
+    return enter(p) && sum(p) && close_parenthesis(p, opened);
+}
+
+/* Behind a sign or ^. */
+static int inner_sign(parser *p)
+{
+    p->at++;
+    if (!enter(p) || !sign(p))
+        return 0;
+    p->depth--;
+    return 1;
+}
+
+static int power(parser *p)
+{
+    if (!primary(p))
+        return 0;
+    if (peek(p) != '^')
+        return 1;
+    return inner_sign(p) && emit_operation(p, VNDF_POWER, -1);
+}
+
+static int sign(parser *p)
+{
+    char c = peek(p);
+    if (c != '-' && c != '+')
+        return power(p);
+    return inner_sign(p) && (c == '+' || emit_operation(p, VNDF_NEGATE, 0));
+}
+
+/* Operands between which one of two signs stands. */
+static int chain(parser *p, int (*operand)(parser *), const char *signs, vndf_operation first,
+                 vndf_operation second)
+{
+    if (!operand(p))
+        return 0;
+    for (char c; (c = peek(p)) == signs[0] || c == signs[1];) {
+        p->at++;
+        if (!operand(p) || !emit_operation(p, c == signs[0] ? first : second, -1))
+            return 0;
+    }
+    return 1;
+}
+
+static int product(parser *p)
+{
+    return chain(p, sign, "*/", VNDF_MULTIPLY, VNDF_DIVIDE);
+}
+
+static int sum(parser *p)
+{
+    return chain(p, product, "+-", VNDF_ADD, VNDF_SUBTRACT);
+}
+
+/* ---- the whole -------------------------------------------------------------------------------- */
+
+/* Whether a variable, a parameter before it or pi has the name of this parameter. */
+static int is_taken(const vndf_names *names, size_t parameter)
+{
+    const char *known, *text = names->parameters[parameter].name;
+    for (size_t i = 0; i < names->variable_count + parameter; i++)
+        if ((known = known_name(names, i)) != NULL && strcmp(text, known) == 0)
+            return 1;
+    return strcmp(text, "pi") == 0;
+}
+
+static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    if (names->parameter_count > VNDF_LIMIT_PARAMETERS)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu parameters; at most %d are possible",
+                         names->parameter_count, VNDF_LIMIT_PARAMETERS);
+    if (names->parameter_count > 0 && !names->parameters)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameters is NULL but their count is not 0");
+    for (size_t i = 0; i < names->parameter_count; i++) {
+        const char *text = names->parameters[i].name ? names->parameters[i].name : "";
+        size_t size = strlen(text);
+        vndf_excerpt(excerpt, text, size);
+        if (size == 0 || size > VNDF_LIMIT_PARAMETER_NAME || name_length(text, size) != size)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                             "parameter '%s': a name is a letter or _, then letters, digits or _; at most %d",
+                             excerpt, VNDF_LIMIT_PARAMETER_NAME);
+        if (is_taken(names, i))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
+                             excerpt);
+        if (!isfinite(names->parameters[i].value))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s' is %g; a finite number is needed",
+                             excerpt, names->parameters[i].value);
+    }
+    return VNDF_OK;
+}
+
+static vndf_status check_use(const parser *p)
+{
+    char excerpt[VNDF_EXCERPT];
+    for (size_t i = 0; i < p->names->parameter_count; i++)
+        if (!p->used[i])
+            return vndf_fail(p->error, VNDF_ERROR_ARGUMENT, "parameter '%s': the formula '%s' has no '%s'",
+                             p->names->parameters[i].name, vndf_excerpt(excerpt, p->text, p->length),
+                             p->names->parameters[i].name);
+    return VNDF_OK;
+}
+
+vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
+                                  vndf_error *error)
+{
+    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, {0}, expression, error};
+    *expression = (vndf_expression){NULL, 0};
+    if (!text)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");
+    if (p.length > VNDF_LIMIT_EXPRESSION_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the expression has %zu characters; at most %d are possible",
+                         p.length, VNDF_LIMIT_EXPRESSION_LENGTH);
+    vndf_status status = check_parameters(names, error);
+    if (status != VNDF_OK)
+        return status;
+    expression->program = malloc((p.length + 1) * sizeof *expression->program);
+    if (!expression->program)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for an expression of %zu characters", p.length);
+    if (sum(&p) &&
+        (peek(&p) == '\0' || unexpected_operand(&p, "an operator (+ - * / ^) or the end would be right")))
+        status = check_use(&p);
+    else
+        status = VNDF_ERROR_SYNTAX;
+    if (status != VNDF_OK)
+        vndf_expression_free(expression);
+    return status;
+}

@@ -1,0 +1,126 @@
+# `vndf bench` and `vndf bench effects`: the rows that are asked for and no others, CSV, JSON and Markdown of one shape,
+# refusals. Times themselves are not judged; few seconds make as few turns as there may be.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+# refuses(TEXT WORDS...): status 2 and this complaint
+macro(refuses text)
+    run(2 ${ARGN})
+    has(errors "${text}")
+endmacro()
+
+# counts(TEXT CHARACTER COUNT): outside quotes, in every line that begins with PREFIX
+function(counts what lines prefix character wanted)
+    foreach(line IN LISTS ${lines})
+        if(line MATCHES "^${prefix}")
+            string(REGEX REPLACE "\"[^\"]*\"" "text" plain "${line}")
+            string(REGEX MATCHALL "${character}" found "${plain}")
+            list(LENGTH found count)
+            if(NOT count EQUAL wanted)
+                message(SEND_ERROR "${what}: ${count}, not ${wanted}, in ${line}")
+            endif()
+        endif()
+    endforeach()
+endfunction()
+
+# ---- refusals -----------------------------------------------------------------------------------
+
+set(command_words bench)
+refuses("--seconds" --seconds 0)
+refuses("vndf bench: no method, distribution or instruction set has 'no-such-method' in its name" --only no-such-method)
+refuses("more than one of --ndf, --slope, --csv and --family" --family ggx --slope "exp(-r)")
+refuses("vndf bench: " --family nonsense --seconds 0.1)
+refuses("--set is for --ndf and --slope" --family ggx --set a=3)
+refuses("missing.csv" --csv missing.csv)
+refuses("'ggx' is not expected" ggx)
+refuses("names 'a.csv' twice" -o a.csv -o a.csv)
+refuses("no-folder/a.csv" --only ggx --seconds 0.1 -o no-folder/a.csv)
+set(command_words bench effects)
+refuses("--theta" --theta 90)
+refuses("--alpha" --alpha 0.5,nonsense)
+refuses("vndf bench effects: no set of effects, distribution or instruction set has 'no-such-effect'"
+    --distribution ggx --only no-such-effect)
+refuses("missing.vndf" --distribution missing.vndf)
+file(GLOB left ${OUT}/*)
+expect("refusals left ${left}" NOT left)
+
+# ---- the closed forms ---------------------------------------------------------------------------
+
+set(head "method,distribution,instructions,kind,alpha_x,alpha_y,theta,memory,file_bytes,moments,wrong,ns,ns_low,\
+ns_high,spread,shared_ns,eval_ns,pdf_ns,latency_ns,ratio,to_bare_ns,tv,tv_theta,tv_below,max_weight,stratified,\
+efficiency_60,efficiency_85,efficiency_light,bias_60,bias_85,mean,noise,lost,variance,efficiency")
+set(command_words bench)
+run(0 --only ggx --seconds 0.1 -o rows.csv --format md)
+expect("progress without a terminal: '${errors}'" NOT errors MATCHES ".")
+split("${output}" lines)
+counts("bars of Markdown" lines "[|]" "[|]" 17)
+file(READ ${OUT}/rows.csv csv)
+split("${csv}" rows)
+list(GET rows 0 caps)
+expect("head of the CSV: ${caps}" caps STREQUAL head)
+counts("commas of CSV" rows "" "," 35)
+list(GET rows 1 caps)
+expect("the yardstick's ratio to itself: ${caps}" caps MATCHES
+    "^\"spherical caps .2023.\",\"ggx\",scalar,published,,,,0,,,0,([^,]*,)([^,]*,)([^,]*,)([^,]*,)([^,]*,),,([^,]*,)1,")
+foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"
+        "GGX disc (2018) | scalar" "all normals (2007) | scalar"
+        "closed form | scalar" "closed form, batch | portable" "closed form: diagonal | scalar"
+        "closed form: affine | scalar" "closed form: two lobes | scalar" "closed form: affine, batch | portable"
+        "closed form: two lobes, batch | portable")
+    has(output "| ggx | ${method} |")
+endforeach()
+run(0 --only "GGX disc" --seconds 0.1 --json)
+expect("JSON: ${output}" output MATCHES "^.\n{\"method\": \"GGX disc .2018.\", \"distribution\": \"ggx\", .*\
+\"memory\": 0, \"file_bytes\": null, .*\"wrong\": 0, \"ns\": [0-9.e+]+, .*\"efficiency\": null}\n.\n$")
+run(0 --only "GGX disc" --seconds 0.1 -q)
+expect("-q prints ${output}" NOT output MATCHES ".")
+
+# ---- a distribution of one's own ----------------------------------------------------------------
+
+run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 -o -)
+foreach(instructions scalar portable) # bytes in memory, then of the file, which is smaller
+    expect("a table, ${instructions}: ${output}" output MATCHES
+        "--slope 'exp.-a.r.' --set a=3.,${instructions},table,,,,[0-9]+,(19|20)[0-9][0-9],4,0,")
+endforeach()
+expect("rows that were not asked for: ${output}" NOT output MATCHES "8 KiB|3 moments|caps|all normals")
+run(0 --slope "exp(-r)" --only "8 KiB, 4 moments" --seconds 0.1 -o -)
+foreach(row "table 8 KiB, 4 moments: two lobes\",\"--slope 'exp(-r)'\",scalar,call,"
+        "table 8 KiB, 4 moments\",\"student-t:2.5\",scalar,table,")
+    has(output "${row}")
+endforeach()
+run(0 --only beckmann --seconds 0.1)
+has(output "Newton on erf (2014)")
+has(output "latency")
+expect("rows that were not asked for: ${output}" NOT output MATCHES "student|GGX")
+
+# ---- effects ------------------------------------------------------------------------------------
+
+set(command_words bench effects)
+run(0 --distribution ggx --only masking --seconds 0.01)
+foreach(set "separable masking" "V-cavity masking" "no masking")
+    has(output "  ${set} ")
+endforeach()
+expect("rows that were not asked for: ${output}" NOT output MATCHES "\n  bare reflection|walk|both lobes")
+run(0 --distribution ggx --distribution beckmann --seconds 0.01 -o rows.csv --format md)
+split("${output}" lines)
+counts("bars of the costs" lines "[|] effects" "[|]" 8)
+counts("bars of the variances" lines "[|] distribution" "[|]" 12)
+file(READ ${OUT}/rows.csv csv)
+split("${csv}" rows)
+counts("commas of CSV" rows "" "," 35)
+list(LENGTH rows row_count)
+expect("${row_count} rows, not 110: a head, 31 sets of GGX, 30 of Beckmann, 24 of variance each" row_count EQUAL 110)
+expect("a row is wrong: ${csv}" NOT csv MATCHES ",effects,[^,]*,[^,]*,[^,]*,,,,1,")
+expect("bare reflection costs more than itself: ${csv}" csv MATCHES
+    "\n\"bare reflection\",\"ggx\",scalar,effects,0.5,0.5,,,,,0,\
+([^,]*,)([^,]*,)([^,]*,)([^,]*,)([^,]*,)([^,]*,)([^,]*,),,0,")
+has(output "| by hand, without the library |")
+has(output "| walk, both lobes |")
+has(output "| beckmann | bounded normals | 1 | 85 |")
+file(GLOB left RELATIVE ${OUT} ${OUT}/*)
+expect("left: ${left}" left STREQUAL "rows.csv")
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

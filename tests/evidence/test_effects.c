@@ -1,0 +1,137 @@
+/* What `vndf bench effects` compares is comparable, and what is wrong is noticed: bare reflection by hand has
+ * the mean weight of the library's (two means within 5 standard errors, fixed seeds); densities, values,
+ * weights, directions and lobes that are off fail verification; every set of every distribution passes it. */
+#include "evidence/evidence.h"
+#include "harness/test.h"
+
+static block b;
+
+static method method_of(const vndf_distribution *d, const char *set, float alpha)
+{
+    const vndf_surface surface = {d, alpha, alpha};
+    vndf_error error;
+    method m = method_effect(effect_find(set), &surface, &error);
+    TEST(m.each != NULL);
+    return m;
+}
+
+/* Verified, and its worth. */
+static int is_right(const method *m, size_t blocks, evidence_row *row)
+{
+    const block_law law = effect_law(((const effect_case *)m->state)->set, NAN);
+    return evidence_verify(m, &law, &b, 500) & worth_of_material(m, &law, 60, &b, blocks, row);
+}
+
+/* ---- yardsticks --------------------------------------------------------------------------------- */
+
+static void test_same_mean(const vndf_distribution *d, const char *by_hand)
+{
+    for (float alpha = 0.1f; alpha < 1; alpha += 0.4f) {
+        method hand = method_of(d, by_hand, alpha), bare = method_of(d, "bare reflection", alpha);
+        evidence_row x, y;
+        TEST(is_right(&hand, 16, &x) && is_right(&bare, 16, &y));
+        double noise = hypot(x.number[COL_NOISE], y.number[COL_NOISE]);
+        TEST(noise > 0 && noise < 0.01);
+        TEST_NEAR(x.number[COL_MEAN], y.number[COL_MEAN], 5 * noise);
+        TEST_NEAR(x.number[COL_LOST], y.number[COL_LOST], 0.01);
+        method_release(&hand);
+        method_release(&bare);
+    }
+}
+
+/* ---- what is wrong ------------------------------------------------------------------------------ */
+
+static method right;
+
+static void off_direction(const method *m, block *of, size_t first, size_t count)
+{
+    right.each(m, of, first, count);
+    of->out[first + 5].wo.x *= 1.001f;
+}
+
+static void off_lobe(const method *m, block *of, size_t first, size_t count)
+{
+    right.each(m, of, first, count);
+    of->out[first + 5].lobe = VNDF_LOBE_TRANSMISSION;
+}
+
+static void nan_weight(const method *m, block *of, size_t first, size_t count)
+{
+    right.each(m, of, first, count);
+    of->out[first + 5].weight[0] = NAN;
+}
+
+static void off_weight(const method *m, block *of, size_t first, size_t count)
+{
+    right.shared(m, of, first, count);
+    of->out[first + 5].weight[1] *= 1.001f;
+}
+
+static void off_value(const method *m, block *of, size_t first, size_t count)
+{
+    right.eval(m, of, first, count);
+    of->out[first + 5].weight[2] *= 1.001f;
+}
+
+static void off_density(const method *m, block *of, size_t first, size_t count)
+{
+    right.density(m, of, first, count);
+    of->out[first + 5].density *= 1.001f;
+}
+
+static void test_notices(void)
+{
+    const block_law law = effect_law(effect_find("conductor Fresnel"), NAN);
+    right = method_of(vndf_ggx(), "conductor Fresnel", 0.3f);
+    TEST(evidence_verify(&right, &law, &b, 500));
+    for (int defect = 0; defect < 6; defect++) {
+        method m = right;
+        m.each = defect == 0 ? off_direction : defect == 1 ? off_lobe : defect == 2 ? nan_weight : right.each;
+        m.shared = defect == 3 ? off_weight : right.shared;
+        m.eval = defect == 4 ? off_value : right.eval;
+        m.density = defect == 5 ? off_density : right.density;
+        TEST(!evidence_verify(&m, &law, &b, 500));
+    }
+    method_release(&right);
+}
+
+/* ---- every set ---------------------------------------------------------------------------------- */
+
+static void test_sets(const vndf_distribution *d)
+{
+    const int is_table = d != vndf_ggx() && d != vndf_beckmann();
+    for (size_t i = 0; i < effect_set_count; i++) {
+        const effect_set *set = &effect_sets[i];
+        if (set->kind == EFFECT_BY_CAPS && d != vndf_ggx())
+            continue;
+        evidence_row row;
+        method m = method_of(d, set->name, 0.5f);
+        if (!(TEST(is_right(&m, 4, &row)) & TEST(row.number[COL_MEAN] > 0 && row.number[COL_MEAN] < 2.25)))
+            fprintf(stderr, "  %s: mean %g\n", set->name, row.number[COL_MEAN]);
+        if (set->effects.normals == VNDF_NORMALS_BOUNDED)
+            TEST(row.number[COL_LOST] <= (is_table ? 0 : 0.06));
+        if (set->effects.lobes == VNDF_LOBES_REFLECTION && set->effects.normals != VNDF_NORMALS_ALL &&
+            set->effects.masking == VNDF_MASKING_HEIGHT_CORRELATED &&
+            set->effects.scattering < VNDF_SCATTERING_TURQUIN)
+            TEST_NEAR(fmax(row.number[COL_WEIGHT], 1), 1, is_table ? 0.3 : 1e-5);
+        method_release(&m);
+    }
+}
+
+int main(void)
+{
+    vndf_error error = {VNDF_OK, ""};
+    vndf_distribution *table = vndf_load(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", &error);
+    test_same_mean(vndf_ggx(), "by hand, without the library");
+    test_same_mean(vndf_ggx(), "by hand, over vndf.h");
+    test_same_mean(vndf_beckmann(), "by hand, over vndf.h");
+    test_notices();
+    test_sets(vndf_ggx());
+    test_sets(vndf_beckmann());
+    if (TEST(table != NULL)) {
+        test_same_mean(table, "by hand, over vndf.h");
+        test_sets(table);
+    }
+    vndf_free(table);
+    return test_done();
+}

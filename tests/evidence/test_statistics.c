@@ -1,0 +1,102 @@
+/* The p-values that decide tests are right: incomplete gamma, chi-square, Kolmogorov-Smirnov and Sidak
+ * against values computed with 30 digits, and against closed forms that hold for every argument. */
+#include "evidence/measure/statistics.h"
+#include "harness/test.h"
+
+typedef struct gamma_value {
+    double a, x, q;
+} gamma_value;
+
+/* Both methods and both sides of their border x = a + 1; small, middle and large a; deep tails. */
+static const gamma_value gamma_values[] = {
+    {0.5, 0.5, 0.31731050786291410283},
+    {1, 2, 0.13533528323661269189},
+    {2.5, 0.1, 0.99911386121118755739},
+    {5, 20, 0.000016944743930067383904},
+    {0.0009765625, 0.0009765625, 0.0061878407358445855596},
+    {19.9, 25, 0.12895435522699321498},
+    {20.1, 25, 0.13829991427154918504},
+    {100, 80, 0.98289168696486688583},
+    {4224.5, 4300, 0.12304896728607267242},
+    {4224.5, 4700, 8.1391804679296989983e-13},
+    {10000, 9000, 1.0},
+    {50, 600, 6.3906803836821079648e-188},
+};
+
+static void test_gamma_values(void)
+{
+    for (size_t i = 0; i < sizeof gamma_values / sizeof gamma_values[0]; i++)
+        TEST_RELATIVE(statistics_gamma_q(gamma_values[i].a, gamma_values[i].x), gamma_values[i].q, 1e-11);
+}
+
+/* Q(1, x) = e^-x, Q(1/2, x) = erfc(sqrt x), Q(a + 1, x) = Q(a, x) + x^a e^-x / Gamma(a + 1). */
+static void test_gamma_identities(void)
+{
+    for (double x = 0.01; x < 60; x *= 1.3) {
+        TEST_RELATIVE(statistics_gamma_q(1, x), exp(-x), 1e-12);
+        TEST_RELATIVE(statistics_gamma_q(0.5, x), erfc(sqrt(x)), 1e-11);
+        for (double a = 0.3; a < 100; a *= 1.7) {
+            double step = exp(a * log(x) - x - lgamma(a + 1));
+            TEST_NEAR(statistics_gamma_q(a + 1, x), statistics_gamma_q(a, x) + step, 1e-12);
+        }
+    }
+}
+
+static void test_gamma_borders(void)
+{
+    TEST(statistics_gamma_q(3, 0) == 1);
+    TEST(statistics_gamma_q(3, INFINITY) == 0);
+    TEST(isnan(statistics_gamma_q(0, 1)));
+    TEST(isnan(statistics_gamma_q(-1, 1)));
+    TEST(isnan(statistics_gamma_q(1, -1)));
+    TEST(isnan(statistics_gamma_q(NAN, 1)));
+    TEST(isnan(statistics_gamma_q(1, NAN)));
+}
+
+/* The first three are the 5% points that tables print. */
+static void test_chi_square(void)
+{
+    TEST_RELATIVE(statistics_chi_square_p(3.841458820694124, 1), 0.05, 1e-11);
+    TEST_RELATIVE(statistics_chi_square_p(18.307038053275146, 10), 0.05, 1e-11);
+    TEST_RELATIVE(statistics_chi_square_p(124.34211340400407, 100), 0.05, 1e-11);
+    TEST_RELATIVE(statistics_chi_square_p(8500, 8320), 0.082171579704439311121, 1e-10);
+    TEST_RELATIVE(statistics_chi_square_p(8900, 8320), 5.3883860246833240207e-6, 1e-10);
+    TEST(statistics_chi_square_p(0, 7) == 1);
+    TEST(statistics_chi_square_p(5, 0) == 1);
+}
+
+/* Stephens' argument is distance (sqrt n + 0.12 + 0.11/sqrt n); divided by it, the limit itself is tested. */
+static void test_kolmogorov(void)
+{
+    const size_t n = 100000000;
+    const double root = 1e4 + 0.12 + 0.11e-4;
+    TEST_NEAR(statistics_kolmogorov_p(0.3 / root, n), 0.99999069419866543337, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(0.5 / root, n), 0.96394524366487509439, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(0.828 / root, n), 0.49932962119380083636, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(1.1799 / root, n), 0.12351204971188672412, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(1.18 / root, n), 0.12345380942976567771, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(1.3581 / root, n), 0.049999630431667435753, 1e-9);
+    TEST_NEAR(statistics_kolmogorov_p(2.5 / root, n), 7.4533063441573416001e-6, 1e-14);
+    TEST(statistics_kolmogorov_p(0, 100) == 1);
+    TEST_NEAR(statistics_kolmogorov_p(1, 100), 0, 1e-12);
+    TEST_NEAR(statistics_kolmogorov_p(0.29408, 20), 0.05, 2e-3); /* the tabulated 5% point of n = 20 */
+}
+
+static void test_sidak(void)
+{
+    TEST_RELATIVE(statistics_sidak(0.01, 1), 0.01, 1e-14);
+    TEST_RELATIVE(statistics_sidak(0.01, 12), 0.00083717735912055952858, 1e-13);
+    TEST_RELATIVE(statistics_sidak(0.05, 1000), 0.00005129197890901780815, 1e-13);
+    TEST(statistics_sidak(0.01, 0) == 0.01);
+}
+
+int main(void)
+{
+    test_gamma_values();
+    test_gamma_identities();
+    test_gamma_borders();
+    test_chi_square();
+    test_kolmogorov();
+    test_sidak();
+    return test_done();
+}

@@ -1,0 +1,108 @@
+/* No input is too hard: every property of tools/evidence/measure/stress.h holds over its product of directions,
+ * roughnesses and uniform numbers and for random matrices and mean slopes, for every shipped table, the closed
+ * forms, and distributions that are pathological: jumps, a hole at the pole, a narrow ring, an unbounded peak, a
+ * tail at the edge of integrability, two scales a hundred apart, and a scale of 1e-9. more_stress takes the
+ * whole product, as `vndf check --hard` does, but of pathological ones every fifth view; stress takes every 19th
+ * and every 37th. With the name of a shipped table it looks at that one alone. */
+#include "harness/test.h"
+#include "evidence/measure/stress.h"
+#include "oracle/oracle.h"
+
+static const char *const pathological[] = {
+    "step(1-r)",       "exp(-r)*step(r-2)", "exp(-((r-1)/0.02)^2)",          "r^-1.5*exp(-r)",
+    "r^-1.75*exp(-r)", "(1+r*r)^-1.55",     "exp(-r*r)+1e4*exp(-(100*r)^2)", "exp(-1e9*r)"};
+
+static void print_point(const stress_point *at)
+{
+    const vndf_affine *m = &at->surface;
+    fprintf(stderr,
+            "    at matrix %.9g,%.9g,%.9g,%.9g mean %.9g,%.9g wi %.9g %.9g %.9g u %.9g %.9g wo %.9g %.9g %.9g\n",
+            (double)m->xx, (double)m->xy, (double)m->yx, (double)m->yy, (double)m->mean_x, (double)m->mean_y,
+            (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->u1, (double)at->u2, (double)at->wo.x,
+            (double)at->wo.y, (double)at->wo.z);
+}
+
+static void test_distribution(const vndf_distribution *d, const char *name, size_t every)
+{
+    if (!TEST(d != NULL))
+        return;
+    stress_result result =
+        stress_run(d, test_amount(37, every == 1 ? 19 : 37, 2 * every), test_amount(1000, 4000, 40000), 1);
+    fprintf(stderr, "%-50s %6lu bytes, %lu samples\n", name, (unsigned long)vndf_distribution_info(d).bytes,
+            (unsigned long)result.samples);
+    TEST(result.samples > 40000);
+    for (int id = 0; id < STRESS_COUNT; id++) {
+        const stress_finding *found = &result.found[id];
+        if (TEST(found->failed == 0) & TEST(found->checked > 0))
+            continue;
+        fprintf(stderr, "  %s: %lu of %lu fail, worst %g\n", stress_property_of((stress_id)id)->name,
+                (unsigned long)found->failed, (unsigned long)found->checked, found->worst);
+        print_point(&found->at);
+    }
+}
+
+static void test_shipped(const char *file)
+{
+    char path[8192];
+    vndf_error error = {VNDF_OK, ""};
+    snprintf(path, sizeof path, VNDF_SOURCE_DIR "/tables/%s", file);
+    vndf_distribution *table = vndf_load(path, &error);
+    test_distribution(table, file, 1);
+    vndf_free(table);
+}
+
+/* The first column of the manifest, below its head. */
+static void test_all_shipped(void)
+{
+    FILE *manifest = fopen(VNDF_SOURCE_DIR "/tables/manifest.csv", "r");
+    char line[4096];
+    int count = 0;
+    if (!TEST(manifest != NULL))
+        return;
+    while (fgets(line, sizeof line, manifest))
+        if (count++ > 0) {
+            line[strcspn(line, ",")] = '\0';
+            test_shipped(line);
+        }
+    fclose(manifest);
+    TEST(count > 10);
+}
+
+/* Each at one of two sizes, in a long run at both. */
+static void test_pathological(void)
+{
+    for (size_t i = 0; i < 2 * (sizeof pathological / sizeof *pathological); i++) {
+        vndf_distribution *table;
+        if (!test_long() && i / 2 % 2 != i % 2)
+            continue;
+        table = oracle_build_of(pathological[i / 2], i % 2 ? 2048 : 0, NULL, NULL);
+        test_distribution(table, pathological[i / 2], 5);
+        vndf_free(table);
+    }
+}
+
+/* What is wrong is counted, and the worst is kept: NaN is worse than any number. */
+static void test_notes(void)
+{
+    stress_result result = {0};
+    stress_point first = {.u1 = 1}, second = {.u1 = 2};
+    const stress_finding *found = &result.found[STRESS_G1];
+    TEST(stress_note(&result, STRESS_G1, 1e-7, &first) && found->failed == 0);
+    TEST(!stress_note(&result, STRESS_G1, 1e-4, &second) && found->failed == 1);
+    TEST(stress_note(&result, STRESS_G1, 0, &first) && found->worst == 1e-4 && found->at.u1 == 2);
+    TEST(!stress_note(&result, STRESS_G1, NAN, &first) && found->worst == INFINITY);
+}
+
+int main(int arguments, char **argument)
+{
+    test_notes();
+    if (arguments > 1) {
+        test_shipped(argument[1]);
+        return test_done();
+    }
+    test_distribution(vndf_ggx(), "closed ggx", 1);
+    test_distribution(vndf_beckmann(), "closed beckmann", 1);
+    test_pathological();
+    test_all_shipped();
+    return test_done();
+}

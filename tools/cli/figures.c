@@ -1,0 +1,217 @@
+#include "cli/figures.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "cli/files.h"
+#include "cli/output.h"
+#include "command.h"
+
+/* ---- figures, one after the other ---------------------------------------------------------------- */
+
+figures figures_begin(const figure_words *asked)
+{
+    figures f = {.file = stdout, .form = FIGURES_TEXT};
+    if (asked->quiet.count)
+        f.form = FIGURES_NONE;
+    else if (asked->json.count)
+        f.form = FIGURES_JSON;
+    return f;
+}
+
+void figures_json_text(FILE *file, const char *text)
+{
+    fputc('"', file);
+    for (; *text; text++) {
+        unsigned char letter = (unsigned char)*text;
+        if (letter < 0x20)
+            fprintf(file, "\\u%04x", letter);
+        else if (letter == '"' || letter == '\\')
+            fprintf(file, "\\%c", letter);
+        else
+            fputc(letter, file);
+    }
+    fputc('"', file);
+}
+
+/* What stands before a value. 0: nothing is printed. */
+static int put_name(figures *f, const char *name)
+{
+    const int is_first = f->in_object++ == 0;
+    if (f->form == FIGURES_JSON && f->list)
+        fprintf(f->file, "%s\"%s\": ", is_first ? "" : ", ", name);
+    else if (f->form == FIGURES_JSON)
+        fprintf(f->file, "%s\n  \"%s\": ", is_first ? "{" : ",", name);
+    else if (f->form == FIGURES_TEXT)
+        fprintf(f->file, f->list ? " %s " : "%s ", name);
+    return f->form != FIGURES_NONE;
+}
+
+static void put_end(figures *f)
+{
+    if (f->form == FIGURES_TEXT && !f->list)
+        fputc('\n', f->file);
+}
+
+void figures_text(figures *f, const char *name, const char *text)
+{
+    if (!put_name(f, name))
+        return;
+    if (f->form == FIGURES_JSON)
+        figures_json_text(f->file, text);
+    else
+        fputs(text, f->file);
+    put_end(f);
+}
+
+static void note_unit(figures *f, const char *name, const char *unit)
+{
+    for (int i = 0; i < f->units; i++)
+        if (f->unit[i].list == f->list && strcmp(f->unit[i].name, name) == 0)
+            return;
+    if (f->units < FIGURES_MAX)
+        f->unit[f->units++] = (struct figures_unit){f->list, name, unit};
+}
+
+void figures_number(figures *f, const char *name, int digits, double x, const char *unit)
+{
+    if (!put_name(f, name))
+        return;
+    if (f->form == FIGURES_JSON) {
+        fprintf(f->file, isfinite(x) ? "%.*g" : "null", digits, x);
+        note_unit(f, name, unit);
+    } else
+        fprintf(f->file, "%.*g %s", digits, x, unit);
+    put_end(f);
+}
+
+void figures_truth(figures *f, const char *name, int is)
+{
+    static const char *const said[2][2] = {{"no", "yes"}, {"false", "true"}};
+    if (!put_name(f, name))
+        return;
+    fputs(said[f->form == FIGURES_JSON][is != 0], f->file);
+    put_end(f);
+}
+
+void figures_list(figures *f, const char *name)
+{
+    if (f->form == FIGURES_JSON && put_name(f, name))
+        fputc('[', f->file);
+    f->list = name;
+    f->records = 0;
+}
+
+static void end_record(figures *f)
+{
+    if (f->records && f->form == FIGURES_JSON)
+        fputc('}', f->file);
+    else if (f->records && f->form == FIGURES_TEXT)
+        fputc('\n', f->file);
+}
+
+void figures_record(figures *f)
+{
+    end_record(f);
+    if (f->form == FIGURES_JSON)
+        fputs(f->records ? ",\n    {" : "\n    {", f->file);
+    else if (f->form == FIGURES_TEXT)
+        fputs(f->list, f->file);
+    f->records++;
+    f->in_object = 0;
+}
+
+void figures_list_end(figures *f)
+{
+    end_record(f);
+    if (f->form == FIGURES_JSON)
+        fputs(f->records ? "\n  ]" : "]", f->file);
+    f->list = NULL;
+    f->in_object = 1;
+}
+
+void figures_end(figures *f)
+{
+    if (f->form != FIGURES_JSON)
+        return;
+    fprintf(f->file, "%s\n  \"units\": {", f->in_object ? "," : "{");
+    for (int i = 0; i < f->units; i++)
+        fprintf(f->file, "%s\"%s%s%s\": \"%s\"", i ? ", " : "", f->unit[i].list ? f->unit[i].list : "",
+                f->unit[i].list ? "." : "", f->unit[i].name, f->unit[i].unit);
+    fputs("}\n}\n", f->file);
+}
+
+/* ---- rows ---------------------------------------------------------------------------------------- */
+
+static const char *const forms[] = {"text", "csv", "md", "json", NULL}; /* as figures_form has them */
+
+/* Of stdout; -1 after a complaint. */
+static int form_of_stdout(const char *command, const figure_words *given)
+{
+    const char *format = only_word(&given->format);
+    int form = FIGURES_TEXT;
+    for (size_t i = 0; i < given->files.count; i++)
+        if (output_is_stdout(given->files.item[i]))
+            form = FIGURES_CSV;
+    if (format)
+        form = output_form(command, "-", format, forms);
+    else if (given->json.count)
+        form = FIGURES_JSON;
+    return given->quiet.count && form >= 0 ? FIGURES_NONE : form;
+}
+
+/* -o - is said by form_of_stdout. */
+static const char *file_of(const figure_words *given, size_t i)
+{
+    return output_is_stdout(given->files.item[i]) ? NULL : given->files.item[i];
+}
+
+int rows_check(const char *command, const figure_words *given)
+{
+    if (form_of_stdout(command, given) < 0)
+        return 0;
+    if (given->json.count && given->format.count) {
+        complain(command, "--json and --format are given; --json is --format json");
+        return 0;
+    }
+    for (size_t i = 0; i < given->files.count; i++) {
+        output_file output;
+        const char *path = file_of(given, i);
+        if (!path)
+            continue;
+        if (output_form(command, path, NULL, forms + 1) < 0 || !output_open(&output, command, path))
+            return 0;
+        output_discard(&output);
+        for (size_t k = 0; k < i; k++)
+            if (file_of(given, k) && files_same(path, file_of(given, k))) {
+                complain(command, "-o names '%s' twice", path);
+                return 0;
+            }
+    }
+    return 1;
+}
+
+static int print_to(const char *command, const char *path, rows_printer *print, const void *rows,
+                    figures_form form)
+{
+    output_file output;
+    if (!output_open(&output, command, path))
+        return STATUS_USE;
+    return print(output.file, rows, form) ? output_commit(&output)
+                                          : output_give_up(&output, "no memory for the table");
+}
+
+int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows)
+{
+    int form = form_of_stdout(command, given);
+    int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, (figures_form)form);
+    for (size_t i = 0; i < given->files.count; i++) {
+        const char *path = file_of(given, i);
+        if (!path)
+            continue;
+        form = 1 + output_form(command, path, NULL, forms + 1);
+        int its = print_to(command, path, print, rows, (figures_form)form);
+        status = status == STATUS_GOOD ? its : status;
+    }
+    return status;
+}

@@ -1,0 +1,90 @@
+/* What commands print of what they found: named figures with units, as text or JSON (--json), or not at all (-q); and
+ * rows of figures, as text, CSV, Markdown or JSON, to stdout and to files. */
+#ifndef TOOLS_CLI_FIGURES_H
+#define TOOLS_CLI_FIGURES_H
+
+#include <stdio.h>
+
+#include "cli/arguments.h"
+
+typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
+
+/* The words of the options, which every command with figures has under these names. */
+typedef struct figure_words {
+    words json, quiet;   /* all */
+    words files, format; /* rows */
+} figure_words;
+
+#define FIGURES_OPTIONS(given)     \
+  {"--json", 0, 1, &(given).json}, \
+  {                                \
+    "-q", 0, 1, &(given).quiet     \
+  }
+#define FIGURES_HELP                                \
+  "  --json           prints the figures as JSON\n" \
+  "  -q               prints neither figures nor progress\n"
+
+/* ---- figures, one after the other ---- */
+
+enum { FIGURES_MAX = 96 };
+
+/* Names and units have to outlive it: literals. */
+typedef struct figures {
+    FILE *file;
+    figures_form form;
+    const char *list; /* the list that is open, or NULL */
+    int in_object;    /* figures that the object at hand has already */
+    int records;      /* of the list */
+    struct figures_unit {
+        const char *list, *name, *unit;
+    } unit[FIGURES_MAX]; /* for JSON, which has them at its end */
+    int units;
+} figures;
+
+/* Text, JSON or nothing, on stdout. */
+figures figures_begin(const figure_words *asked);
+
+void figures_text(figures *f, const char *name, const char *text);
+
+/* With this many digits; in JSON an infinity or NaN is null. */
+void figures_number(figures *f, const char *name, int digits, double x, const char *unit);
+
+/* "yes" or "no", in JSON true or false. */
+void figures_truth(figures *f, const char *name, int is);
+
+/* A list of records: each is a line of text that begins with the name of the list. */
+void figures_list(figures *f, const char *name);
+void figures_record(figures *f);
+void figures_list_end(figures *f);
+
+void figures_end(figures *f);
+
+/* Between quotes, as JSON has it; bytes that are no UTF-8 are the caller's. */
+void figures_json_text(FILE *file, const char *text);
+
+/* ---- rows ---- */
+
+enum { ROWS_FILES_MAX = 4 };
+
+#define ROWS_OPTIONS(given)                                          \
+  FIGURES_OPTIONS(given), {"-o", 1, ROWS_FILES_MAX, &(given).files}, \
+  {                                                                  \
+    "--format", 1, 1, &(given).format                                \
+  }
+#define ROWS_HELP                                                                                     \
+  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md; up to 4 times\n" \
+  "  --format NAME    of stdout: text, csv, md or json (default text; with -o - csv)\n"               \
+  "  --json           the same as --format json\n"                                                    \
+  "  -q               prints neither rows nor progress\n"
+
+/* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
+typedef int rows_printer(FILE *file, const void *rows, figures_form form);
+
+/* Whether the words go together and every file can be written, before what they will hold is measured. 1, or 0 after a
+ * complaint. */
+int rows_check(const char *command, const figure_words *given);
+
+/* Prints to stdout and to every file of -o; an exit status. */
+int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows);
+
+#endif

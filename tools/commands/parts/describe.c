@@ -1,0 +1,114 @@
+#include "commands/parts/describe.h"
+
+#include <math.h>
+
+/* The units of figures, as text and JSON name them. */
+static const char bytes[] = "B", mass[] = "of the mass", degrees[] = "degrees", relative[] = "relative";
+
+void describe_info(figures *f, const vndf_info *info)
+{
+    figures_text(f, "source", info->source);
+    figures_text(f, "tool", info->tool);
+    figures_number(f, "bytes", 9, (double)info->bytes, bytes);
+    figures_number(f, "memory", 9, (double)info->memory, bytes);
+    figures_number(f, "cells", 9, (double)info->cells, "intervals");
+    figures_number(f, "moments", 9, info->moments, "terms");
+    figures_number(f, "normalization", 17, info->normalization, "factor");
+    figures_number(f, "scale", 9, info->scale, "slope");
+}
+
+void describe_certificate(figures *f, const vndf_certificate *c)
+{
+    figures_number(f, "tv", 4, (double)c->tv, mass);
+    figures_number(f, "tv_theta", 6, (double)c->tv_theta, degrees);
+    figures_number(f, "tv_above", 4, (double)c->tv_above, mass);
+    figures_number(f, "tv_above_theta", 6, (double)c->tv_above_theta, degrees);
+    figures_number(f, "max_weight", 6, (double)c->max_weight, "ratio");
+    figures_truth(f, "weight_bounded", c->weight_bounded > 0);
+    figures_number(f, "area_error", 4, (double)c->area_error, relative);
+    figures_number(f, "consistency", 4, (double)c->consistency, mass);
+    figures_number(f, "ndf_error", 4, (double)c->ndf_error, relative);
+    figures_number(f, "hidden", 4, (double)c->hidden, mass);
+    figures_number(f, "finest", 4, (double)c->finest, "of the slope");
+    figures_number(f, "horizon_power", 4, (double)c->horizon_power, "power of cos(theta_m)");
+}
+
+/* The largest total variation of the tables of a family. */
+static double largest_tv(const vndf_family *family)
+{
+    double most = 0;
+    for (size_t i = 0; i < vndf_family_info(family).count; i++)
+        most = fmax(most, (double)vndf_distribution_info(vndf_family_distribution(family, i)).certificate.tv);
+    return most;
+}
+
+void describe_family(figures *f, const vndf_family *family)
+{
+    vndf_family_facts facts = vndf_family_info(family);
+    figures_text(f, "source", facts.source);
+    figures_text(f, "tool", facts.tool);
+    figures_number(f, "bytes", 9, (double)facts.bytes, bytes);
+    figures_number(f, "memory", 9, (double)facts.memory, bytes);
+    figures_number(f, "knots", 9, (double)facts.count, "tables");
+    figures_number(f, "low", 7, (double)facts.low, "parameter");
+    figures_number(f, "high", 7, (double)facts.high, "parameter");
+    figures_text(f, "linear_in", facts.reciprocal ? "1/p" : "p");
+    figures_number(f, "distance", 4, (double)facts.distance, mass);
+    figures_number(f, "grazing", 4, (double)facts.grazing, mass);
+    figures_number(f, "tables_tv", 4, largest_tv(family), mass);
+    figures_list(f, "knot");
+    for (size_t i = 0; i < facts.count; i++) {
+        vndf_info info = vndf_distribution_info(vndf_family_distribution(family, i));
+        figures_record(f);
+        figures_number(f, "at", 7, (double)vndf_family_parameter(family, i), "parameter");
+        figures_number(f, "bytes", 9, (double)info.bytes, bytes);
+        figures_number(f, "tv", 4, (double)info.certificate.tv, mass);
+        if (i + 1 < facts.count)
+            figures_number(f, "distance", 4, (double)vndf_family_distance(family, i), mass);
+    }
+    figures_list_end(f);
+}
+
+/* ---- verdicts ------------------------------------------------------------------------------------ */
+
+static const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
+
+int describe_verdict(const vndf_info *info, int by_default, char verdict[DESCRIBE_VERDICT])
+{
+    const double aim_above = 1e-3, aim_below = 3e-2;
+    const vndf_certificate *c = &info->certificate;
+    double above = (double)c->tv_above, below = (double)c->tv;
+    int good = 0, at = snprintf(verdict, DESCRIBE_VERDICT,
+                                "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; ", 100 * above,
+                                100 * below, (double)info->bytes / 1024);
+    char *more = verdict + at;
+    size_t room = DESCRIBE_VERDICT - (size_t)at;
+    if (!(above <= poor && below <= poor))
+        snprintf(more, room, "worth little at %.0f degrees: try a larger --max-bytes%s",
+                 (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
+                 !(above <= poor) && info->moments < 4 ? " or --moments 4" : "");
+    else if (by_default && !(above <= aim_above && below <= aim_below))
+        snprintf(more, room, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer", 100 * aim_above,
+                 100 * aim_below);
+    else if (c->finest > 0)
+        good = snprintf(more, room, "good to ship if no feature is narrower than %.2g of its slope",
+                        (double)c->finest);
+    else
+        good = snprintf(more, room, "good to ship");
+    return good > 0;
+}
+
+int describe_family_verdict(const vndf_family *family, char verdict[DESCRIBE_VERDICT])
+{
+    vndf_family_facts facts = vndf_family_info(family);
+    double distance = (double)facts.distance, tables = largest_tv(family);
+    int good = distance <= poor && tables <= poor;
+    snprintf(verdict, DESCRIBE_VERDICT,
+             "mixtures within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; "
+             "%.1f KiB; %s",
+             100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024,
+             good                ? "good to ship"
+             : !(tables <= poor) ? "tables are worth little: try a larger --max-bytes"
+                                 : "mixtures are worth little: try more --knots");
+    return good;
+}

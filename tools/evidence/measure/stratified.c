@@ -1,0 +1,128 @@
+#include "evidence/measure/stratified.h"
+
+#include <math.h>
+
+/* ---- points ---- */
+
+static uint32_t reverse(uint32_t x)
+{
+    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+    return x << 16 | x >> 16;
+}
+
+/* The second dimension; the first is the reversed index. Column k is v_k = v_(k-1) ^ (v_(k-1) >> 1). */
+static uint32_t second_dimension(uint32_t index)
+{
+    uint32_t x = 0;
+    for (uint32_t column = 0x80000000u; index; index >>= 1, column ^= column >> 1)
+        x ^= index & 1 ? column : 0;
+    return x;
+}
+
+/* A nested uniform scramble: in reversed bits each is flipped by a hash of those below it (Laine & Karras 2011,
+ * with the constants of Vegdahl). */
+static uint32_t scrambled(uint32_t x, uint32_t seed)
+{
+    x = reverse(x);
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return reverse(x);
+}
+
+static uint32_t hash(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2)
+{
+    *u1 = (float)(scrambled(reverse(index), hash(scramble)) >> 8) * 0x1p-24f;
+    *u2 = (float)(scrambled(second_dimension(index), hash(scramble ^ 0x5bd1e995u)) >> 8) * 0x1p-24f;
+}
+
+/* ---- light ---- */
+
+/* The small light stands where a mirror would see it, a little aside; its radius is that of the lobe. */
+static double light_from(stratified_light light, vndf_vec3 wi, double width, vndf_vec3 wo)
+{
+    double x = wo.x + wi.x - 0.3 * width, y = wo.y + wi.y - 0.2 * width, z = wo.z - wi.z;
+    if (!(wo.z > 0))
+        return 0;
+    if (light == STRATIFIED_BROAD)
+        return 0.3 + 0.7 * wo.z * wo.z + 0.2 * wo.x;
+    return 1 / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
+}
+
+static double reflected(const vndf_view *view, vndf_vec3 wi, stratified_light light, double width, float u1,
+                        float u2)
+{
+    float weight;
+    vndf_vec3 wm = vndf_sample_weight(view, u1, u2, NULL, &weight);
+    float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
+    vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+    return (double)weight * light_from(light, wi, width, wo);
+}
+
+/* Half the width of the lobe of what is mirrored: twice the median slope, at most a quarter turn. */
+static double width_of(const vndf_surface *surface)
+{
+    double scale = vndf_distribution_info(surface->distribution).scale;
+    return fmin(1, (scale > 0 ? scale : 1) * (double)surface->alpha_x);
+}
+
+double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_light light, size_t points,
+                        size_t scrambles, uint64_t seed)
+{
+    vndf_view view = vndf_view_from(surface, wi);
+    double sum = 0, squares = 0, n = (double)scrambles, width = width_of(surface);
+    for (size_t i = 0; i < scrambles; i++) {
+        double value = 0;
+        for (size_t j = 0; j < points; j++) {
+            float u1, u2;
+            stratified_point((uint32_t)j, hash((uint32_t)seed + (uint32_t)i * 0x9e3779b9u), &u1, &u2);
+            value += reflected(&view, wi, light, width, u1, u2) / (double)points;
+        }
+        sum += value;
+        squares += value * value;
+    }
+    double mean = sum / n, variance = fmax(0, squares / n - mean * mean);
+    return mean > 1e-4 ? sqrt(variance) / mean : 0;
+}
+
+/* ---- beside caps ---- */
+
+stratified stratified_measure(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed)
+{
+    static const double thetas[STRATIFIED_VIEWS] = {5, 25, 45, 60, 75, 85};
+    stratified found = {{0}, {{0}}, {0}, 0};
+    const vndf_surface ours = {distribution, alpha, alpha};
+    double scale = vndf_distribution_info(distribution).scale;
+    const vndf_surface caps = {vndf_ggx(), alpha * (float)(scale > 0 ? scale : 1),
+                               alpha * (float)(scale > 0 ? scale : 1)};
+    for (int i = 0; i < STRATIFIED_VIEWS; i++) {
+        double theta = found.theta[i] = thetas[i], t = theta * 3.14159265358979323846 / 180;
+        const vndf_vec3 wi = {(float)(sin(t) * 0.8), (float)(sin(t) * 0.6), (float)cos(t)};
+        for (int light = 0; light < STRATIFIED_LIGHTS; light++) {
+            double a = stratified_error(&ours, wi, (stratified_light)light, 64, scrambles, seed);
+            double b = stratified_error(&caps, wi, (stratified_light)light, 64, scrambles, seed + 1);
+            found.quotient[i][light] = a > 0 && b > 0 ? a / b : 1;
+            found.mean[light] += log(found.quotient[i][light]) / STRATIFIED_VIEWS;
+        }
+    }
+    for (int light = 0; light < STRATIFIED_LIGHTS; light++) {
+        found.all += found.mean[light] / STRATIFIED_LIGHTS;
+        found.mean[light] = exp(found.mean[light]);
+    }
+    found.all = exp(found.all);
+    return found;
+}

@@ -1,0 +1,33 @@
+/* What a renderer sees of a sampler's map: the error of light that is reflected, estimated with few
+ * Owen-scrambled Sobol points (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; hashes after
+ * Burley, "Practical Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points
+ * have over random numbers. */
+#ifndef TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
+#define TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "vndf.h"
+
+/* Lights: a sky that brightens upwards, and a disc that a glossy surface mirrors, with a soft edge. */
+typedef enum stratified_light { STRATIFIED_BROAD, STRATIFIED_SMALL, STRATIFIED_LIGHTS } stratified_light;
+
+/* The point `index` of a scrambled sequence, of 24 bits each. */
+void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2);
+
+/* The root mean square error over so many scrambled sequences of so many points, relative to the mean; 0 where
+ * next to nothing is reflected there. */
+double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_light light, size_t points,
+                        size_t scrambles, uint64_t seed);
+
+enum { STRATIFIED_VIEWS = 6 };
+
+/* The error over that of GGX by caps, as rough in the median slope: the quotient for each view and light, and
+ * what they are in the mean (geometric). 64 points, so many sequences. */
+typedef struct stratified {
+    double theta[STRATIFIED_VIEWS], quotient[STRATIFIED_VIEWS][STRATIFIED_LIGHTS], mean[STRATIFIED_LIGHTS], all;
+} stratified;
+stratified stratified_measure(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed);
+
+#endif

@@ -1,0 +1,75 @@
+/* Hard cases: what a renderer hands to vndf.h on a bad day. First the product of
+ *
+ *     incident directions   exactly along z and 1e-7, 1e-4, 0.01 degrees from it; 30 to 89.9999 degrees; cosines
+ *                           1e-7, 1e-20, 1e-42 (a denormal), 0 and -0, and the negative ones; 91, 130, 179.9 and
+ *                           exactly 180 degrees; each along x, along y, diagonally and at 200 degrees; each of
+ *                           length 1 and 1 +- 1e-6
+ *     roughness             1e-8 1e-6 1e-4 0.01 0.1 0.5 1 2 10 1e4 in all pairs up to a ratio of 1e8
+ *     uniform numbers       0, the least float, 2^-24, 1/2 and its neighbours, 1 - 2^-24, 1 in all pairs, and
+ *                           random
+ *
+ * then random surfaces: matrices of either sign with singular values from 1e-5 to 10 and a condition of up to
+ * 1e4, mean slopes up to 2, seen also from the mean plane. Each property is a number that is 0 at best and must
+ * not exceed its limit. */
+#ifndef TOOLS_EVIDENCE_MEASURE_STRESS_H
+#define TOOLS_EVIDENCE_MEASURE_STRESS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "vndf.h"
+
+typedef enum stress_id {
+    /* of a sample */
+    STRESS_UNIT,
+    STRESS_ABOVE,
+    STRESS_FACING,
+    STRESS_POSITIVE,
+    STRESS_RETURNED,
+    /* of a direction */
+    STRESS_AREA,
+    STRESS_MIRRORED,
+    STRESS_LAMBDA,
+    STRESS_G1,
+    STRESS_G2,
+    STRESS_COUNT
+} stress_id;
+
+typedef struct stress_property {
+    const char *name, *meaning; /* a word; what the number is, and in which unit */
+    double limit;
+} stress_property;
+
+const stress_property *stress_property_of(stress_id id);
+
+/* One input, whole: nine digits of each number give it again. */
+typedef struct stress_point {
+    vndf_affine surface;
+    vndf_vec3 wi, wo; /* wo: of G2 */
+    float u1, u2;
+} stress_point;
+
+typedef struct stress_finding {
+    size_t checked, failed;
+    double worst;    /* infinite for NaN */
+    stress_point at; /* where the worst was */
+} stress_finding;
+
+typedef struct stress_result {
+    size_t views, samples;
+    size_t outside; /* roughnesses left out, since times the scale of the table they leave [1e-15, 1e15] */
+    stress_finding found[STRESS_COUNT];
+} stress_result;
+
+/* Every `every`-th view of the product (1: all, some 23000 of 80 samples each; a number prime to 12 and 21 does
+ * not favour any direction), and `random` views of 16 samples. */
+stress_result stress_run(const vndf_distribution *distribution, size_t every, size_t random, uint64_t seed);
+
+/* Notes a number for a property; returns whether it is within the limit. */
+int stress_note(stress_result *result, stress_id id, double value, const stress_point *at);
+
+/* The length of a vector; how far a normal is turned away from wi, in 2^-24. */
+double stress_length(vndf_vec3 w);
+double stress_turned_away(vndf_vec3 wi, vndf_vec3 wm);
+
+#endif

@@ -1,0 +1,133 @@
+/* A method: a way to draw normals, or a material that scatters light, as `vndf bench` measures it. It prepares
+ * what depends on the distribution alone; what depends on the direction is part of each draw, or of the head of
+ * a run whose samples share one direction.
+ *
+ * A method is a few loops over a block of inputs. Scalar loops call what they time by name, so that the compiler
+ * may inline it, and are compiled without vector loops (CMakeLists.txt). */
+#ifndef TOOLS_EVIDENCE_METHOD_H
+#define TOOLS_EVIDENCE_METHOD_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "evidence/row.h"
+#include "vndf_bsdf.h"
+
+/* ---- inputs and results -------------------------------------------------------------------------- */
+
+/* Samples of a block; those that share a direction in one. BLOCK is a multiple of all vectors. */
+enum { BLOCK = 1024, SHARE = 256 };
+
+typedef struct method_input {
+    vndf_vec3 wi, given; /* given: a normal, or of materials wo, to be evaluated */
+    float alpha, u[3];   /* alpha: of both axes; of materials a factor of theirs */
+} method_input;
+
+/* The same inputs twice: batches read arrays, scalar calls whole inputs, as renderers have them. (To make a
+ * vndf_vec3 from three arrays and pass it on costs some 40 ns with gcc 12, which stores four bytes at a time and
+ * loads eight.) Some 150 KB, which stay in the second cache. */
+typedef struct block {
+    float alpha[BLOCK], wi[3][BLOCK], given[3][BLOCK], u[3][BLOCK];
+    method_input in[BLOCK];
+    float x[BLOCK], y[BLOCK], z[BLOCK], pdf[BLOCK]; /* normals, or wo, with their densities */
+    float value[3][BLOCK], half[3][BLOCK];          /* of batches of materials: weights or values, and normals */
+    uint8_t lobe[BLOCK];
+    vndf_scattered out[BLOCK]; /* of single calls of materials; eval fills weight, pdf density */
+} block;
+
+/* How a block is filled. */
+typedef struct block_law {
+    const vndf_distribution *seen; /* whose visible normals are given; NULL: directions wo are */
+    float low, high;               /* of alpha */
+    double theta;                  /* incident angle; NaN: directions uniform over the hemisphere */
+    vndf_lobes lobes;              /* sides that wo is on */
+    int inside;                    /* wi comes from below */
+} block_law;
+
+/* Everything is a function of the seed, so that all methods of a turn have the same inputs. */
+void block_fill(block *b, const block_law *law, uint64_t seed);
+
+/* One direction and roughness for all. */
+void block_aim(block *b, vndf_vec3 wi, float alpha);
+
+/* Hammersley's points, shifted by two random numbers of the stream, in the place of random numbers. */
+void block_spread(block *b, uint64_t seed);
+
+/* Copies the arrays into in[]. */
+void block_pack(block *b);
+
+/* ---- methods ------------------------------------------------------------------------------------- */
+
+typedef struct method method;
+typedef vndf_vec3 method_one(const method *m, const method_input *in, float *pdf);
+typedef void method_run(const method *m, block *b, size_t first, size_t count);
+
+/* What is called of a distribution of ours: view, sample and density; other calls; surfaces beyond two
+ * roughnesses. */
+typedef enum method_call {
+    METHOD_SAMPLE,
+    METHOD_WEIGHT,
+    METHOD_PDF,
+    METHOD_INVERT,
+    METHOD_NDF,
+    METHOD_LAMBDA,
+    METHOD_DIAGONAL,
+    METHOD_AFFINE,
+    METHOD_TWO_LOBES,
+    METHOD_CALLS
+} method_call;
+
+struct method {
+    char name[64];
+    const char *instructions; /* "scalar", "portable", "avx2", "avx512" */
+    row_kind kind;
+    size_t memory, file_bytes; /* as in rows */
+    int moments;
+    const void *state;          /* what was prepared */
+    void (*release)(void *);    /* NULL: the state has another owner */
+    method_call call;           /* of ours */
+    vndf_instructions limit;    /* of batches */
+    method_one *one;            /* for latency; NULL: a batch, or a material */
+    method_run *each, *shared;  /* a direction each; the first one for all, or NULL */
+    method_run *eval, *density; /* values and densities of materials, the first direction for all */
+    method_run *same_bits;      /* what `each` must equal to the bit, or NULL */
+    int biased;                 /* it draws with another density than it tells */
+    int turned;                 /* some normals face away from wi */
+};
+
+/* D itself for methods of any D: a table so fine that it stands for it, or a closed form; and the scale that
+ * brings its median slope to 1. */
+typedef struct method_reference {
+    vndf_surface canonical; /* its roughness is 1/scale */
+    float scale;
+} method_reference;
+method_reference method_reference_of(const vndf_distribution *d);
+
+void method_release(method *m);
+
+/* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
+
+/* GGX and Beckmann, from the publications; the batch by one of the three instruction sets, and moving its
+ * bytes. */
+method method_ggx_caps(void);
+method method_ggx_2018(void);
+method method_ggx_all_normals(void);
+method method_beckmann_newton(void);
+method method_beckmann_all_normals(void);
+method method_ggx_caps_batch(vndf_instructions set);
+method method_move(vndf_instructions set);
+
+/* Any D, from the publications. Without a reference the method has only a name. `side`: of the tables. */
+method method_any_all_normals(const method_reference *reference, size_t side);
+method method_inverse_tables(const method_reference *reference, size_t side);
+method method_warp(const method_reference *reference, size_t side);
+
+/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. A diagonal matrix has no batch of its own. */
+method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit);
+
+/* The exported kernel in C, with the numbers of a table, or its GGX. */
+method method_exported(const vndf_distribution *d, const char *name);
+
+const char *method_instructions_name(vndf_instructions set);
+
+#endif

@@ -1,0 +1,76 @@
+/* The few vector operations that methods from publications share, in float and without guards, and their loops. */
+#ifndef TOOLS_EVIDENCE_METHODS_VECTOR_H
+#define TOOLS_EVIDENCE_METHODS_VECTOR_H
+
+#include <math.h>
+
+#include "evidence/method.h"
+
+static const float method_pi = 3.14159265f;
+
+static inline float method_dot(vndf_vec3 a, vndf_vec3 b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline vndf_vec3 method_unit(float x, float y, float z)
+{
+    float scale = 1.0f / sqrtf(x * x + y * y + z * z);
+    return (vndf_vec3){x * scale, y * scale, z * scale};
+}
+
+static inline void method_put(block *b, size_t i, vndf_vec3 wm, float pdf)
+{
+    b->x[i] = wm.x;
+    b->y[i] = wm.y;
+    b->z[i] = wm.z;
+    b->pdf[i] = pdf;
+}
+
+/* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler inlines it. */
+static inline void method_loop(method_one *one, const method *m, block *b, size_t first, size_t count)
+{
+    for (size_t i = first; i < first + count; i++) {
+        float pdf;
+        vndf_vec3 wm = one(m, &b->in[i], &pdf);
+        method_put(b, i, wm, pdf);
+    }
+}
+
+/* The loop of a scalar method's `shared`: one view of the method's own type draws all samples. */
+static inline void method_shared_loop(vndf_vec3 (*draw)(const void *view, float u1, float u2, float *pdf),
+                                      const void *view, block *b, size_t first, size_t count)
+{
+    for (size_t i = first; i < first + count; i++) {
+        float pdf;
+        vndf_vec3 wm = draw(view, b->in[i].u[0], b->in[i].u[1], &pdf);
+        method_put(b, i, wm, pdf);
+    }
+}
+
+/* The direction of the unit problem: stretched by alpha, turned about z so that its y is 0. */
+typedef struct method_turn {
+    float s, c;             /* the unit direction (s, 0, c) */
+    float length;           /* of the stretched direction before it was made unit */
+    float cos_phi, sin_phi; /* its azimuth */
+} method_turn;
+
+static inline method_turn method_turn_from(vndf_vec3 wi, float alpha)
+{
+    float across = sqrtf(wi.x * wi.x + wi.y * wi.y), x = alpha * across, length = sqrtf(x * x + wi.z * wi.z);
+    method_turn t = {x / length, wi.z / length, length, 1, 0};
+    if (across > 0) {
+        t.cos_phi = wi.x / across;
+        t.sin_phi = wi.y / across;
+    }
+    return t;
+}
+
+/* The normal for a slope of the unit problem, turned and stretched back. */
+static inline vndf_vec3 method_normal(const method_turn *t, float alpha, float slope_x, float slope_y)
+{
+    return method_unit(-alpha * (t->cos_phi * slope_x - t->sin_phi * slope_y),
+                       -alpha * (t->sin_phi * slope_x + t->cos_phi * slope_y), 1.0f);
+}
+
+#endif

@@ -1,0 +1,264 @@
+/* Error against time, against bytes and against the angle of incidence. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/chart.h"
+#include "evidence/page/report.h"
+
+enum { POINTS_MAX = 48, LABEL = 80, SERIES_MAX = 12 };
+
+/* Series and their points, in the making. */
+typedef struct plot {
+    double x[SERIES_MAX][POINTS_MAX], y[SERIES_MAX][POINTS_MAX];
+    char label[SERIES_MAX][POINTS_MAX][LABEL];
+    const char *text[SERIES_MAX][POINTS_MAX];
+    chart_series series[SERIES_MAX];
+    size_t count;
+} plot;
+
+static chart_series *begin_series(plot *p, unsigned colour, chart_mark mark, chart_line line)
+{
+    size_t k = p->count++;
+    p->series[k] = (chart_series){NULL, p->x[k], p->y[k], 0, colour, mark, line, p->text[k]};
+    return &p->series[k];
+}
+
+static void add_point(plot *p, double x, double y, const char *label)
+{
+    size_t k = p->count - 1, i = p->series[k].count;
+    if (i == POINTS_MAX || !(x > 0) || !(y >= 0))
+        return;
+    p->x[k][i] = x;
+    p->y[k][i] = y;
+    snprintf(p->label[k][i], LABEL, "%s", label);
+    p->text[k][i] = p->label[k][i];
+    p->series[k].count++;
+}
+
+static void put_chart(html_page *page, const char *about, const chart *c)
+{
+    fprintf(page->html, "<figure class=\"scroll wide\" title=\"%s\">\n", about);
+    chart_draw(page->html, c);
+    fputs("</figure>\n", page->html);
+}
+
+/* ---- error against time -------------------------------------------------------------------------- */
+
+/* An exact method's error is the rounding of floats: a comparison with a density cannot tell it from another
+ * error of that size. */
+static double error_of(const evidence_row *r)
+{
+    return r->kind != ROW_TABLE && r->number[COL_TV] < 3e-6 ? 0 : r->number[COL_TV];
+}
+
+static int is_wanted(const report *r, const evidence_row *of, row_kind kind, int moments, int is_batch)
+{
+    int is_of = kind == ROW_TABLE ? of->number[COL_MOMENTS] == moments : 1;
+    int at_hand =
+        kind == ROW_CLOSED || kind == ROW_PUBLISHED || strcmp(of->distribution, r->subject[0].of.name) == 0;
+    return of->kind == kind && is_of && at_hand && of->number[COL_TV] <= 1 &&
+           strcmp(of->instructions, is_batch ? r->batch : "scalar") == 0;
+}
+
+/* Without what colour and shape say: of tables the size alone, of all others the name and, where there are two
+ * of it, the distribution. */
+static void label_row(const evidence_row *r, char label[LABEL])
+{
+    const char *batch = strstr(r->method, ", batch");
+    int length = batch ? (int)(batch - r->method) : (int)strlen(r->method);
+    if (r->kind == ROW_TABLE)
+        table_bytes_text(label, r->number[COL_FILE]);
+    else if (r->kind == ROW_CLOSED)
+        snprintf(label, LABEL, "vndf_%.40s()", r->distribution);
+    else if (strncmp(r->method, "all normals (2007)", (size_t)length) == 0)
+        snprintf(label, LABEL, "all normals, %.40s", r->distribution);
+    else
+        snprintf(label, LABEL, "%.*s", length, r->method);
+}
+
+static void add_rows(plot *p, const report *r, row_kind kind, int moments, int is_batch)
+{
+    static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
+    static const chart_line lines[] = {CHART_NO_LINE, CHART_NO_LINE, CHART_DOTTED, CHART_DASHED, CHART_SOLID};
+    begin_series(p, is_batch ? 1 : 0, marks[kind], lines[moments]);
+    for (size_t i = 0; i < r->rows.count; i++) {
+        const evidence_row *of = &r->rows.row[i];
+        char label[LABEL];
+        if (!is_wanted(r, of, kind, moments, is_batch))
+            continue;
+        label_row(of, label);
+        add_point(p, of->number[COL_NS], error_of(of), kind == ROW_TABLE && moments != 4 ? "" : label);
+    }
+    p->count -= p->series[p->count - 1].count == 0;
+}
+
+/* A ring around the table that is advised, one by one and in a batch. */
+static void add_advised(plot *p, const report_table *t)
+{
+    begin_series(p, 6, CHART_RING, CHART_NO_LINE);
+    add_point(p, t->ns, t->info.certificate.tv_above, "advised");
+    add_point(p, t->batch, t->info.certificate.tv_above, "advised");
+}
+
+int report_frontier(html_page *page, const report *r)
+{
+    char title[160], batch[40];
+    plot *p = calloc(1, sizeof *p);
+    if (!p)
+        return 0;
+    for (int is_batch = 0; is_batch < 2; is_batch++) {
+        add_rows(p, r, ROW_PUBLISHED, 0, is_batch);
+        add_rows(p, r, ROW_CLOSED, 0, is_batch);
+        for (int moments = 2; moments <= 4; moments++)
+            add_rows(p, r, ROW_TABLE, moments, is_batch);
+    }
+    add_advised(p, &r->subject[0].table[r->subject[0].chosen]);
+    snprintf(title, sizeof title, "Tables of %s beside other methods", r->subject[0].of.name);
+    snprintf(batch, sizeof batch, "in a batch, %s", r->batch);
+    const chart_key key[] = {{"tables of vndf", 7, CHART_DOT},         {"its closed forms", 7, CHART_SQUARE},
+                             {"published methods", 7, CHART_TRIANGLE}, {"advised", 6, CHART_RING},
+                             {"one by one", 0, CHART_NO_MARK},         {batch, 1, CHART_NO_MARK}};
+    chart c = {.title = title,
+               .width = 1080,
+               .height = 640,
+               .right = 20,
+               .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
+               .zero = "exact",
+               .band = 90,
+               .series = p->series,
+               .count = p->count,
+               .key = key,
+               .key_count = sizeof key / sizeof *key};
+    chart_fit_series(&c, 1e-7);
+    page_section(
+        page, "frontier", "Error against time",
+        "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
+        "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
+        "Methods in the band at the bottom are exact but for the rounding of floats.");
+    put_chart(page, "error against time", &c);
+    FILE *alone = page_file_begin(page, "frontier.svg");
+    if (alone)
+        chart_draw_alone(alone, &c);
+    free(p);
+    int good = alone && page_file_end(page);
+    fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
+    page_section_end(page);
+    return good;
+}
+
+/* ---- error against bytes ------------------------------------------------------------------------- */
+
+int report_bytes(html_page *page, const report *r)
+{
+    static const char *const moments_names[] = {"2 moments", "3 moments", "4 moments"};
+    plot *p = calloc(1, sizeof *p);
+    if (!p)
+        return 0;
+    for (size_t k = 0; k < r->count; k++)
+        for (int moments = k ? 4 : 2; moments <= 4; moments++) {
+            chart_series *s = begin_series(p, (unsigned)k, CHART_DOT, (chart_line)(5 - moments));
+            s->label = k ? r->subject[k].of.name : moments_names[moments - 2];
+            for (size_t i = 0; i < SIZES; i++)
+                if (table_sizes[i].moments == moments)
+                    add_point(p, (double)r->subject[k].table[i].info.memory, r->subject[k].table[i].tv_above, "");
+        }
+    begin_series(p, 7, CHART_CROSS, CHART_NO_LINE);
+    for (size_t i = 0; i < r->rows.count; i++) {
+        const evidence_row *of = &r->rows.row[i];
+        if (of->kind == ROW_PUBLISHED && of->number[COL_MEMORY] > 0)
+            add_point(p, of->number[COL_MEMORY], of->number[COL_TV], of->method);
+    }
+    chart c = {.about = "error against bytes",
+               .width = 1080,
+               .height = 420,
+               .right = 170,
+               .x = {CHART_BYTES, 0, 0, 0, "memory that the table takes"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
+               .series = p->series,
+               .count = p->count};
+    chart_fit_series(&c, 1e-7);
+    page_section(
+        page, "bytes", "Error against bytes",
+        "By the memory that a loaded table takes. Curves: tables of this library; where they are level, moments "
+        "are what is missing, and bytes where they fall. Crosses: other methods that keep tables.");
+    put_chart(page, "error against bytes", &c);
+    free(p);
+    page_section_end(page);
+    return 1;
+}
+
+/* ---- error against the angle --------------------------------------------------------------------- */
+
+/* The smallest table, those as large as the advised one with 2, 3 and 4 moments, and the finest. */
+static void draw_angles(FILE *file, const report_subject *s)
+{
+    enum { SHOWN = 4 };
+    size_t row_of = s->chosen < 9 ? s->chosen / 3 * 3 : 6, count = 0;
+    const size_t shown[SHOWN] = {row_of, row_of + 1, row_of + 2, SIZES - 1};
+    static const chart_line lines[SHOWN] = {CHART_DOTTED, CHART_DASHED, CHART_SOLID, CHART_SOLID};
+    double x[REPORT_ANGLES];
+    char label[SHOWN][40];
+    chart_series series[SHOWN + 1];
+    for (size_t a = 0; a < REPORT_ANGLES; a++)
+        x[a] = report_theta(a);
+    for (; count < SHOWN; count++) {
+        const report_table *t = &s->table[shown[count]];
+        char bytes[TABLE_BYTES];
+        table_bytes_text(bytes, (double)t->info.bytes);
+        snprintf(label[count], sizeof label[count], "%s, %d", bytes, table_sizes[shown[count]].moments);
+        series[count] = (chart_series){label[count],
+                                       x,
+                                       t->tv,
+                                       REPORT_ANGLES,
+                                       shown[count] == s->chosen ? 6u : (unsigned)count,
+                                       CHART_NO_MARK,
+                                       lines[count],
+                                       NULL};
+    }
+    chart c = {.title = s->of.name,
+               .width = 560,
+               .height = 380,
+               .right = 84,
+               .x = {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
+               .y = {CHART_LOG, 0, 0, 0, "total variation"},
+               .series = series,
+               .count = count};
+    chart_fit_series(&c, 1e-8);
+    const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
+    series[c.count++] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
+    fputs("<figure>\n", file);
+    chart_draw(file, &c);
+    fputs("</figure>\n", file);
+}
+
+int report_angles(html_page *page, const report *r)
+{
+    text_table data = {.rows = 0};
+    page_section(
+        page, "theta", "Error against the angle of incidence",
+        "Total variation between drawn and true visible normals, from straight above to straight below, by the "
+        "bytes and moments of tables. A curve ends where less than 1e-10 of what is visible at grazing "
+        "incidence is left.");
+    fputs("<div class=\"pair\">\n", page->html);
+    for (size_t k = 0; k < r->count; k++) {
+        const report_subject *s = &r->subject[k];
+        draw_angles(page->html, s);
+        for (size_t i = 0; i < SIZES; i++)
+            for (size_t a = 0; a < REPORT_ANGLES; a++)
+                if (!isnan(s->table[i].tv[a])) {
+                    table_row(&data);
+                    table_text(&data, "distribution", s->of.name);
+                    table_value(&data, "bytes", (double)s->table[i].info.bytes);
+                    table_value(&data, "moments", table_sizes[i].moments);
+                    table_value(&data, "theta_deg", report_theta(a));
+                    table_value(&data, "tv", s->table[i].tv[a]);
+                }
+    }
+    fputs("</div>\n", page->html);
+    int good = page_data(page, "theta.csv", "error of every table at every angle", data);
+    page_section_end(page);
+    return good;
+}

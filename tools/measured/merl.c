@@ -1,0 +1,312 @@
+#include "measured/brdf.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { HALVES = 90, DIFFERENCES = 90, HALF_TURN = 180, HEAD = 12, STEPS = 60 };
+/* Every n-th bin is compared with the model. */
+enum { STEP_D = 3, STEP_PHI = 30, PROBES = HALVES * (DIFFERENCES / STEP_D) * (HALF_TURN / STEP_PHI) };
+
+static const double pi = 3.14159265358979323846;
+static const double scale[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+static const double luminance[3] = {0.2126, 0.7152, 0.0722};
+
+/* wi and wo, on both sides of h at (theta_h, 0). */
+static void directions_of(double theta_h, double theta_d, double phi_d, direction *wi, direction *wo)
+{
+    direction d = direction_at(theta_d, phi_d);
+    double c = cos(theta_h), s = sin(theta_h);
+    *wi = (direction){c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+    *wo = direction_mirrored(*wi, (direction){s, 0, c});
+}
+
+/* f where F is 1: D / (4 (A_i cos_o + A_o cos_i - cos_i cos_o)), or D / (4 A_i A_o). */
+static double masked_ndf(int is_separable, double ndf, double area_i, double cos_i, double area_o, double cos_o)
+{
+    return ndf / 4 / (is_separable ? area_i * area_o : area_i * cos_o + area_o * cos_i - cos_i * cos_o);
+}
+
+/* ---- the file ------------------------------------------------------------------------------------ */
+
+typedef struct search {
+    const unsigned char *numbers;
+    int azimuths; /* of phi_d */
+    double place; /* of a number in its bin: 1/2 in the middle, 0 at the lower end */
+    int is_separable;
+    merl_channel channel;
+    double back[HALVES]; /* f of light that goes back; -1 where there is no number */
+    int missing;         /* how many of these */
+    law law;
+    double f0;
+    reflectance fitted;
+    size_t count; /* of places that are compared */
+    probe probes[PROBES];
+    double found[PROBES], theta_h[PROBES], cos_i[PROBES], cos_o[PROBES], rise[PROBES];
+} search;
+
+/* -1 where there is no number. */
+static double value_at(const search *s, int half, int difference, int azimuth)
+{
+    size_t plane = (size_t)HALVES * DIFFERENCES * (size_t)s->azimuths;
+    size_t at = ((size_t)half * DIFFERENCES + (size_t)difference) * (size_t)s->azimuths + (size_t)azimuth;
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        if (s->channel != MERL_LUMINANCE && s->channel != (merl_channel)i)
+            continue;
+        double value = little_double(s->numbers + 8 * (at + (size_t)i * plane)) * scale[i];
+        if (!(value >= 0) || !(value < 1e30))
+            return -1;
+        sum += (s->channel == MERL_LUMINANCE ? luminance[i] : 1) * value;
+    }
+    return sum;
+}
+
+/* The mean over azimuths at theta_d = 0. */
+static void read_back(search *s)
+{
+    law_even(&s->law, HALVES, s->place);
+    s->missing = 0;
+    for (int half = 0; half < HALVES; half++) {
+        double sum = 0, count = 0;
+        for (int azimuth = 0; azimuth < s->azimuths; azimuth++) {
+            double value = value_at(s, half, 0, azimuth);
+            sum += fmax(value, 0);
+            count += value >= 0;
+        }
+        s->missing += count == 0;
+        s->back[half] = count > 0 ? sum / count : -1;
+    }
+}
+
+/* Where both directions are within 80 degrees of z; the weight is the light's, cos_i cos_o over both directions. */
+static void read_probes(search *s)
+{
+    static const double least = 0.17364817766693; /* cos 80 degrees */
+    int step = STEP_PHI * s->azimuths / HALF_TURN;
+    s->count = 0;
+    for (int half = 0; half < HALVES; half++)
+        for (int difference = 1; difference < DIFFERENCES; difference += STEP_D)
+            for (int azimuth = step / 2; azimuth < s->azimuths; azimuth += step) {
+                double theta_d = (difference + s->place) / DIFFERENCES * pi / 2;
+                double found = value_at(s, half, difference, azimuth);
+                direction wi, wo;
+                directions_of(s->law.theta[half], theta_d, (azimuth + s->place) / s->azimuths * pi, &wi, &wo);
+                if (!(wi.z > least && wo.z > least) || !(found >= 0))
+                    continue;
+                s->probes[s->count].light = wi.z * wo.z * s->law.share[half] * sin(theta_d) * cos(theta_d);
+                s->theta_h[s->count] = s->law.theta[half];
+                s->cos_i[s->count] = wi.z;
+                s->cos_o[s->count] = wo.z;
+                s->rise[s->count] = model_schlick(cos(theta_d));
+                s->found[s->count++] = found;
+            }
+}
+
+/* ---- the search ---------------------------------------------------------------------------------- */
+
+int merl_iterate(law *l, int is_separable, const double *f, double *f0)
+{
+    double before = 0;
+    if (!(law_normalise(l) > 0)) {
+        for (int i = 0; i < l->count; i++)
+            l->ndf[i] = 1;
+        law_normalise(l);
+    }
+    *f0 = 0;
+    for (int step = 0; step < STEPS && (step < 4 || fabs(*f0 - before) > 1e-10 * *f0); step++) {
+        before = *f0;
+        for (int i = 0; i < l->count; i++) {
+            double area = law_area(l, l->theta[i]), c = cos(l->theta[i]);
+            double next = 4 * f[i] * (is_separable ? area * area : c * (2 * area - c));
+            l->ndf[i] = f[i] >= 0 ? next : i > 0 ? l->ndf[i - 1] : 0;
+        }
+        *f0 = law_normalise(l);
+        if (!(*f0 > 0))
+            return 0;
+    }
+    return 1;
+}
+
+/* D and F for one diffuse constant; the residual, at most 1. Squares have relative weights, so that the dim wide part
+ * counts as the bright peak. */
+static double try_diffuse(search *s, double diffuse)
+{
+    double f[HALVES];
+    for (int i = 0; i < HALVES; i++)
+        f[i] = s->back[i] < 0 ? -1 : fmax(s->back[i] - diffuse, 0);
+    if (!merl_iterate(&s->law, s->is_separable, f, &s->f0))
+        return 1;
+    double found = 0, left = 0; /* light without the diffuse part, and all of it */
+    for (size_t i = 0; i < s->count; i++) {
+        probe *p = &s->probes[i];
+        double area_i = law_area(&s->law, acos(s->cos_i[i])), area_o = law_area(&s->law, acos(s->cos_o[i]));
+        double shape =
+            masked_ndf(s->is_separable, law_ndf(&s->law, s->theta_h[i]), area_i, s->cos_i[i], area_o, s->cos_o[i]);
+        p->found = s->found[i] - diffuse;
+        p->low = shape * (1 - s->rise[i]);
+        p->high = shape * s->rise[i];
+        p->weight = p->light / (shape * s->f0 + diffuse + 1e-30);
+        found += p->light * p->found;
+        left += p->light * s->found[i];
+    }
+    if (!model_reflectance(s->probes, s->count, &s->fitted))
+        return 1;
+    s->fitted.residual *= found / left;
+    return fmin(s->fitted.residual, 1);
+}
+
+/* By the golden section, from 0 to the least light that comes back anywhere within 70 degrees; 0 if that is as good. */
+static double find_diffuse(search *s)
+{
+    static const double golden = 0.6180339887498949;
+    double low = 0, high = INFINITY;
+    for (int i = 0; i < HALVES && s->law.theta[i] < 70 * pi / 180; i++)
+        high = s->back[i] < 0 ? high : fmin(high, s->back[i]);
+    high = isfinite(high) ? high : 0;
+    double most = high, a = high - golden * high, b = golden * high;
+    double at_a = try_diffuse(s, a), at_b = try_diffuse(s, b);
+    while (high - low > 1e-3 * most) {
+        if (at_a <= at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            at_a = try_diffuse(s, a = high - golden * (high - low));
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            at_b = try_diffuse(s, b = low + golden * (high - low));
+        }
+    }
+    double best = try_diffuse(s, (low + high) / 2);
+    return try_diffuse(s, 0) <= 1.01 * best + 1e-5 ? 0 : (low + high) / 2;
+}
+
+/* The residual of the file as it is taken, with the diffuse part that is best. */
+static double try_convention(search *s, int convention, double *diffuse)
+{
+    s->place = convention & 1 ? 0 : 0.5;
+    s->is_separable = convention >> 1;
+    read_back(s);
+    read_probes(s);
+    *diffuse = s->count ? find_diffuse(s) : 0;
+    return s->count ? try_diffuse(s, *diffuse) : 1;
+}
+
+static int search_file(data_file *file, search *s)
+{
+    double best = INFINITY, diffuse;
+    int chosen = 0;
+    for (int i = 0; i < 4; i++) {
+        double residual = try_convention(s, i, &diffuse);
+        chosen = residual < best / 2 ? i : chosen;
+        best = chosen == i ? residual : best;
+    }
+    if (try_convention(s, chosen, &diffuse) >= 1 || !(s->f0 > 0))
+        return refuse(file, s->count
+                                ? "no light comes back to where it came from, or D explains nothing of the file"
+                                : "no direction within 80 degrees has a value");
+    note(file, "bins %s", s->place > 0 ? "middle" : "lower end");
+    note(file, "masking %s", s->is_separable ? "separable" : "correlated");
+    note(file, "angles_without_light %d", s->missing);
+    note(file, "diffuse %.4g", diffuse * pi);
+    note(file, "f0 %.4g", s->fitted.f0);
+    note(file, "f90 %.4g", s->fitted.f90);
+    note(file, "residual_reflectance %.3g", s->fitted.residual);
+    return 1;
+}
+
+/* F0 of each channel by itself, with its own D; diffuse light counts in. */
+static void note_channels(data_file *file, search *s)
+{
+    static const char *const names[3] = {"f0_red", "f0_green", "f0_blue"};
+    for (int i = 0; i < 3; i++) {
+        s->channel = (merl_channel)i;
+        read_back(s);
+        if (merl_iterate(&s->law, s->is_separable, s->back, &s->f0))
+            note(file, "%s %.4g", names[i], s->f0);
+    }
+}
+
+static int open_file(data_file *file)
+{
+    uint64_t side[3] = {0, 0, 0};
+    if (file->size < HEAD)
+        return refuse(file, file->size == 0
+                                ? "the file is empty"
+                                : "this is no MERL file: it ends within the head, three numbers of 4 bytes");
+    for (size_t i = 0; i < 3; i++)
+        side[i] = little_whole(file->bytes + 4 * i, 4);
+    if (side[0] != HALVES || side[1] != DIFFERENCES || (side[2] != HALF_TURN && side[2] != 2 * HALF_TURN))
+        return refuse(file, "this is no MERL file: it begins with %lu %lu %lu in the place of 90 90 180",
+                      (unsigned long)side[0], (unsigned long)side[1], (unsigned long)side[2]);
+    size_t want = HEAD + (size_t)HALVES * DIFFERENCES * (size_t)side[2] * 3 * 8;
+    if (file->size != want)
+        return refuse(file, "a MERL file of 90 x 90 x %lu has %zu bytes, and there are %zu",
+                      (unsigned long)side[2], want, file->size);
+    return (int)side[2];
+}
+
+int merl_read(data_file *file, merl_channel channel, profile *rows)
+{
+    *rows = (profile){0};
+    int azimuths = open_file(file);
+    search *s = azimuths ? calloc(1, sizeof *s) : NULL;
+    if (!s)
+        return azimuths ? refuse(file, "there is no memory") : 0;
+    s->numbers = file->bytes + HEAD;
+    s->azimuths = azimuths;
+    s->channel = channel;
+    int good = search_file(file, s) && profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, HALVES, file);
+    if (good) {
+        memcpy(rows->x, s->law.theta, HALVES * sizeof *rows->x);
+        memcpy(rows->value, s->law.ndf, HALVES * sizeof *rows->value);
+        note_channels(file, s);
+    }
+    free(s);
+    return good;
+}
+
+/* ---- out ----------------------------------------------------------------------------------------- */
+
+/* f with F = 1 at every bin; 0 where a direction is below the horizon. */
+static void fill(float *values, const vndf_surface *surface)
+{
+    for (int half = 0; half < HALVES; half++) {
+        double u = (half + 0.5) / HALVES, theta_h = pi / 2 * u * u, ndf = model_ndf(surface, theta_h);
+        for (int i = 0; i < DIFFERENCES; i++)
+            for (int k = 0; k < HALF_TURN; k++) {
+                direction wi, wo;
+                directions_of(theta_h, (i + 0.5) / DIFFERENCES * pi / 2, (k + 0.5) / HALF_TURN * pi, &wi, &wo);
+                *values = 0;
+                if (wi.z > 0 && wo.z > 0)
+                    *values = (float)masked_ndf(0, ndf, model_area(surface, acos(wi.z)), wi.z,
+                                                model_area(surface, acos(wo.z)), wo.z);
+                values++;
+            }
+    }
+}
+
+int merl_write(FILE *file, const vndf_distribution *distribution, float alpha, const double f0[3])
+{
+    const vndf_surface surface = {distribution, alpha, alpha};
+    const size_t count = (size_t)HALVES * DIFFERENCES * HALF_TURN;
+    float *values = malloc(count * sizeof *values);
+    if (!values)
+        return 0;
+    fill(values, &surface);
+    put_little(file, HALVES, 4);
+    put_little(file, DIFFERENCES, 4);
+    put_little(file, HALF_TURN, 4);
+    for (int channel = 0; channel < 3; channel++)
+        for (size_t i = 0; i < count; i++) {
+            double rise = model_schlick(cos(((double)(i / HALF_TURN % DIFFERENCES) + 0.5) / DIFFERENCES * pi / 2));
+            double value = (double)values[i] * (f0[channel] + (1 - f0[channel]) * rise) / scale[channel];
+            uint64_t bits;
+            memcpy(&bits, &value, sizeof bits);
+            put_little(file, bits, 8);
+        }
+    free(values);
+    return fflush(file) == 0 && !ferror(file);
+}
