@@ -3,6 +3,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+typedef union number {
+    uint32_t u32;
+    float f32;
+    uint64_t u64;
+    double f64;
+} number;
+
 const unsigned char *vndf_read_bytes(vndf_reader *reader, size_t n)
 {
     if (reader->failed || n > reader->size - reader->at) {
@@ -29,18 +36,14 @@ uint32_t vndf_read_u32(vndf_reader *reader)
 
 float vndf_read_f32(vndf_reader *reader)
 {
-    uint32_t bits = (uint32_t)read_integer(reader, 4);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    number n = {.u32 = vndf_read_u32(reader)};
+    return n.f32;
 }
 
 double vndf_read_f64(vndf_reader *reader)
 {
-    uint64_t bits = read_integer(reader, 8);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    number n = {.u64 = read_integer(reader, 8)};
+    return n.f64;
 }
 
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n)
@@ -65,16 +68,14 @@ void vndf_write_u32(vndf_writer *writer, uint32_t value)
 
 void vndf_write_f32(vndf_writer *writer, float value)
 {
-    uint32_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    write_integer(writer, bits, 4);
+    number n = {.f32 = value};
+    write_integer(writer, n.u32, 4);
 }
 
 void vndf_write_f64(vndf_writer *writer, double value)
 {
-    uint64_t bits;
-    memcpy(&bits, &value, sizeof bits);
-    write_integer(writer, bits, 8);
+    number n = {.f64 = value};
+    write_integer(writer, n.u64, 8);
 }
 
 /* ---- texts ---- */
@@ -89,26 +90,17 @@ void vndf_write_text(vndf_writer *w, const char *text)
 }
 
 /* Programs print the texts, and a control character could harm a terminal. */
-static int is_printable(const unsigned char *bytes, uint32_t n)
-{
-    for (uint32_t i = 0; i < n; i++)
-        if (bytes[i] < 32 || bytes[i] == 127)
-            return 0;
-    return 1;
-}
-
 char *vndf_read_text(vndf_reader *r)
 {
     uint32_t n = vndf_read_u32(r);
     const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
-    if (!bytes || !is_printable(bytes, n)) {
-        r->failed = 1;
-        return NULL;
+    r->failed |= !bytes;
+    for (uint32_t i = 0; bytes && i < n; i++)
+        r->failed |= bytes[i] < 32 || bytes[i] == 127;
+    char *text = r->failed ? NULL : malloc((size_t)n + 1);
+    if (text) {
+        memcpy(text, bytes, n);
+        text[n] = '\0';
     }
-    char *text = malloc((size_t)n + 1);
-    if (!text)
-        return NULL;
-    memcpy(text, bytes, n);
-    text[n] = '\0';
     return text;
 }

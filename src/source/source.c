@@ -2,7 +2,6 @@
  * P22(r) = D(c) c^4, c = 1/sqrt(1 + r^2). */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/error.h"
 #include "source/source.h"
@@ -58,32 +57,24 @@ static void destroy(vndf_source *self)
 static vndf_source *make(int is_ndf, vndf_density_function *density, void *user, const char *name,
                          vndf_error *error)
 {
-    vndf_text words = {NULL, 0, 0, 0};
-    if (!density || (name && strlen(name) > VNDF_LIMIT_NAME_LENGTH)) {
-        if (!density)
-            vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
-        else
-            vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                      "the callback's name has %zu characters; at most %d are possible", strlen(name),
-                      VNDF_LIMIT_NAME_LENGTH);
+    if (!density) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the callback is NULL; a function is needed");
         return NULL;
     }
-    vndf_text_add_word(&words, is_ndf ? "--ndf-callback" : "--slope-callback");
-    vndf_text_add_word(&words, name ? name : "unnamed");
-    char *description = vndf_text_finish(&words, error);
-    callback_source *source = malloc(sizeof *source);
-    if (!description || !source) {
-        free(description);
-        free(source);
+    char *description = vndf_text_pair(is_ndf ? "--ndf-callback" : "--slope-callback", name, "", error);
+    callback_source *source = description ? malloc(sizeof *source) : NULL;
+    if (source) {
+        *source = (callback_source){
+            {.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS},
+            density,
+            user,
+            is_ndf};
+        return &source->base;
+    }
+    if (description)
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
-        return NULL;
-    }
-    *source =
-        (callback_source){{.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS},
-                          density,
-                          user,
-                          is_ndf};
-    return &source->base;
+    free(description);
+    return NULL;
 }
 
 vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name, vndf_error *error)

@@ -36,6 +36,12 @@ void vndf_text_add(vndf_text *text, const char *string)
     add_bytes(text, string, strlen(string));
 }
 
+void vndf_text_add_number(vndf_text *text, double value)
+{
+    char number[VNDF_NUMBER_TEXT];
+    vndf_text_add(text, vndf_number_print(number, value));
+}
+
 void vndf_text_add_word(vndf_text *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
@@ -63,6 +69,20 @@ char *vndf_text_finish(vndf_text *text, vndf_error *error)
     free(text->bytes);
     vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a text of %zu bytes", text->length);
     return NULL;
+}
+
+char *vndf_text_pair(const char *option, const char *word, const char *tail, vndf_error *error)
+{
+    vndf_text text = {NULL, 0, 0, 0};
+    if (word && strlen(word) > VNDF_LIMIT_NAME_LENGTH) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a name of %zu characters; at most %d are possible", strlen(word),
+                  VNDF_LIMIT_NAME_LENGTH);
+        return NULL;
+    }
+    vndf_text_add_word(&text, option);
+    vndf_text_add_word(&text, word ? word : "unnamed");
+    vndf_text_add(&text, tail);
+    return vndf_text_finish(&text, error);
 }
 
 static int is_blank(char c)

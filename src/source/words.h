@@ -3,7 +3,7 @@
 #ifndef VNDF_SOURCE_WORDS_H
 #define VNDF_SOURCE_WORDS_H
 
-#include "vndf.h"
+#include "vndf_build.h"
 
 /* Text that grows; a zeroed one is empty. It remembers a failed allocation until vndf_text_finish. */
 typedef struct vndf_text {
@@ -13,6 +13,7 @@ typedef struct vndf_text {
 } vndf_text;
 
 void vndf_text_add(vndf_text *text, const char *string);
+void vndf_text_add_number(vndf_text *text, double value); /* vndf_number_print */
 
 /* Adds a space unless the text is empty, then the word: as it is if a shell leaves it alone, otherwise
  * in single quotes. Control characters become spaces, so that the text stays one line. */
@@ -20,6 +21,10 @@ void vndf_text_add_word(vndf_text *text, const char *word);
 
 /* The text, which the caller frees; NULL and VNDF_ERROR_MEMORY if it could not grow. */
 char *vndf_text_finish(vndf_text *text, vndf_error *error);
+
+/* Two words, "OPTION WORD", then the tail as it is; "unnamed" for NULL. Of at most VNDF_LIMIT_NAME_LENGTH characters,
+ * else VNDF_ERROR_ARGUMENT. The caller frees it. */
+char *vndf_text_pair(const char *option, const char *word, const char *tail, vndf_error *error);
 
 /* A line split into words. */
 typedef struct vndf_words {

@@ -1,44 +1,72 @@
-/* Hits to test by: materials of every sensible set of effects with optics and roughness drawn at random, and
+/* Hits to test by: materials of every sensible set of effects with optics, roughness and shape drawn at random, and
  * directions from straight up to grazing, on both sides. */
 #ifndef TESTS_BSDF_BSDF_CASE_H
 #define TESTS_BSDF_BSDF_CASE_H
 
 #include "harness/constants.h"
+#include "harness/test.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_bsdf.h"
-#include "harness/test.h"
-
-/* 1/1.5, 1.001, 1.33, 2.4 and what they are from the other side. */
-static const float bsdf_etas[] = {1 / 1.5f, 1.001f, 1.33f, 2.4f, 1.5f, 1 / 1.001f, 1 / 1.33f, 1 / 2.4f};
-enum { BSDF_ETA_COUNT = 8 };
 
 static inline float bsdf_pick(const float *from, size_t count, unsigned long long *state)
 {
     return from[(size_t)(test_uniform_double(state) * (double)count)];
 }
 
-static inline void bsdf_optics(vndf_description *is, unsigned long long *state)
+static inline float bsdf_around(float most, unsigned long long *state)
 {
-    is->eta = bsdf_pick(bsdf_etas, BSDF_ETA_COUNT, state);
+    return most * (2 * test_uniform(state) - 1);
+}
+
+/* R diag R of singular values from 0.01 to 3, mirrored half of the time; with a mean slope or without. */
+static inline vndf_affine bsdf_affine(const vndf_distribution *d, float mean, unsigned long long *state)
+{
+    double x = exp(log(0.01) + log(300) * test_uniform_double(state)), p = 2 * PI * test_uniform_double(state);
+    double y = exp(log(0.01) + log(300) * test_uniform_double(state)), q = 2 * PI * test_uniform_double(state);
+    double flip = test_uniform(state) < 0.5f ? -1 : 1;
+    vndf_affine a = {d,
+                     (float)(cos(p) * x * cos(q) - sin(p) * y * flip * sin(q)),
+                     (float)(-cos(p) * x * sin(q) - sin(p) * y * flip * cos(q)),
+                     (float)(sin(p) * x * cos(q) + cos(p) * y * flip * sin(q)),
+                     (float)(-sin(p) * x * sin(q) + cos(p) * y * flip * cos(q)),
+                     bsdf_around(mean, state),
+                     bsdf_around(mean, state)};
+    return a;
+}
+
+/* A description and what it points to: it must not move. */
+typedef struct bsdf_subject {
+    vndf_description is;
+    vndf_mixture mixture;
+    const oracle_ndf *ndf[ORACLE_LOBES];
+} bsdf_subject;
+
+/* Of the distributions `all`, the first of them where there is one. Roughness from the list, half of the time
+ * anisotropic; index ratios 1/1.5, 1.001, 1.33, 2.4 and what they are from the other side. */
+static inline void bsdf_material(bsdf_subject *s, const oracle_ndf *all, size_t ndfs, const vndf_effects *effects,
+                                 const float *alphas, size_t count, unsigned long long *state)
+{
+    static const float etas[] = {1 / 1.5f, 1.001f, 1.33f, 2.4f, 1.5f, 1 / 1.001f, 1 / 1.33f, 1 / 2.4f};
+    vndf_description *is = &s->is;
+    *is = (vndf_description){.distribution = all->distribution, .effects = *effects, .mixture = &s->mixture};
+    is->alpha_x = is->alpha_y = bsdf_pick(alphas, count, state);
+    if (test_uniform(state) < 0.5f)
+        is->alpha_y = bsdf_pick(alphas, count, state);
+    is->rotation = bsdf_around(10, state);
+    is->affine = bsdf_affine(all->distribution, test_uniform(state) < 0.8f ? 1.4f : 0, state);
+    s->mixture.count = 1 + (int)(ORACLE_LOBES * test_uniform(state));
+    for (int i = 0; i < s->mixture.count; i++) {
+        s->ndf[i] = &all[i ? (size_t)((float)ndfs * test_uniform(state)) : 0];
+        s->mixture.lobe[i].surface = bsdf_affine(s->ndf[i]->distribution, 1.4f, state);
+        s->mixture.lobe[i].weight = 0.05f + test_uniform(state);
+    }
+    is->eta = bsdf_pick(etas, 8, state);
     is->wavelengths = VNDF_WAVELENGTHS;
     for (int i = 0; i < VNDF_WAVELENGTHS; i++) {
-        is->f0[i] = test_uniform(state);
+        is->f0[i] = test_uniform(state) < 0.3f ? 0 : test_uniform(state); /* 0: F is (1 - wi.wm)^5 alone */
         is->conductor_eta[i] = 0.1f + 3 * test_uniform(state);
         is->conductor_k[i] = 4 * test_uniform(state);
     }
-}
-
-/* Roughness from the list, half of the time anisotropic. */
-static inline vndf_description bsdf_material(const oracle_ndf *ndf, const vndf_effects *effects,
-                                             const float *alphas, size_t count, unsigned long long *state)
-{
-    vndf_description is = {.distribution = ndf->distribution, .effects = *effects};
-    is.alpha_x = is.alpha_y = bsdf_pick(alphas, count, state);
-    if (test_uniform(state) < 0.5f)
-        is.alpha_y = bsdf_pick(alphas, count, state);
-    is.rotation = 20 * test_uniform(state) - 10;
-    bsdf_optics(&is, state);
-    return is;
 }
 
 /* Cosine 1, 1e-3, 1e-6 or any; on either side. */
@@ -63,18 +91,6 @@ static inline void bsdf_describe(const vndf_description *is, const char *ndf, vn
     fprintf(stderr, "  %s, %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n",
             text, ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation,
             (double)wi.x, (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
-}
-
-/* How far one rounding of wo moves the density of samples. */
-static inline double bsdf_spread(const vndf_bsdf *bsdf, vndf_vec3 wo, double pdf)
-{
-    double sum = 0;
-    for (int i = 0; i < 6; i++) {
-        float by = i % 2 ? 0x1p-23f : -0x1p-23f;
-        vndf_vec3 near = {wo.x + (i / 2 == 0) * by, wo.y + (i / 2 == 1) * by, wo.z + (i / 2 == 2) * by};
-        sum += fabs((double)vndf_bsdf_pdf(bsdf, near) - pdf);
-    }
-    return sum;
 }
 
 #endif

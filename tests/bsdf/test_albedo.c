@@ -12,8 +12,8 @@
 
 /* One wi, and what the rule needs of it. */
 typedef struct incidence {
-    const oracle_ndf *ndf;
-    double alpha[2], wi[3], eta, area;
+    oracle_surface surface;
+    double wi[3], eta, area;
 } incidence;
 
 static double dot(const double a[3], const double b[3])
@@ -28,7 +28,7 @@ static double reflected_weight(const incidence *at, const double wm[3], double f
     double below[3] = {at->wi[0] - 2 * facing * wm[0], at->wi[1] - 2 * facing * wm[1], -cos_o};
     if (!(cos_o > 0))
         return 0;
-    return at->area * cos_o / (at->area * cos_o + at->wi[2] * oracle_ndf_area(at->ndf, at->alpha, below));
+    return at->area * cos_o / (at->area * cos_o + at->wi[2] * oracle_surface_area(&at->surface, below));
 }
 
 /* Beta(1 + Lambda_i, 1 + Lambda_o) (1 + Lambda_i). */
@@ -41,7 +41,7 @@ static double transmitted_weight(const incidence *at, const double wm[3], double
         wo[i] = at->wi[i] / at->eta - (facing / at->eta - sqrt(square)) * wm[i]; /* turned up */
     if (!(wo[2] > 0))
         return 0;
-    double i = at->area / at->wi[2], o = oracle_ndf_area(at->ndf, at->alpha, wo) / wo[2];
+    double i = at->area / at->wi[2], o = oracle_surface_area(&at->surface, wo) / wo[2];
     return i * exp(lgamma(i) + lgamma(o) - lgamma(i + o));
 }
 
@@ -49,14 +49,15 @@ static double by_midpoints(const oracle_ndf *ndf, double cosine, double alpha, d
 {
     int slopes = (int)test_amount(300, 500, 1000), turns = (int)test_amount(200, 300, 500);
     double median = vndf_distribution_info(ndf->distribution).scale * alpha, sine = sqrt(1 - cosine * cosine);
-    incidence at = {ndf, {alpha, alpha}, {sine, 0, cosine}, eta, 0};
+    const vndf_affine round = {NULL, (float)alpha, 0, 0, (float)alpha, 0, 0};
+    incidence at = {oracle_surface_from(ndf->slopes, &round), {sine, 0, cosine}, eta, 0};
     double sum = 0;
-    at.area = oracle_ndf_area(ndf, at.alpha, at.wi);
+    at.area = oracle_surface_area(&at.surface, at.wi);
     for (int i = 0; i < slopes; i++) {
         double q = (i + 0.5) / slopes, r = median * q / (1 - q), z = 1 / sqrt(1 + r * r);
         double ring = z * z * z * r * median / ((1 - q) * (1 - q)) / slopes * 2 * PI / turns; /* dwm */
         const double up[3] = {-r * z, 0, z};
-        double density = oracle_ndf_density(ndf, at.alpha, up);
+        double density = oracle_surface_ndf(&at.surface, up);
         for (int j = 0; j < turns && density > 0; j++) {
             double turn = PI * (j + 0.5) / turns, wm[3] = {r * z * cos(turn), r * z * sin(turn), z};
             double facing = dot(at.wi, wm);
@@ -120,7 +121,8 @@ static void test_places(const oracle_ndf *ndf, float eta, double most)
     if (!TEST(albedo != NULL))
         return;
     for (size_t i = 0; i < test_amount(100, 400, 4000); i++) {
-        double u = test_uniform_double(&state), v = test_uniform_double(&state), below = eta > 0 && i % 2;
+        double u = test_uniform_double(&state), v = test_uniform_double(&state);
+        int below = eta > 0 && i % 2;
         float alpha = (float)(eta > 0 ? 0.05 + 0.95 * u : 4 * u * u), cosine = (float)(i % 3 ? v : v * v * v);
         if (alpha < 1e-4f || cosine < 1e-4f * alpha)
             continue;

@@ -1,7 +1,8 @@
 /* A batch of a BSDF gives the bits of its calls for one - directions, facets, lobes, weights, values and densities -
- * and writes nothing past its end: for sets of effects whose normals are drawn in blocks and some others, with both
- * instruction sets and without, for batches of one to several blocks that end anywhere, shared or own directions and
- * roughness, wi on either side, and numbers that are hard or invalid. */
+ * and writes nothing past its end: for every sensible set of effects and shape, walks among them, with all instruction
+ * sets and without, for batches of one to several blocks that end anywhere, shared or own directions, roughness,
+ * matrices and mixtures, wi on either side, and numbers that are hard or invalid. A call that is made for another shape
+ * scatters nothing. */
 #include "bsdf/bsdf_case.h"
 
 enum { COUNT = 600, SPARE = 32 };
@@ -11,7 +12,10 @@ enum { BYTE = 99 };
 static const float MARK = 0x1.c6c6c6p71f;
 
 typedef struct inputs {
-    float wi[3][COUNT], wo[3][COUNT], u[3][COUNT], alpha[2][COUNT];
+    float wi[3][COUNT], wo[3][COUNT], u[3][COUNT], alpha[2][COUNT], turn[2][COUNT];
+    vndf_affine affine[COUNT];
+    vndf_mixture mixture[COUNT];
+    uint64_t seed[COUNT];
 } inputs;
 
 /* Results of the batch, and behind them numbers that have to stay. */
@@ -31,32 +35,33 @@ static float hard(unsigned long long *state)
     return numbers[test_random_bits(state) >> 60];
 }
 
-static void put(float (*to)[COUNT], int i, vndf_vec3 w)
+/* `hostile`: every eighth number is hard; else every 32nd of u. */
+static void fill(inputs *in, const bsdf_subject *s, size_t count, int hostile, unsigned long long *state)
 {
-    to[0][i] = w.x;
-    to[1][i] = w.y;
-    to[2][i] = w.z;
-}
-
-/* `hostile`: every eighth number is hard. */
-static void fill(inputs *in, float least, int hostile, unsigned long long *state)
-{
-    for (int i = 0; i < COUNT; i++) {
-        float u[3];
+    float least = 2e-4f + test_uniform(state) * test_uniform(state);
+    for (size_t i = 0; i < count; i++) {
+        const vndf_vec3 w[2] = {bsdf_direction(state), bsdf_direction(state)};
+        float u[3], angle = 7 * test_uniform(state);
+        float *const all[] = {&in->wi[0][i], &in->wi[1][i], &in->wi[2][i],    &in->wo[0][i],
+                              &in->wo[1][i], &in->wo[2][i], &in->alpha[0][i], &in->alpha[1][i]};
         bsdf_numbers(state, u);
-        put(in->wi, i, bsdf_direction(state));
-        put(in->wo, i, bsdf_direction(state));
         for (int k = 0; k < 3; k++)
-            in->u[k][i] = test_random_bits(state) >> 59 ? u[k] : hard(state);
+            in->u[k][i] = test_random_bits(state) >> (hostile ? 61 : 59) ? u[k] : hard(state);
         in->alpha[0][i] = least * (1 + 9 * test_uniform(state));
         in->alpha[1][i] = test_random_bits(state) >> 63 ? in->alpha[0][i] : least * (1 + 9 * test_uniform(state));
-    }
-    float *const all[] = {in->wi[0], in->wi[1], in->wi[2], in->wo[0],    in->wo[1],   in->wo[2],
-                          in->u[0],  in->u[1],  in->u[2],  in->alpha[0], in->alpha[1]};
-    for (int n = 0; n < 11 && hostile; n++)
-        for (int i = 0; i < COUNT; i++)
+        in->wi[0][i] = w[0].x, in->wi[1][i] = w[0].y, in->wi[2][i] = w[0].z;
+        in->wo[0][i] = w[1].x, in->wo[1][i] = w[1].y, in->wo[2][i] = w[1].z;
+        in->turn[0][i] = cosf(angle);
+        in->turn[1][i] = sinf(angle);
+        in->affine[i] = bsdf_affine(NULL, 1, state);
+        in->mixture[i] = s->mixture;
+        in->mixture[i].lobe[0].surface = bsdf_affine(s->is.distribution, 1, state);
+        in->mixture[i].lobe[0].weight = i % 5 ? test_uniform(state) : -1.0f;
+        in->seed[i] = i;
+        for (int k = 0; k < 8 && hostile; k++)
             if (test_random_bits(state) >> 61 == 0)
-                all[n][i] = hard(state);
+                *all[k] = hard(state);
+    }
 }
 
 /* ---- one batch ---- */
@@ -75,9 +80,23 @@ static void run(const vndf_bsdf_batch *b, const inputs *in, int with_wm, results
         alone[k] = to->alone[k];
     }
     vndf_bsdf_sample_n(b, u, out);
-    vndf_bsdf_eval_pdf_n(b, given, NULL, value, to->pdf);
-    vndf_bsdf_eval_n(b, given, NULL, alone);
+    vndf_bsdf_eval_pdf_n(b, given, in->seed, value, to->pdf);
+    vndf_bsdf_eval_n(b, given, in->seed, alone);
     vndf_bsdf_pdf_n(b, given, to->pdf_alone);
+}
+
+static void hit_at(const vndf_bsdf_batch *b, const inputs *in, size_t i, vndf_bsdf *hit)
+{
+    const vndf_material *m = b->material;
+    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i, from = b->shared & VNDF_SHARED_WI ? 0 : i;
+    vndf_vec3 wi = {in->wi[0][from], in->wi[1][from], in->wi[2][from]};
+    vndf_roughness r = {in->alpha[0][at], in->alpha[1][at], in->turn[0][at], in->turn[1][at]};
+    switch (m->is.effects.shape) {
+    case VNDF_SHAPE_MATRIX:
+    case VNDF_SHAPE_AFFINE: vndf_bsdf_affine(hit, m, b->affine ? &in->affine[at] : NULL, wi); break;
+    case VNDF_SHAPE_MIXTURE: vndf_bsdf_mixture(hit, m, b->mixture ? &in->mixture[at] : NULL, wi); break;
+    default: vndf_bsdf_rough(hit, m, b->alpha_x ? &r : NULL, wi);
+    }
 }
 
 /* NaN is no result. */
@@ -86,49 +105,31 @@ static int same(float a, float b)
     return memcmp(&a, &b, sizeof a) == 0 && a == a;
 }
 
-static int same_sample(const vndf_scattered *s, const results *r, size_t i, int wavelengths, int with_wm)
-{
-    int good = same(s->wo.x, r->wo[0][i]) && same(s->wo.y, r->wo[1][i]) && same(s->wo.z, r->wo[2][i]) &&
-               same(s->density, r->density[i]) && (int)s->lobe == r->lobe[i];
-    if (with_wm)
-        good = good && same(s->wm.x, r->wm[0][i]) && same(s->wm.y, r->wm[1][i]) && same(s->wm.z, r->wm[2][i]);
-    for (int k = 0; k < VNDF_WAVELENGTHS; k++)
-        good = good && same(k < wavelengths ? s->weight[k] : MARK, r->weight[k][i]);
-    return good;
-}
-
-static int same_values(const float *f, float pdf, const results *r, size_t i, int wavelengths)
-{
-    int good = same(pdf, r->pdf[i]) && same(pdf, r->pdf_alone[i]);
-    for (int k = 0; k < VNDF_WAVELENGTHS; k++) {
-        float want = k < wavelengths ? f[k] : MARK;
-        good = good && same(want, r->value[k][i]) && same(want, r->alone[k][i]);
-    }
-    return good;
-}
-
-static vndf_vec3 vector(const float (*of)[COUNT], size_t i)
-{
-    return (vndf_vec3){of[0][i], of[1][i], of[2][i]};
-}
-
 /* Compares with the calls for one. Counts the lobes that were met. */
 static void compare(const vndf_bsdf_batch *b, const inputs *in, const results *r, int with_wm, size_t lobes[4])
 {
-    const vndf_material *m = b->material;
+    const int wavelengths = b->material->is.wavelengths;
     for (size_t i = 0; i < b->count; i++) {
-        size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i, from = b->shared & VNDF_SHARED_WI ? 0 : i;
-        vndf_roughness rough = {in->alpha[0][at], in->alpha[1][at], 1, 0};
         const float u[3] = {in->u[0][i], in->u[1][i], in->u[2][i]};
         float f[VNDF_WAVELENGTHS], pdf;
+        vndf_vec3 wo = {in->wo[0][i], in->wo[1][i], in->wo[2][i]};
         vndf_scattered s;
         vndf_bsdf hit;
-        vndf_bsdf_rough(&hit, m, b->alpha_x ? &rough : NULL, vector(in->wi, from));
+        hit_at(b, in, i, &hit);
         vndf_bsdf_sample(&hit, u, &s);
-        vndf_bsdf_eval_pdf(&hit, vector(in->wo, i), 0, f, &pdf);
-        if (!TEST(same_sample(&s, r, i, m->is.wavelengths, with_wm)) ||
-            !TEST(same_values(f, pdf, r, i, m->is.wavelengths)))
-            bsdf_describe(&m->is, "batch", vector(in->wi, from), vector(in->wo, i));
+        vndf_bsdf_eval_pdf(&hit, wo, in->seed[i], f, &pdf);
+        int good = same(s.wo.x, r->wo[0][i]) && same(s.wo.y, r->wo[1][i]) && same(s.wo.z, r->wo[2][i]) &&
+                   same(s.density, r->density[i]) && (int)s.lobe == r->lobe[i] && same(pdf, r->pdf[i]) &&
+                   same(pdf, r->pdf_alone[i]);
+        if (with_wm)
+            good &= same(s.wm.x, r->wm[0][i]) && same(s.wm.y, r->wm[1][i]) && same(s.wm.z, r->wm[2][i]);
+        for (int k = 0; k < VNDF_WAVELENGTHS; k++) {
+            float want = k < wavelengths ? f[k] : MARK;
+            good &= same(k < wavelengths ? s.weight[k] : MARK, r->weight[k][i]) && same(want, r->value[k][i]) &&
+                    same(want, r->alone[k][i]);
+        }
+        if (!TEST(good))
+            bsdf_describe(&b->material->is, "batch", hit.wi, wo);
         lobes[s.lobe]++;
     }
     for (size_t i = b->count; i < COUNT + SPARE; i++)
@@ -137,78 +138,86 @@ static void compare(const vndf_bsdf_batch *b, const inputs *in, const results *r
              r->pdf_alone[i] == MARK);
 }
 
-/* ---- materials ---- */
-
-/* Bare reflection, a Fresnel term, both lobes of a dielectric, and others that take turns. */
-static vndf_effects effects_of(size_t n)
-{
-    static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_NONE, VNDF_FRESNEL_SCHLICK, VNDF_FRESNEL_CONDUCTOR,
-                                           VNDF_FRESNEL_DIELECTRIC};
-    vndf_effects e = {0};
-    e.fresnel = fresnel[n % 4];
-    if (n % 8 == 3)
-        e.lobes = VNDF_LOBES_BOTH;
-    if (n % 16 == 9)
-        e.masking = VNDF_MASKING_SEPARABLE;
-    if (n % 16 == 13)
-        e.lobes = VNDF_LOBES_BOTH;
-    if (n % 16 == 15)
-        e.lobes = VNDF_LOBES_TRANSMISSION;
-    e.transport = n % 32 < 16 ? VNDF_TRANSPORT_RADIANCE : VNDF_TRANSPORT_IMPORTANCE;
-    return e;
-}
-
-static void test_material(const oracle_ndf *ndf, size_t n, unsigned long long *state, size_t lobes[4])
+static void test_material(const oracle_ndf *ndf, const vndf_effects *e, size_t n, unsigned long long *state,
+                          size_t lobes[4])
 {
     static const float alphas[] = {1e-3f, 0.03f, 0.1f, 0.4f, 0.5f, 1, 3};
     static const size_t counts[] = {1, 2, 7, 8, 16, 17, 255, 256, 257, 512, 575, 600};
-    static const vndf_instructions limits[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_BEST,
-                                               VNDF_INSTRUCTIONS_AVX2, VNDF_INSTRUCTIONS_AVX2,
+    static const vndf_instructions limits[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_AVX2,
                                                VNDF_INSTRUCTIONS_PORTABLE};
     static inputs in;
     static results r;
-    vndf_effects e = effects_of(n);
-    vndf_description is = bsdf_material(ndf, &e, alphas, 7, state);
+    bsdf_subject s;
     vndf_material m;
-    is.wavelengths = 1 + (int)(n / 3 % VNDF_WAVELENGTHS);
-    if (n % 24 == 11)
-        is.eta = 1;
-    if (n % 40 == 2)
-        is.conductor_k[0] = 0.01f; /* steep */
-    TEST(vndf_material_resolve(&is, &m, NULL) == VNDF_OK);
-    fill(&in, bsdf_pick(alphas, 7, state) / 5, n % 5 == 4, state);
-    int own = test_uniform(state) < 0.5f, with_wm = test_uniform(state) < 0.7f;
-    vndf_bsdf_batch b = {.material = &m, .shared = (unsigned)(4 * test_uniform(state))};
-    b.count = counts[(size_t)(12 * test_uniform_double(state))];
-    b.limit = limits[(size_t)(5 * test_uniform(state))];
-    b.alpha_x = own ? in.alpha[0] : NULL;
-    b.alpha_y = own ? in.alpha[1] : NULL;
-    b.wi_x = in.wi[0];
-    b.wi_y = in.wi[1];
-    b.wi_z = in.wi[2];
+    int is_slow = e->shape == VNDF_SHAPE_MIXTURE || e->scattering == VNDF_SCATTERING_MULTIPLE, own = n % 3 < 2;
+    bsdf_material(&s, ndf, 1, e, alphas, 7, state);
+    s.is.wavelengths = 1 + (int)(n % VNDF_WAVELENGTHS);
+    if (n % 8 == 3 && e->scattering == VNDF_SCATTERING_SINGLE)
+        s.is.eta = 1;
+    if (!TEST(vndf_material_resolve(&s.is, &m, NULL) == VNDF_OK))
+        return;
+    vndf_bsdf_batch b = {.material = &m, .shared = (unsigned)(n / 2 % 4), .limit = limits[n % 3]};
+    b.count = counts[test_random_bits(state) % (is_slow ? 6 : 12)];
+    fill(&in, &s, b.count, n % 5 == 4, state);
+    b.wi_x = in.wi[0], b.wi_y = in.wi[1], b.wi_z = in.wi[2];
+    if (own) {
+        b.alpha_x = in.alpha[0], b.alpha_y = in.alpha[1];
+        b.cos_rotation = in.turn[0], b.sin_rotation = in.turn[1];
+        b.affine = in.affine;
+        b.mixture = in.mixture;
+    }
     memset(&r, BYTE, sizeof r);
-    run(&b, &in, with_wm, &r);
-    compare(&b, &in, &r, with_wm, lobes);
+    run(&b, &in, n % 4 > 0, &r);
+    compare(&b, &in, &r, n % 4 > 0, lobes);
 }
 
-static void test_ndf(const oracle_ndf *ndf)
+/* ---- calls for another shape ---- */
+
+static void test_other_shapes(const oracle_ndf *ndf)
 {
-    unsigned long long state = 11 + strlen(ndf->name);
-    size_t lobes[4] = {0};
-    for (size_t n = 0; n < test_amount(64, 256, 2048); n++)
-        test_material(ndf, n, &state, lobes);
-    for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
-        TEST(lobes[lobe] > 10);
+    unsigned long long state = 3;
+    const vndf_vec3 wi = {0.6f, 0, 0.8f};
+    const vndf_roughness r = {0.3f, 0.3f, 1, 0};
+    const vndf_affine singular = {NULL, 1, 2, 2, 4, 0, 0};
+    for (int shape = 0; shape <= VNDF_SHAPE_MIXTURE; shape++) {
+        const vndf_effects e = {.shape = (vndf_shape)shape};
+        int is_affine = shape == VNDF_SHAPE_MATRIX || shape == VNDF_SHAPE_AFFINE,
+            is_mixture = shape > VNDF_SHAPE_AFFINE;
+        bsdf_subject s;
+        vndf_material m;
+        vndf_bsdf b;
+        bsdf_material(&s, ndf, 1, &e, &r.alpha_x, 1, &state);
+        s.is.mixture = NULL;
+        s.is.affine.mean_x = s.is.affine.mean_y = 0;
+        TEST(vndf_material_resolve(&s.is, &m, NULL) == VNDF_OK);
+        TEST(vndf_bsdf_rough(&b, &m, &r, wi) == (!is_affine && !is_mixture));
+        TEST(vndf_bsdf_affine(&b, &m, &s.is.affine, wi) == is_affine);
+        s.mixture.count = 1;
+        s.mixture.lobe[0].surface = s.is.affine;
+        s.mixture.lobe[0].surface.distribution = ndf->distribution;
+        TEST(vndf_bsdf_mixture(&b, &m, &s.mixture, wi) == is_mixture);
+        TEST(vndf_bsdf_at(&b, &m, wi) == !is_mixture); /* it brought none */
+        TEST(!vndf_bsdf_affine(&b, &m, &singular, wi));
+    }
 }
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"ggx", "beckmann", "student-t-2.5-small", "student-t-2.5-large", "hazy"};
-    for (size_t i = 0; i < 5; i++) {
+    static const char *const names[] = {"ggx", "beckmann", "student-t-2.5-small", "hazy"};
+    for (size_t i = 0; i < 4; i++) {
+        unsigned long long state = 11 + i;
+        size_t lobes[4] = {0}, n = i;
         oracle_ndf ndf;
         if (!oracle_wanted(arguments, argument, i, names[i]) || !TEST(oracle_ndf_open(&ndf, names[i])))
             continue;
-        test_ndf(&ndf);
+        for (size_t k = 0; k < ORACLE_EFFECT_SETS; k++) {
+            vndf_effects e = oracle_effects(k);
+            if (oracle_effects_sensible(&e) && n++ % test_amount(6, 2, 1) == 0)
+                test_material(&ndf, &e, n + k / 7, &state, lobes);
+        }
+        for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
+            TEST(lobes[lobe] > 10);
+        test_other_shapes(&ndf);
         oracle_ndf_close(&ndf);
     }
     return test_done();

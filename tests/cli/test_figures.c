@@ -139,6 +139,24 @@ static void test_verdicts(void)
     free(poor);
 }
 
+/* check says the same in a line and in JSON, of a table and of a claim that does not hold. */
+static void test_check(void)
+{
+    char *text = PRINTED(NULL, "check", "t", "--samples", "20000"), *quiet;
+    char *json = PRINTED(NULL, "check", "t", "--samples", "20000", "--hard", "--json");
+    TEST(strstr(text, "\ncertificate  tv_above ") && strstr(text, "\nchi-square ") &&
+         strstr(text, "\nresult good\n"));
+    TEST(*json_end(json) == '\0');
+    TEST_HAS(json, "\"chi_square\": [\n    {\"alpha\": \"1x1\", \"theta\": 0, ");
+    TEST_HAS(json, "\"property\": \"facing\"");
+    TEST_HAS(json, "\"result\": \"good\"");
+    quiet = PRINTED(NULL, "check", "ggx", "--samples", "1000", "-q");
+    TEST(quiet && *quiet == '\0');
+    free(text);
+    free(json);
+    free(quiet);
+}
+
 int main(void)
 {
     char folder[] = "figures.XXXXXX", *built, *told, *csv;
@@ -171,6 +189,7 @@ int main(void)
     TEST_HAS(csv, "\"values.pdf\": \"per steradian\"");
     free(csv);
     test_verdicts();
+    test_check();
     TEST(remove("t") == 0 && remove("m") == 0 && remove("c") == 0 && remove("rows.csv") == 0);
     TEST(remove("two.vndfs") == 0);
     return run_end(folder);

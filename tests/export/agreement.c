@@ -1,9 +1,11 @@
 /* What scripts ask about kernels that another program runs, and whether they answer as the library does:
  *
+ *     vndf_agreement ask WHAT LANGUAGE PREFIX embedded|fetching < ask.h
  *     vndf_agreement make WHAT COUNT QUESTIONS TABLE...
  *     vndf_agreement check WHAT BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...
  *
- * The first writes questions, in turn about GGX, Beckmann and each table, the second judges answers.
+ * The first prints ask.h in a language; the second writes questions, in turn about GGX, Beckmann and each table; the
+ * third judges answers.
  *
  * WHAT is `normals`, or the effects of a BSDF. Roughness is 0.02 to 1 on both axes, of BSDFs 0.05 to 1,
  * directions are of the whole sphere. Of eight questions one is of a matrix that turns, with a mean slope, one
@@ -21,11 +23,18 @@
 #include <string.h>
 
 #include "cli/random.h"
-#include "export/effects.h"
-#include "export/exported.h"
-#include "vndf.h"
+#include "export/document.h"
 
-enum { SUBJECTS_MAX = 64, ANSWERS = sizeof(exported_answer) / sizeof(float) };
+enum { SUBJECTS_MAX = 64, NUMBERS = 16 };
+
+/* A question as ask.h has it. */
+enum { OF, XX, XY, YX, YY, MEAN_X, MEAN_Y, WI, U = 10, WO = 13 };
+typedef struct question {
+    float n[NUMBERS];
+} question;
+typedef struct answer {
+    float n[NUMBERS];
+} answer;
 
 typedef struct subjects {
     const vndf_distribution *is[SUBJECTS_MAX];
@@ -33,29 +42,31 @@ typedef struct subjects {
     int count;
 } subjects;
 
-/* A record of the files of either kind; the answers of both are as many numbers. */
-typedef union asked {
-    exported_question normal;
-    exported_hit hit;
-} asked;
-typedef union answered {
-    float number[ANSWERS];
-    exported_answer normal;
-    exported_scattered hit;
-} answered;
-
 /* ---- questions ---- */
 
-/* The distribution of a question. */
-static const vndf_distribution *subject_of(const subjects *s, const exported_surface *of)
+static vndf_vec3 vector(const float *v)
 {
-    int i = 0;
-    while (i + 1 < s->count && s->base[i] != of->distribution)
-        i++;
-    return s->is[i];
+    const vndf_vec3 w = {v[0], v[1], v[2]};
+    return w;
 }
 
-static void put_direction(random_stream *stream, size_t index, float wi[3])
+static void put(float *to, vndf_vec3 v)
+{
+    to[0] = v.x;
+    to[1] = v.y;
+    to[2] = v.z;
+}
+
+static vndf_affine surface_of(const subjects *s, const question *q)
+{
+    int i = 0;
+    while (i + 1 < s->count && s->base[i] != q->n[OF])
+        i++;
+    const vndf_affine m = {s->is[i], q->n[XX], q->n[XY], q->n[YX], q->n[YY], q->n[MEAN_X], q->n[MEAN_Y]};
+    return m;
+}
+
+static void put_direction(random_stream *stream, size_t index, float *wi)
 {
     static const double hard[] = {1, 1 - 1e-7, 1e-3, 1e-7, 0, -1e-7, -1e-3, -0.64};
     double z = index % 8 == 5 ? hard[index / 8 % 8] : 2 * random_double(stream) - 1, s = sqrt(1 - z * z);
@@ -65,92 +76,69 @@ static void put_direction(random_stream *stream, size_t index, float wi[3])
     wi[2] = (float)z;
 }
 
-static void turn(random_stream *stream, exported_surface *m)
+static void turn(random_stream *stream, question *q)
 {
-    double a = 6.283185307179586 * random_double(stream), x = (double)m->xx, y = (double)m->yy;
-    m->xx = (float)(cos(a) * x);
-    m->xy = (float)(-sin(a) * y);
-    m->yx = (float)(sin(a) * x);
-    m->yy = (float)(cos(a) * y);
-    m->mean_x = random_float(stream) - 0.5f;
-    m->mean_y = random_float(stream) - 0.5f;
+    double a = 6.283185307179586 * random_double(stream), x = (double)q->n[XX], y = (double)q->n[YY];
+    q->n[XX] = (float)(cos(a) * x);
+    q->n[XY] = (float)(-sin(a) * y);
+    q->n[YX] = (float)(sin(a) * x);
+    q->n[YY] = (float)(cos(a) * y);
+    q->n[MEAN_X] = random_float(stream) - 0.5f;
+    q->n[MEAN_Y] = random_float(stream) - 0.5f;
 }
 
-static exported_question question(const subjects *s, size_t index)
+/* The library's material of a question; without a mean slope where its effects have none. Optics are those of ask.h. */
+static vndf_material material_of(const subjects *s, const export_effects *effects, question *q)
 {
-    static const float edges[] = {0.0f, 0x1p-24f, 1 - 0x1p-24f, 1.0f};
-    random_stream stream = random_from(1000003u + index);
-    exported_question q = {.of.distribution = s->base[index % (size_t)s->count]};
-    q.of.xx = 0.02f * powf(50.0f, random_float(&stream));
-    q.of.yy = 0.02f * powf(50.0f, random_float(&stream));
-    index /= (size_t)s->count;
-    put_direction(&stream, index, q.wi);
-    q.u1 = random_float(&stream);
-    q.u2 = random_float(&stream);
-    if (index % 8 == 3)
-        turn(&stream, &q.of);
-    if (index % 8 == 7) {
-        q.u1 = edges[index / 8 % 4];
-        q.u2 = index / 32 % 2 ? edges[index / 64 % 4] : q.u2;
-    }
-    return q;
-}
-
-/* The library's material of a question; without a mean slope where its effects have none. */
-static vndf_material material_of(const subjects *s, const char *text, exported_hit *q)
-{
-    char why[EFFECTS_ERROR_MAX];
-    export_effects chosen;
-    vndf_description is = {.affine = {NULL, q->of.xx, q->of.xy, q->of.yx, q->of.yy, q->of.mean_x, q->of.mean_y},
-                           .eta = EXPORTED_ETA,
-                           .f0 = EXPORTED_F0,
-                           .conductor_eta = EXPORTED_CONDUCTOR_ETA,
-                           .conductor_k = EXPORTED_CONDUCTOR_K};
+    vndf_description is = {.affine = surface_of(s, q),
+                           .effects = effects_of(effects),
+                           .eta = 1.5f,
+                           .f0 = {0.0f, 0.04f, 0.9f},
+                           .conductor_eta = {0.2f, 0.9f, 1.5f},
+                           .conductor_k = {3.9f, 2.4f, 1.9f}};
     vndf_material material;
-    if (!effects_read(&chosen, text, why)) {
-        fprintf(stderr, "%s\n", why);
-        exit(2);
-    }
-    is.distribution = subject_of(s, &q->of);
-    is.effects = effects_of(&chosen);
+    is.distribution = is.affine.distribution;
     is.effects.shape = VNDF_SHAPE_AFFINE;
     if (vndf_material_resolve(&is, &material, NULL) == VNDF_OK)
         return material;
     is.effects.shape = VNDF_SHAPE_MATRIX;
-    q->of.mean_x = q->of.mean_y = 0;
+    q->n[MEAN_X] = q->n[MEAN_Y] = 0;
     if (vndf_material_resolve(&is, &material, NULL) != VNDF_OK)
         exit(2);
     return material;
 }
 
-static exported_hit hit_of(const subjects *s, size_t index, const char *effects)
+static question question_of(const subjects *s, size_t index, const export_effects *effects)
 {
-    random_stream stream = random_from(2000003u + index);
-    exported_hit q = {.of.distribution = s->base[index % (size_t)s->count]};
-    q.of.xx = 0.05f * powf(20.0f, random_float(&stream));
-    q.of.yy = 0.05f * powf(20.0f, random_float(&stream));
+    static const float edges[] = {0.0f, 0x1p-24f, 1 - 0x1p-24f, 1.0f};
+    random_stream stream = random_from((effects->wanted ? 2000003u : 1000003u) + index);
+    question q = {{s->base[index % (size_t)s->count]}};
+    float least = effects->wanted ? 0.05f : 0.02f;
+    q.n[XX] = least * powf(1 / least, random_float(&stream));
+    q.n[YY] = least * powf(1 / least, random_float(&stream));
     index /= (size_t)s->count;
-    put_direction(&stream, index, q.wi);
-    put_direction(&stream, index + 4, q.wo);
+    put_direction(&stream, index, q.n + WI);
+    if (effects->wanted)
+        put_direction(&stream, index + 4, q.n + WO);
     for (int i = 0; i < 3; i++)
-        q.u[i] = random_float(&stream);
-    if (index % 4 == 3)
-        turn(&stream, &q.of);
-    material_of(s, effects, &q);
+        q.n[U + i] = random_float(&stream);
+    if (index % (effects->wanted ? 4 : 8) == 3)
+        turn(&stream, &q);
+    if (index % 8 == 7 && !effects->wanted) {
+        q.n[U] = edges[index / 8 % 4];
+        q.n[U + 1] = index / 32 % 2 ? edges[index / 64 % 4] : q.n[U + 1];
+    }
+    if (effects->wanted)
+        material_of(s, effects, &q);
     return q;
 }
 
-/* `effects` is NULL for normals, here and below. */
-static int make(const subjects *s, const char *effects, size_t count, const char *file)
+static int make(const subjects *s, const export_effects *effects, size_t count, const char *file)
 {
     FILE *to = fopen(file, "wb");
     for (size_t i = 0; to && i < count; i++) {
-        asked q;
-        if (effects)
-            q.hit = hit_of(s, i, effects);
-        else
-            q.normal = question(s, i);
-        if (fwrite(&q, effects ? sizeof q.hit : sizeof q.normal, 1, to) != 1)
+        const question q = question_of(s, i, effects);
+        if (fwrite(&q, sizeof q, 1, to) != 1)
             return 2;
     }
     return to && fclose(to) == 0 ? 0 : 2;
@@ -158,63 +146,15 @@ static int make(const subjects *s, const char *effects, size_t count, const char
 
 /* ---- answers ---- */
 
-static void put(float to[3], vndf_vec3 v)
-{
-    to[0] = v.x;
-    to[1] = v.y;
-    to[2] = v.z;
-}
-
-static vndf_vec3 vector(const float v[3])
-{
-    const vndf_vec3 w = {v[0], v[1], v[2]};
-    return w;
-}
-
-/* The library's; densities are of the normals that the kernel drew. */
-static exported_answer answer_of(const subjects *s, const exported_question *q, const exported_answer *given)
-{
-    vndf_affine m = {subject_of(s, &q->of), q->of.xx, q->of.xy, q->of.yx, q->of.yy, q->of.mean_x, q->of.mean_y};
-    vndf_vec3 wi = vector(q->wi), wm = vector(given->wm);
-    exported_answer a;
-    vndf_view view = vndf_affine_view_from(&m, wi);
-    put(a.wm, vndf_sample(&view, q->u1, q->u2, &a.sampled));
-    a.pdf = vndf_pdf(&view, wm);
-    a.visible = vndf_visible(&view, wm);
-    a.ndf = vndf_affine_ndf(&m, wm);
-    a.lambda = vndf_affine_lambda(&m, wi);
-    a.g1 = vndf_affine_g1(&m, wi);
-    a.g2 = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
-    a.area = vndf_affine_projected_area(&m, wi);
-    vndf_mixture mixture = {.count = 2, .lobe = {{m, 0.6f}, {{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.4f}}};
-    vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, wi);
-    put(a.mixed, vndf_mixture_sample(&lobes, q->u1, q->u2, &a.mixed_sampled, NULL));
-    a.mixed_pdf = vndf_mixture_pdf(&lobes, vector(given->mixed));
-    return a;
-}
-
-static int is_refused(const exported_question *q, const float wm[3], float pdf)
-{
-    double square = 0, facing = 0;
-    for (int i = 0; i < 3; i++) {
-        square += (double)wm[i] * (double)wm[i];
-        facing += (double)wm[i] * (double)q->wi[i];
-    }
-    int blind = q->wi[0] == 0 && q->wi[1] == 0 && q->wi[2] < 0;
-    return !(fabs(square - 1) < 1e-6 && wm[2] >= 0 && (blind || (facing > -1.5e-7 && pdf > 0 && pdf <= FLT_MAX)));
-}
-
-/* What 99% and 99.9% of the answers may differ by: of their numbers first to last, absolutely (1), as shares of 1 + the
- * number (2), or relatively (0). */
+/* What 99% and 99.9% of the answers but those at the edges of the unit square, the rims of the visible normals, may
+ * differ by in their numbers first to last: absolutely (1), as shares of 1 + the number (2), or relatively (0). The
+ * last thousandth has the rim of the visible normals, where a rounding moves much. */
 typedef struct limit {
     const char *name;
     int first, last, is_absolute;
     double most_of, nearly_all;
 } limit;
 
-/* What 99% and 99.9% of the answers but those at the edges of the unit square, the rims of the visible normals, may
- * differ by: components of normals, shares of 1 + |Lambda| and G absolutely, the others relatively. The last thousandth
- * has the rim of the visible normals, where a rounding moves much. */
 static const limit NORMALS[] = {
     {"normal", 0, 2, 1, 2e-6, 1e-5},
     {"its density", 3, 3, 0, 2e-5, 3e-4},
@@ -229,6 +169,23 @@ static const limit NORMALS[] = {
     {"mixed pdf", 15, 15, 0, 1e-4, 1e-3},
 };
 
+/* Samples whose lobe is another than the library's, by a rounding of F or of a horizon, have no other limit.
+ * Beside total reflection 1 - F hangs on the last digits of directions. */
+enum { LOBE = 7 };
+static const limit SCATTERED[] = {
+    {"lobe", LOBE, LOBE, 1, 0, 1},
+    {"wo", 0, 2, 1, 1e-6, 1e-5},
+    {"weight", 3, 5, 2, 5e-6, 1e-4},
+    {"its density", 6, 6, 0, 2e-5, 1e-4},
+    {"f", 8, 10, 0, 1e-4, 5e-3},
+    {"pdf", 11, 11, 0, 1e-4, 5e-3},
+    {"f of wo", 12, 14, 0, 1e-4, 5e-3},
+    {"pdf of wo", 15, 15, 0, 1e-4, 5e-3},
+    {"f cos = weight density", 0, 0, 0, 1e-4, 5e-3},
+};
+
+enum { LIMITS_MAX = sizeof NORMALS / sizeof *NORMALS, SCATTERED_LIMITS = sizeof SCATTERED / sizeof *SCATTERED };
+
 static double difference(const limit *l, const float *a, const float *b)
 {
     double most = 0;
@@ -238,6 +195,102 @@ static double difference(const limit *l, const float *a, const float *b)
         most = d <= most ? most : isnan(d) ? HUGE_VAL : d;
     }
     return most;
+}
+
+/* The library's; densities are of the normals that the kernel drew. */
+static answer own_answer(const subjects *s, const question *q, const answer *given)
+{
+    const vndf_affine m = surface_of(s, q);
+    const vndf_vec3 wi = vector(q->n + WI), wm = vector(given->n);
+    const float u1 = q->n[U], u2 = q->n[U + 1];
+    answer a;
+    vndf_view view = vndf_affine_view_from(&m, wi);
+    put(a.n, vndf_sample(&view, u1, u2, &a.n[3]));
+    a.n[4] = vndf_pdf(&view, wm);
+    a.n[5] = vndf_visible(&view, wm);
+    a.n[6] = vndf_affine_ndf(&m, wm);
+    a.n[7] = vndf_affine_lambda(&m, wi);
+    a.n[8] = vndf_affine_g1(&m, wi);
+    a.n[9] = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
+    a.n[10] = vndf_affine_projected_area(&m, wi);
+    vndf_mixture mixture = {.count = 2, .lobe = {{m, 0.6f}, {{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.4f}}};
+    vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, wi);
+    put(a.n + 11, vndf_mixture_sample(&lobes, u1, u2, &a.n[14], NULL));
+    a.n[15] = vndf_mixture_pdf(&lobes, vector(given->n + 11));
+    return a;
+}
+
+static int is_refused(const question *q, const float *wm, float pdf)
+{
+    const float *wi = q->n + WI;
+    double square = 0, facing = 0;
+    for (int i = 0; i < 3; i++) {
+        square += (double)wm[i] * (double)wm[i];
+        facing += (double)wm[i] * (double)wi[i];
+    }
+    int blind = wi[0] == 0 && wi[1] == 0 && wi[2] < 0;
+    return !(fabs(square - 1) < 1e-6 && wm[2] >= 0 && (blind || (facing > -1.5e-7 && pdf > 0 && pdf <= FLT_MAX)));
+}
+
+/* What an answer differs by in each limit (-1, from edges of the unit square on: not judged); whether it is refused.
+ * *marked: it has other bits than the library's, or is scattered. */
+static int compare_normal(const subjects *s, const question *q, const answer *a, double *off, int *marked)
+{
+    const answer own = own_answer(s, q, a);
+    const float *u = q->n + U;
+    int at_edge = u[0] < 1e-6f || u[0] > 1 - 1e-6f || u[1] < 1e-6f || u[1] > 1 - 1e-6f;
+    for (int i = 0; i < LIMITS_MAX; i++)
+        off[i] = at_edge ? -1 : difference(&NORMALS[i], a->n, own.n);
+    *marked = memcmp(a, &own, sizeof own) != 0;
+    return is_refused(q, a->n, a->n[3]) || is_refused(q, a->n + 11, a->n[14]);
+}
+
+/* The library's; of the direction that the kernel drew f and density. */
+static answer own_scattered(const vndf_bsdf *b, const question *q, const answer *given)
+{
+    answer a;
+    vndf_scattered s;
+    float f[VNDF_WAVELENGTHS];
+    vndf_bsdf_sample(b, q->n + U, &s);
+    put(a.n, s.wo);
+    memcpy(a.n + 3, s.weight, 3 * sizeof *f);
+    a.n[6] = s.density;
+    a.n[LOBE] = (float)s.lobe;
+    vndf_bsdf_eval_pdf(b, vector(q->n + WO), 0, f, &a.n[11]);
+    memcpy(a.n + 8, f, 3 * sizeof *f);
+    vndf_bsdf_eval_pdf(b, vector(given->n), 0, f, &a.n[15]);
+    memcpy(a.n + 12, f, 3 * sizeof *f);
+    return a;
+}
+
+/* f cos over weight times density, less 1, of the kernel's own numbers. */
+static double inconsistency(const vndf_bsdf *b, const answer *a)
+{
+    double most = 0, cosine = fabs((double)vndf_bsdf_cosine(b, vector(a->n)));
+    for (int i = 0; i < 3; i++) {
+        double there = (double)a->n[12 + i] * cosine, here = (double)a->n[3 + i] * (double)a->n[6];
+        most = fmax(most, fmax(there, here) > 1e-20 ? fabs(there - here) / fmax(there, here) : 0);
+    }
+    return most;
+}
+
+static int compare_hit(const subjects *s, const export_effects *effects, question *q, const answer *a, double *off,
+                       int *marked)
+{
+    vndf_material material = material_of(s, effects, q);
+    vndf_bsdf b;
+    int there = vndf_bsdf_at(&b, &material, vector(q->n + WI)), last = SCATTERED_LIMITS - 1, bad = 0;
+    const answer own = own_scattered(&b, q, a);
+    double square = 0;
+    for (int i = 0; i < last; i++)
+        off[i] = own.n[LOBE] != a->n[LOBE] && i > 0 && i < 4 ? 0 : difference(&SCATTERED[i], a->n, own.n);
+    off[last] = a->n[LOBE] > 0 && a->n[LOBE] < 3 ? inconsistency(&b, a) : 0;
+    *marked = there && a->n[LOBE] > 0;
+    for (int i = 0; i < NUMBERS; i++)
+        bad |= i > 2 && !(a->n[i] >= 0 && a->n[i] <= FLT_MAX);
+    for (int i = 0; i < 3; i++)
+        square += (double)a->n[i] * (double)a->n[i];
+    return bad || !(fabs(square - 1) < 3e-6) || (a->n[LOBE] > 0) != (a->n[6] > 0);
 }
 
 static int ascending(const void *a, const void *b)
@@ -256,124 +309,44 @@ static int judge(const limit *l, double *off, size_t count, double slack)
     return bad;
 }
 
-/* ---- BSDFs ---- */
-
-/* The library's; of the direction that the kernel drew f and density. */
-static exported_scattered scattered_of(const vndf_bsdf *b, const exported_hit *q, const exported_scattered *given)
+static int check(const subjects *s, const export_effects *effects, const char *how, FILE *asked, FILE *said)
 {
-    exported_scattered a = {.lobe = 0};
-    vndf_scattered s;
-    float f[VNDF_WAVELENGTHS];
-    vndf_bsdf_sample(b, q->u, &s);
-    put(a.wo, s.wo);
-    memcpy(a.weight, s.weight, sizeof a.weight);
-    a.sampled = s.density;
-    a.lobe = (float)s.lobe;
-    vndf_bsdf_eval_pdf(b, vector(q->wo), 0, f, &a.pdf);
-    memcpy(a.f, f, sizeof a.f);
-    vndf_bsdf_eval_pdf(b, vector(given->wo), 0, f, &a.own_pdf);
-    memcpy(a.own_f, f, sizeof a.own_f);
-    return a;
-}
-
-static int is_bad_scattering(const exported_scattered *a)
-{
-    double square = 0;
-    int bad = !(a->sampled >= 0 && a->sampled <= FLT_MAX) || (a->lobe > 0) != (a->sampled > 0);
-    for (int i = 0; i < 3; i++) {
-        square += (double)a->wo[i] * (double)a->wo[i];
-        bad |= !(a->weight[i] >= 0 && a->weight[i] <= FLT_MAX && a->f[i] >= 0 && a->f[i] <= FLT_MAX);
-    }
-    return bad || !(fabs(square - 1) < 3e-6) || !(a->pdf >= 0 && a->pdf <= FLT_MAX);
-}
-
-/* Samples whose lobe is another than the library's, by a rounding of F or of a horizon, have no other limit.
- * Beside total reflection 1 - F hangs on the last digits of directions. */
-static const limit SCATTERED[] = {
-    {"lobe", 7, 7, 1, 0, 1},
-    {"wo", 0, 2, 1, 1e-6, 1e-5},
-    {"weight", 3, 5, 2, 5e-6, 1e-4},
-    {"its density", 6, 6, 0, 2e-5, 1e-4},
-    {"f", 8, 10, 0, 1e-4, 5e-3},
-    {"pdf", 11, 11, 0, 1e-4, 5e-3},
-    {"f of wo", 12, 14, 0, 1e-4, 5e-3},
-    {"pdf of wo", 15, 15, 0, 1e-4, 5e-3},
-    {"f cos = weight density", 0, 0, 0, 1e-4, 5e-3},
-};
-
-/* f cos over weight times density, less 1, of the kernel's own numbers. */
-static double inconsistency(const vndf_bsdf *b, const exported_scattered *a)
-{
-    double most = 0, cosine = fabs((double)vndf_bsdf_cosine(b, vector(a->wo)));
-    for (int i = 0; i < 3; i++) {
-        double there = (double)a->own_f[i] * cosine, here = (double)a->weight[i] * (double)a->sampled;
-        most = fmax(most, fmax(there, here) > 1e-20 ? fabs(there - here) / fmax(there, here) : 0);
-    }
-    return most;
-}
-
-/* ---- judgement ---- */
-
-/* What an answer differs by in each limit, from edges of the unit square on (-1: not judged); whether it is refused. */
-static int compare_normal(const subjects *s, const exported_question *q, const answered *a, double *off,
-                          int *other_bits)
-{
-    const answered own = {.normal = answer_of(s, q, &a->normal)};
-    int at_edge = q->u1 < 1e-6f || q->u1 > 1 - 1e-6f || q->u2 < 1e-6f || q->u2 > 1 - 1e-6f;
-    for (size_t i = 0; i < sizeof NORMALS / sizeof *NORMALS; i++)
-        off[i] = at_edge ? -1 : difference(&NORMALS[i], a->number, own.number);
-    *other_bits = memcmp(a, &own, sizeof own) != 0;
-    return is_refused(q, a->normal.wm, a->normal.sampled) ||
-           is_refused(q, a->normal.mixed, a->normal.mixed_sampled);
-}
-
-static int compare_hit(const subjects *s, const char *effects, exported_hit *q, const answered *a, double *off,
-                       int *kept)
-{
-    vndf_material material = material_of(s, effects, q);
-    vndf_bsdf b;
-    int there = vndf_bsdf_at(&b, &material, vector(q->wi)), last = sizeof SCATTERED / sizeof *SCATTERED - 1;
-    const answered own = {.hit = scattered_of(&b, q, &a->hit)};
-    for (int i = 0; i < last; i++)
-        off[i] =
-            own.hit.lobe != a->hit.lobe && i > 0 && i < 4 ? 0 : difference(&SCATTERED[i], a->number, own.number);
-    off[last] = a->hit.lobe > 0 && a->hit.lobe < 3 ? inconsistency(&b, &a->hit) : 0;
-    *kept = there && a->hit.lobe > 0;
-    return is_bad_scattering(&a->hit);
-}
-
-static int check(const subjects *s, const char *effects, const char *how, const char *questions,
-                 const char *answers)
-{
-    enum { MOST = 1 << 16, LIMITS = 16 };
-    static double off[LIMITS][MOST];
-    const limit *limits = effects ? SCATTERED : NORMALS;
-    size_t limit_count = effects ? sizeof SCATTERED / sizeof *SCATTERED : sizeof NORMALS / sizeof *NORMALS;
-    FILE *asked_from = fopen(questions, "rb"), *said = fopen(answers, "rb");
-    asked q;
-    answered a;
+    enum { MOST = 1 << 16 };
+    static double off[LIMITS_MAX][MOST];
+    const limit *limits = effects->wanted ? SCATTERED : NORMALS;
+    int limit_count = effects->wanted ? SCATTERED_LIMITS : LIMITS_MAX, bad = 0, mark;
+    question q;
+    answer a;
     size_t count = 0, judged = 0, refused = 0, marked = 0;
-    int bad = 0, mark;
-    while (asked_from && said && judged < MOST &&
-           fread(&q, effects ? sizeof q.hit : sizeof q.normal, 1, asked_from) == 1 &&
+    while (asked && said && judged < MOST && fread(&q, sizeof q, 1, asked) == 1 &&
            fread(&a, sizeof a, 1, said) == 1) {
-        double here[LIMITS];
-        refused += (size_t)(effects ? compare_hit(s, effects, &q.hit, &a, here, &mark)
-                                    : compare_normal(s, &q.normal, &a, here, &mark));
-        for (size_t i = 0; i < limit_count; i++)
+        double here[LIMITS_MAX];
+        refused += (size_t)(effects->wanted ? compare_hit(s, effects, &q, &a, here, &mark)
+                                            : compare_normal(s, &q, &a, here, &mark));
+        for (int i = 0; i < limit_count; i++)
             off[i][judged] = here[i];
         marked += (size_t)mark;
         judged += here[0] >= 0;
         count++;
     }
-    printf("%s: %zu answers, %zu refused, %zu %s\n", effects ? effects : "normals", count, refused, marked,
-           effects ? "scattered" : "with other bits than the library's");
-    for (size_t i = 0; judged && i < limit_count; i++)
+    printf("%zu answers, %zu refused, %zu %s\n", count, refused, marked,
+           effects->wanted ? "scattered" : "with other bits than the library's");
+    for (int i = 0; judged && i < limit_count; i++)
         bad += judge(&limits[i], off[i], judged, strcmp(how, "FAST") == 0 ? 10 : 1);
-    return !count || bad || refused || (effects ? marked < count / 4 : strcmp(how, "BITS") == 0 && marked);
+    return !count || bad || refused || (effects->wanted ? marked < count / 4 : strcmp(how, "BITS") == 0 && marked);
 }
 
 /* ---- the program ---- */
+
+static int ask(const export_effects *effects, const char *in, const char *prefix, int embeds)
+{
+    static char text[1 << 14];
+    export_document document = {
+        .as = {.to = language_named(in)}, .lobes = 4, .embeds = embeds, .kinds = EXPORT_ALL, .effects = *effects};
+    text[fread(text, 1, sizeof text - 1, stdin)] = '\0';
+    document.as.by_pointer = !embeds && document.as.to->pointer;
+    return !translation_prefix(&document.as, prefix) || !document_write_more(&document, stdout, text);
+}
 
 static int load(subjects *s, char **files, int count)
 {
@@ -398,10 +371,15 @@ static int load(subjects *s, char **files, int count)
 int main(int argc, char **argv)
 {
     subjects s;
-    const char *effects = argc > 2 && strcmp(argv[2], "normals") != 0 ? argv[2] : NULL;
-    if (argc >= 5 && strcmp(argv[1], "make") == 0 && load(&s, argv + 5, argc - 5))
-        return make(&s, effects, strtoul(argv[3], NULL, 10), argv[4]);
-    if (argc >= 6 && strcmp(argv[1], "check") == 0 && load(&s, argv + 6, argc - 6))
-        return check(&s, effects, argv[3], argv[4], argv[5]);
+    export_effects effects = {0};
+    char why[EFFECTS_ERROR_MAX];
+    if (argc < 5 || (strcmp(argv[2], "normals") != 0 && !effects_read(&effects, argv[2], why)))
+        return 2;
+    if (strcmp(argv[1], "ask") == 0 && argc == 6)
+        return ask(&effects, argv[3], argv[4], strcmp(argv[5], "embedded") == 0);
+    if (strcmp(argv[1], "make") == 0 && load(&s, argv + 5, argc - 5))
+        return make(&s, &effects, strtoul(argv[3], NULL, 10), argv[4]);
+    if (strcmp(argv[1], "check") == 0 && argc >= 6 && load(&s, argv + 6, argc - 6))
+        return check(&s, &effects, argv[3], fopen(argv[4], "rb"), fopen(argv[5], "rb"));
     return 2;
 }

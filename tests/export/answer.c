@@ -1,27 +1,32 @@
-/* answer QUESTIONS ANSWERS: asks an exported kernel, or a BSDF, every question of a file. C99 and C++11. */
+/* answer QUESTIONS ANSWERS: asks an exported kernel every question of a file, by ask.h in its language. It is compiled
+ * as C99 and as C++11, by several compilers: KERNEL_FILE is what was exported with the prefix `kernel`; where it has no
+ * numbers, KERNEL_RAW is the file that has them. */
 #include <stdio.h>
 
-#include "exported.h"
+#include KERNEL_FILE
+#include "asked.h"
 
-#ifdef KERNEL_SCATTERS
-typedef exported_hit question_of;
-typedef exported_scattered answer_of;
-#  define ASK exported_scatter_at
+#ifdef KERNEL_RAW
+#  define ASK(question) kernel_ask(numbers, question)
 #else
-typedef exported_question question_of;
-typedef exported_answer answer_of;
-#  define ASK exported_answer_to
+#  define ASK(question) kernel_ask(question)
 #endif
 
 int main(int argc, char **argv)
 {
-    question_of question;
-    answer_of answer;
+    kernel_question question;
     FILE *questions = argc == 3 ? fopen(argv[1], "rb") : NULL, *answers = questions ? fopen(argv[2], "wb") : NULL;
     if (!answers)
         return 2;
+#ifdef KERNEL_RAW
+    static float numbers[1 << 16];
+    FILE *raw = fopen(KERNEL_RAW, "rb");
+    if (!raw || fread(numbers, sizeof *numbers, 1 << 16, raw) == 0)
+        return 2;
+    fclose(raw);
+#endif
     while (fread(&question, sizeof question, 1, questions) == 1) {
-        ASK(&question, &answer);
+        const kernel_answer answer = ASK(question);
         if (fwrite(&answer, sizeof answer, 1, answers) != 1)
             return 2;
     }

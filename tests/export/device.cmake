@@ -1,6 +1,6 @@
 # The kernel that is exported to LANGUAGE, run by tools/export/run_kernel.py on what runs the language here, answers as
 # the library does, with numbers embedded or read from a buffer that two tables share: FORMS says how they get there.
-# Other words of FORMS are BSDFs. What is absent is skipped.
+# Other words of FORMS are BSDFs, whose numbers are read. What is absent is skipped.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT PYTHON)
@@ -30,12 +30,13 @@ set(metal "fresnel=conductor masking=v-cavities reflection=retro")
 set(thin "lobes=both fresnel=schlick masking=separable transport=importance")
 foreach(form IN LISTS FORMS)
     set(tables ${SOURCE}/tables/student-t-2.5-small.vndf)
-    set(how "")
+    set(how --buffer numbers.f32)
+    set(numbers fetching)
     if(form STREQUAL fetching)
         list(PREPEND tables ${SOURCE}/tables/student-t-2.5.vndf)
-    endif()
-    if(NOT form STREQUAL embedded)
-        set(how --buffer numbers.f32)
+    elseif(form STREQUAL embedded)
+        set(how "")
+        set(numbers embedded)
     endif()
     set(what normals)
     set(bsdf "")
@@ -44,9 +45,11 @@ foreach(form IN LISTS FORMS)
         set(bsdf --bsdf "${what}")
     endif()
     run("vndf export" ${VNDF} export ${tables} --language ${LANGUAGE} -o kernel.${form} ${how} ${bsdf})
+    run("ask.h" ${AGREEMENT} ask "${what}" ${LANGUAGE} vndf ${numbers} INPUT_FILE ${SOURCE}/tests/export/ask.h
+        OUTPUT_FILE ${OUT}/asked)
     run("questions" ${AGREEMENT} make "${what}" ${QUESTIONS} questions ${tables})
-    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form}
-        questions answers ${how} ${bsdf})
+    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form} asked
+        questions answers ${how})
     string(REGEX MATCH "${LANGUAGE} on [^\n]*" device "${errors}")
     run("agreement of ${form} ${LANGUAGE} with the library" ${AGREEMENT} check "${what}" ROUNDED questions answers
         ${tables})

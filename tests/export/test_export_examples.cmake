@@ -65,7 +65,7 @@ __global__ void draw(const float *numbers, const float *in, float *out)
     registers(two 255 mixture "vndf_mixture m = {2, {surface, vndf_surface_of(VNDF_HAZY, in[i + 7], in[i + 8])},
         {in[i + 9], in[i + 10]}};
     vndf_mixture_view view = vndf_mixture_view_of(numbers, m, wi);
-    vndf_sampled s = vndf_mixture_sample(numbers, view, in[i + 5], in[i + 6]);")
+    vndf_mixed s = vndf_mixture_sample(numbers, view, in[i + 5], in[i + 6]);")
 else()
     string(APPEND absent " nvcc")
 endif()

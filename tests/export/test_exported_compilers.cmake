@@ -10,8 +10,10 @@ if(SANITIZE)
 endif()
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
-set(flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I${SOURCE}/tests/export -I${OUT})
+set(flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I${OUT})
 set(tables ${SOURCE}/tables/student-t-2.5-small.vndf ${SOURCE}/tables/hazy.vndf)
+set(standard_c -x c -std=c99)
+set(standard_cpp -x c++ -std=c++11)
 
 function(run what)
     execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors
@@ -21,18 +23,16 @@ function(run what)
     endif()
 endfunction()
 
-foreach(language c cpp)
-    run("export" ${VNDF} export ${tables} --language ${language} --prefix kernel -o embedded.${language}.h)
-    run("export" ${VNDF} export ${tables} --language ${language} --prefix kernel --buffer numbers.f32
-        -o fetching.${language}.h)
+# two(LANGUAGE COMPILER): two kernels in one program.
+function(two language compiler)
     foreach(prefix one two)
         run("export" ${VNDF} export ${SOURCE}/tables/student-t-2.5-small.vndf --language ${language}
-            --prefix ${prefix} -o ${prefix}.${language}.h)
+            --prefix ${prefix} -o ${prefix}.h)
     endforeach()
-    file(WRITE ${OUT}/two.${language} "
-#include \"one.${language}.h\"
-#include \"two.${language}.h\"
-#include \"one.${language}.h\"
+    file(WRITE ${OUT}/two.c "
+#include \"one.h\"
+#include \"two.h\"
+#include \"one.h\"
 int main(void)
 {
     one_view a = one_view_of(one_surface_of(ONE_STUDENT_T_2_5_SMALL, 0.5f, 0.1f), one_vec3_of(0.6f, 0.0f, 0.8f));
@@ -42,46 +42,31 @@ int main(void)
     return !(s.pdf > 0.0f && !(s.pdf < t.pdf) && !(s.pdf > t.pdf) && !(s.wm.x < t.wm.x) && !(s.wm.x > t.wm.x));
 }
 ")
-endforeach()
-run("questions" ${AGREEMENT} make normals 8000 questions ${tables})
-
-# try_compiler(COMPILER LANGUAGE FORM [DEFINITION])
-function(try_compiler compiler language form)
-    set(standard -x c -std=c99)
-    set(how BITS)
-    if("${ARGN}" MATCHES "fast-math")
-        set(how FAST)
-    endif()
-    if(language STREQUAL cpp)
-        set(standard -x c++ -std=c++11)
-    endif()
-    set(program ${OUT}/answer)
-    run("${compiler} of ${form} ${language}" ${compiler} -O1 -ffp-contract=off ${standard} ${flags} ${ARGN}
-        "-DKERNEL_FILE=\"${form}.${language}.h\"" ${SOURCE}/tests/export/exported.c ${SOURCE}/tests/export/answer.c
-        -lm -o ${program})
-    run("the program of ${compiler}" ${program} questions answers)
-    run("agreement of ${compiler}, ${form} ${language}" ${AGREEMENT} check normals ${how} questions answers ${tables})
-    if(form STREQUAL embedded)
-        run("${compiler} of two kernels" ${compiler} ${standard} ${flags} two.${language} -lm -o two)
-        run("the program of two kernels by ${compiler}" ${OUT}/two)
-    endif()
-    set_property(GLOBAL APPEND PROPERTY tried ${compiler})
+    run("${compiler} of two kernels" ${compiler} ${standard_${language}} ${flags} two.c -lm -o two)
+    run("the program of two kernels by ${compiler}" ${OUT}/two)
 endfunction()
 
-# try_bsdf(COMPILER LANGUAGE EFFECTS [DEFINITION...]): of BSDFs numbers are embedded.
-function(try_bsdf compiler language effects)
-    set(standard -x c -std=c99)
-    if(language STREQUAL cpp)
-        set(standard -x c++ -std=c++11)
+# try(LANGUAGE COMPILER WHAT embedded|fetching HOW [FLAG...]): WHAT and HOW are vndf_agreement's.
+function(try language compiler what form how)
+    set(raw "")
+    set(program ${OUT}/answer)
+    set(bsdf "")
+    if(form STREQUAL fetching)
+        set(raw --buffer numbers.f32)
+        list(APPEND ARGN "-DKERNEL_RAW=\"${OUT}/numbers.f32\"")
     endif()
-    run("export of ${effects}" ${VNDF} export ${tables} --language ${language} --prefix kernel --bsdf "${effects}"
-        -o bsdf.${language}.h)
-    run("questions of ${effects}" ${AGREEMENT} make "${effects}" 8000 hits ${tables})
-    run("${compiler} of ${effects}" ${compiler} -O1 -ffp-contract=off ${standard} ${flags} -DKERNEL_SCATTERS ${ARGN}
-        "-DKERNEL_FILE=\"bsdf.${language}.h\"" ${SOURCE}/tests/export/exported.c ${SOURCE}/tests/export/answer.c
-        -lm -o ${OUT}/scatter)
-    run("the program of ${effects}" ${OUT}/scatter hits scattered)
-    run("agreement of ${effects}" ${AGREEMENT} check "${effects}" ROUNDED hits scattered ${tables})
+    if(NOT what STREQUAL normals)
+        set(bsdf --bsdf "${what}")
+    endif()
+    run("export of ${what}" ${VNDF} export ${tables} --language ${language} --prefix kernel ${raw} ${bsdf} -o kernel.h)
+    execute_process(COMMAND ${AGREEMENT} ask "${what}" ${language} kernel ${form}
+        INPUT_FILE ${SOURCE}/tests/export/ask.h OUTPUT_FILE ${OUT}/asked.h)
+    run("questions of ${what}" ${AGREEMENT} make "${what}" 8000 questions ${tables})
+    run("${compiler} of ${form} ${what} in ${language}" ${compiler} -O1 -ffp-contract=off ${standard_${language}}
+        ${flags} ${ARGN} "-DKERNEL_FILE=\"kernel.h\"" ${SOURCE}/tests/export/answer.c -lm -o ${program})
+    run("the program of ${compiler}" ${program} questions answers)
+    run("agreement of ${compiler}, ${form} ${what} in ${language}" ${AGREEMENT} check "${what}" ${how} questions answers
+        ${tables})
 endfunction()
 
 # Compilers that take gcc's flags; the build's own first.
@@ -92,21 +77,30 @@ function(try_all language)
         find_program(compiler ${name})
         if(compiler AND NOT compiler IN_LIST found)
             list(APPEND found ${compiler})
-            try_compiler(${compiler} ${language} embedded)
+            try(${language} ${compiler} normals embedded BITS)
+            two(${language} ${compiler})
+            set_property(GLOBAL APPEND PROPERTY tried ${compiler})
         endif()
     endforeach()
     if(found)
         list(GET found 0 compiler)
-        try_compiler(${compiler} ${language} fetching "-DKERNEL_RAW=\"${OUT}/numbers.f32\"")
-        try_compiler(${compiler} ${language} embedded -O3 -ffast-math)
-        try_bsdf(${compiler} ${language} "lobes=reflection")
-        try_bsdf(${compiler} ${language} "lobes=both fresnel=dielectric" -DKERNEL_INDEXED)
-        try_bsdf(${compiler} ${language} "lobes=both fresnel=schlick masking=v-cavities transport=importance"
-            -DKERNEL_INDEXED -DKERNEL_SCHLICK)
-        try_bsdf(${compiler} ${language} "fresnel=conductor masking=separable reflection=retro" -DKERNEL_CONDUCTOR)
-        try_bsdf(${compiler} ${language} "lobes=transmission masking=none" -DKERNEL_INDEXED)
+        try(${language} ${compiler} normals fetching BITS)
+        try(${language} ${compiler} normals embedded FAST -O3 -ffast-math)
+        foreach(effects "lobes=reflection" "lobes=both fresnel=dielectric" "lobes=transmission masking=none"
+                "lobes=both fresnel=schlick masking=v-cavities transport=importance"
+                "fresnel=conductor masking=separable reflection=retro")
+            try(${language} ${compiler} "${effects}" embedded ROUNDED)
+        endforeach()
     endif()
 endfunction()
+
+# A family of tables at a parameter is the library's mixture.
+run("a family" ${VNDF} build --family student-t --parameter 1.6..6 --max-tv 0.01 -o tails.vndfs)
+run("export of a family" ${VNDF} export tails.vndfs --language c --prefix kernel --lobes 2 -o tails.h)
+run("the program of a family" ${C_COMPILER} -O1 -ffp-contract=off -std=c99 ${flags} -I${SOURCE}/include
+    ${SOURCE}/tests/export/family.c ${STATIC_LIBRARY} -lm -o family)
+run("the family" ${OUT}/family tails.vndfs)
+message("${output}")
 
 try_all(c gcc clang)
 try_all(cpp g++ clang++)

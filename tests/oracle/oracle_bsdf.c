@@ -1,11 +1,38 @@
-/* The formulas. A hit is brought to the frame of the roughness, wi above: z changes sign on both sides of the
- * surface at once, since its microsurface is the same from both. */
+/* The formulas. Where wi is below the mean plane all of space is turned about, w to -w: the microsurface is the same
+ * from both sides. */
 #include "oracle/oracle_bsdf.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
-/* ---- frame ---- */
+/* ---- distributions ---- */
+
+int oracle_ndf_open(oracle_ndf *ndf, const char *name)
+{
+    memset(ndf, 0, sizeof *ndf);
+    ndf->name = name;
+    ndf->slopes.kind = strcmp(name, "ggx") == 0 ? ORACLE_KIND_GGX : ORACLE_KIND_BECKMANN;
+    ndf->distribution = ndf->slopes.kind == ORACLE_KIND_GGX ? vndf_ggx() : vndf_beckmann();
+    if (ndf->slopes.kind == ORACLE_KIND_GGX || strcmp(name, "beckmann") == 0)
+        return 1;
+    ndf->owned = strchr(name, ':') ? oracle_build_of(name, 0, NULL, NULL) : oracle_shipped(name);
+    ndf->distribution = ndf->owned;
+    ndf->slopes = (oracle_slopes){ORACLE_KIND_TABLE, &ndf->table, NULL};
+    if (ndf->owned && oracle_table_of(&ndf->table, ndf->owned))
+        return 1;
+    vndf_free(ndf->owned);
+    return 0;
+}
+
+void oracle_ndf_close(oracle_ndf *ndf)
+{
+    if (ndf->slopes.kind == ORACLE_KIND_TABLE)
+        oracle_table_free(&ndf->table);
+    vndf_free(ndf->owned);
+}
+
+/* ---- vectors ---- */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -17,28 +44,6 @@ static void scale_to(double w[3], double length)
     double by = length / sqrt(dot(w, w));
     for (int i = 0; i < 3; i++)
         w[i] *= by;
-}
-
-int oracle_bsdf_two_sided(const vndf_effects *e)
-{
-    return e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
-}
-
-double oracle_bsdf_ratio(const oracle_bsdf *o, const double wi[3])
-{
-    if (!oracle_bsdf_two_sided(&o->is.effects))
-        return 1;
-    return wi[2] < 0 ? 1 / (double)o->is.eta : (double)o->is.eta;
-}
-
-static void to_frame(const oracle_bsdf *o, double side, const double given[3], double w[3])
-{
-    double angle = o->is.effects.shape == VNDF_SHAPE_ROTATED ? (double)o->is.rotation : 0;
-    w[0] = cos(angle) * given[0] + sin(angle) * given[1];
-    w[1] = cos(angle) * given[1] - sin(angle) * given[0];
-    w[2] = side * given[2];
-    if (!o->lengths)
-        scale_to(w, 1);
 }
 
 void oracle_from_vec3(vndf_vec3 w, double out[3])
@@ -53,6 +58,76 @@ vndf_vec3 oracle_toward(double z, double phi)
     double across = sqrt((1 - z) * (1 + z));
     vndf_vec3 w = {(float)(across * cos(phi)), (float)(across * sin(phi)), (float)z};
     return w;
+}
+
+/* ---- surfaces ---- */
+
+oracle_bsdf oracle_bsdf_from(const vndf_description *is, const oracle_ndf *const ndf[])
+{
+    oracle_bsdf o = {.is = *is, .weight = {1}, .count = 1};
+    vndf_shape shape = is->effects.shape;
+    double turn = shape == VNDF_SHAPE_ROTATED ? (double)is->rotation : 0, ax = (double)is->alpha_x,
+           ay = (double)is->alpha_y, sum = 0;
+    vndf_affine a = {NULL,
+                     (float)(cos(turn) * ax),
+                     (float)(-sin(turn) * ay),
+                     (float)(sin(turn) * ax),
+                     (float)(cos(turn) * ay),
+                     0,
+                     0};
+    if (shape > VNDF_SHAPE_ROTATED)
+        a = is->affine;
+    if (shape == VNDF_SHAPE_MATRIX)
+        a.mean_x = a.mean_y = 0;
+    o.lobe[0] = oracle_surface_from(ndf[0]->slopes, &a);
+    if (shape == VNDF_SHAPE_MIXTURE)
+        o.count = is->mixture->count;
+    for (int i = 0; i < o.count && shape == VNDF_SHAPE_MIXTURE; i++) {
+        o.lobe[i] = oracle_surface_from(ndf[i]->slopes, &is->mixture->lobe[i].surface);
+        o.weight[i] = (double)is->mixture->lobe[i].weight;
+    }
+    for (int i = 0; i < o.count; i++)
+        sum += o.weight[i];
+    for (int i = 0; i < o.count; i++) {
+        o.weight[i] /= sum;
+        o.mean[0] += o.weight[i] * o.lobe[i].mean_x;
+        o.mean[1] += o.weight[i] * o.lobe[i].mean_y;
+    }
+    return o;
+}
+
+double oracle_bsdf_rise(const oracle_bsdf *o, const double w[3])
+{
+    return w[2] - w[0] * o->mean[0] - w[1] * o->mean[1];
+}
+
+double oracle_bsdf_cosine(const oracle_bsdf *o, const double w[3])
+{
+    return oracle_bsdf_rise(o, w) / sqrt(1 + o->mean[0] * o->mean[0] + o->mean[1] * o->mean[1]);
+}
+
+static double area_of(const oracle_bsdf *o, const double w[3])
+{
+    double sum = 0;
+    for (int i = 0; i < o->count; i++)
+        sum += o->weight[i] * oracle_surface_area(&o->lobe[i], w);
+    return sum;
+}
+
+static double ndf_of(const oracle_bsdf *o, const double wm[3])
+{
+    double sum = 0;
+    for (int i = 0; i < o->count; i++)
+        sum += o->weight[i] * oracle_surface_ndf(&o->lobe[i], wm);
+    return sum;
+}
+
+/* 1 + Lambda from the side that w is on. */
+static double one_lambda(const oracle_bsdf *o, const double w[3])
+{
+    double rise = oracle_bsdf_rise(o, w), side = rise < 0 ? -1 : 1,
+           up[3] = {side * w[0], side * w[1], side * w[2]};
+    return area_of(o, up) / (fabs(rise) / sqrt(dot(w, w)));
 }
 
 /* ---- masking ---- */
@@ -80,24 +155,23 @@ static double g1_of_cavity(const double w[3], const double wm[3], double facing)
 }
 
 /* The cosines of both to wm are given. */
-static double g2_of(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wo[3],
-                    const double wm[3], double facing, double beyond)
+static double g2_of(const oracle_bsdf *o, const double wi[3], const double wo[3], const double wm[3],
+                    double facing, double beyond)
 {
-    double up[3] = {wo[0], wo[1], fabs(wo[2])};
+    int reflects = oracle_bsdf_rise(o, wo) > 0;
     double gi = g1_of_cavity(wi, wm, facing), go = g1_of_cavity(wo, wm, beyond);
-    double one_li = oracle_ndf_area(o->ndf, alpha, wi) / (wi[2] / sqrt(dot(wi, wi)));
-    double one_lo = oracle_ndf_area(o->ndf, alpha, up) / (up[2] / sqrt(dot(up, up)));
+    double one_li = one_lambda(o, wi), one_lo = one_lambda(o, wo);
     switch (o->is.effects.masking) {
     case VNDF_MASKING_SEPARABLE: return 1 / (one_li * one_lo);
-    case VNDF_MASKING_V_CAVITIES: return wo[2] > 0 ? fmin(gi, go) : fmax(0, gi + go - 1);
+    case VNDF_MASKING_V_CAVITIES: return reflects ? fmin(gi, go) : fmax(0, gi + go - 1);
     case VNDF_MASKING_NONE: return 1;
-    default: return wo[2] > 0 ? 1 / (one_li + one_lo - 1) : beta_by_quadrature(one_li, one_lo);
+    default: return reflects ? 1 / (one_li + one_lo - 1) : beta_by_quadrature(one_li, one_lo);
     }
 }
 
 /* ---- Fresnel ---- */
 
-void oracle_bsdf_fresnel(const oracle_bsdf *o, double cosine, double ratio, double f[VNDF_WAVELENGTHS])
+static void fresnel_of(const oracle_bsdf *o, double cosine, double ratio, double f[VNDF_WAVELENGTHS])
 {
     double beyond2 = 1 - (1 - cosine * cosine) / (ratio * ratio);
     int through = o->is.effects.lobes != VNDF_LOBES_REFLECTION, total = through && beyond2 <= 0;
@@ -115,101 +189,98 @@ void oracle_bsdf_fresnel(const oracle_bsdf *o, double cosine, double ratio, doub
     }
 }
 
-static double mean(const oracle_bsdf *o, const double f[VNDF_WAVELENGTHS])
-{
-    int count = o->is.wavelengths ? o->is.wavelengths : 3;
-    double sum = 0;
-    for (int i = 0; i < count; i++)
-        sum += f[i];
-    return sum / count;
-}
-
 /* ---- f and its density ---- */
 
-static double normal_density(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wm[3],
-                             double facing)
+/* With which a normal is drawn: lobes by their areas. */
+static double normal_density(const oracle_bsdf *o, const double wi[3], const double wm[3], double facing)
 {
+    double all = ndf_of(o, wm) * wm[2], area = area_of(o, wi), sum = 0;
     switch (o->is.effects.normals) {
-    case VNDF_NORMALS_ALL: return oracle_ndf_all(o->ndf, alpha, wm);
+    case VNDF_NORMALS_ALL: return all;
     case VNDF_NORMALS_V_CAVITY: /* of a normal and its twin (-x, -y, z) the one that is seen */
-        return oracle_ndf_all(o->ndf, alpha, wm) * g1_of_cavity(wi, wm, facing) * facing / (wi[2] * wm[2]);
+        return all * g1_of_cavity(wi, wm, facing) * facing / (wi[2] * wm[2]);
     case VNDF_NORMALS_BOUNDED: return -1;
-    default: return oracle_ndf_visible(o->ndf, alpha, wi, wm) * facing / dot(wi, wm);
+    default: break;
     }
+    for (int i = 0; i < o->count; i++) {
+        double share = o->weight[i] * oracle_surface_area(&o->lobe[i], wi) / area;
+        sum += share > 0 ? share * oracle_surface_drawn(&o->lobe[i], wi, wm) : 0;
+    }
+    return sum * facing / dot(wi, wm);
 }
 
-/* wi.wm where both graze hangs on lengths: there they are made unit in any case. */
-static void reflect(const oracle_bsdf *o, const double alpha[2], double wi[3], double wo[3], double ratio,
-                    oracle_value *value)
+/* The half vector of wi and wo, above the plane; its cosines to both. wi.wm where both graze hangs on lengths: there
+ * they are made unit in any case. */
+static void half_of(double wi[3], double wo[3], double ratio, double wm[3])
 {
-    double wm[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
-    if (dot(wm, wm) < 0.0064) {
+    for (int i = 0; i < 3; i++)
+        wm[i] = wi[i] + ratio * wo[i];
+    if (ratio == 1 && dot(wm, wm) < 0.0064) {
         scale_to(wi, 1);
         scale_to(wo, 1);
         for (int i = 0; i < 3; i++)
             wm[i] = wi[i] + wo[i];
     }
-    scale_to(wm, 1);
-    double facing = dot(wi, wm), shape = oracle_ndf_density(o->ndf, alpha, wm);
-    shape *= g2_of(o, alpha, wi, wo, wm, facing, facing);
-    oracle_bsdf_fresnel(o, fmin(facing, 1), ratio, value->fresnel);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value->f[i] = value->fresnel[i] * shape / (4 * wi[2] * wo[2]);
-    value->pdf = normal_density(o, alpha, wi, wm, facing) / (4 * facing);
-    if (o->is.effects.lobes == VNDF_LOBES_BOTH)
-        value->pdf *= mean(o, value->fresnel);
-}
-
-static void transmit(const oracle_bsdf *o, const double alpha[2], const double wi[3], const double wo[3],
-                     double ratio, oracle_value *value)
-{
-    double wm[3], normal[3] = {0, 0, 1};
-    for (int i = 0; i < 3; i++)
-        wm[i] = wi[i] + ratio * wo[i];
-    scale_to(wm, dot(wm, normal) < 0 ? -1 : 1);
-    double facing = dot(wi, wm), beyond = -dot(wo, wm), sum = facing - ratio * beyond;
-    if (!(facing > 0) || !(beyond > 0))
-        return;
-    double shape =
-        oracle_ndf_density(o->ndf, alpha, wm) * g2_of(o, alpha, wi, wo, wm, facing, beyond) * facing * beyond;
-    double per = wi[2] * -wo[2] * sum * sum, jacobian = ratio * ratio * beyond / (sum * sum);
-    if (o->is.effects.transport == VNDF_TRANSPORT_IMPORTANCE)
-        per /= ratio * ratio;
-    oracle_bsdf_fresnel(o, fmin(facing, 1), ratio, value->fresnel);
-    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
-        value->f[i] = (1 - value->fresnel[i]) * shape / per;
-    value->pdf = normal_density(o, alpha, wi, wm, facing) * jacobian;
-    if (o->is.effects.lobes == VNDF_LOBES_BOTH)
-        value->pdf *= 1 - mean(o, value->fresnel);
+    scale_to(wm, ratio != 1 && wm[2] < 0 ? -1 : 1);
 }
 
 oracle_value oracle_bsdf_eval(const oracle_bsdf *o, const double wi_given[3], const double wo_given[3])
 {
-    oracle_value value = {{0}, 0, {0}};
-    double side = oracle_bsdf_two_sided(&o->is.effects) && wi_given[2] < 0 ? -1 : 1;
-    double wi[3], wo[3], alpha[2] = {(double)o->is.alpha_x, (double)o->is.alpha_y};
-    double ratio = oracle_bsdf_ratio(o, wi_given);
-    to_frame(o, side, wi_given, wi);
-    to_frame(o, side, wo_given, wo);
-    if (wi[2] > 0 && wo[2] > 0 && o->is.effects.lobes != VNDF_LOBES_TRANSMISSION)
-        reflect(o, alpha, wi, wo, ratio, &value);
-    if (wi[2] > 0 && wo[2] < 0 && o->is.effects.lobes != VNDF_LOBES_REFLECTION && ratio != 1)
-        transmit(o, alpha, wi, wo, ratio, &value);
+    oracle_value value = {{0}, 0};
+    const vndf_effects *e = &o->is.effects;
+    double side = oracle_bsdf_two_sided(e) && oracle_bsdf_rise(o, wi_given) < 0 ? -1 : 1;
+    double wi[3], wo[3], wm[3], fresnel[VNDF_WAVELENGTHS], mean = 0;
+    for (int i = 0; i < 3; i++) {
+        wi[i] = side * wi_given[i];
+        wo[i] = side * wo_given[i];
+    }
+    if (!o->lengths) {
+        scale_to(wi, 1);
+        scale_to(wo, 1);
+    }
+    double rise_i = oracle_bsdf_rise(o, wi), rise_o = oracle_bsdf_rise(o, wo);
+    int reflects = rise_o > 0, both = e->lobes == VNDF_LOBES_BOTH,
+        count = o->is.wavelengths ? o->is.wavelengths : 3;
+    double eta = !oracle_bsdf_two_sided(e) ? 1 : side > 0 ? (double)o->is.eta : 1 / (double)o->is.eta;
+    if (!(rise_i > 0) || rise_o == 0 || e->lobes == (reflects ? VNDF_LOBES_TRANSMISSION : VNDF_LOBES_REFLECTION) ||
+        (!reflects && eta == 1))
+        return value;
+    if (reflects && e->reflection == VNDF_REFLECTION_RETRO)
+        wo[0] = -wo[0], wo[1] = -wo[1];
+    half_of(wi, wo, reflects ? 1 : eta, wm);
+    double facing = dot(wi, wm), beyond = reflects ? facing : -dot(wo, wm), sum = facing - eta * beyond;
+    if (!(facing > 0) || !(beyond > 0) || !(wm[2] > 0))
+        return value;
+    double jacobian = reflects ? 1 / (4 * facing) : eta * eta * beyond / (sum * sum);
+    double carried = reflects || e->transport == VNDF_TRANSPORT_IMPORTANCE ? 1 : 1 / (eta * eta);
+    double tilt = sqrt(1 + o->mean[0] * o->mean[0] + o->mean[1] * o->mean[1]);
+    double shape = ndf_of(o, wm) * g2_of(o, wi, wo, wm, facing, beyond) * facing * jacobian * carried * tilt;
+    fresnel_of(o, fmin(facing, 1), eta, fresnel);
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++) {
+        value.f[i] = (reflects ? fresnel[i] : 1 - fresnel[i]) * shape / (rise_i * fabs(rise_o));
+        mean += i < count ? fresnel[i] / count : 0;
+    }
+    value.pdf = normal_density(o, wi, wm, facing) * jacobian * (!both ? 1 : reflects ? mean : 1 - mean);
     return value;
 }
 
 /* ---- effect sets ---- */
 
+int oracle_bsdf_two_sided(const vndf_effects *e)
+{
+    return e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
+}
+
 vndf_effects oracle_effects(size_t index)
 {
-    vndf_effects e = {.reflection = VNDF_REFLECTION_SPECULAR};
-    e.lobes = (vndf_lobes)(index % 3);
+    vndf_effects e = {.lobes = (vndf_lobes)(index % 3)};
     e.fresnel = (vndf_fresnel)(index / 3 % 4);
     e.masking = (vndf_masking)(index / 12 % 4);
     e.normals = (vndf_normals_drawn)(index / 48 % 4);
     e.transport = (vndf_transport)(index / 192 % 2);
-    e.shape = (vndf_shape)(index / 384 % 2);
-    e.scattering = (vndf_scattering)(index / 768 % 2);
+    e.shape = (vndf_shape)(index / 384 % 5);
+    e.scattering = (vndf_scattering)(index / 1920 % 2);
+    e.reflection = (vndf_reflection)(index / 3840 % 2);
     return e;
 }
 
@@ -221,6 +292,12 @@ int oracle_effects_sensible(const vndf_effects *e)
     if (e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE) /* F says nothing of the lobe */
         return 0;
     if (e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES)
+        return 0;
+    if (e->reflection == VNDF_REFLECTION_RETRO && e->lobes == VNDF_LOBES_TRANSMISSION)
+        return 0;
+    if (e->shape >= VNDF_SHAPE_AFFINE &&
+        (walk || e->reflection == VNDF_REFLECTION_RETRO || e->normals != VNDF_NORMALS_VISIBLE ||
+         e->masking == VNDF_MASKING_V_CAVITIES))
         return 0;
     return !walk || (e->masking == VNDF_MASKING_HEIGHT_CORRELATED && e->normals == VNDF_NORMALS_VISIBLE &&
                      e->lobes != VNDF_LOBES_TRANSMISSION);
@@ -241,7 +318,8 @@ void oracle_effects_name(const vndf_effects *e, char text[ORACLE_EFFECTS_TEXT])
                            normals[e->normals],
                            transport[e->transport],
                            axes[e->shape],
-                           e->scattering ? "multiple" : "single"};
+                           e->scattering ? "multiple" : "single",
+                           e->reflection ? "retro" : "specular"};
     text[0] = '\0';
     for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
         strcat(text, words[i]);

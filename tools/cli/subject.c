@@ -116,35 +116,31 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 
 /* ---- lobes of a surface -------------------------------------------------------------------------- */
 
-/* Puts a lobe of a table or a closed form, or the two of FILE.vndfs at its parameter, whose text may be NULL where
- * `name` has it; `what` names the parameter in messages. 1, or 0 after a complaint. */
-static int add_distribution(chosen_surface *chosen, const char *command, const char *name, const char *parameter,
-                            const char *what, vndf_mixture_lobe lobe, int option)
+/* A lobe of a table or a closed form, or the two of FILE.vndfs@P; 0 after a complaint. */
+static int add_distribution(chosen_surface *chosen, const char *command, const char *name, vndf_mixture_lobe lobe,
+                            int option)
 {
     vndf_mixture at = {1, {lobe}};
-    const char *behind = family_parameter(name);
-    char path[LENGTH_MAX];
-    snprintf(path, sizeof path, "%.*s", behind ? (int)(behind - name) - 1 : (int)strlen(name), name);
-    if (behind && parameter)
-        return complain(command, "%s '%s' is given, and '%s' says one already", what, parameter, name), 0;
-    parameter = behind ? behind : parameter;
+    const char *parameter = family_parameter(name);
+    double p;
     if (!parameter && is_family_file(name))
         return complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name), 0;
-    if (chosen->mixture.count == VNDF_MIXTURE_LOBES)
+    if (chosen->mixture.count + (parameter != NULL) >= VNDF_MIXTURE_LOBES)
         return complain(command, "--lobe: these are more than %d lobes; a family counts as two",
                         VNDF_MIXTURE_LOBES),
                0;
     if (parameter) {
-        double p;
+        char path[LENGTH_MAX];
+        snprintf(path, sizeof path, "%.*s", (int)(parameter - name) - 1, name);
         vndf_family *family = family_open(command, path);
         if (!family)
             return 0;
         chosen->family[chosen->families++] = family;
         vndf_family_facts facts = vndf_family_info(family);
-        if (!parse_numbers(command, what, parameter, -1e30, 1e30, 1, 1, &p))
+        if (!parse_numbers(command, "the parameter", parameter, -1e30, 1e30, 1, 1, &p))
             return 0;
         if (!((float)p >= facts.low && (float)p <= facts.high))
-            return complain(command, "%s '%s' is not in the range of the family, from %.7g to %.7g", what,
+            return complain(command, "the parameter '%s' is not in the range of the family, from %.7g to %.7g",
                             parameter, (double)facts.low, (double)facts.high),
                    0;
         vndf_family_at(family, (float)p, &lobe.surface, &at);
@@ -153,23 +149,19 @@ static int add_distribution(chosen_surface *chosen, const char *command, const c
         if (!distribution_open(table, command, name))
             return 0;
         chosen->tables++;
+        at.lobe[0].weight = 1;
         at.lobe[0].surface.distribution = table->distribution;
     }
     for (int i = 0; i < at.count; i++) {
-        if (chosen->mixture.count == VNDF_MIXTURE_LOBES)
-            return complain(command, "--lobe: these are more than %d lobes; a family counts as two",
-                            VNDF_MIXTURE_LOBES),
-                   0;
-        if (parameter)
-            at.lobe[i].weight *= lobe.weight;
+        at.lobe[i].weight *= lobe.weight;
         chosen->option[chosen->mixture.count] = option;
         chosen->mixture.lobe[chosen->mixture.count++] = at.lobe[i];
     }
     return 1;
 }
 
-enum { KEY_TABLE, KEY_PARAMETER, KEY_WEIGHT, KEY_ALPHA, KEY_MATRIX, KEY_MEAN, KEYS };
-static const char *const key_names[KEYS + 1] = {"table", "parameter", "weight", "alpha", "matrix", "mean", NULL};
+enum { KEY_TABLE, KEY_WEIGHT, KEY_ALPHA, KEY_MATRIX, KEY_MEAN, KEYS };
+static const char *const key_names[KEYS + 1] = {"table", "weight", "alpha", "matrix", "mean", NULL};
 
 typedef struct lobe_text {
     const char *command;
@@ -250,13 +242,11 @@ static int is_valid(const vndf_affine *surface)
 
 static int add_lobe(chosen_surface *chosen, const char *command, const char *given, int option)
 {
-    char what[32];
     lobe_text lobe = {.command = command};
     vndf_mixture_lobe next;
     snprintf(lobe.where, sizeof lobe.where, "--lobe %d", option + 1);
-    snprintf(what, sizeof what, "%s: parameter", lobe.where);
     if (!split_lobe(&lobe, given) || !read_numbers(&lobe, &next) ||
-        !add_distribution(chosen, command, lobe.value[KEY_TABLE], lobe.value[KEY_PARAMETER], what, next, option))
+        !add_distribution(chosen, command, lobe.value[KEY_TABLE], next, option))
         return 0;
     if (is_valid(&chosen->mixture.lobe[chosen->mixture.count - 1].surface))
         return 1;
@@ -290,7 +280,7 @@ static int add_subject(chosen_surface *chosen, const char *command, const char *
     if (!roughness_from(command, alpha, &plain))
         return 0;
     vndf_mixture_lobe lobe = {{NULL, plain.alpha_x, 0, 0, plain.alpha_y, 0, 0}, 1};
-    return add_distribution(chosen, command, name, NULL, "the parameter", lobe, 0);
+    return add_distribution(chosen, command, name, lobe, 0);
 }
 
 /* ---- the surface --------------------------------------------------------------------------------- */

@@ -78,8 +78,8 @@ void surface_close(chosen_surface *chosen);
   "\n"                                                                                                              \
   "  --lobe 'KEY=VALUE ...'  with the keys, between blanks and each once:\n"                                        \
   "      table=" SURFACE_POSITIONAL "\n"                                                                            \
-  "                               the distribution of the lobe (needed); FILE has no blanks in its name\n"          \
-  "      parameter=P              of table=FILE.vndfs, in the place of @P; a family takes two of the 8 lobes\n"     \
+  "                               the distribution of the lobe (needed); FILE has no blanks in its name,\n"         \
+  "                               and a family takes two of the 8 lobes\n"                                          \
   "      weight=W                 its part of the surface, over the sum of all weights (default 1)\n"               \
   "      alpha=AX[,AY]            its roughness (default 1), or\n"                                                  \
   "      matrix=XX,XY,YX,YY       the linear map of its slopes, s = M u + mean, not singular\n"                     \

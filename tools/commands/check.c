@@ -12,6 +12,7 @@
 #include "evidence/measure/chi_square.h"
 #include "command.h"
 #include "evidence/measure/consistency.h"
+#include "cli/figures.h"
 #include "cli/progress.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
@@ -22,7 +23,7 @@
 static const char name[] = "vndf check";
 
 static const char help[] =
-    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S]\n"
+    "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S] [--json] [-q]\n"
     "\n"
     "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
     "\n"
@@ -48,12 +49,12 @@ static const char help[] =
     "  --hard       adds the hard cases\n"
     "  --samples N  samples per chi-square test (default 1000000)\n"
     "  --csv FILE   the CSV that the table was built from; without it the certificate is not measured again\n"
-    "  --seed S     the stream of random numbers, a whole number (default 1)\n"
-    "\n"
+    "  --seed S     the stream of random numbers, a whole number (default 1)\n" FIGURES_HELP "\n"
     "example: vndf check wavy.vndf --hard --samples 4000000\n";
 
 typedef struct check_words {
     words samples, csv, seed, hard;
+    figure_words figures;
 } check_words;
 
 static const char *verdict(int good)
@@ -65,93 +66,119 @@ static const char *verdict(int good)
 
 /* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may
  * be. */
-static int compare(const char *what, float stored, float measured, double floor, double factor)
+static int compare(figures *f, const char *what, float stored, float measured, double floor, double factor)
 {
     double allowed = floor + factor * ((double)stored - floor) + 1e-7;
     int good = (double)measured <= allowed;
-    printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
-           verdict(good));
+    if (f->form == FIGURES_TEXT)
+        printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
+               verdict(good));
+    else {
+        figures_record(f);
+        figures_text(f, "figure", what);
+        figures_number(f, "stored", 5, (double)stored, "as vndf info says");
+        figures_number(f, "measured", 5, (double)measured, "as vndf info says");
+        figures_truth(f, "good", good);
+    }
     return good;
 }
 
-static int compare_certificates(const vndf_certificate *stored, const vndf_certificate *measured)
+static int compare_certificates(figures *f, const vndf_certificate *stored, const vndf_certificate *measured)
 {
     const double factor = 1.2;
-    int good = compare("tv", stored->tv, measured->tv, 0, factor);
-    good &= compare("tv_above", stored->tv_above, measured->tv_above, 0, factor);
-    good &= compare("max_weight", stored->max_weight, measured->max_weight, 1, factor);
-    good &= compare("area_error", stored->area_error, measured->area_error, 0, factor);
-    good &= compare("consistency", stored->consistency, measured->consistency, 0, factor);
-    good &= compare("ndf_error", stored->ndf_error, measured->ndf_error, 0, factor);
-    good &= compare("weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0, factor);
-    good &= compare("hidden", stored->hidden, measured->hidden, 0, factor);
-    good &= compare("finest", stored->finest, measured->finest, 0, factor);
+    figures_list(f, "certificate");
+    int good = compare(f, "tv", stored->tv, measured->tv, 0, factor);
+    good &= compare(f, "tv_above", stored->tv_above, measured->tv_above, 0, factor);
+    good &= compare(f, "max_weight", stored->max_weight, measured->max_weight, 1, factor);
+    good &= compare(f, "area_error", stored->area_error, measured->area_error, 0, factor);
+    good &= compare(f, "consistency", stored->consistency, measured->consistency, 0, factor);
+    good &= compare(f, "ndf_error", stored->ndf_error, measured->ndf_error, 0, factor);
+    good &= compare(f, "weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0, factor);
+    good &= compare(f, "hidden", stored->hidden, measured->hidden, 0, factor);
+    good &= compare(f, "finest", stored->finest, measured->finest, 0, factor);
+    figures_list_end(f);
     return good;
 }
 
 /* What the table was built from; NULL with the reason printed if that cannot be had. */
-static vndf_source *original_source(const vndf_distribution *table, const char *csv, int *failed)
+static vndf_source *original_source(figures *f, const vndf_distribution *table, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(table, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
     if (*failed && !csv)
         complain(name, "%s", error.message);
-    else if (!source && !csv)
+    else if (!source && f->form == FIGURES_TEXT)
         printf("certificate  not measured again: %s\n", error.message);
+    else if (!source)
+        figures_text(f, "not_measured_again", error.message);
     return source;
 }
 
-static int check_certificate(const vndf_distribution *table, const char *csv)
+static int check_certificate(figures *f, const vndf_distribution *table, const char *csv)
 {
     vndf_certificate measured;
     vndf_error error = {VNDF_OK, ""};
     int failed;
     vndf_info info = vndf_distribution_info(table);
-    vndf_source *source = original_source(table, csv, &failed);
+    vndf_source *source = original_source(f, table, csv, &failed);
     if (!source)
         return failed ? STATUS_USE : STATUS_GOOD;
-    if (csv && strcmp(vndf_source_description(source), info.source) != 0)
+    if (csv && f->form == FIGURES_TEXT && strcmp(vndf_source_description(source), info.source) != 0)
         printf("certificate  note: the table says %s\n             and the source is %s\n", info.source,
                vndf_source_description(source));
     vndf_status status = vndf_certify(table, source, &measured, &error);
     vndf_source_free(source);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    return compare_certificates(&info.certificate, &measured) ? STATUS_GOOD : STATUS_NO;
+    return compare_certificates(f, &info.certificate, &measured) ? STATUS_GOOD : STATUS_NO;
 }
 
 /* ---- consistency --------------------------------------------------------------------------------- */
 
-/* Where to look; the numbers are exact enough to come to the same floats. */
-static int finish_line(int good, const consistency_point *at)
-{
-    puts(verdict(good));
-    if (!good)
-        printf("             at theta %.17g phi %.17g alpha %.9g,%.9g u1 %.9g u2 %.9g\n", at->theta, at->phi,
-               (double)at->alpha_x, (double)at->alpha_y, (double)at->u1, (double)at->u2);
-    return good;
-}
-
-static int check_quantiles(const char *what, const consistency_quantiles *found, double usual, double rare)
+static int check_quantiles(figures *f, const char *what, const consistency_quantiles *found, double usual,
+                           double rare)
 {
     int good = found->usual <= usual && found->rare <= rare;
-    printf("consistency  %s: 99.9%% within %.2g of %g, 99.99%% within %.2g of %g, %zu samples %s\n", what,
-           found->usual, usual, found->rare, rare, found->measured, verdict(good));
+    if (f->form == FIGURES_TEXT)
+        printf("consistency  %-30s 99.9%%: %.2g of %g, 99.99%%: %.2g of %g %s\n", what, found->usual, usual,
+               found->rare, rare, verdict(good));
+    else {
+        figures_record(f);
+        figures_text(f, "of", what);
+        figures_number(f, "samples", 9, (double)found->measured, "normals");
+        figures_number(f, "error_999", 3, found->usual, "relative, of 99.9%");
+        figures_number(f, "limit_999", 3, usual, "relative, of 99.9%");
+        figures_number(f, "error_9999", 3, found->rare, "relative, of 99.99%");
+        figures_number(f, "limit_9999", 3, rare, "relative, of 99.99%");
+        figures_truth(f, "good", good);
+    }
     return good;
 }
 
-static int check_consistency(const vndf_distribution *distribution, unsigned long long seed)
+static int check_consistency(figures *f, const vndf_distribution *distribution, unsigned long long seed)
 {
     consistency found;
     if (!consistency_measure(distribution, 200000, seed, &found))
         return complain(name, "no memory");
-    printf("consistency  %zu points (%zu see nothing), %zu invalid results ", found.points, found.blind,
-           found.invalid);
-    int good = finish_line(found.invalid == 0, &found.invalid_at);
-    good &= check_quantiles("pdf against sample, above the horizon", &found.above, 1e-5, 1e-4);
-    good &= check_quantiles("pdf against sample, below the horizon", &found.below, 1e-4, 1e-3);
-    good &= check_quantiles("invert, then sample", &found.inverted, 1e-5, 1e-4);
+    const consistency_point *at = &found.invalid_at;
+    int good = found.invalid == 0;
+    if (f->form == FIGURES_TEXT) {
+        printf("consistency  %zu points (%zu see nothing), %zu invalid results %s\n", found.points, found.blind,
+               found.invalid, verdict(good));
+        if (!good) /* the numbers are exact enough to come to the same floats */
+            printf("             at theta %.17g phi %.17g alpha %.9g,%.9g u1 %.9g u2 %.9g\n", at->theta, at->phi,
+                   (double)at->alpha_x, (double)at->alpha_y, (double)at->u1, (double)at->u2);
+    } else {
+        figures_number(f, "points", 9, (double)found.points, "views");
+        figures_number(f, "see_nothing", 9, (double)found.blind, "views");
+        figures_number(f, "invalid", 9, (double)found.invalid, "views");
+    }
+    figures_list(f, "consistency");
+    good &= check_quantiles(f, "pdf of samples, above horizon", &found.above, 1e-5, 1e-4);
+    good &= check_quantiles(f, "pdf of samples, below horizon", &found.below, 1e-4, 1e-3);
+    good &= check_quantiles(f, "invert, then sample", &found.inverted, 1e-5, 1e-4);
+    figures_list_end(f);
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
@@ -166,11 +193,26 @@ enum {
     TESTS = ANGLES * ROUGHNESSES
 };
 
-static void print_chi_square(const chi_square *found, const vndf_surface *surface, double theta, double phi,
-                             int good)
+static void print_chi_square(figures *f, const chi_square *found, const vndf_surface *surface, double theta,
+                             double phi, int good)
 {
     char alpha[32];
     snprintf(alpha, sizeof alpha, "%gx%g", (double)surface->alpha_x, (double)surface->alpha_y);
+    if (f->form != FIGURES_TEXT) {
+        figures_record(f);
+        figures_text(f, "alpha", alpha);
+        figures_number(f, "theta", 9, theta, "degrees");
+        figures_number(f, "phi", 9, phi, "degrees");
+        figures_truth(f, "sees_nothing", found->blind);
+        figures_number(f, "bins", 9, (double)found->bins, "bins");
+        figures_number(f, "pooled", 9, (double)found->pooled, "bins");
+        figures_number(f, "statistic", 6, found->blind ? NAN : found->statistic, "chi-square");
+        figures_number(f, "p", 4, found->blind ? NAN : found->p, "probability");
+        figures_number(f, "mass_error", 2, found->blind ? NAN : found->mass - 1, "of the mass");
+        figures_number(f, "without_density", 9, (double)found->unclaimed, "samples");
+        figures_truth(f, "good", good);
+        return;
+    }
     printf("chi-square   %-9s %5g %4g ", alpha, theta, phi);
     if (found->blind)
         printf("  sees nothing");
@@ -190,7 +232,7 @@ static int is_good(const chi_square *found, const vndf_surface *surface, vndf_ve
     return found->p >= statistics_sidak(0.01, TESTS) && fabs(found->mass - 1) <= 1e-5 && found->unclaimed == 0;
 }
 
-static int check_view(const vndf_surface *surface, double theta, double phi, size_t samples,
+static int check_view(figures *f, const vndf_surface *surface, double theta, double phi, size_t samples,
                       unsigned long long seed)
 {
     chi_square found;
@@ -198,40 +240,52 @@ static int check_view(const vndf_surface *surface, double theta, double phi, siz
     if (!chi_square_test(surface, wi, samples, seed, &found))
         return complain(name, "no memory");
     int good = is_good(&found, surface, wi);
-    print_chi_square(&found, surface, theta, phi, good);
+    print_chi_square(f, &found, surface, theta, phi, good);
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
-static int check_chi_square(const vndf_distribution *distribution, size_t samples, unsigned long long seed)
+static int check_chi_square(figures *f, progress *p, const vndf_distribution *distribution, size_t samples,
+                            unsigned long long seed)
 {
     int worst = STATUS_GOOD;
-    progress p = progress_begin("chi-square", 0);
-    printf("chi-square   %zu samples per test, significance %.3g each\n", samples, statistics_sidak(0.01, TESTS));
-    printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
-    for (size_t r = 0; r < ROUGHNESSES; r++) {
+    if (f->form == FIGURES_TEXT) {
+        printf("chi-square   %zu samples per test, significance %.3g each; degrees\n", samples,
+               statistics_sidak(0.01, TESTS));
+        printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
+    }
+    figures_list(f, "chi_square");
+    for (size_t r = 0; r < ROUGHNESSES && worst != STATUS_USE; r++) {
         vndf_surface surface = {distribution, roughness[r][0], roughness[r][1]};
         double phi = surface.alpha_x == surface.alpha_y ? 0 : 25;
-        for (size_t a = 0; a < ANGLES; a++) {
-            progress_show((double)(r * ANGLES + a) / TESTS, NULL, &p);
-            int status = check_view(&surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
-            if (status == STATUS_USE)
-                return status;
-            if (status == STATUS_NO)
-                worst = status;
+        for (size_t a = 0; a < ANGLES && worst != STATUS_USE; a++) {
+            progress_show((double)(r * ANGLES + a) / TESTS, "chi-square", p);
+            int status = check_view(f, &surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
+            worst = status == STATUS_GOOD ? worst : status;
         }
     }
-    progress_end(&p);
+    figures_list_end(f);
     return worst;
 }
 
 /* ---- hard ---------------------------------------------------------------------------------------- */
 
-static int check_property(stress_id id, const stress_finding *found)
+static int check_property(figures *f, stress_id id, const stress_finding *found)
 {
     const stress_property *property = stress_property_of(id);
     const stress_point *at = &found->at;
     const vndf_affine *m = &at->surface;
     int good = found->failed == 0;
+    if (f->form != FIGURES_TEXT) {
+        figures_record(f);
+        figures_text(f, "property", property->name);
+        figures_text(f, "meaning", property->meaning);
+        figures_number(f, "worst", 3, fmax(found->worst, 0), "as meant");
+        figures_number(f, "limit", 3, property->limit, "as meant");
+        figures_number(f, "points", 9, (double)found->checked, "samples");
+        figures_number(f, "failed", 9, (double)found->failed, "samples");
+        figures_truth(f, "good", good);
+        return good;
+    }
     printf("hard         %-9s worst %-9.3g of %-5.3g at %7zu points: %s ", property->name, fmax(found->worst, 0),
            property->limit, found->checked, property->meaning);
     if (!good)
@@ -246,20 +300,28 @@ static int check_property(stress_id id, const stress_finding *found)
     return good;
 }
 
-static int check_hard(const vndf_distribution *distribution, unsigned long long seed)
+static int check_hard(figures *f, const vndf_distribution *distribution, unsigned long long seed)
 {
     stress_result result = stress_run(distribution, 1, 40000, seed);
     int good = 1;
-    printf("hard         %zu samples of %zu views", result.samples, result.views);
-    if (result.outside)
-        printf("; %zu roughnesses left out: alpha times the scale must be within 1e-18 and 1e18", result.outside);
-    putchar('\n');
+    if (f->form == FIGURES_TEXT) {
+        printf("hard         %zu samples of %zu views", result.samples, result.views);
+        if (result.outside)
+            printf("; %zu roughnesses left out: alpha times the scale must be within 1e-18 and 1e18",
+                   result.outside);
+        putchar('\n');
+    }
+    figures_list(f, "hard");
     for (int id = 0; id < STRESS_COUNT; id++)
-        good &= check_property((stress_id)id, &result.found[id]);
+        good &= check_property(f, (stress_id)id, &result.found[id]);
+    figures_list_end(f);
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
+
+/* Of all the time that a table takes, roughly: the certificate, consistency, chi-square. */
+static const double after_certificate = 0.05, after_consistency = 0.2;
 
 static int check_all(const chosen_distribution *chosen, const check_words *given)
 {
@@ -267,21 +329,33 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &samples) ||
         !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed))
         return STATUS_USE;
-    int certificate = STATUS_GOOD;
-    if (chosen->owned)
-        certificate = check_certificate(chosen->owned, only_word(&given->csv));
-    else if (given->csv.count)
+    if (!chosen->owned && given->csv.count)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
-    if (certificate == STATUS_USE)
-        return STATUS_USE;
-    int consistent = check_consistency(chosen->distribution, seed);
-    int follows = check_chi_square(chosen->distribution, (size_t)samples, seed);
-    if (consistent == STATUS_USE || follows == STATUS_USE)
-        return STATUS_USE;
-    int hard = given->hard.count ? check_hard(chosen->distribution, seed) : STATUS_GOOD;
-    int good =
-        certificate == STATUS_GOOD && consistent == STATUS_GOOD && follows == STATUS_GOOD && hard == STATUS_GOOD;
-    printf("result %s\n", verdict(good));
+    figures f = figures_begin(&given->figures);
+    progress p = progress_begin("checking", 0);
+    p.is_seen &= !given->figures.quiet.count;
+    int status[4] = {STATUS_GOOD, STATUS_GOOD, STATUS_GOOD, STATUS_GOOD}, good = 1;
+    progress_step(&p, after_certificate);
+    progress_show(0, "the certificate", &p);
+    if (chosen->owned)
+        status[0] = check_certificate(&f, chosen->owned, only_word(&given->csv));
+    progress_step(&p, after_consistency);
+    progress_show(0, "consistency", &p);
+    if (status[0] != STATUS_USE)
+        status[1] = check_consistency(&f, chosen->distribution, seed);
+    progress_step(&p, 1);
+    if (status[0] != STATUS_USE && status[1] != STATUS_USE)
+        status[2] = check_chi_square(&f, &p, chosen->distribution, (size_t)samples, seed);
+    if (given->hard.count && status[0] != STATUS_USE && status[2] != STATUS_USE)
+        status[3] = check_hard(&f, chosen->distribution, seed);
+    progress_end(&p);
+    for (int i = 0; i < 4; i++) {
+        if (status[i] == STATUS_USE)
+            return STATUS_USE;
+        good &= status[i] == STATUS_GOOD;
+    }
+    figures_text(&f, "result", verdict(good));
+    figures_end(&f);
     return good ? STATUS_GOOD : STATUS_NO;
 }
 
@@ -293,7 +367,8 @@ int command_check(int argc, char **argv)
     const option_form options[] = {{"--samples", 1, 1, &given.samples},
                                    {"--csv", 1, 1, &given.csv},
                                    {"--seed", 1, 1, &given.seed},
-                                   {"--hard", 0, 1, &given.hard}};
+                                   {"--hard", 0, 1, &given.hard},
+                                   FIGURES_OPTIONS(given.figures)};
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
     int parsed = parse_arguments(&form, argc, argv, &positional);
     if (parsed != PARSE_GO_ON)

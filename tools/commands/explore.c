@@ -25,36 +25,18 @@ static const char help[] =
     "\n"
     "example: vndf explore tables/student-t-2.5.vndf tables/hazy.vndf -o normals.html\n";
 
-static int fits(const export_document *document)
-{
-    if (document->count <= EXPLORER_NUMBERS_MAX)
-        return 1;
-    complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", document->count,
-             EXPLORER_NUMBERS_MAX);
-    return 0;
-}
-
-static int write_page(const char *path, const export_document *document)
+static int run(const words *files, const char *path, export_document *document)
 {
     output_file page;
+    translation_prefix(&document->as, "vndf");
+    if (!named_tables_open(name, files, 0, document))
+        return STATUS_USE;
+    if (document->count > EXPLORER_NUMBERS_MAX)
+        return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", document->count,
+                        EXPLORER_NUMBERS_MAX);
     if (!output_open(&page, name, path))
         return STATUS_USE;
-    if (!explorer_write(document, page.file))
-        return output_give_up(&page, "no memory");
-    return output_commit(&page);
-}
-
-static int run(const words *files, const char *path)
-{
-    export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL};
-    named_tables tables;
-    int status = STATUS_USE;
-    translation_prefix(&document.as, "vndf");
-    if (named_tables_open(&tables, name, files, &document) && fits(&document) &&
-        named_tables_numbers(name, &document))
-        status = write_page(path, &document);
-    named_tables_close(&tables, &document);
-    return status;
+    return explorer_write(document, page.file) ? output_commit(&page) : output_give_up(&page, "no memory");
 }
 
 int command_explore(int argc, char **argv)
@@ -62,10 +44,12 @@ int command_explore(int argc, char **argv)
     words files = {{NULL}, 0}, output = {{NULL}, 0};
     const option_form options[] = {{"-o", 1, 1, &output}};
     const command_form form = {name, help, options, 1, "FILE", 1, EXPORT_TABLES_MAX};
-    int parsed = parse_arguments(&form, argc, argv, &files);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!output.count)
+    export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL};
+    int status = parse_arguments(&form, argc, argv, &files);
+    if (status == PARSE_GO_ON && !output.count)
         return complain(name, "-o is missing");
-    return run(&files, only_word(&output));
+    if (status == PARSE_GO_ON)
+        status = run(&files, only_word(&output), &document);
+    named_tables_close(&document);
+    return status;
 }

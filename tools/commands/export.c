@@ -19,7 +19,8 @@ static const char help[] =
     "\n"
     "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
     "sample with density, density of a normal, D, Lambda, G1, G2, projected area; alpha, matrices with mean slopes,\n"
-    "mixtures; directions on either side. It computes in float, without recursion and allocation.\n"
+    "mixtures, families (FILE.vndfs) at a textured parameter; directions on either side. It computes in float,\n"
+    "without recursion and allocation.\n"
     "\n"
     "  --language NAME  the language of OUT\n"
     "  -o OUT           the file; - for stdout\n"
@@ -29,8 +30,8 @@ static const char help[] =
     "                   little-endian (at run time vndf_numbers writes the same)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
     "  --distribution KIND  only table, ggx or beckmann (repeat for two); a kernel has all three by default\n"
-    "  --only CALLS     only these calls and what they need: view,sample,sample_weight,pdf,visible,ndf,lambda,g1,g2,\n"
-    "                   projected_area,mixture\n"
+    "  --only CALLS     only these calls and what they need: view,sample,pdf,visible,ndf,lambda,g1,g2,\n"
+    "                   projected_area,mixture,family\n"
     "  --bsdf EFFECTS   a BSDF with these effects, its sample, value and density, in the place of the calls above:\n"
     "                   'lobes=reflection|transmission|both fresnel=none|schlick|dielectric|conductor\n"
     "                   masking=correlated|separable|v-cavities|none transport=radiance|importance\n"
@@ -59,81 +60,57 @@ typedef struct export_words {
 static int read_language(const export_words *given, export_document *document)
 {
     const char *wanted = only_word(&given->language);
-    size_t count = 0;
-    while (language_names()[count])
-        count++;
-    document->as.to = wanted ? language_named(wanted) : NULL;
+    if (!wanted)
+        return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl"), 0;
+    document->as.to = language_named(wanted);
     if (document->as.to && !document->as.to->indents)
         return 1;
-    const char *hint = wanted ? nearest_word(wanted, language_names(), count) : NULL;
-    if (!wanted)
-        complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl");
-    else if (hint)
-        complain(name, "--language '%s': there is none; did you mean '%s'?", wanted, hint);
-    else
-        complain(name, "--language '%s': c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl are known", wanted);
-    return 0;
-}
-
-enum { NOTICE_MAX = 1 << 16 };
-
-/* The text of a file, or NULL after a complaint. */
-static char *read_notice_file(const char *path)
-{
-    size_t length;
-    char *text = input_read(name, path, NOTICE_MAX, &length);
-    if (!text || strlen(text) == length)
-        return text;
-    complain(name, "--notice '@%s': it is no text, a byte of it is 0", path);
-    free(text);
-    return NULL;
+    const char *hint = nearest_word(wanted, language_names, LANGUAGES);
+    if (hint)
+        return complain(name, "--language '%s': there is none; did you mean '%s'?", wanted, hint), 0;
+    return complain(name, "--language '%s': c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl are known", wanted), 0;
 }
 
 /* *owned is to be freed. */
 static int read_notice(const export_words *given, export_document *document, char **owned)
 {
-    const char *notice = only_word(&given->notice);
-    document->notice = notice;
-    if (notice && notice[0] == '@')
-        document->notice = *owned = read_notice_file(notice + 1);
-    for (const char *at = document->notice; at && *at; at++)
-        if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t') {
-            complain(name, "--notice: it has a control character");
+    enum { NOTICE_MAX = 1 << 16 };
+    size_t size = 0;
+    document->notice = only_word(&given->notice);
+    if (document->notice && document->notice[0] == '@') {
+        const char *path = document->notice + 1;
+        document->notice = *owned = input_read(name, path, NOTICE_MAX, &size);
+        if (!*owned)
             return 0;
-        }
-    return !notice || document->notice;
+        if (strlen(*owned) != size)
+            return complain(name, "--notice '@%s': it is no text, a byte of it is 0", path), 0;
+    }
+    for (const char *at = document->notice; at && *at; at++)
+        if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t')
+            return complain(name, "--notice: it has a control character"), 0;
+    return 1;
 }
 
 /* A list with commas, cut in `text`. */
 static int read_only(const export_words *given, export_document *document, char *text, size_t size)
 {
-    const char *const *calls = document_calls();
     size_t count = 0, n = 0;
     snprintf(text, size, "%s", given->only.count ? only_word(&given->only) : "");
     for (char *call = strtok(text, ","); call; call = strtok(NULL, ",")) {
-        for (n = 0; calls[n] && strcmp(calls[n], call) != 0; n++)
+        for (n = 0; document_calls[n] && strcmp(document_calls[n], call) != 0; n++)
             ;
-        if (!calls[n] || count + 1 >= EXPORT_CALLS)
-            return complain(name,
-                            "--only '%s': view, sample, sample_weight, pdf, visible, ndf, lambda, g1, g2, "
-                            "projected_area, mixture, bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
-                            call),
+        if (!document_calls[n] || count + 1 >= EXPORT_CALLS)
+            return complain(
+                       name,
+                       "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area, mixture, family, "
+                       "bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
+                       call),
                    0;
         if (document_is_of_bsdf(call) && !document->effects.wanted)
             return complain(name, "--only '%s' needs --bsdf", call), 0;
         document->only[count++] = call;
     }
     return 1;
-}
-
-static int read_bsdf(const export_words *given, export_document *document)
-{
-    char why[EFFECTS_ERROR_MAX];
-    const char *text = only_word(&given->bsdf);
-    if (!text || effects_read(&document->effects, text, why))
-        return 1;
-    complain(name, "--bsdf %s", why);
-    return 0;
 }
 
 static int read_kinds(const export_words *given, export_document *document)
@@ -157,62 +134,57 @@ static int read_kinds(const export_words *given, export_document *document)
 
 static int read_settings(const export_words *given, export_document *document)
 {
-    const char *prefix = only_word(&given->prefix);
+    const char *prefix = only_word(&given->prefix), *effects = only_word(&given->bsdf);
+    char why[EFFECTS_ERROR_MAX];
     unsigned long long lobes = 4;
     if (!read_language(given, document) || !read_kinds(given, document))
         return 0;
-    if (!translation_prefix(&document->as, prefix ? prefix : "vndf")) {
-        complain(
-            name,
-            "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none last; not gl",
-            prefix, PREFIX_MAX - 1);
-        return 0;
-    }
+    if (!translation_prefix(&document->as, prefix ? prefix : "vndf"))
+        return complain(
+                   name,
+                   "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none last; "
+                   "not gl",
+                   prefix, PREFIX_MAX - 1),
+               0;
     if (!option_count(name, "--lobes", &given->lobes, 1, 8, &lobes))
         return 0;
     document->lobes = (long)lobes;
     document->embeds = given->buffer.count == 0;
-    document->as.by_pointer = !document->embeds && document->as.to->buffer == BUFFER_PARAMETER;
-    if (given->embed.count && given->buffer.count) {
-        complain(name, "--embed and --buffer exclude each other");
-        return 0;
-    }
-    if (given->output.count)
-        return 1;
-    complain(name, "-o is missing");
-    return 0;
+    document->as.by_pointer = !document->embeds && document->as.to->pointer;
+    if (given->embed.count && given->buffer.count)
+        return complain(name, "--embed and --buffer exclude each other"), 0;
+    if (effects && !effects_read(&document->effects, effects, why))
+        return complain(name, "--bsdf %s", why), 0;
+    if (!given->output.count)
+        return complain(name, "-o is missing"), 0;
+    return 1;
 }
 
-/* ---- tables --------------------------------------------------------------------------------------- */
+/* ---- work ---------------------------------------------------------------------------------------- */
 
-/* Of a table, if each has its part of the numbers: files have some 2.3 bytes a number. */
-static size_t bytes_that_fit(const export_document *document)
-{
-    return 23 * (document->as.to->most_embedded / document->tables) / 10 / 64 * 64;
-}
-
+/* What does not fit is refused with the size that does: files have some 2.3 bytes a number. */
 static int fits(const export_document *document)
 {
     const language *as = document->as.to;
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
-    complain(name,
-             "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE, or smaller tables: vndf build "
-             "--max-bytes %zu",
-             document->count, as->title, as->why, as->most_embedded, bytes_that_fit(document));
-    return 0;
+    return complain(
+               name,
+               "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE, or smaller tables: vndf build "
+               "--max-bytes %zu",
+               document->count, as->title, as->why, as->most_embedded,
+               23 * (as->most_embedded / document->tables) / 10 / 64 * 64),
+           0;
 }
 
-/* ---- work ---------------------------------------------------------------------------------------- */
-
+/* Little-endian. */
 static int write_raw(const export_document *document, FILE *file)
 {
-    for (size_t i = 0; i < document->count; i++) {
+    for (size_t i = 0; i < 4 * document->count; i++) {
         unsigned bits;
-        memcpy(&bits, &document->numbers[i], sizeof bits);
-        for (int byte = 0; byte < 4; byte++)
-            if (fputc((int)(bits >> 8 * byte & 255u), file) == EOF)
-                return 0;
+        memcpy(&bits, &document->numbers[i / 4], sizeof bits);
+        if (fputc((int)(bits >> 8 * (i % 4) & 255u), file) == EOF)
+            return 0;
     }
     return 1;
 }
@@ -227,67 +199,37 @@ static int write_all(const export_words *given, const export_document *document)
         return complain(name, "--buffer and -o both name '%s'", raw);
     if (raw && !output_open(&numbers, name, raw))
         return STATUS_USE;
-    if (!output_open(&text, name, path)) {
-        if (raw)
-            output_discard(&numbers);
-        return STATUS_USE;
-    }
-    if (!document_write(document, text.file) || (raw && !write_raw(document, numbers.file))) {
-        if (raw)
-            output_discard(&numbers);
-        return output_give_up(&text, "no memory, or no place on the disk");
-    }
+    int opened = output_open(&text, name, path);
+    int written = opened && document_write(document, text.file) && (!raw || write_raw(document, numbers.file));
+    if (raw && !written)
+        output_discard(&numbers);
+    if (!written)
+        return opened ? output_give_up(&text, "no memory, or no place on the disk") : STATUS_USE;
     int of_raw = raw ? output_commit(&numbers) : STATUS_GOOD, of_text = output_commit(&text);
     return of_raw != STATUS_GOOD ? of_raw : of_text;
 }
 
-static int run(const export_words *given, export_document *document)
+static int run(const export_words *given)
 {
-    named_tables tables;
+    export_document document = {0};
+    char *notice = NULL, only[200];
     int status = STATUS_USE;
-    if (named_tables_open(&tables, name, &given->tables, document) && fits(document) &&
-        named_tables_numbers(name, document))
-        status = write_all(given, document);
-    named_tables_close(&tables, document);
+    if (read_settings(given, &document) && read_only(given, &document, only, sizeof only) &&
+        read_notice(given, &document, &notice) && named_tables_open(name, &given->tables, 1, &document) &&
+        fits(&document))
+        status = write_all(given, &document);
+    named_tables_close(&document);
+    free(notice);
     return status;
-}
-
-/* ---- reflectances -------------------------------------------------------------------------------- */
-
-static int run_brdf(const export_words *given, brdf_words *brdf)
-{
-    const words *const others[] = {&given->language, &given->embed,        &given->buffer,
-                                   &given->prefix,   &given->lobes,        &given->notice,
-                                   &given->only,     &given->distribution, &given->bsdf};
-    static const char *const names[] = {"--language", "--embed", "--buffer",       "--prefix", "--lobes",
-                                        "--notice",   "--only",  "--distribution", "--bsdf"};
-    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
-        if (others[i]->count)
-            return complain(name, "%s is for kernels, not for --rgl and --brdf", names[i]);
-    brdf->tables = given->tables;
-    brdf->output = given->output;
-    return export_brdf(name, brdf);
-}
-
-static int check_not_brdf(const brdf_words *brdf)
-{
-    if (brdf->alpha.count || brdf->f0.count || brdf->wavelengths.count)
-        return complain(name, "%s is for --rgl and --brdf",
-                        brdf->alpha.count ? "--alpha"
-                        : brdf->f0.count  ? "--f0"
-                                          : "--wavelengths");
-    return PARSE_GO_ON;
 }
 
 int command_export(int argc, char **argv)
 {
     export_words given = {0};
     brdf_words brdf = {0};
-    export_document document = {0};
-    char *notice = NULL, only[200];
+    enum { OF_KERNELS = 9, OF_FILES = 12 }; /* options before these are for one of the two alone */
     const option_form options[] = {
         {"--language", 1, 1, &given.language},
-        {"-o", 1, 1, &given.output},
         {"--embed", 0, 1, &given.embed},
         {"--buffer", 1, 1, &given.buffer},
         {"--prefix", 1, 1, &given.prefix},
@@ -296,26 +238,28 @@ int command_export(int argc, char **argv)
         {"--only", 1, 1, &given.only},
         {"--distribution", 1, 3, &given.distribution},
         {"--bsdf", 1, 1, &given.bsdf},
-        {"--rgl", 0, 1, &brdf.rgl},
-        {"--brdf", 1, 1, &brdf.brdf},
         {"--alpha", 1, 1, &brdf.alpha},
         {"--f0", 1, 1, &brdf.f0},
         {"--wavelengths", 1, 1, &brdf.wavelengths},
+        {"-o", 1, 1, &given.output},
+        {"--rgl", 0, 1, &brdf.rgl},
+        {"--brdf", 1, 1, &brdf.brdf},
     };
     static char text[sizeof help + sizeof help_end + BRDF_HELP_MAX]; /* `vndf help` reads it later */
     snprintf(text, sizeof text, "%s%s%s", help, brdf_help, help_end);
     const command_form form = {name,   text, options,          sizeof options / sizeof options[0],
                                "FILE", 0,    EXPORT_TABLES_MAX};
-    int parsed = parse_arguments(&form, argc, argv, &given.tables);
-    if (parsed == PARSE_GO_ON && brdf_wanted(&brdf))
-        return run_brdf(&given, &brdf);
-    if (parsed == PARSE_GO_ON)
-        parsed = check_not_brdf(&brdf);
+    int parsed = parse_arguments(&form, argc, argv, &given.tables), is_brdf = brdf_wanted(&brdf);
     if (parsed != PARSE_GO_ON)
         return parsed;
-    int good = read_settings(&given, &document) && read_bsdf(&given, &document) &&
-               read_only(&given, &document, only, sizeof only) && read_notice(&given, &document, &notice);
-    int status = good ? run(&given, &document) : STATUS_USE;
-    free(notice);
-    return status;
+    for (int i = is_brdf ? 0 : OF_KERNELS; i < (is_brdf ? OF_KERNELS : OF_FILES); i++)
+        if (options[i].values->count)
+            return complain(name,
+                            is_brdf ? "%s is for kernels, not for --rgl and --brdf" : "%s is for --rgl and --brdf",
+                            options[i].name);
+    if (!is_brdf)
+        return run(&given);
+    brdf.tables = given.tables;
+    brdf.output = given.output;
+    return export_brdf(name, &brdf);
 }

@@ -13,7 +13,7 @@ typedef struct table {
 } table;
 
 enum { HEAD = 8 };
-enum { VNDF_KNOT, VNDF_LAW, VNDF_MORE, VNDF_TAIL, VNDF_LOW };
+enum { VNDF_KNOT = 0, VNDF_LAW = 1, VNDF_MORE = 2, VNDF_TAIL = 3, VNDF_LOW = 4 };
 
 /* The table whose first number is number `base`. */
 HERE table table_at(int base)

@@ -1,49 +1,94 @@
+#define _POSIX_C_SOURCE 200809L
 #include "export/document.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "export/kernel_text.h"
-#include "export/words.h"
+/* ---- tables -------------------------------------------------------------------------------------- */
 
-/* ---- names --------------------------------------------------------------------------------------- */
-
-static const char *file_part(const char *path)
+/* After the file, without two underscores in a row, which GLSL and C++ reserve. */
+static void name_table(exported_table *table)
 {
-    const char *slash = strrchr(path, '/');
-    return slash ? slash + 1 : path;
-}
-
-/* No two underscores in a row, which GLSL and C++ reserve. */
-int document_name_table(exported_table *table)
-{
-    const char *from = file_part(table->file), *end = strrchr(from, '.');
+    const char *slash = strrchr(table->file, '/'), *from = slash ? slash + 1 : table->file;
+    const char *end = strrchr(from, '.');
     size_t length = end && end > from ? (size_t)(end - from) : strlen(from), n = 0;
     int gap = 0;
     for (size_t i = 0; i < length && n + 2 < sizeof table->name; i++) {
-        char c = from[i];
-        int small = c >= 'a' && c <= 'z', good = small || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        int good = (unsigned char)from[i] < 128 && isalnum((unsigned char)from[i]);
         if (good && gap && n > 0)
             table->name[n++] = '_';
         if (good)
-            table->name[n++] = small ? (char)(c - 'a' + 'A') : c;
+            table->name[n++] = (char)toupper((unsigned char)from[i]);
         gap = !good;
     }
     table->name[n] = '\0';
-    return n > 0;
+}
+
+/* Whether the kernel or a table before has a constant of that name. */
+static int is_taken(const export_document *document, const char *name)
+{
+    char constant[80];
+    for (size_t i = 0; i < document->tables; i++)
+        if (strcmp(document->table[i].name, name) == 0)
+            return 1;
+    snprintf(constant, sizeof constant, "VNDF_%s", name);
+    for (const embedded_text *file = kernel_text; file->name; file++)
+        for (const char *const *line = file->lines; *line; line++) {
+            const char *at = strstr(*line, constant);
+            if (at && !isalnum((unsigned char)at[strlen(constant)]) && at[strlen(constant)] != '_')
+                return 1;
+        }
+    return strcmp(name, "NUMBERS") == 0 || strcmp(name, "KERNEL") == 0;
+}
+
+int document_add(export_document *document, const char *file, vndf_distribution *distribution, vndf_family *family)
+{
+    exported_table *table = &document->table[document->tables];
+    size_t count = vndf_family_info(family).count;
+    *table =
+        (exported_table){distribution, family, file, "", document->count, vndf_numbers(distribution, NULL, 0)};
+    table->size += family ? 2 + 2 * count : 0;
+    for (size_t i = 0; i < count; i++)
+        table->size += vndf_numbers(vndf_family_distribution(family, i), NULL, 0);
+    name_table(table);
+    int good = *table->name && !is_taken(document, table->name);
+    document->tables++;
+    document->count += table->size;
+    return good;
+}
+
+static void fill_family(const exported_table *t, float *numbers)
+{
+    const vndf_family_facts facts = vndf_family_info(t->family);
+    size_t at = t->base + 2 + 2 * facts.count;
+    float *head = numbers + t->base;
+    head[0] = (float)facts.count;
+    head[1] = (float)facts.reciprocal;
+    for (size_t i = 0; i < facts.count; i++) {
+        const vndf_distribution *d = vndf_family_distribution(t->family, i);
+        size_t size = vndf_numbers(d, NULL, 0);
+        head[2 + 2 * i] = vndf_family_parameter(t->family, i);
+        head[3 + 2 * i] = (float)at;
+        vndf_numbers(d, numbers + at, size);
+        at += size;
+    }
+}
+
+int document_fill(export_document *document)
+{
+    document->numbers = malloc((document->count + 1) * sizeof *document->numbers);
+    for (size_t i = 0; document->numbers && i < document->tables; i++) {
+        const exported_table *t = &document->table[i];
+        if (t->family)
+            fill_family(t, document->numbers);
+        else
+            vndf_numbers(t->distribution, document->numbers + t->base, t->size);
+    }
+    return document->numbers != NULL;
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */
-
-/* Lines of a text, each a comment. */
-static void put_comment(FILE *to, const char *text)
-{
-    while (*text) {
-        size_t length = strcspn(text, "\n");
-        fprintf(to, length ? "// %.*s\n" : "//\n", (int)length, text);
-        text += length + (text[length] == '\n');
-    }
-}
 
 /* Text of a table file, which may hold anything: a line break would end the comment. */
 static void put_printable(FILE *to, const char *text)
@@ -52,29 +97,31 @@ static void put_printable(FILE *to, const char *text)
         fputc(*text >= ' ' && *text < 127 && *text != '\\' ? *text : '?', to);
 }
 
-static void put_certificate(FILE *to, const export_document *document, const exported_table *table)
+static void put_table(FILE *to, const export_document *document, const exported_table *t)
 {
-    const vndf_info info = vndf_distribution_info(table->distribution);
+    const vndf_info info = vndf_distribution_info(t->distribution);
+    const vndf_family_facts facts = vndf_family_info(t->family);
     const vndf_certificate *c = &info.certificate;
-    fprintf(to, "// %s%s, %zu numbers: ", document->as.upper, table->name, table->size);
-    put_printable(to, info.source);
-    fprintf(
-        to,
-        "\n//   made by %s; total variation from the true visible normals at most %.2g above the horizon, %.2g\n"
-        "//   below it; largest true density over the drawn one %.4g; area within %.1g\n",
-        info.tool, (double)c->tv_above, (double)c->tv, (double)c->max_weight, (double)c->area_error);
+    fprintf(to, "// %s%s, %zu numbers: ", document->as.upper, t->name, t->size);
+    put_printable(to, t->family ? facts.source : info.source);
+    fprintf(to, "\n//   made by %s; ", t->family ? facts.tool : info.tool);
+    if (t->family)
+        fprintf(to, "%zu tables for parameters from %g to %g, total variation between them at most %.2g\n",
+                facts.count, (double)facts.low, (double)facts.high, (double)facts.distance);
+    else
+        fprintf(to,
+                "total variation from the true visible normals at most %.2g above the horizon, %.2g\n"
+                "//   below it; largest true density over the drawn one %.4g; area within %.1g\n",
+                (double)c->tv_above, (double)c->tv, (double)c->max_weight, (double)c->area_error);
 }
 
 static const char head[] =
-    "//\n// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): "
-    "a normal wm\n"
-    "// that faces wi, and its density per steradian. vndf_pdf, vndf_visible and vndf_ndf answer for a given normal,\n"
-    "// vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions; "
-    "vndf_mixture is up to VNDF_LOBES surfaces.\n"
-    "// Directions are unit and may be below the surface; roughness is alpha. "
-    "All of it is float: the density of a sample\n"
-    "// is, to 1e-5, that of a normal within one rounding of it; "
-    "beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
+    "//\n// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): a\n"
+    "// normal wm that faces wi, its density per steradian, and the true density over that. vndf_pdf, vndf_visible\n"
+    "// and vndf_ndf answer for a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions.\n"
+    "// A vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
+    "// are unit and may be below the surface; roughness is alpha. All of it is float: the density of a sample is,\n"
+    "// to 1e-5, that of a normal within one rounding of it; beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
     "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static const char bsdf_head[] =
@@ -83,208 +130,200 @@ static const char bsdf_head[] =
     "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
     "// wo. Directions with z < 0 are on the other side of the surface.\n";
 
+static void put_all(FILE *to, const export_document *document, const char *text)
+{
+    put_prefixed(&document->as, to, text, strlen(text));
+}
+
 static void put_head(FILE *to, const export_document *document)
 {
     fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
             document->as.to->title, VNDF_VERSION);
-    translate_pattern(&document->as, to, head, "", 0);
+    put_all(to, document, head);
     for (size_t i = 0; i < document->tables; i++)
-        put_certificate(to, document, &document->table[i]);
+        put_table(to, document, &document->table[i]);
     if (document->effects.wanted) {
         char effects[200];
         effects_name(&document->effects, effects, sizeof effects);
         fprintf(to, "//\n// BSDF: %s.\n", effects);
-        translate_pattern(&document->as, to, bsdf_head, "", 0);
+        put_all(to, document, bsdf_head);
     }
-    if (document->notice) {
-        fputs("//\n", to);
-        put_comment(to, document->notice);
+    fputs(document->notice ? "//\n" : "", to);
+    for (const char *line = document->notice; line && *line;) {
+        size_t length = strcspn(line, "\n");
+        fprintf(to, length ? "// %.*s\n" : "//\n", (int)length, line);
+        line += length + (line[length] == '\n');
     }
     fputs("\n", to);
-}
-
-/* ---- constants and numbers ----------------------------------------------------------------------- */
-
-static void put_constant(FILE *to, const translation *t, const char *name, long value)
-{
-    char whole[80];
-    snprintf(whole, sizeof whole, "VNDF_%s", name);
-    translate_pattern(t, to, t->to->constant, whole, value);
-}
-
-static void put_constants(FILE *to, const export_document *document)
-{
-    put_constant(to, &document->as, "GGX", -1);
-    put_constant(to, &document->as, "BECKMANN", -2);
-    for (size_t i = 0; i < document->tables; i++)
-        put_constant(to, &document->as, document->table[i].name, (long)document->table[i].base);
-    put_constant(to, &document->as, "LOBES", document->lobes);
-    fputs("\n", to);
-}
-
-static void put_number(FILE *to, float x)
-{
-    char text[40];
-    snprintf(text, sizeof text, "%.9g", (double)x);
-    int whole = !strpbrk(text, ".e");
-    fprintf(to, "%s%s", text, whole ? ".0f" : "f");
-}
-
-static void put_numbers(FILE *to, const export_document *document)
-{
-    const language *as = document->as.to;
-    translate_pattern(&document->as, to, as->numbers ? as->numbers : as->array, "VNDF_NUMBERS",
-                      (long)document->count);
-    for (size_t i = 0; i < document->count; i++) {
-        fputs(i % 8 ? ", " : i ? ",\n    " : "\n    ", to);
-        put_number(to, document->numbers[i]);
-    }
-    fprintf(to, "\n%s\n\n", as->array_close);
 }
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
 
-static const char vec3_struct[] = "typedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;\n\n";
-static const char vec3_plain[] = "struct vndf_vec3 {\n    float x, y, z;\n};\n\n";
-static const char vec3_made[] = "vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"
-                                "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n\n";
-
-static void put_vec3(FILE *to, const translation *t)
+/* Whether the file has all that a mark names: kinds of distributions, normals or a BSDF, effects. */
+static int has_parts(const export_document *document, const char *mark)
 {
-    translate_pattern(t, to, t->to->structs == STRUCT_TYPEDEF ? vec3_struct : vec3_plain, "", 0);
-    fputs(t->to->function, to);
-    translate_pattern(t, to, vec3_made, "", 0);
+    static const char *const names[] = {"table ", "ggx ", "beckmann ", "normals ", "bsdf "};
+    const unsigned is = document->kinds | (document->effects.wanted ? 16u : 8u);
+    int has = 1;
+    for (unsigned i = 0; *mark != '*'; mark += strcspn(mark, " ") + 1) {
+        for (i = 0; i < 5 && strncmp(mark, names[i], strlen(names[i])) != 0; i++)
+            ;
+        has &= i < 5 ? (int)(is >> i & 1u) : effects_have(&document->effects, mark, (int)strcspn(mark, " "));
+    }
+    return has;
 }
 
-/* Whether the file has a kind of distribution or an effect. */
-static int has_part(const export_document *document, const char *name, size_t length)
-{
-    static const char *const kinds[] = {"table", "ggx", "beckmann"};
-    for (unsigned i = 0; i < 3; i++)
-        if (strlen(kinds[i]) == length && memcmp(name, kinds[i], length) == 0)
-            return (document->kinds >> i & 1u) != 0;
-    return effects_have(&document->effects, name, length);
-}
-
-/* Whether a line begins or ends a part that not all files have, and whether this one has it: all words of its mark. */
-static int is_mark(const export_document *document, const char *line, int *in)
+/* A line that ends in a mark is left out where the file has not what that names; so are the lines between a mark that
+ * stands alone and the next one, "end". *in: whether lines are written. */
+static void put_line(FILE *to, const export_document *document, const char *line, int *in)
 {
     static const char only[] = "/* only ";
-    const char *text = line + strspn(line, " ");
-    if (strcmp(text, "/* C only */") == 0)
-        return *in = 0, 1;
-    if (strcmp(text, "/* end */") == 0)
-        return *in = 1;
-    if (strncmp(text, only, sizeof only - 1) != 0)
-        return 0;
-    *in = 1;
-    for (text += sizeof only - 1; *text != '*'; text += strcspn(text, " ") + 1)
-        *in &= has_part(document, text, strcspn(text, " "));
-    return 1;
+    const size_t length = strcspn(line, "\n");
+    const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
+    if (mark && mark < line + length) {
+        int has = has_parts(document, mark + sizeof only - 1), alone = strspn(line, " ") == (size_t)(mark - line);
+        if (alone)
+            *in = has;
+        else if (*in && has)
+            fprintf(to, "%.*s\n", (int)(mark - line), line);
+    } else if (end && end < line + length) {
+        *in = 1;
+    } else if (*in) {
+        fprintf(to, "%.*s\n", (int)length, line);
+    }
 }
 
-/* NULL if there is no memory. */
-static char *whole_text(const export_document *document)
+/* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
+ * memory. */
+static char *whole_text(const export_document *document, const char *more, long *behind)
 {
-    size_t size = 1;
-    for (const embedded_text *file = kernel_text; file->name; file++)
-        for (size_t i = 0; file->lines[i]; i++)
-            size += strlen(file->lines[i]) + 1;
-    char *text = malloc(size), *end = text;
+    char *whole = NULL;
+    size_t size = 0;
     int in = 1;
-    for (const embedded_text *file = kernel_text; text && file->name; file++)
-        for (size_t i = 0; file->lines[i]; i++)
-            if (!is_mark(document, file->lines[i], &in) && in)
-                end += sprintf(end, "%s\n", file->lines[i]);
-    if (text)
-        *end = '\0';
-    return text;
+    FILE *to = open_memstream(&whole, &size);
+    if (!to)
+        return NULL;
+    fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
+    for (size_t i = 0; i < document->tables; i++)
+        fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
+    fputs(" };\n\n", to);
+    for (size_t i = 0; document->embeds && i < document->count; i++) {
+        fputs(i ? ", " : "static const float VNDF_NUMBERS[] = {", to);
+        put_float(&document->as, to, (double)document->numbers[i]);
+    }
+    fputs(document->embeds && document->count ? "};\n\n" : "", to);
+    for (const embedded_text *file = kernel_text; file->name; file++)
+        for (const char *const *line = file->lines; *line; line++)
+            put_line(to, document, *line, &in);
+    *behind = ftell(to);
+    for (const char *line = more; *line; line += strcspn(line, "\n") + 1)
+        put_line(to, document, line, &in);
+    if (fclose(to) == 0)
+        return whole;
+    free(whole);
+    return NULL;
 }
 
-const char *const *document_calls(void)
-{
-    static const char *const calls[EXPORT_CALLS] = {
-        "view", "sample", "sample_weight",  "pdf",     "visible",     "ndf",       "lambda",
-        "g1",   "g2",     "projected_area", "mixture", "bsdf_sample", "bsdf_eval", "bsdf_pdf"};
-    return calls;
-}
+const char *const document_calls[EXPORT_CALLS] = {
+    "view", "sample",         "pdf",     "visible", "ndf",         "lambda",    "g1",
+    "g2",   "projected_area", "mixture", "family",  "bsdf_sample", "bsdf_eval", "bsdf_pdf"};
 
 int document_is_of_bsdf(const char *call)
 {
     return strncmp(call, "bsdf_", 5) == 0;
 }
 
-static void want(const translation *t, part_list *parts, const char *call)
+static void want(const translation *t, kernel *from, const char *before, const char *name)
 {
-    static const char *const mixtures[] = {"view_of", "pdf", "visible", "sample", "ndf"};
-    char name[40];
-    for (size_t i = 0; i < sizeof mixtures / sizeof mixtures[0] && strcmp(call, "mixture") == 0; i++) {
-        snprintf(name, sizeof name, "vndf_mixture_%s", mixtures[i]);
-        translation_want(t, parts, name);
-    }
-    for (size_t i = 0; i < 2 && document_is_of_bsdf(call); i++)
-        translation_want(t, parts, i ? "vndf_bsdf_cosine" : "vndf_bsdf_of");
-    snprintf(name, sizeof name, strcmp(call, "view") == 0 ? "vndf_%s_of" : "vndf_%s", call);
-    translation_want(t, parts, name);
+    char whole[80];
+    const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%s", before, name), 0, 0};
+    translation_want(t, from, &wanted);
 }
 
-/* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
-static int put_kernel(FILE *to, const export_document *document, const translation *t)
+/* What a call stands for. */
+static void want_call(const translation *t, kernel *from, const char *call)
 {
-    static const char *const outer[] = {"vndf_surface_of", NULL};
-    static const char *const inner[] = {"frame_of",         "frame_sampled",
-                                        "frame_normal",     "frame_density",
-                                        "frame_reach",      "ggx_see",
-                                        "ggx_draw",         "ggx_density",
-                                        "ggx_area",         "ggx_p22",
-                                        "beckmann_see",     "beckmann_draw",
-                                        "beckmann_density", "beckmann_area",
-                                        "beckmann_p22",     "table_view_of",
-                                        "table_draw",       "table_pdf",
-                                        "table_given",      "table_p22",
-                                        "law_area",         NULL};
-    char *text = whole_text(document);
-    part_list *parts = malloc(sizeof *parts);
-    if (text && parts) {
-        parts_read(parts, text);
-        for (const char *const *name = t->to->indents ? inner : outer; *name; name++)
-            translation_want(t, parts, *name);
-        for (const char *const *call = document->only[0] ? document->only : document_calls();
-             !t->to->indents && *call; call++)
-            if (document->only[0] || document_is_of_bsdf(*call) == document->effects.wanted)
-                want(t, parts, *call);
-        translate(t, to, parts);
-    }
-    int good = text && parts;
-    free(parts);
-    free(text);
-    return good;
+    static const char *const more[][2] = {{"view", "view_of"},           {"mixture", "mixture_view_of"},
+                                          {"mixture", "mixture_pdf"},    {"mixture", "mixture_visible"},
+                                          {"mixture", "mixture_sample"}, {"mixture", "mixture_ndf"},
+                                          {"family", "family_at"}};
+    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
+        if (strcmp(call, more[i][0]) == 0)
+            want(t, from, "vndf_", more[i][1]);
+    want(t, from, "vndf_", call);
+    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_of" : call);
+    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_cosine" : call);
+}
+
+static void want_all(const export_document *document, const translation *t, kernel *from)
+{
+    /* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
+    static const char *const inner[] = {
+        "frame_of",      "frame_sampled",    "frame_normal", "frame_density", "frame_reach",  "ggx_see",
+        "ggx_draw",      "ggx_density",      "ggx_area",     "ggx_p22",       "beckmann_see", "beckmann_draw",
+        "beckmann_area", "beckmann_density", "beckmann_p22", "table_view_of", "table_draw",   "table_pdf",
+        "table_given",   "table_p22",        "law_area"};
+    int has_family = 0;
+    for (size_t i = 0; t->to->indents && i < sizeof inner / sizeof *inner; i++)
+        want(t, from, "", inner[i]);
+    if (t->to->indents)
+        return;
+    for (int i = 0; i < from->count && from->at[i].begin == 0; i++) /* the constants before the kernel */
+        translation_want(t, from, &from->word[from->at[i].name]);
+    for (size_t i = 0; i < document->tables; i++)
+        has_family |= document->table[i].family != NULL;
+    want(t, from, "VNDF_", document->embeds ? "NUMBERS" : "GGX");
+    want(t, from, "vndf_", "surface_of");
+    for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++)
+        if (document->only[0] || (document_is_of_bsdf(*call) == document->effects.wanted &&
+                                  (has_family || strcmp(*call, "family") != 0)))
+            want_call(t, from, *call);
 }
 
 int document_write(const export_document *document, FILE *to)
 {
     translation as = document->as;
+    kernel from = {NULL, 0, 0, {{0}}};
     as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
-    if (as.to->indents) {
-        fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n%s\n\n", VNDF_VERSION, as.to->begin);
-        return put_kernel(to, document, &as);
+    long behind;
+    char *whole = whole_text(document, "", &behind);
+    int good = whole && kernel_read(&from, whole);
+    if (good && as.to->indents) {
+        fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
+    } else if (good) {
+        put_head(to, document);
+        if (as.to->guarded)
+            put_all(to, document, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n");
     }
-    put_head(to, document);
-    if (as.to->guarded)
-        translate_pattern(&as, to, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n", "", 0);
-    translate_pattern(&as, to, as.to->begin, "", 0);
-    fputs(*as.to->begin ? "\n" : "", to);
-    put_constants(to, document);
-    if (as.to->vec3_is_ours)
-        put_vec3(to, &as);
-    if (document->embeds && document->count)
-        put_numbers(to, document);
-    else if (as.to->buffer == BUFFER_BOUND && document->count) {
-        translate_pattern(&as, to, as.to->bound, "", 0);
-        fputs("\n", to);
+    if (good) {
+        want_all(document, &as, &from);
+        put_all(to, document, as.to->begin);
+        fputs(*as.to->begin ? "\n" : "", to);
+        if (!document->embeds && as.to->bound && document->count)
+            put_all(to, document, as.to->bound);
+        translate(&as, to, &from);
+        fputs(as.to->guarded ? "#endif\n" : "", to);
     }
-    int good = put_kernel(to, document, &as);
-    if (as.to->guarded)
-        fputs("#endif\n", to);
+    kernel_free(&from);
+    free(whole);
+    return good;
+}
+
+int document_write_more(const export_document *document, FILE *to, const char *more)
+{
+    kernel from = {NULL, 0, 0, {{0}}};
+    long behind;
+    char *whole = whole_text(document, more, &behind);
+    int good = whole && kernel_read(&from, whole), first = from.count;
+    while (first > 0 && from.word[from.at[first - 1].begin].text >= whole + behind)
+        first--;
+    for (int i = first; i < from.count; i++)
+        translation_want(&document->as, &from, &from.word[from.at[i].name]);
+    for (int i = 0; i < first; i++)
+        from.at[i].wanted = 0;
+    if (good)
+        translate(&document->as, to, &from);
+    kernel_free(&from);
+    free(whole);
     return good;
 }

@@ -13,8 +13,11 @@ enum { EXPORT_TABLES_MAX = 16, EXPORT_CALLS = 18 };
 /* Kinds of distributions that a kernel draws from, as bits. */
 enum { EXPORT_TABLE = 1, EXPORT_GGX = 2, EXPORT_BECKMANN = 4, EXPORT_ALL = 7 };
 
+/* A table, or the tables of a family, whose numbers stand behind its own: how many, whether it is linear in 1/p, then
+ * of each its parameter p and where its numbers begin. */
 typedef struct exported_table {
-    const vndf_distribution *distribution;
+    vndf_distribution *distribution; /* NULL for a family */
+    vndf_family *family;
     const char *file;  /* as the user named it */
     char name[64];     /* its constant, without the prefix: "STUDENT_T_2_5" */
     size_t base, size; /* of its numbers */
@@ -33,14 +36,31 @@ typedef struct export_document {
     const char *only[EXPORT_CALLS]; /* calls that are wanted, ended by NULL; all if there is none */
 } export_document;
 
+/* Texts that the build embeds. */
+typedef struct embedded_text {
+    const char *name;         /* of the file */
+    const char *const *lines; /* ended by NULL, without line breaks */
+} embedded_text;
+
+/* Ended by a name NULL: the kernel, in the order in which it is read; the page of `vndf explore`. */
+extern const embedded_text kernel_text[], page_texts[];
+
 /* The calls that can be wanted, ended by NULL: "view" ... and those of a BSDF, "bsdf_sample" ... */
-const char *const *document_calls(void);
+extern const char *const document_calls[EXPORT_CALLS];
 int document_is_of_bsdf(const char *call);
 
-/* Names the table's constant after its file; 0 if that leaves no name. */
-int document_name_table(exported_table *table);
+/* Adds a table or, where `distribution` is NULL, a family; 0 if its constant, named after the file, is none or another
+ * one's. */
+int document_add(export_document *document, const char *file, vndf_distribution *distribution,
+                 vndf_family *family);
+
+/* Fills in the numbers; 0 if there is no memory. */
+int document_fill(export_document *document);
 
 /* 0 if there is no memory. */
 int document_write(const export_document *document, FILE *to);
+
+/* Writes a text that calls the kernel, in the kernel's part of C, as it goes behind that file. */
+int document_write_more(const export_document *document, FILE *to, const char *more);
 
 #endif

@@ -7,13 +7,12 @@
 
 #include "vndf_bsdf.h"
 
-enum { EFFECTS_ERROR_MAX = 400 };
+enum { EFFECTS_ERROR_MAX = 600, EFFECT_KEYS = 5 };
 
-/* The number of each choice in its list, as in vndf_effects; all 0 is bare reflection. */
-enum { EFFECT_LOBES, EFFECT_FRESNEL, EFFECT_MASKING, EFFECT_TRANSPORT, EFFECT_REFLECTION, EFFECT_KEYS };
+/* The number of each choice in its list: lobes, fresnel, masking, transport, reflection. All 0 is bare reflection. */
 typedef struct export_effects {
     int wanted; /* there is a BSDF */
-    unsigned choice[EFFECT_KEYS];
+    int choice[EFFECT_KEYS];
 } export_effects;
 
 /* Reads key=choice, separated by blanks or commas; 0 and a reason for words that are none, for what files do not
@@ -25,7 +24,7 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
  *     reflects, transmits    a lobe is on this side, on the other
  *     indexed                there is an index ratio, and both sides are seen
  *     coloured               there are reflectances */
-int effects_have(const export_effects *effects, const char *word, size_t length);
+int effects_have(const export_effects *effects, const char *word, int length);
 
 vndf_effects effects_of(const export_effects *effects);
 

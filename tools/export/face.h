@@ -16,28 +16,25 @@ HERE vndf_surface vndf_surface_of(int distribution, float alpha_x, float alpha_y
     return m;
 }
 
-/* A surface seen from wi; what follows that is the kernel's. */
+/* A surface seen from wi; what follows that is the kernel's. ex, ey and v are a table_view: WebGL allows structs in
+ * structs no deeper. */
 typedef struct vndf_view {
     vndf_surface surface;
     vec3 wi;
     frame at;
     float unit_area; /* of the unit problem */
-    /* only table */
-    table t;
-    float ex, ey; /* of a table_view: WebGL allows structs in structs no deeper */
-    seen v;
-    int below;
-    /* end */
+    table t;         /* only table */
+    float ex, ey;    /* only table */
+    seen v;          /* only table */
+    int below;       /* only table */
 } vndf_view;
 
 /* The matrix in units of the distribution's slopes. */
 HERE affine_map matrix_of(vndf_surface m)
 {
     float scale = 1.0f;
-    /* only table */
-    if (m.distribution >= 0)
-        scale = fetch(m.distribution + 3);
-    /* end */
+    if (m.distribution >= 0)               /* only table */
+        scale = fetch(m.distribution + 3); /* only table */
     const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y};
     return s;
 }
@@ -50,10 +47,8 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
     view.wi = wi;
     view.at = frame_of(matrix_of(m), wi.x, wi.y, wi.z);
     view.unit_area = 0.0f;
-    /* only table */
-    if (m.distribution >= 0)
-        view.t = table_at(m.distribution);
-    /* end */
+    if (m.distribution >= 0)               /* only table */
+        view.t = table_at(m.distribution); /* only table */
     return view;
 }
 
@@ -61,14 +56,10 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
 HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
 {
     vndf_view view = placed(m, wi);
-    /* only ggx */
-    if (m.distribution == VNDF_GGX)
-        view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
-    /* end */
-    /* only beckmann */
-    if (m.distribution == VNDF_BECKMANN)
-        view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz);
-    /* end */
+    if (m.distribution == VNDF_GGX)                                         /* only ggx */
+        view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);      /* only ggx */
+    if (m.distribution == VNDF_BECKMANN)                                    /* only beckmann */
+        view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz); /* only beckmann */
     /* only table */
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
@@ -93,18 +84,12 @@ HERE float vndf_projected_area(vndf_view view)
 /* D times |det M|, of a normal of the unit problem. */
 HERE float unit_ndf(vndf_view view, unit_normal n)
 {
-    /* only ggx */
-    if (view.surface.distribution == VNDF_GGX)
-        return ggx_p22(n.x, n.y, n.z);
-    /* end */
-    /* only beckmann */
-    if (view.surface.distribution == VNDF_BECKMANN)
-        return beckmann_p22(n.x, n.y, n.z);
-    /* end */
-    /* only table */
-    if (view.surface.distribution >= 0)
-        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z));
-    /* end */
+    if (view.surface.distribution == VNDF_GGX)                        /* only ggx */
+        return ggx_p22(n.x, n.y, n.z);                                /* only ggx */
+    if (view.surface.distribution == VNDF_BECKMANN)                   /* only beckmann */
+        return beckmann_p22(n.x, n.y, n.z);                           /* only beckmann */
+    if (view.surface.distribution >= 0)                               /* only table */
+        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z)); /* only table */
     return 0.0f;
 }
 
@@ -125,27 +110,24 @@ HERE float vndf_ndf(vndf_surface m, vec3 wm)
 /* The density with which vndf_sample draws wm. */
 HERE float vndf_pdf(vndf_view view, vec3 wm)
 {
-    unit_normal n = frame_normal(view.at, wm.x, wm.y, wm.z);
+    const frame f = view.at;
+    unit_normal n = frame_normal(f, wm.x, wm.y, wm.z);
     float density = 0.0f;
     if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
         return 0.0f;
-    /* only ggx */
-    if (view.surface.distribution == VNDF_GGX)
-        density = ggx_density(ggx_see(view.at.ux, view.at.uy, view.at.uz), n.x, n.y, n.z, n.facing);
-    /* end */
-    /* only beckmann */
-    if (view.surface.distribution == VNDF_BECKMANN)
-        density = beckmann_density(beckmann_see(view.at.ux, view.at.uy, view.at.uz), n.x, n.y, n.z, n.facing);
-    /* end */
+    if (view.surface.distribution == VNDF_GGX)                                               /* only ggx */
+        density = ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);           /* only ggx */
+    if (view.surface.distribution == VNDF_BECKMANN)                                          /* only beckmann */
+        density = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing); /* only beckmann */
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
         if (view.below)
             n = table_unturned(view.ex, view.ey, n);
-        density = table_pdf(view.t, seen_from, n, frame_reach(view.at), view.below);
+        density = table_pdf(view.t, seen_from, n, frame_reach(f), view.below);
     }
     /* end */
-    return frame_density(view.at, density / view.at.determinant);
+    return frame_density(f, density / f.determinant);
 }
 
 /* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */
@@ -162,54 +144,23 @@ HERE float vndf_visible(vndf_view view, vec3 wm)
 
 /* ---- sampling ---- */
 
-/* A normal, and the density per steradian with which it is drawn. */
+/* A normal, the density per steradian with which it is drawn, and the quotient (visible density)/density: weights of
+ * estimators have it as a factor. */
 typedef struct vndf_sampled {
     vec3 wm;
-    float pdf;
+    float pdf, weight;
 } vndf_sampled;
-
-/* Of a closed form a visible normal of the unit problem. */
-HERE drawn closed_drawn(vndf_view view, float u1, float u2)
-{
-    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
-    /* only ggx */
-    if (view.surface.distribution == VNDF_GGX)
-        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
-    /* end */
-    /* only beckmann */
-    if (view.surface.distribution == VNDF_BECKMANN)
-        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
-    /* end */
-    return n;
-}
 
 /* Draws a visible normal with two uniform numbers in [0, 1]. */
 HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 {
     const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
-    drawn n = closed_drawn(view, u1, u2);
-    /* only table */
-    if (view.surface.distribution >= 0) {
-        const table_view seen_from = {view.ex, view.ey, view.v};
-        n = table_draw(view.t, seen_from, u1, u2, view.below);
-    }
-    /* end */
-    sampled s = frame_sampled(view.at, n);
-    const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf};
-    return drawn_normal;
-}
-
-/* The same, and the quotient (visible density)/density: weights of estimators have it as a factor. */
-typedef struct vndf_weighed {
-    vec3 wm;
-    float pdf, weight;
-} vndf_weighed;
-
-HERE vndf_weighed vndf_sample_weight(vndf_view view, float w1, float w2)
-{
-    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
-    drawn n = closed_drawn(view, u1, u2);
+    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
     float weight = 1.0f;
+    if (view.surface.distribution == VNDF_GGX)                                       /* only ggx */
+        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);           /* only ggx */
+    if (view.surface.distribution == VNDF_BECKMANN)                                  /* only beckmann */
+        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2); /* only beckmann */
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
@@ -218,8 +169,8 @@ HERE vndf_weighed vndf_sample_weight(vndf_view view, float w1, float w2)
         weight = both_drawn.weight;
     }
     /* end */
-    sampled s = frame_sampled(view.at, n);
-    const vndf_weighed drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
+    const sampled s = frame_sampled(view.at, n);
+    const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
 
@@ -335,7 +286,12 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 }
 
 /* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
-HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
+typedef struct vndf_mixed {
+    vec3 wm;
+    float pdf;
+} vndf_mixed;
+
+HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
     vndf_view chosen = lobes.lobe[0];
@@ -348,7 +304,7 @@ HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2
             chosen = lobes.lobe[i];
             share = lobes.share[i];
         }
-    vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
+    const vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
     for (int j = 0; j < VNDF_LOBES; j++)
         if (j < lobes.count) {
             if (j == at)
@@ -356,8 +312,8 @@ HERE vndf_sampled vndf_mixture_sample(vndf_mixture_view view, float u1, float u2
             else
                 density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
         }
-    one.pdf = mixed_density(density);
-    return one;
+    const vndf_mixed drawn_normal = {one.wm, mixed_density(density)};
+    return drawn_normal;
 }
 
 HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
@@ -368,4 +324,37 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
         if (i < lobes.count)
             density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
     return least(density, 3.4028234e38f);
+}
+
+/* ---- families ---- */
+
+/* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
+ * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
+ * then p and the place of each. */
+HERE vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape)
+{
+    const int knots = to_whole(fetch(family));
+    const float p = least(most(parameter, fetch(family + 2)), fetch(family + 2 * knots));
+    int at = family + 2;
+    for (int i = 2; i < knots; i++)
+        if (fetch(at + 2) <= p)
+            at = at + 2;
+    vndf_mixture mixture;
+    mixture.count = least_whole(knots, 2);
+    for (int k = 0; k < VNDF_LOBES; k++) {
+        mixture.lobe[k] = shape;
+        mixture.weight[k] = 0.0f;
+    }
+    mixture.lobe[0].distribution = to_whole(fetch(at + 1));
+    mixture.weight[0] = 1.0f;
+    if (knots > 1) {
+        const float next = fetch(at + 2);
+        float share = (p - fetch(at)) / (next - fetch(at));
+        if (fetch(family + 1) > 0.0f)
+            share = share * (next / p);
+        mixture.lobe[1].distribution = to_whole(fetch(at + 3));
+        mixture.weight[1] = share;
+        mixture.weight[0] = 1.0f - share;
+    }
+    return mixture;
 }

@@ -1,23 +1,28 @@
 #!/usr/bin/env python3
-"""Runs a kernel that `vndf export` wrote (prefix vndf) on whatever runs its language here: for the tests of tests/export.
+"""Runs a kernel that `vndf export` wrote (prefix vndf) on whatever runs its language here.
 
-    run_kernel.py LANGUAGE KERNEL QUESTIONS ANSWERS [--buffer RAW] [--bsdf EFFECTS]
+    run_kernel.py LANGUAGE KERNEL ASK QUESTIONS ANSWERS [--buffer RAW]       for the tests of tests/export
+    run_kernel.py opencl|cuda bench VNDF TABLE... [--rounds N] [--samples N] samples per second beside GGX caps
 
-LANGUAGE is opencl, glsl, hlsl, wgsl or cuda. QUESTIONS are records of twelve floats, of a BSDF sixteen, ANSWERS of
-sixteen: tests/export/exported.h says which. --buffer says that the kernel fetches its numbers, from RAW; --bsdf that it
-is a BSDF, exported with these effects.
+LANGUAGE is opencl, glsl, hlsl, wgsl or cuda. ASK is tests/export/ask.h in that language; QUESTIONS and ANSWERS are
+records of sixteen floats. --buffer says that the kernel fetches its numbers, from RAW.
+
+In a bench every sample has a direction above the horizon, a roughness from 0.05 to 0.95 and numbers of its own, from a
+hash; the row `numbers alone` is what these cost. All rows take turns; what counts is the median.
 
 Needs numpy, and pyopencl for OpenCL, moderngl with EGL for GLSL, glslangValidator and wgpu for HLSL, wgpu for WGSL,
 nvcc and a GPU for CUDA. Exit status 77, and a line "SKIPPED: why" on stderr, where something is absent."""
 import argparse
 import ctypes
 import os
+import re
 import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
-ANSWER = 16
+NUMBERS = 16  # of a question, of an answer
 
 
 def skip(why):
@@ -32,223 +37,26 @@ def module(name):
         skip(f"no {name} for Python ({error})")
 
 
-# ---- what is asked, in each language ---------------------------------------------------------------
+def compiled(command):
+    made = subprocess.run(command, capture_output=True, text=True)
+    if made.returncode:
+        sys.exit(made.stdout + made.stderr)
 
-# A line is "type name = value", "name = value" or a call of put(index, value). WORD(...) of these fetch numbers.
-SURFACE = """
-    vndf_surface surface
-    surface.distribution = int(ask(0))
-    surface.xx = ask(1)
-    surface.xy = ask(2)
-    surface.yx = ask(3)
-    surface.yy = ask(4)
-    surface.mean_x = ask(5)
-    surface.mean_y = ask(6)
-    vec3 wi = vec3(ask(7), ask(8), ask(9))
-"""
-NORMALS = SURFACE + """
-    vndf_view view = vndf_view_of(surface, wi)
-    vndf_sampled drawn = vndf_sample(view, ask(10), ask(11))
-    put(0, drawn.wm.x)
-    put(1, drawn.wm.y)
-    put(2, drawn.wm.z)
-    put(3, drawn.pdf)
-    put(4, vndf_pdf(view, drawn.wm))
-    put(5, vndf_visible(view, drawn.wm))
-    put(6, vndf_ndf(surface, drawn.wm))
-    put(7, vndf_lambda(surface, wi))
-    put(8, vndf_g1(surface, wi))
-    put(9, vndf_g2(surface, wi, drawn.wm))
-    put(10, vndf_projected_area(view))
-    vndf_mixture mixture
-    mixture.count = 2
-    mixture.lobe[0] = surface
-    mixture.lobe[1] = vndf_surface_of(VNDF_GGX, 0.3, 0.3)
-    mixture.lobe[2] = surface
-    mixture.lobe[3] = surface
-    mixture.weight[0] = 0.6
-    mixture.weight[1] = 0.4
-    mixture.weight[2] = 0.0
-    mixture.weight[3] = 0.0
-    vndf_mixture_view lobes = vndf_mixture_view_of(mixture, wi)
-    vndf_sampled mixed = vndf_mixture_sample(lobes, ask(10), ask(11))
-    put(11, mixed.wm.x)
-    put(12, mixed.wm.y)
-    put(13, mixed.wm.z)
-    put(14, mixed.pdf)
-    put(15, vndf_mixture_pdf(lobes, mixed.wm))
-"""
-# Optics that the effects have, and a line for each.
-OPTICS = {
-    "indexed": "material.eta = 1.5",
-    "schlick": "material.f0 = vec3(0.0, 0.04, 0.9)",
-    "conductor": "material.conductor_eta = vec3(0.2, 0.9, 1.5)\n material.conductor_k = vec3(3.9, 2.4, 1.9)",
+
+# ---- devices: each runs entry `index` of a source on arrays of floats, and returns seconds ---------
+
+# Of OpenCL and CUDA, which share what stands in C.
+MACROS = {
+    "opencl": "#define FUNCTION static inline\n#define ENTRY __kernel void\n#define GLOBAL __global\n"
+              "#define ITEM (int)get_global_id(0)\n#define MAX fmax\n#define VEC3 (float3)\n",
+    "cuda": "#define FUNCTION static __device__ inline\n#define ENTRY __global__ void\n#define GLOBAL\n"
+            "#define ITEM (int)(blockIdx.x * blockDim.x + threadIdx.x)\n#define MAX fmaxf\n#define VEC3 make_float3\n",
 }
-BSDF = SURFACE + """
-    vndf_material material
-    material.surface = surface
-OPTICS
-    vndf_bsdf bsdf = vndf_bsdf_of(material, wi)
-    vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(ask(10), ask(11), ask(12)))
-    put(0, s.wo.x)
-    put(1, s.wo.y)
-    put(2, s.wo.z)
-    put(3, s.weight.x)
-    put(4, s.weight.y)
-    put(5, s.weight.z)
-    put(6, s.pdf)
-    put(7, float(s.lobe))
-    vec3 wo = vec3(ask(13), ask(14), ask(15))
-    vec3 f = vndf_bsdf_eval(bsdf, wo)
-    put(8, f.x)
-    put(9, f.y)
-    put(10, f.z)
-    put(11, vndf_bsdf_pdf(bsdf, wo))
-    vec3 own = vndf_bsdf_eval(bsdf, s.wo)
-    put(12, own.x)
-    put(13, own.y)
-    put(14, own.z)
-    put(15, vndf_bsdf_pdf(bsdf, s.wo))
-"""
+PARAMETERS = "(GLOBAL const float *numbers, GLOBAL const float *asked, GLOBAL float *result, int count)"
 
-
-def asked_of(effects):
-    """The lines, and how many numbers a question has."""
-    if effects is None:
-        return NORMALS, 12
-    has = [word for word in ("schlick", "conductor") if "fresnel=" + word in effects]
-    if "dielectric" in effects or "lobes=both" in effects or "lobes=transmission" in effects:
-        has.append("indexed")
-    return BSDF.replace("OPTICS", "\n".join(OPTICS[word] for word in has)), 16
-
-
-FETCHING = ("bsdf_of", "bsdf_sample", "bsdf_eval", "bsdf_pdf", "view_of", "sample", "pdf", "visible", "ndf", "lambda", "g1", "g2", "mixture_view_of", "mixture_sample",
-            "mixture_pdf")
-C_NAMES = {"vec3(": "(float3)(", "int(": "(int)(", "float(": "(float)("}
-NAMES = {
-    "opencl": C_NAMES,
-    "cuda": {"vec3(": "make_float3(", "vec3 ": "float3 "},
-    "glsl": {},
-    "hlsl": {"vec3(": "float3(", "vec3 ": "float3 "},
-    "wgsl": {"vec3(": "vec3<f32>(", "int(": "i32(", "float(": "f32("},
-}
-NAMES["opencl"]["vec3 "] = "float3 "
-
-
-def body(language, by_pointer, effects):
-    """The statements."""
-    lines = []
-    text, size = asked_of(effects)
-    for line in text.split("\n"):
-        line = line.strip()
-        if not line:
-            continue
-        if line.startswith("put("):
-            index, value = line[4:-1].split(", ", 1)
-            line = f"result[{ANSWER} * i + {index}] = {value}"
-        elif language == "wgsl" and not line.split(" ")[0].startswith(("surface.", "mixture.", "material.")):
-            kind, rest = line.split(" ", 1)
-            name = rest.split(" ", 1)[0]
-            line = f"var {name}: {kind.replace('vec3', 'vec3<f32>')}" + rest[len(name):]
-        for index in range(size):
-            line = line.replace(f"ask({index})", f"asked[{size} * i + {index}]")
-        for old, new in NAMES[language].items():
-            line = line.replace(old, new)
-        if by_pointer:
-            for name in FETCHING:
-                line = line.replace(f" vndf_{name}(", f" vndf_{name}(numbers, ")
-        lines.append("    " + line + ";")
-    return "\n".join(lines)
-
-
-MAIN = {
-    "opencl": """
-__kernel void run({numbers}__global const float *asked, __global float *result, int count)
-{{
-    int i = (int)get_global_id(0);
-    if (i >= count)
-        return;
-{body}
-}}
-""",
-    "cuda": """
-__global__ void run_all({numbers}const float *asked, float *result, int count)
-{{
-    int i = (int)(blockIdx.x * blockDim.x + threadIdx.x);
-    if (i >= count)
-        return;
-{body}
-}}
-
-extern "C" const char *run(const float *numbers, int size, const float *asked, int asked_size, float *result,
-                           int result_size, int count)
-{{
-    float *n, *a, *r;
-    cudaMalloc(&n, 4 * (size_t)size + 4);
-    cudaMalloc(&a, 4 * (size_t)asked_size);
-    cudaMalloc(&r, 4 * (size_t)result_size);
-    cudaMemcpy(n, numbers, 4 * (size_t)size, cudaMemcpyHostToDevice);
-    cudaMemcpy(a, asked, 4 * (size_t)asked_size, cudaMemcpyHostToDevice);
-    run_all<<<(count + 63) / 64, 64>>>({given}a, r, count);
-    cudaMemcpy(result, r, 4 * (size_t)result_size, cudaMemcpyDeviceToHost);
-    cudaFree(n);
-    cudaFree(a);
-    cudaFree(r);
-    cudaError_t error = cudaGetLastError();
-    return error == cudaSuccess ? 0 : cudaGetErrorString(error);
-}}
-
-extern "C" const char *device()
-{{
-    static cudaDeviceProp properties;
-    return cudaGetDeviceProperties(&properties, 0) == cudaSuccess ? properties.name : 0;
-}}
-""",
-    "glsl": """
-layout(local_size_x = 64) in;
-layout(std430, binding = 1) readonly buffer questions {{ float asked[]; }};
-layout(std430, binding = 2) writeonly buffer answers {{ float result[]; }};
-void main()
-{{
-    int i = int(gl_GlobalInvocationID.x);
-{body}
-}}
-""",
-    "hlsl": """
-StructuredBuffer<float> asked : register(t1);
-RWStructuredBuffer<float> result : register(u2);
-[numthreads(64, 1, 1)]
-void main(uint3 id : SV_DispatchThreadID)
-{{
-    int i = int(id.x);
-{body}
-}}
-""",
-    "wgsl": """
-@group(0) @binding(1) var<storage, read> asked: array<f32>;
-@group(0) @binding(2) var<storage, read_write> result: array<f32>;
-@compute @workgroup_size(64)
-fn main(@builtin(global_invocation_id) id: vec3<u32>)
-{{
-    let i = i32(id.x);
-{body}
-}}
-""",
-}
-
-
-def source_of(language, kernel, fetches, effects):
-    by_pointer = fetches and language in ("opencl", "cuda")
-    qualifier = "__global const float *numbers, " if language == "opencl" else "const float *numbers, "
-    main = MAIN[language].format(numbers=qualifier if by_pointer else "", given="n, " if by_pointer else "",
-                                 body=body(language, by_pointer, effects))
-    return ("#version 430\n" if language == "glsl" else "") + kernel + main
-
-
-# ---- devices: each runs a source on arrays of floats -----------------------------------------------
 
 class OpenCL:
-    def __init__(self, source, numbers):
+    def __init__(self, source, numbers, entries):
         cl = self.cl = module("pyopencl")
         try:
             devices = [d for p in cl.get_platforms() for d in p.get_devices()]
@@ -259,49 +67,107 @@ class OpenCL:
         devices.sort(key=lambda d: d.type != cl.device_type.GPU)
         self.name = f"{devices[0].name} ({devices[0].platform.name}, {devices[0].version.strip()})"
         self.context = cl.Context(devices[:1])
-        self.queue = cl.CommandQueue(self.context)
-        self.kernel = cl.Kernel(cl.Program(self.context, source).build(["-cl-std=CL1.2"]), "run")
-        self.numbers = [] if numbers is None else [self.filled(numbers)]
+        self.queue = cl.CommandQueue(self.context, properties=cl.command_queue_properties.PROFILING_ENABLE)
+        program = cl.Program(self.context, source).build(["-cl-std=CL1.2"])
+        self.kernels = [cl.Kernel(program, f"run_{i}") for i in range(entries)]
+        self.numbers = self.filled(numbers)
 
     def filled(self, array):
         flags = self.cl.mem_flags
         return self.cl.Buffer(self.context, flags.READ_ONLY | flags.COPY_HOST_PTR, hostbuf=array)
 
-    def run(self, asked, result, count):
-        numpy = module("numpy")
+    def run(self, index, asked, result, count):
         to = self.cl.Buffer(self.context, self.cl.mem_flags.WRITE_ONLY, result.nbytes)
-        self.kernel(self.queue, (-(-count // 64) * 64,), (64,), *self.numbers, self.filled(asked), to,
-                    numpy.int32(count))
+        event = self.kernels[index](self.queue, (-(-count // 64) * 64,), (64,), self.numbers, self.filled(asked), to,
+                                    module("numpy").int32(count))
         self.cl.enqueue_copy(self.queue, result, to)
+        return 1e-9 * (event.profile.end - event.profile.start)
+
+
+CUDA_HOST = """
+extern "C" double run(int index, const float *numbers, int size, const float *asked, int asked_size, float *result,
+                      int result_size, int count)
+{
+    float *at[3], ms = -1.0f;
+    int sizes[3] = {size, asked_size, result_size};
+    const float *from[3] = {numbers, asked, result};
+    cudaEvent_t before, after;
+    for (int i = 0; i < 3; i++) {
+        cudaMalloc(&at[i], 4 * (size_t)sizes[i]);
+        cudaMemcpy(at[i], from[i], 4 * (size_t)sizes[i], cudaMemcpyHostToDevice);
+    }
+    cudaEventCreate(&before);
+    cudaEventCreate(&after);
+    cudaEventRecord(before);
+    switch (index) {
+CASES    }
+    cudaEventRecord(after);
+    cudaEventSynchronize(after);
+    cudaEventElapsedTime(&ms, before, after);
+    cudaMemcpy(result, at[2], 4 * (size_t)result_size, cudaMemcpyDeviceToHost);
+    for (int i = 0; i < 3; i++)
+        cudaFree(at[i]);
+    return cudaGetLastError() == cudaSuccess ? 1e-3 * ms : -1.0;
+}
+extern "C" const char *device()
+{
+    static cudaDeviceProp properties;
+    return cudaGetDeviceProperties(&properties, 0) == cudaSuccess ? properties.name : 0;
+}
+"""
+
+
+class CUDA:
+    def __init__(self, source, numbers, entries):
+        if not shutil.which("nvcc"):
+            skip("no nvcc")
+        self.folder, self.numbers = tempfile.TemporaryDirectory(), numbers
+        text, library = os.path.join(self.folder.name, "kernel.cu"), os.path.join(self.folder.name, "kernel.so")
+        cases = "".join(f"    case {i}: run_{i}<<<(count + 127) / 128, 128>>>(at[0], at[1], at[2], count); break;\n"
+                        for i in range(entries))
+        with open(text, "w") as file:
+            file.write(source + CUDA_HOST.replace("CASES", cases))
+        has_gpu = os.path.exists("/dev/nvidia0")
+        compiled(["nvcc", "-O3", *(["-arch=native"] if has_gpu else []), "-shared", "-Xcompiler", "-fPIC", text, "-o",
+                  library])
+        self.library = ctypes.CDLL(library)
+        self.library.device.restype, self.library.run.restype = ctypes.c_char_p, ctypes.c_double
+        name = self.library.device()
+        if name is None:
+            skip("nvcc compiles the kernel, but no GPU of its is here")
+        self.name = name.decode()
+
+    def run(self, index, asked, result, count):
+        arrays = [x for a in (self.numbers, asked, result) for x in (a.ctypes.data_as(ctypes.c_void_p), a.size)]
+        seconds = self.library.run(index, *arrays, count)
+        if seconds < 0:
+            sys.exit("the kernel failed")
+        return seconds
 
 
 class GL:
-    def __init__(self, source, numbers):
+    def __init__(self, source, numbers, entries):
         moderngl = module("moderngl")
         try:
             self.context = moderngl.create_standalone_context(backend="egl", require=430)
         except Exception as error:
             skip(f"no OpenGL 4.3 by EGL ({error})")
         self.name = f"{self.context.info['GL_RENDERER']} ({self.context.info['GL_VERSION']})"
-        self.shader = self.context.compute_shader(source)
-        self.numbers = None if numbers is None else self.context.buffer(numbers.tobytes())
+        self.shader = self.context.compute_shader("#version 430\n" + source)
+        self.numbers = numbers
 
-    def run(self, asked, result, count):
-        given, to = self.context.buffer(asked.tobytes()), self.context.buffer(reserve=result.nbytes)
-        if self.numbers:
-            self.numbers.bind_to_storage_buffer(0)
-        given.bind_to_storage_buffer(1)
-        to.bind_to_storage_buffer(2)
-        self.shader.run(count // 64)
-        result.view("uint8")[:] = module("numpy").frombuffer(to.read(), "uint8")
-        given.release()
-        to.release()
+    def run(self, index, asked, result, count):
+        buffers = [self.context.buffer(a.tobytes()) for a in (self.numbers, asked, result)]
+        for i, buffer in enumerate(buffers):
+            buffer.bind_to_storage_buffer(i)
+        self.shader.run(-(-count // 64))
+        result.view("uint8")[:] = module("numpy").frombuffer(buffers[2].read(), "uint8")
 
 
 class WebGPU:
     """WGSL, or SPIR-V in bytes."""
 
-    def __init__(self, source, numbers):
+    def __init__(self, source, numbers, entries):
         wgpu = self.wgpu = module("wgpu")
         try:
             adapter = wgpu.gpu.request_adapter_sync(power_preference="high-performance")
@@ -309,33 +175,29 @@ class WebGPU:
         except Exception as error:
             skip(f"no WebGPU adapter ({error})")
         self.name = f"{adapter.info['device']} ({adapter.info['backend_type']}, {adapter.info['description']})"
-        shader = self.device.create_shader_module(code=source)
-        self.pipeline = self.device.create_compute_pipeline(layout="auto",
-                                                            compute={"module": shader, "entry_point": "main"})
-        self.numbers = None if numbers is None else self.filled(numbers)
+        self.fetches = isinstance(source, bytes) or "vndf_numbers" in source
+        self.pipeline = self.device.create_compute_pipeline(
+            layout="auto", compute={"module": self.device.create_shader_module(code=source), "entry_point": "main"})
+        self.numbers = numbers
 
-    def filled(self, array):
-        return self.device.create_buffer_with_data(data=array, usage=self.wgpu.BufferUsage.STORAGE)
-
-    def run(self, asked, result, count):
+    def run(self, index, asked, result, count):
         usage = self.wgpu.BufferUsage
-        to = self.device.create_buffer(size=result.nbytes, usage=usage.STORAGE | usage.COPY_SRC)
-        buffers = {1: self.filled(asked), 2: to}
-        if self.numbers:
-            buffers[0] = self.numbers
-        entries = [{"binding": i, "resource": {"buffer": b, "offset": 0, "size": b.size}} for i, b in buffers.items()]
+        buffers = [self.device.create_buffer_with_data(data=a, usage=usage.STORAGE | usage.COPY_SRC)
+                   for a in (self.numbers, asked, result)]
+        entries = [{"binding": i, "resource": {"buffer": b, "offset": 0, "size": b.size}}
+                   for i, b in enumerate(buffers) if i or self.fetches]
         group = self.device.create_bind_group(layout=self.pipeline.get_bind_group_layout(0), entries=entries)
         encoder = self.device.create_command_encoder()
         step = encoder.begin_compute_pass()
         step.set_pipeline(self.pipeline)
         step.set_bind_group(0, group)
-        step.dispatch_workgroups(count // 64)
+        step.dispatch_workgroups(-(-count // 64))
         step.end()
         self.device.queue.submit([encoder.finish()])
-        result.view("uint8")[:] = module("numpy").frombuffer(self.device.queue.read_buffer(to), "uint8")
+        result.view("uint8")[:] = module("numpy").frombuffer(self.device.queue.read_buffer(buffers[2]), "uint8")
 
 
-def hlsl(source, numbers):
+def hlsl(source, numbers, entries):
     """SPIR-V by glslang, with the registers as bindings."""
     if not shutil.which("glslangValidator"):
         skip("no glslangValidator")
@@ -343,75 +205,162 @@ def hlsl(source, numbers):
         text, binary = os.path.join(folder, "kernel.hlsl"), os.path.join(folder, "kernel.spv")
         with open(text, "w") as file:
             file.write(source)
-        made = subprocess.run(["glslangValidator", "-D", "-e", "main", "-S", "comp", "-V", text, "-o", binary],
-                              capture_output=True, text=True)
-        if made.returncode:
-            sys.exit(made.stdout + made.stderr)
-        print("compiled by glslangValidator", file=sys.stderr)
+        compiled(["glslangValidator", "-D", "-e", "main", "-S", "comp", "-V", text, "-o", binary])
         with open(binary, "rb") as file:
-            return WebGPU(file.read(), numbers)
-
-
-class CUDA:
-    def __init__(self, source, numbers):
-        if not shutil.which("nvcc"):
-            skip("no nvcc")
-        self.folder = tempfile.TemporaryDirectory()
-        text, library = os.path.join(self.folder.name, "kernel.cu"), os.path.join(self.folder.name, "kernel.so")
-        with open(text, "w") as file:
-            file.write(source)
-        made = subprocess.run(["nvcc", "-O2", "-shared", "-Xcompiler", "-fPIC", text, "-o", library],
-                              capture_output=True, text=True)
-        if made.returncode:
-            sys.exit(made.stdout + made.stderr)
-        self.library = ctypes.CDLL(library)
-        self.library.device.restype = self.library.run.restype = ctypes.c_char_p
-        name = self.library.device()
-        if name is None:
-            skip("nvcc compiles the kernel, but no GPU of its is here")
-        self.name = name.decode()
-        self.numbers = module("numpy").zeros(1, "f4") if numbers is None else numbers
-
-    def run(self, asked, result, count):
-        at = [a.ctypes.data_as(ctypes.c_void_p) for a in (self.numbers, asked, result)]
-        error = self.library.run(at[0], self.numbers.size, at[1], asked.size, at[2], result.size, count)
-        if error is not None:
-            sys.exit(error.decode())
+            return WebGPU(file.read(), numbers, entries)
 
 
 DEVICES = {"opencl": OpenCL, "glsl": GL, "hlsl": hlsl, "wgsl": WebGPU, "cuda": CUDA}
 
+# ---- questions and answers -------------------------------------------------------------------------
 
-# ---- work ------------------------------------------------------------------------------------------
+BODY = """
+    vndf_question q;
+    for (int k = 0; k < 16; k++) { q.n[k] = asked[16 * i + k]; }
+    vndf_answer a = vndf_ask(NUMBERSq);
+    for (int k = 0; k < 16; k++) { result[16 * i + k] = a.n[k]; }
+}
+"""
+C_MAIN = "ENTRY run_0" + PARAMETERS + "\n{\n    int i = ITEM;\n    if (i >= count)\n        return;" + BODY
+MAIN = {
+    "opencl": C_MAIN,
+    "cuda": C_MAIN,
+    "glsl": """
+layout(local_size_x = 64) in;
+layout(std430, binding = 1) readonly buffer questions { float asked[]; };
+layout(std430, binding = 2) writeonly buffer answers { float result[]; };
+void main()
+{
+    int i = int(gl_GlobalInvocationID.x);""" + BODY,
+    "hlsl": """
+StructuredBuffer<float> asked : register(t1);
+RWStructuredBuffer<float> result : register(u2);
+[numthreads(64, 1, 1)]
+void main(uint3 id : SV_DispatchThreadID)
+{
+    int i = int(id.x);""" + BODY,
+    "wgsl": """
+@group(0) @binding(1) var<storage, read> asked: array<f32>;
+@group(0) @binding(2) var<storage, read_write> result: array<f32>;
+@compute @workgroup_size(64)
+fn main(@builtin(global_invocation_id) id: vec3<u32>)
+{
+    let i = i32(id.x);""" + BODY.replace("vndf_question q", "var q: vndf_question").replace("int k", "var k")
+    .replace("vndf_answer a", "var a"),
+}
 
-def answers(device, questions, to, effects):
-    numpy, size = module("numpy"), asked_of(effects)[1]
-    asked = numpy.fromfile(questions, "<f4")
-    count = asked.size // size
-    padded = numpy.zeros(-(-count // 64) * 64 * size, "<f4")
-    padded[:asked.size] = asked
-    padded[asked.size:] = numpy.resize(asked[:size], padded.size - asked.size)
-    result = numpy.zeros(padded.size // size * ANSWER, "<f4")
-    device.run(padded, result, padded.size // size)
-    result[:count * ANSWER].tofile(to)
+
+def text_of(path):
+    with open(path) as file:
+        return file.read()
+
+
+def answer(given):
+    numpy = module("numpy")
+    fetches = given.buffer is not None
+    numbers = numpy.fromfile(given.buffer, "<f4") if fetches else numpy.zeros(4, "<f4")
+    source = text_of(given.words[0]) + text_of(given.words[1]) + MACROS.get(given.language, "") + MAIN[
+        given.language].replace("NUMBERS", "numbers, " if fetches and given.language in MACROS else "")
+    device = DEVICES[given.language](source, numbers, 1)
+    print(f"{given.language} on {device.name}", file=sys.stderr)
+    asked = numpy.fromfile(given.words[2], "<f4")
+    count = asked.size // NUMBERS
+    padded = numpy.resize(asked, -(-count // 64) * 64 * NUMBERS)
+    result = numpy.zeros_like(padded)
+    device.run(0, padded, result, padded.size // NUMBERS)
+    result[:asked.size].tofile(given.words[3])
+
+
+# ---- bench -----------------------------------------------------------------------------------------
+
+EACH = 64  # samples of one work item
+SHARED = """
+FUNCTION float uniform(unsigned int *state) {
+    unsigned int x = *state += 0x9e3779b9u;
+    x = (x ^ (x >> 16)) * 0x7feb352du;
+    x = (x ^ (x >> 15)) * 0x846ca68bu;
+    return (float)((x ^ (x >> 16)) >> 8) * 5.96046448e-8f;
+}
+
+typedef struct caps_sampled {
+    float x, y, z, pdf;
+} caps_sampled;
+
+// J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023, and the density.
+FUNCTION caps_sampled caps_sample(float wx, float wy, float wz, float alpha, float u1, float u2) {
+    float sx = alpha * wx, sy = alpha * wy, size = sqrt(sx * sx + sy * sy + wz * wz);
+    float x = sx / size, y = sy / size, z = wz / size;
+    float phi = 6.28318531f * u1, h = (1.0f - u2) * (1.0f + z) - z, t = sqrt(MAX(0.0f, 1.0f - h * h));
+    float mx = alpha * (t * cos(phi) + x), my = alpha * (t * sin(phi) + y), mz = h + z;
+    float per = 1.0f / sqrt(mx * mx + my * my + mz * mz);
+    mx *= per;
+    my *= per;
+    mz *= per;
+    float across = (mx * mx + my * my) / (alpha * alpha) + mz * mz;
+    float facing = MAX(0.0f, wx * mx + wy * my + wz * mz);
+    caps_sampled s = {mx, my, mz,
+                      facing * 2.0f / ((wz + size) * 3.14159265f * alpha * alpha * across * across)};
+    return s;
+}
+"""
+ROW = """
+ENTRY run_INDEX""" + PARAMETERS + """
+{
+    int item = ITEM;
+    unsigned int state = (unsigned int)item * 747796405u;
+    float sum = 0.0f;
+    for (int i = 0; i < EACH; i += 1) {
+        float z = 0.001f + 0.999f * uniform(&state), t = 2.0f * uniform(&state) - 1.0f;
+        float across = sqrt(1.0f - z * z) / (1.0f + t * t), x = across * (1.0f - t * t), y = across * 2.0f * t;
+        float alpha = 0.05f + 0.9f * uniform(&state), u1 = uniform(&state), u2 = uniform(&state);
+        DRAW
+    }
+    result[item] = sum;
+}
+"""
+CAPS = "caps_sampled s = caps_sample(x, y, z, alpha, u1, u2); sum += s.x + s.y + s.z + s.pdf;"
+EXPORTED = """vndf_view view = vndf_view_of(numbers, vndf_surface_of(CONSTANT, alpha, alpha), VEC3(x, y, z));
+        vndf_sampled s = vndf_sample(numbers, view, u1, u2);
+        sum += s.wm.x + s.wm.y + s.wm.z + s.pdf;"""
+
+
+def bench(given):
+    numpy = module("numpy")
+    program, tables = given.words[1], given.words[2:]
+    with tempfile.TemporaryDirectory() as folder:
+        kernel, raw = os.path.join(folder, "kernel"), os.path.join(folder, "numbers")
+        subprocess.run([program, "export", *tables, "--language", given.language, "--buffer", raw, "-o", kernel],
+                       check=True)
+        text, numbers = text_of(kernel), numpy.fromfile(raw, "<f4")
+    rows = [("numbers alone", "sum += x + y + alpha + u1 + u2;"), ("GGX caps as published", CAPS),
+            ("GGX, exported", EXPORTED.replace("CONSTANT", "VNDF_GGX"))]
+    rows += [(f"{os.path.basename(t)}, {4 * int(n) / 1024:.1f} KiB", EXPORTED.replace("CONSTANT", "VNDF_" + c))
+             for t, (c, n) in zip(tables, re.findall(r"// VNDF_(\w+), (\d+) numbers", text))]
+    entries = [ROW.replace("INDEX", str(i)).replace("DRAW", draw) for i, (_, draw) in enumerate(rows)]
+    device = DEVICES[given.language](text + MACROS[given.language] + f"#define EACH {EACH}\n" + SHARED +
+                                     "".join(entries), numbers, len(rows))
+    items = max(128, given.samples // EACH // 128 * 128)
+    asked, result = numpy.zeros(4, "f4"), numpy.zeros(items, "f4")
+    # The first round warms up.
+    rounds = [[device.run(i, asked, result, items) for i in range(len(rows))] for _ in range(given.rounds + 1)][1:]
+    print(f"{given.language} on {device.name}, {time.strftime('%Y-%m-%d')}, {items * EACH} samples a row in each of "
+          f"{given.rounds} rounds")
+    print(f"{'':44} {'million/s':>10} {'25%':>10} {'75%':>10} {'time of caps':>13}")
+    for (name, _), took in zip(rows, numpy.array(rounds).T):
+        rate = [items * EACH / t / 1e6 for t in numpy.quantile(took, [0.5, 0.75, 0.25])]
+        ratio = numpy.median(took / numpy.array(rounds)[:, 1])
+        print(f"{name:44} {rate[0]:10.1f} {rate[1]:10.1f} {rate[2]:10.1f} {ratio:13.2f}")
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("language", choices=sorted(DEVICES))
-    parser.add_argument("kernel")
-    parser.add_argument("questions")
-    parser.add_argument("answers")
+    parser.add_argument("words", nargs="+")
     parser.add_argument("--buffer")
-    parser.add_argument("--bsdf")
+    parser.add_argument("--rounds", type=int, default=21)
+    parser.add_argument("--samples", type=int, default=1 << 22, help="of a row in a round")
     given = parser.parse_args()
-    numpy = module("numpy")
-    numbers = None if given.buffer is None else numpy.fromfile(given.buffer, "<f4")
-    with open(given.kernel) as file:
-        kernel = file.read()
-    device = DEVICES[given.language](source_of(given.language, kernel, numbers is not None, given.bsdf), numbers)
-    print(f"{given.language} on {device.name}", file=sys.stderr)
-    answers(device, given.questions, given.answers, given.bsdf)
+    (bench if given.words[0] == "bench" else answer)(given)
 
 
 main()

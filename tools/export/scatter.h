@@ -6,15 +6,9 @@
 /* A surface and its optics; indices are those beyond over that on the side of z. */
 typedef struct vndf_material {
     vndf_surface surface;
-    /* only indexed */
-    float eta;
-    /* end */
-    /* only fresnel=schlick */
-    vec3 f0; /* reflectance at normal incidence */
-    /* end */
-    /* only fresnel=conductor */
-    vec3 conductor_eta, conductor_k; /* real and imaginary part */
-    /* end */
+    float eta;                                                     /* only indexed */
+    vec3 f0; /* reflectance at normal incidence */                 /* only fresnel=schlick */
+    vec3 conductor_eta, conductor_k; /* real and imaginary part */ /* only fresnel=conductor */
 } vndf_material;
 
 /* A hit. Its frame is turned about the origin where wi is below the mean plane, so that wi is above: side is -1
@@ -81,23 +75,15 @@ HERE float vndf_bsdf_cosine(vndf_bsdf b, vec3 wo)
 /* Reflectances of the three wavelengths at a microfacet. */
 HERE vec3 reflectances(vndf_bsdf b, seen_cosine c)
 {
-    /* only fresnel=none */
-    return scaled(pick(less(0.0f, refracted_square(c.facing, b.eta)), 0.0f, 1.0f), vec3(1.0f, 1.0f, 1.0f));
-    /* end */
-    /* only fresnel=dielectric */
-    return scaled(dielectric(c.facing, b.eta), vec3(1.0f, 1.0f, 1.0f));
-    /* end */
-    /* only fresnel=schlick */
-    const vec3 f0 = b.material.f0;
-    float rest = c.rest;
-    /* end */
-    /* only fresnel=schlick transmits */
-    if (b.eta < 1.0f)
-        rest = refracted_rest(rest, b.eta);
-    /* end */
-    /* only fresnel=schlick */
-    return vec3(schlick(rest, f0.x), schlick(rest, f0.y), schlick(rest, f0.z));
-    /* end */
+    const float total = pick(less(0.0f, refracted_square(c.facing, b.eta)), 0.0f, 1.0f); /* only fresnel=none */
+    return vec3(total, total, total);                                                    /* only fresnel=none */
+    const float one = dielectric(c.facing, b.eta); /* only fresnel=dielectric */
+    return vec3(one, one, one);                    /* only fresnel=dielectric */
+    const vec3 f0 = b.material.f0;                 /* only fresnel=schlick */
+    float rest = c.rest;                           /* only fresnel=schlick */
+    if (b.eta < 1.0f)                              /* only fresnel=schlick transmits */
+        rest = refracted_rest(rest, b.eta);        /* only fresnel=schlick transmits */
+    return vec3(schlick(rest, f0.x), schlick(rest, f0.y), schlick(rest, f0.z)); /* only fresnel=schlick */
     /* only fresnel=conductor */
     const vec3 n = b.material.conductor_eta, k = b.material.conductor_k;
     return vec3(conductor(c.facing, n.x, k.x), conductor(c.facing, n.y, k.y), conductor(c.facing, n.z, k.z));
@@ -119,39 +105,21 @@ HERE float area_towards(vndf_bsdf b, direction w)
 /* G2/(cos_i cos_o) of reflection. */
 HERE float masked_reflection(vndf_bsdf b, event e)
 {
-    /* only masking=correlated */
-    return masked_by_height(b.rise, e.rise, b.area, area_towards(b, e.up));
-    /* end */
-    /* only masking=separable */
-    return masked_apart(b.area, area_towards(b, e.up));
-    /* end */
-    /* only masking=v-cavities */
-    return masked_in_cavities(b.rise, e.rise, e.facing, e.wm.z);
-    /* end */
-    /* only masking=none */
-    return 1.0f / (b.rise * e.rise);
-    /* end */
+    return masked_by_height(b.rise, e.rise, b.area, area_towards(b, e.up)); /* only masking=correlated */
+    return masked_apart(b.area, area_towards(b, e.up));                     /* only masking=separable */
+    return masked_in_cavities(b.rise, e.rise, e.facing, e.wm.z);            /* only masking=v-cavities */
+    return 1.0f / (b.rise * e.rise);                                        /* only masking=none */
 }
 
 /* G2/(cos_i cos_o) of transmission, with what the transport asks for. */
 HERE float masked_transmission(vndf_bsdf b, event e)
 {
     float carried = 1.0f;
-    /* only transport=radiance */
-    carried = 1.0f / (b.eta * b.eta);
-    /* end */
-    /* only masking=correlated */
-    return carried * passed_by_height(b.rise, e.rise, b.area, area_towards(b, e.up));
-    /* end */
-    /* only masking=separable */
-    return carried * masked_apart(b.area, area_towards(b, e.up));
-    /* end */
-    /* only masking=v-cavities */
-    return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);
-    /* end */
-    /* only masking=none */
-    return carried / (b.rise * e.rise);
-    /* end */
+    carried = 1.0f / (b.eta * b.eta);                                                 /* only transport=radiance */
+    return carried * passed_by_height(b.rise, e.rise, b.area, area_towards(b, e.up)); /* only masking=correlated */
+    return carried * masked_apart(b.area, area_towards(b, e.up));                     /* only masking=separable */
+    return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);  /* only masking=v-cavities */
+    return carried / (b.rise * e.rise);                                               /* only masking=none */
 }
 
 /* ---- samples ---- */
@@ -169,31 +137,23 @@ typedef struct vndf_scattered {
 HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
 {
     vndf_scattered s = {vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 0.0f), 0.0f, 0};
-    const vndf_weighed n = vndf_sample_weight(b.view, u.x, u.y);
+    const vndf_sampled n = vndf_sample(b.view, u.x, u.y);
     const direction wi = direction_of(b.view.wi), wm = direction_of(n.wm);
     const seen_cosine c = seen_cosine_of(wi, wm);
     vec3 f = vec3(1.0f, 1.0f, 1.0f);
     float part = 1.0f, masked = 0.0f, side = b.side;
     event e;
-    /* only coloured */
-    f = reflectances(b, c);
-    /* end */
-    /* only lobes=reflection */
-    int reflects = 1;
-    /* end */
-    /* only lobes=transmission */
-    int reflects = 0;
-    /* end */
+    f = reflectances(b, c); /* only coloured */
+    int reflects = 1;       /* only lobes=reflection */
+    int reflects = 0;       /* only lobes=transmission */
     /* only lobes=both */
     part = mean_of(f);
     int reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
     if (!reflects)
         part = 1.0f - part;
     /* end */
-    /* only reflects */
-    if (reflects)
-        e = reflected_at(wi, wm, c);
-    /* end */
+    if (reflects)                    /* only reflects */
+        e = reflected_at(wi, wm, c); /* only reflects */
     /* only transmits */
     if (!reflects) {
         e = refracted_at(wi, wm, c, b.eta);
@@ -204,14 +164,10 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     e.rise = projected(b.material.surface, vector_of(e.up));
     if (!any(e.met) || !(e.rise > 0.0f) || !(b.rise > 0.0f))
         return s;
-    /* only reflects */
-    if (reflects)
-        masked = masked_reflection(b, e);
-    /* end */
-    /* only transmits */
-    if (!reflects)
-        masked = masked_transmission(b, e);
-    /* end */
+    if (reflects)                           /* only reflects */
+        masked = masked_reflection(b, e);   /* only reflects */
+    if (!reflects)                          /* only transmits */
+        masked = masked_transmission(b, e); /* only transmits */
     s.wo = scaled(side, vector_of(e.up));
     s.weight = scaled(masked * e.rise * (b.area * n.weight) / part, f);
     s.pdf = least(most(n.pdf * e.jacobian * part, 1.17549435e-38f), 3.4028234e38f);
@@ -222,10 +178,8 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
         s.lobe = 3;
     }
     /* end */
-    /* only reflection=retro */
-    if (reflects)
-        s.wo = vec3(-s.wo.x, -s.wo.y, s.wo.z);
-    /* end */
+    if (reflects)                              /* only reflection=retro */
+        s.wo = vec3(-s.wo.x, -s.wo.y, s.wo.z); /* only reflection=retro */
     return s;
 }
 
@@ -242,10 +196,8 @@ HERE meeting meeting_of(vndf_bsdf b, vec3 given)
     const direction wi = direction_of(b.view.wi);
     vec3 wo = scaled(b.side, given);
     meeting m;
-    /* only reflection=retro */
-    if (wo.z > 0.0f)
-        wo = vec3(-wo.x, -wo.y, wo.z);
-    /* end */
+    if (wo.z > 0.0f)                   /* only reflection=retro */
+        wo = vec3(-wo.x, -wo.y, wo.z); /* only reflection=retro */
     const float rise = projected(b.material.surface, wo);
     m.reflects = pick_whole(less(0.0f, rise), 1, 0);
     m.e.met = less(rise, rise); /* no */
@@ -255,10 +207,8 @@ HERE meeting meeting_of(vndf_bsdf b, vec3 given)
         m.e.rest = reflecting_rest(m.e, wi, direction_of(wo));
     }
     /* end */
-    /* only transmits */
-    if (rise < 0.0f)
-        m.e = refracting(wi, direction_of(scaled(-1.0f, wo)), b.eta);
-    /* end */
+    if (rise < 0.0f)                                                  /* only transmits */
+        m.e = refracting(wi, direction_of(scaled(-1.0f, wo)), b.eta); /* only transmits */
     m.e.rise = size(rise);
     m.e.met = both(m.e.met, less(0.0f, b.rise));
     return m;
@@ -276,10 +226,8 @@ HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
     const seen_cosine c = {m.e.facing, m.e.rest};
     f = reflectances(b, c);
     /* end */
-    /* only reflects */
-    if (m.reflects)
-        masked = masked_reflection(b, m.e);
-    /* end */
+    if (m.reflects)                         /* only reflects */
+        masked = masked_reflection(b, m.e); /* only reflects */
     /* only transmits */
     if (!m.reflects) {
         masked = masked_transmission(b, m.e);

@@ -15,6 +15,7 @@
 
 static const double APART = 1e-12; /* of themselves: the abscissa of the curve could not tell closer rows apart */
 
+/* Columns, in the order of vndf_rows_over behind degrees, and of vndf_rows_of. */
 static const char *const first_names[] = {"theta_deg", "theta", "slope"};
 static const char *const second_names[] = {"ndf", "p22"};
 
@@ -31,6 +32,7 @@ typedef struct reader {
     vndf_status refusal;
     size_t capacity; /* in rows */
     vndf_csv_rows rows;
+    int degrees; /* the first column */
     vndf_error *error;
 } reader;
 
@@ -52,30 +54,21 @@ static vndf_status refuse(const reader *r, const char *format, ...)
  * "--csv 'my gloss.csv' (crc32 0f3a22bc)". */
 static vndf_source *source_of(reader *r, vndf_status status, const char *option, const char *name, uint32_t crc)
 {
-    char checksum[32], *description = NULL;
-    vndf_text words = {NULL, 0, 0, 0};
-    if (status == VNDF_OK) {
-        snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
-        vndf_text_add_word(&words, option);
-        vndf_text_add_word(&words, name ? name : "unnamed");
-        vndf_text_add(&words, checksum);
-        description = vndf_text_finish(&words, r->error);
-    }
+    char checksum[32];
+    snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
+    char *description = status == VNDF_OK ? vndf_text_pair(option, name, checksum, r->error) : NULL;
     vndf_source *source = description ? vndf_csv_source(&r->rows, description, r->error) : NULL;
     free(r->rows.x);
     free(r->rows.value);
     return source;
 }
 
-static vndf_status check_name(const char *what, const char *name, vndf_error *error)
-{
-    if (!name || strlen(name) <= VNDF_LIMIT_NAME_LENGTH)
-        return VNDF_OK;
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the name of the %s has %zu characters; at most %d are possible",
-                     what, strlen(name), VNDF_LIMIT_NAME_LENGTH);
-}
-
 /* ---- rows ------------------------------------------------------------------------------------- */
+
+static const char *first_name(const reader *r)
+{
+    return first_names[r->degrees ? 0 : 1 + r->rows.over];
+}
 
 static vndf_status append(reader *r, double x, double value)
 {
@@ -103,17 +96,17 @@ static vndf_status append(reader *r, double x, double value)
 static vndf_status take_row(reader *r, double given, double value)
 {
     const vndf_csv_rows *rows = &r->rows;
-    const char *first = first_names[rows->first];
-    int degrees = rows->first == VNDF_CSV_THETA_DEG, angle = rows->first != VNDF_CSV_SLOPE;
+    const char *first = first_name(r);
+    int degrees = r->degrees, angle = rows->over == VNDF_ROWS_OVER_THETA;
     int grazing = degrees ? given == 90 : angle && fabs(given - VNDF_RIGHT_ANGLE) <= 1e-9;
     double x = grazing ? VNDF_RIGHT_ANGLE : degrees ? given * (VNDF_RIGHT_ANGLE / 90) : given;
     char number[VNDF_NUMBER_TEXT];
     if (!isfinite(given) || given < 0)
         return refuse(r, "%s is %s; it must be finite and not negative", first, vndf_number_print(number, given));
     if (!isfinite(value) || value < 0)
-        return refuse(r, "%s is %s; it must be finite and not negative", second_names[rows->second],
+        return refuse(r, "%s is %s; it must be finite and not negative", second_names[rows->of],
                       vndf_number_print(number, value));
-    if (grazing && rows->second == VNDF_CSV_P22)
+    if (grazing && rows->of == VNDF_ROWS_OF_P22)
         return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
     if (angle && x > VNDF_RIGHT_ANGLE)
         return refuse(r, "%s is %s; angles from the normal are at most %s", first,
@@ -196,8 +189,9 @@ static vndf_status read_header(reader *r)
     if (second == 2)
         return refuse(r, "the second column is called '%s'; the header names it ndf or p22",
                       vndf_excerpt(excerpt, field[1].text, field[1].size));
-    r->rows.first = (vndf_csv_first)first;
-    r->rows.second = (vndf_csv_second)second;
+    r->degrees = first == 0;
+    r->rows.over = first == 2 ? VNDF_ROWS_OVER_SLOPE : VNDF_ROWS_OVER_THETA;
+    r->rows.of = second == 0 ? VNDF_ROWS_OF_NDF : VNDF_ROWS_OF_P22;
     return VNDF_OK;
 }
 
@@ -221,13 +215,11 @@ static vndf_status read_all(reader *r)
     double x = 0, value = 0;
     int found = 1;
     vndf_status status = read_header(r);
-    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found) {
-        status = read_number(r, field[0], first_names[r->rows.first], &x);
-        if (status == VNDF_OK)
-            status = read_number(r, field[1], second_names[r->rows.second], &value);
-        if (status == VNDF_OK)
-            status = take_row(r, x, value);
-    }
+    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
+        if (read_number(r, field[0], first_name(r), &x) != VNDF_OK ||
+            read_number(r, field[1], second_names[r->rows.of], &value) != VNDF_OK ||
+            take_row(r, x, value) != VNDF_OK)
+            return VNDF_ERROR_SYNTAX;
     if (status == VNDF_OK && r->rows.count < 2)
         return refuse(r, "the text ends with %zu row%s; at least two are needed", r->rows.count,
                       r->rows.count == 1 ? "" : "s");
@@ -242,10 +234,10 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
                 .name = name ? name : "unnamed",
                 .refusal = VNDF_ERROR_SYNTAX,
                 .error = error ? error : &own};
-    if (!text)
+    if (!text) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
-    if (!text || check_name("CSV", name, error) != VNDF_OK)
         return NULL;
+    }
     if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8 by spreadsheets */
         r.rest = (span){text + 3, size - 3};
     vndf_status status = read_all(&r);
@@ -305,10 +297,8 @@ vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double
     vndf_error own;
     reader r = {.unit = "row", .refusal = VNDF_ERROR_DISTRIBUTION, .error = error ? error : &own};
     vndf_status status = check_arguments(over, of, x, value, count, error);
-    if (status == VNDF_OK)
-        status = check_name("rows", name, error);
-    r.rows.first = over == VNDF_ROWS_OVER_SLOPE ? VNDF_CSV_SLOPE : VNDF_CSV_THETA;
-    r.rows.second = of == VNDF_ROWS_OF_P22 ? VNDF_CSV_P22 : VNDF_CSV_NDF;
+    r.rows.over = over;
+    r.rows.of = of;
     for (; r.at < count && status == VNDF_OK; r.at++)
         status = take_row(&r, x[r.at], value[r.at]);
     uint32_t crc = status == VNDF_OK ? checksum(checksum(0, x, count), value, count) : 0;

@@ -96,11 +96,9 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
         if (given == form->count)
             return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: too many parameters; right would be %s",
                              rest.column, form->usage);
-        vndf_status status = read_number(cut(&rest, ','), form->usage, &l->parameter[given], error);
-        if (status == VNDF_OK)
-            status = check_range(&form->range[given], l->parameter[given], form->name, form->reason, error);
-        if (status != VNDF_OK)
-            return status;
+        if (read_number(cut(&rest, ','), form->usage, &l->parameter[given], error) != VNDF_OK ||
+            check_range(&form->range[given], l->parameter[given], form->name, form->reason, error) != VNDF_OK)
+            return VNDF_ERROR_SYNTAX;
         given++;
     }
     if (given < form->required)
@@ -111,34 +109,26 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
     return VNDF_OK;
 }
 
-/* `whole` is "sgd:alum-bronze/r": the list holds whole names. */
-static vndf_status read_material(part whole, lobe *l, vndf_error *error)
-{
-    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
-    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
-    if (!material)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
-                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
-                         vndf_materials_near(nearest, whole.text, whole.size));
-    memcpy(l->parameter, material->parameter, sizeof l->parameter);
-    return VNDF_OK;
-}
-
-/* Only these families have materials. The name of a material starts with a letter, a number does not. */
-static int is_material(const vndf_family_form *form, part rest)
-{
-    char first = rest.size > 0 ? rest.text[0] : '\0';
-    int letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-    return letter && (strcmp(form->name, "sgd") == 0 || strcmp(form->name, "abc") == 0);
-}
-
+/* A material's whole name, "sgd:alum-bronze/r", is in the list; it starts with a letter behind the family, as a number
+ * does not. */
 static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
 {
+    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
     part rest = whole, name = cut(&rest, ':');
+    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
     *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
     if (!l->form)
         return unknown_family(name, error);
-    return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
+    if (material) {
+        memcpy(l->parameter, material->parameter, sizeof l->parameter);
+        return VNDF_OK;
+    }
+    int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
+    if (has_materials && rest.size > 0 && ((rest.text[0] | 32) >= 'a' && (rest.text[0] | 32) <= 'z'))
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
+                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
+                         vndf_materials_near(nearest, whole.text, whole.size));
+    return read_parameters(rest, l, error);
 }
 
 /* ---- mix -------------------------------------------------------------------------------------- */
@@ -163,17 +153,11 @@ static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
     if (open.size > 0 || rest->size == 0 || !memchr(rest->text, ')', rest->size))
         return bad_mix(open.size > 0 ? open : *rest, error);
     part inside = cut(rest, ')'), first = cut(&inside, ','), second = cut(&inside, ',');
-    vndf_status status = read_number(first, mix_usage, &weight, error);
-    if (status == VNDF_OK)
-        status = read_number(second, mix_usage, &scale, error);
-    if (status == VNDF_OK)
-        status = check_range(&weights, weight, "mix", "", error);
-    if (status == VNDF_OK)
-        status = check_range(&scales, scale, "mix", "", error);
-    if (status == VNDF_OK)
-        status = read_lobe(inside, l, error);
-    if (status != VNDF_OK)
-        return status;
+    if (read_number(first, mix_usage, &weight, error) != VNDF_OK ||
+        read_number(second, mix_usage, &scale, error) != VNDF_OK ||
+        check_range(&weights, weight, "mix", "", error) != VNDF_OK ||
+        check_range(&scales, scale, "mix", "", error) != VNDF_OK || read_lobe(inside, l, error) != VNDF_OK)
+        return VNDF_ERROR_SYNTAX;
     l->weight = weight;
     l->scale = scale;
     return VNDF_OK;
@@ -181,14 +165,14 @@ static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
 
 static vndf_status read_mix(part rest, lobe lobes[VNDF_LOBES], vndf_error *error)
 {
-    vndf_status status = read_component(&rest, &lobes[0], error);
-    if (status != VNDF_OK)
-        return status;
+    if (read_component(&rest, &lobes[0], error) != VNDF_OK)
+        return VNDF_ERROR_SYNTAX;
     part plus = rest;
     if (cut(&rest, '+').size > 0)
         return bad_mix(plus, error);
-    status = read_component(&rest, &lobes[1], error);
-    return status == VNDF_OK && rest.size > 0 ? bad_mix(rest, error) : status;
+    if (read_component(&rest, &lobes[1], error) != VNDF_OK)
+        return VNDF_ERROR_SYNTAX;
+    return rest.size > 0 ? bad_mix(rest, error) : VNDF_OK;
 }
 
 /* ---- the whole -------------------------------------------------------------------------------- */
@@ -241,7 +225,6 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
 {
     lobe lobes[VNDF_LOBES];
     vndf_lobe made[VNDF_LOBES] = {{{NULL, 0}, 1, 1}, {{NULL, 0}, 1, 1}};
-    vndf_text words = {NULL, 0, 0, 0};
     size_t count = 0, done = 0;
     if (read_specification(specification, lobes, &count, error) != VNDF_OK)
         return NULL;
@@ -253,9 +236,8 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
             break;
     }
     if (done == count && isfinite(made[0].factor) && isfinite(made[1].factor)) {
-        vndf_text_add_word(&words, "--family");
-        vndf_text_add_word(&words, specification);
-        return vndf_formula_source(VNDF_FORMULA_OF_P22, made, count, vndf_text_finish(&words, error), error);
+        char *description = vndf_text_pair("--family", specification, "", error);
+        return vndf_formula_source(VNDF_FORMULA_OF_P22, made, count, description, error);
     }
     for (size_t i = 0; i < done; i++)
         vndf_expression_free(&made[i].formula);

@@ -12,16 +12,10 @@
 #include "source/words.h"
 #include "vndf_build.h"
 
-#define SGD(name, r, r_p, g, g_p, b, b_p)                     \
-  {"sgd:" name "/r", {r, r_p}}, {"sgd:" name "/g", {g, g_p}}, \
-  {                                                           \
-    "sgd:" name "/b",                                         \
-    {                                                         \
-      b, b_p                                                  \
-    }                                                         \
-  }
-
 /* clang-format off */
+#define SGD(name, r, r_p, g, g_p, b, b_p) \
+  {"sgd:" name "/r", {r, r_p}}, {"sgd:" name "/g", {g, g_p}}, {"sgd:" name "/b", {b, b_p}}
+
 const vndf_material_fit vndf_material_fits[VNDF_MATERIAL_FITS] = {
     SGD("alum-bronze", 0.014832, 0.459076, 0.0300126, 0.450056, 0.0490339, 0.529272),
     SGD("alumina-oxide", 0.000159222, 0.377727, 0.000139421, 0.318496, 0.000117714, 0.402598),

@@ -2,62 +2,47 @@
  * follow each other or uniform numbers differ in their last bit: chi-square over 64 x 64 cells of pairs, 1e-4
  * each; and the exponential has its mean and variance. */
 #include "bsdf/walk/random.h"
-#include "statistics/grid.h"
 #include "harness/test.h"
+#include "statistics/grid.h"
 
 enum { CELLS = 64, PAIRS = 400000 };
 
-static void put(grid *g, double x, double y)
+/* Two numbers of a walk, as doubles and as floats; of neighbouring seeds; of uniform numbers that differ in a bit. */
+static void pair_of(int way, uint64_t i, double pair[2])
 {
-    g->observed[grid_bin(g, x, y)] += 1.0;
-}
-
-static void begin(grid *g)
-{
-    grid_even(g, CELLS, 0, 1, CELLS, 0, 1);
-    for (size_t i = 0; i < grid_elsewhere(g); i++)
-        g->expected[i] = (double)PAIRS / (CELLS * CELLS);
-}
-
-static void check(const grid *g)
-{
-    double p = grid_test(g).p;
-    TEST(p > 1e-4 && p < 1.0 - 1e-4);
-}
-
-static void test_within(void)
-{
-    static grid numbers, floats;
-    vndf_walk_random random = vndf_walk_random_from(1), other = vndf_walk_random_from(2);
-    begin(&numbers);
-    begin(&floats);
-    for (int i = 0; i < PAIRS; i++) {
-        float u[2];
-        double x = vndf_walk_uniform(&random);
-        put(&numbers, x, vndf_walk_uniform(&random));
-        vndf_walk_pair(&other, u);
-        put(&floats, u[0], u[1]);
+    static vndf_walk_random random, other;
+    float u[3] = {0.25f, (float)(i % 1000) / 1000, (float)(i / 1000) / 1000}, v[3] = {u[0], u[1], u[2]};
+    if (i == 0) {
+        random = vndf_walk_random_from(1);
+        other = vndf_walk_random_from(2);
     }
-    check(&numbers);
-    check(&floats);
+    v[i % 3] += 0x1p-24f;
+    if (way == 1) {
+        float drawn[2];
+        vndf_walk_pair(&other, drawn);
+        pair[0] = drawn[0];
+        pair[1] = drawn[1];
+        return;
+    }
+    vndf_walk_random a = way == 2 ? vndf_walk_random_from(i) : vndf_walk_random_from(vndf_walk_seed_of(u));
+    vndf_walk_random b = way == 2 ? vndf_walk_random_from(i + 1) : vndf_walk_random_from(vndf_walk_seed_of(v));
+    pair[0] = vndf_walk_uniform(way ? &a : &random);
+    pair[1] = vndf_walk_uniform(way ? &b : &random);
 }
 
-/* The same number of neighbouring walks. */
-static void test_between(void)
+static void test_pairs(int way)
 {
-    static grid seeds, numbers;
-    begin(&seeds);
-    begin(&numbers);
+    static grid g;
+    grid_even(&g, CELLS, 0, 1, CELLS, 0, 1);
+    for (size_t i = 0; i < grid_elsewhere(&g); i++)
+        g.expected[i] = (double)PAIRS / (CELLS * CELLS);
     for (uint64_t i = 0; i < PAIRS; i++) {
-        vndf_walk_random a = vndf_walk_random_from(i), b = vndf_walk_random_from(i + 1);
-        put(&seeds, vndf_walk_uniform(&a), vndf_walk_uniform(&b));
-        float u[3] = {0.25f, (float)(i % 1000) / 1000, (float)(i / 1000) / 1000}, v[3] = {u[0], u[1], u[2]};
-        v[i % 3] += 0x1p-24f;
-        a = vndf_walk_random_from(vndf_walk_seed_of(u)), b = vndf_walk_random_from(vndf_walk_seed_of(v));
-        put(&numbers, vndf_walk_uniform(&a), vndf_walk_uniform(&b));
+        double pair[2];
+        pair_of(way, i, pair);
+        g.observed[grid_bin(&g, pair[0], pair[1])] += 1.0;
     }
-    check(&seeds);
-    check(&numbers);
+    double p = grid_test(&g).p;
+    TEST(p > 1e-4 && p < 1.0 - 1e-4);
 }
 
 /* Mean, variance and a tail, at 4.5 sigmas. */
@@ -77,8 +62,8 @@ static void test_exponential(void)
 
 int main(void)
 {
-    test_within();
-    test_between();
+    for (int way = 0; way < 4; way++)
+        test_pairs(way);
     test_exponential();
     return test_done();
 }

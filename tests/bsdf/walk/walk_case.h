@@ -1,74 +1,29 @@
-/* What the tests of the random walk share: distributions, materials and their hits, directions, and the comparison
- * of two estimated histograms. */
+/* What the tests of the random walk share: distributions, materials and their hits, and the comparison of two
+ * estimated histograms. */
 #ifndef TESTS_BSDF_WALK_WALK_CASE_H
 #define TESTS_BSDF_WALK_WALK_CASE_H
 
-#include <stdlib.h>
-
-#include "oracle/oracle.h"
-#include "evidence/measure/statistics.h"
+#include "bsdf/bsdf_case.h"
 #include "statistics/grid.h"
-#include "harness/constants.h"
-#include "harness/test.h"
-#include "vndf_bsdf.h"
 
-/* ---- distributions ---- */
+/* The closed forms and shipped tables; the first of them are as different as they come. */
+enum { WALK_SUBJECTS = 12, WALK_FEW = 8 };
+static const char *const walk_subjects[WALK_SUBJECTS] = {"ggx",
+                                                         "beckmann",
+                                                         "student-t-1.8",
+                                                         "hazy",
+                                                         "epd-0.6",
+                                                         "abc-two-layer-gold",
+                                                         "sgd-nickel-g",
+                                                         "student-t-2.5-small",
+                                                         "student-t-6",
+                                                         "gtr-1.5",
+                                                         "sgd-alum-bronze-r",
+                                                         "sgd-red-fabric-r"};
 
-/* The closed forms and all shipped tables; the first of them are as different as they come. */
-enum { WALK_SUBJECTS = 17, WALK_FEW = 8 };
+/* ---- optics: of one wavelength ---- */
 
-static inline const char *walk_subject_name(int i)
-{
-    /* clang-format off */
-    static const char *const names[WALK_SUBJECTS] = {
-        "ggx", "beckmann", "student-t-1.8", "hazy", "epd-0.6", "abc-two-layer-gold", "sgd-nickel-g",
-        "student-t-2.5-small", "student-t-2.5", "student-t-2.5-large", "student-t-6", "gtr-1.5", "example",
-        "sgd-alum-bronze-r", "sgd-blue-metallic-paint-b", "sgd-red-fabric-r", "sgd-specular-black-phenolic-g"};
-    /* clang-format on */
-    return names[i];
-}
-
-/* Freed at the end of the process: vndf_free of a closed form does nothing. */
-static inline const vndf_distribution *walk_subject(int i)
-{
-    if (i < 2)
-        return i ? vndf_beckmann() : vndf_ggx();
-    const vndf_distribution *d = oracle_shipped(walk_subject_name(i));
-    TEST(d != NULL);
-    return d;
-}
-
-static inline void walk_subject_free(const vndf_distribution *d)
-{
-    vndf_free((vndf_distribution *)(size_t)d);
-}
-
-/* ---- directions ---- */
-
-/* gcc 12 at -O3 leaves out a rounding to float and back when it joins x and y to a vector. */
-static inline float walk_rounded(double x)
-{
-    volatile float rounded = (float)x;
-    return rounded;
-}
-
-static inline vndf_vec3 walk_direction(double cosine, double phi)
-{
-    double sine = sqrt((1.0 - cosine) * (1.0 + cosine));
-    vndf_vec3 w = {walk_rounded(sine * cos(phi)), walk_rounded(sine * sin(phi)), walk_rounded(cosine)};
-    return w;
-}
-
-/* ---- optics ---- */
-
-static inline double walk_dielectric_at(double c, double eta)
-{
-    double t2 = 1.0 - (1.0 - c * c) / (eta * eta), t = t2 > 0.0 ? sqrt(t2) : 0.0;
-    double s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + t);
-    return t2 > 0.0 ? 0.5 * (s * s + p * p) : 1.0;
-}
-
-/* Lossless, of one wavelength. */
+/* Lossless. */
 static inline vndf_description walk_of_mirror(void)
 {
     vndf_description is = {.effects = {.scattering = VNDF_SCATTERING_MULTIPLE}, .wavelengths = 1, .eta = 1.5f};
@@ -100,46 +55,44 @@ static inline int walk_transmits(const vndf_description *is)
 
 /* ---- hits ---- */
 
-/* A hit, which must not move, and the view of single events there. */
+/* A hit, which must not move, and the same by single scattering alone. */
 typedef struct walk_hit {
+    const char *name;
     vndf_description is;
-    vndf_material material;
-    vndf_bsdf bsdf;
-    vndf_view view;
+    vndf_material material, once;
+    vndf_bsdf bsdf, single;
     vndf_vec3 wi;
 } walk_hit;
 
-static inline void walk_hit_at(walk_hit *h, const vndf_description *is, const vndf_distribution *d, float ax,
-                               float ay, vndf_vec3 wi)
+/* Roughness is over the distribution's scale if `scaled`. */
+static inline void walk_hit_at(walk_hit *h, const vndf_description *is, const oracle_ndf *ndf,
+                               const float alpha[2], int scaled, vndf_vec3 wi)
 {
-    vndf_surface surface = {d, ax, ay};
-    h->is = *is;
-    h->is.distribution = d;
-    h->is.alpha_x = ax;
-    h->is.alpha_y = ay;
+    float per = scaled ? 1 / (float)vndf_distribution_info(ndf->distribution).scale : 1;
+    vndf_description once = *is;
+    h->name = ndf->name;
+    once.distribution = ndf->distribution;
+    once.alpha_x = alpha[0] * per;
+    once.alpha_y = alpha[1] * per;
+    h->is = once;
     h->wi = wi;
-    h->view = vndf_view_from(&surface, wi);
+    once.effects.scattering = VNDF_SCATTERING_SINGLE;
     TEST(vndf_material_resolve(&h->is, &h->material, NULL) == VNDF_OK && vndf_bsdf_at(&h->bsdf, &h->material, wi));
+    TEST(vndf_material_resolve(&once, &h->once, NULL) == VNDF_OK && vndf_bsdf_at(&h->single, &h->once, wi));
 }
 
 /* f |cos_o|. */
-static inline double walk_eval(const walk_hit *h, vndf_vec3 wo, uint64_t seed)
+static inline double walk_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed)
 {
-    float f[VNDF_WAVELENGTHS];
-    vndf_bsdf_eval(&h->bsdf, wo, seed, f);
-    return (double)f[0] * fabs((double)wo.z);
+    float f;
+    vndf_bsdf_eval(bsdf, wo, seed, &f);
+    return (double)f * fabs((double)wo.z);
 }
 
-static inline void walk_describe(const walk_hit *h, const char *name)
+static inline void walk_describe(const walk_hit *h)
 {
-    fprintf(stderr, "  %s, alpha %g %g, cos %g, eta %g\n", name, (double)h->is.alpha_x, (double)h->is.alpha_y,
+    fprintf(stderr, "  %s, alpha %g %g, cos %g, eta %g\n", h->name, (double)h->is.alpha_x, (double)h->is.alpha_y,
             (double)h->wi.z, walk_transmits(&h->is) ? (double)h->is.eta : 0.0);
-}
-
-static inline void walk_numbers(unsigned long long *state, float u[3])
-{
-    for (int i = 0; i < 3; i++)
-        u[i] = test_uniform(state);
 }
 
 static inline size_t walk_count(size_t whole)
@@ -172,11 +125,10 @@ static inline double walk_variance(const walk_mean *m)
     return variance > 0.0 ? variance / m->count : 0.0;
 }
 
-/* Whether two means agree within `sigmas` of their errors and `slack`. */
-static inline int walk_agree(const walk_mean *a, const walk_mean *b, double sigmas, double slack)
+/* Whether two means agree within 5 sigmas, 6e-7. */
+static inline int walk_agree(const walk_mean *a, const walk_mean *b)
 {
-    double difference = fabs(walk_value(a) - walk_value(b));
-    return difference <= sigmas * sqrt(walk_variance(a) + walk_variance(b)) + slack;
+    return fabs(walk_value(a) - walk_value(b)) <= 5 * sqrt(walk_variance(a) + walk_variance(b));
 }
 
 /* ---- bins of the sphere: equal areas ---- */
@@ -194,6 +146,18 @@ static inline size_t walk_bin(vndf_vec3 w)
     if (!g.rows)
         walk_bins(&g);
     return grid_bin(&g, (double)w.z, atan2((double)w.y, (double)w.x));
+}
+
+/* Draws `count` samples into the bins of a grid; what is lost is elsewhere. */
+static inline void walk_observe(const walk_hit *h, size_t count, unsigned long long state, grid *g)
+{
+    for (size_t k = 0; k < count; k++) {
+        float u[3];
+        vndf_scattered w;
+        bsdf_numbers(&state, u);
+        vndf_bsdf_sample(&h->bsdf, u, &w);
+        g->observed[w.lobe == VNDF_LOBE_NONE ? grid_elsewhere(g) : walk_bin(w.wo)] += 1.0;
+    }
 }
 
 #endif

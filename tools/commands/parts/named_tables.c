@@ -1,74 +1,38 @@
 #include "commands/parts/named_tables.h"
 
 #include <stdlib.h>
-#include <string.h>
 
-static int is_named_before(const export_document *document, const exported_table *table)
-{
-    static const char *const taken[] = {"GGX",  "BECKMANN", "LOBES", "NUMBERS", "KERNEL", "HEAD",
-                                        "KNOT", "LAW",      "MORE",  "TAIL",    "LOW",    "LAW_TERMS"};
-    for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
-        if (strcmp(taken[i], table->name) == 0)
-            return 1;
-    for (const exported_table *t = document->table; t < table; t++)
-        if (strcmp(t->name, table->name) == 0)
-            return 1;
-    return 0;
-}
+#include "cli/files.h"
+#include "cli/subject.h"
 
-static int open_table(const char *command, export_document *document, chosen_distribution *chosen,
-                      const char *file)
+int named_tables_open(const char *command, const words *files, int families, export_document *document)
 {
-    exported_table *table = &document->table[document->tables];
-    if (!distribution_open(chosen, command, file))
-        return 0;
-    table->distribution = chosen->distribution;
-    table->file = file;
-    table->size = vndf_numbers(table->distribution, NULL, 0);
-    table->base = document->count;
-    document->tables++;
-    document->count += table->size;
-    if (table->size == 0)
-        complain(command, "'%s' is a closed form: every kernel has it", file);
-    else if (!document_name_table(table) || is_named_before(document, table))
-        complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
-                 document->as.upper, table->name);
-    else if (document->count > (size_t)1 << 24)
-        complain(command, "'%s': the tables have more than 2^24 numbers, which a float cannot count", file);
-    else
-        return 1;
-    return 0;
-}
-
-int named_tables_open(named_tables *tables, const char *command, const words *files, export_document *document)
-{
-    int good = 1;
-    tables->count = 0;
-    for (size_t i = 0; good && i < files->count; i++) {
-        tables->chosen[tables->count].owned = NULL;
-        good = open_table(command, document, &tables->chosen[tables->count++], files->item[i]);
+    for (size_t i = 0; i < files->count; i++) {
+        const char *file = files->item[i];
+        int is_family = families && is_family_file(file);
+        vndf_family *family = is_family ? family_open(command, file) : NULL;
+        chosen_distribution chosen = {NULL, NULL};
+        if (is_family ? !family : !distribution_open(&chosen, command, file))
+            return 0;
+        if (!is_family && !chosen.owned)
+            return complain(command, "'%s' is a closed form: every kernel has it", file), 0;
+        if (!document_add(document, input_name(file), chosen.owned, family))
+            return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
+                            document->as.upper, document->table[i].name),
+                   0;
+        if (document->count > (size_t)1 << 24)
+            return complain(command, "'%s': the tables have more than 2^24 numbers, which a float cannot count",
+                            file),
+                   0;
     }
-    return good;
+    return document_fill(document) || (complain(command, "no memory"), 0);
 }
 
-int named_tables_numbers(const char *command, export_document *document)
+void named_tables_close(export_document *document)
 {
-    document->numbers = malloc((document->count + 1) * sizeof *document->numbers);
-    if (!document->numbers) {
-        complain(command, "no memory");
-        return 0;
-    }
     for (size_t i = 0; i < document->tables; i++) {
-        const exported_table *t = &document->table[i];
-        vndf_numbers(t->distribution, document->numbers + t->base, t->size);
+        vndf_free(document->table[i].distribution);
+        vndf_family_free(document->table[i].family);
     }
-    return 1;
-}
-
-void named_tables_close(named_tables *tables, export_document *document)
-{
-    for (size_t i = 0; i < tables->count; i++)
-        distribution_close(&tables->chosen[i]);
     free(document->numbers);
-    document->numbers = NULL;
 }

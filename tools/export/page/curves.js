@@ -2,21 +2,16 @@
 
 const POINTS = 256, DECADES = 6;
 
-function makeCurves(gl, programs) {
-  return {gl, programs, target: makeTarget(gl, POINTS, 1, 1)};
-}
-
-function measureCurve(curves, surface, last) {
-  const {gl, target} = curves;
-  use(gl, curves.programs.curve, {...surface, size: [POINTS, 1], last: last * Math.PI / 180});
-  fill(gl, target);
-  return readTarget(gl, target, 0).filter((_, i) => i % 4 === 0);
+function measureCurve(surface, last) {
+  use(programs.curve, {...surface, size: [POINTS, 1], last: last * Math.PI / 180});
+  fill(targets.curve);
+  return readTarget(targets.curve, 0).filter((_, i) => i % 4 === 0);
 }
 
 // All distributions of the menus: the two chosen in colour, over the others in grey.
-function drawCurves(curves, box, numbers, last) {
+function drawCurves(box, last) {
   const all = [...new Set(choices.values())].map((distribution) => ({distribution,
-    values: measureCurve(curves, surfaceOf(numbers, distribution), last)}));
+    values: measureCurve(surfaceOf(distribution), last)}));
   const chosen = all.filter(({distribution}) => distribution === settings.a || distribution === settings.b);
   const highest = Math.max(...chosen.map(({values}) => values.reduce((m, v) => Math.max(m, v), 0)));
   const top = Math.pow(10, Math.ceil(Math.log10(highest) - 0.05)), width = Math.max(box.clientWidth, 320), height = 300;

@@ -15,22 +15,17 @@ const MARKS = {
 const darkness = matchMedia("(prefers-color-scheme: dark)");
 const theme = () => darkness.matches ? "dark" : "light";
 
-function makeDiscs(gl, programs) {
-  return {gl, programs, samples: makeTarget(gl, SAMPLES, SAMPLES, 2), grid: makeTarget(gl, GRID, GRID, 1)};
-}
-
 function incidentNow() {
   const angle = settings.theta * Math.PI / 180;
   return [Math.sin(angle), 0, Math.cos(angle)];
 }
 
 // What many drawn normals say.
-function measureSamples(discs, surface) {
-  const {gl, samples} = discs, angles = [], densities = [];
-  use(gl, discs.programs.samples, {...surface, incident: incidentNow(), size: [SAMPLES, SAMPLES]});
-  fill(gl, samples);
-  const drawn = readTarget(gl, samples, 0), light = readTarget(gl, samples, 1), n = SAMPLES * SAMPLES;
-  const says = {facing: 0, off: 0, kept: 0, faults: 0};
+function measureSamples(surface) {
+  const angles = [], densities = [], says = {facing: 0, off: 0, kept: 0, faults: 0}, n = SAMPLES * SAMPLES;
+  use(programs.samples, {...surface, incident: incidentNow(), size: [SAMPLES, SAMPLES]});
+  fill(targets.samples);
+  const drawn = readTarget(targets.samples, 0), light = readTarget(targets.samples, 1);
   for (let i = 0; i < 4 * n; i += 4) {
     says.facing += drawn[i] / n;
     densities.push(drawn[i + 1]);
@@ -40,24 +35,17 @@ function measureSamples(discs, surface) {
     says.faults += light[i + 2];
   }
   const quantile = (values, part) => values.sort((a, b) => a - b)[Math.floor(part * n)];
-  says.angle = quantile(angles, 0.97) * 180 / Math.PI;
-  says.high = quantile(densities, 0.98);
-  says.low = quantile(densities, 0.02);
-  return says;
+  return {...says, angle: quantile(angles, 0.97) * 180 / Math.PI, high: quantile(densities, 0.98),
+          low: quantile(densities, 0.02)};
 }
 
 // What the density itself says.
-function measureDensity(discs, surface) {
-  const {gl, grid} = discs;
-  use(gl, discs.programs.integral, {...surface, incident: incidentNow(), size: [GRID, GRID]});
-  fill(gl, grid);
-  const parts = readTarget(gl, grid, 0), says = {whole: 0, facing: 0, truth: 0};
-  for (let i = 0; i < parts.length; i += 4) {
-    says.whole += parts[i];
-    says.facing += parts[i + 1];
-    says.truth += parts[i + 2];
-  }
-  return says;
+function measureDensity(surface) {
+  use(programs.integral, {...surface, incident: incidentNow(), size: [GRID, GRID]});
+  fill(targets.grid);
+  const parts = readTarget(targets.grid, 0), sums = [0, 0, 0, 0];
+  parts.forEach((part, i) => { sums[i % 4] += part; });
+  return {whole: sums[0], facing: sums[1], truth: sums[2]};
 }
 
 const edgeFor = (angle) => settings.whole ? 90 : EDGES.filter((edge) => edge >= angle).pop() || 90;
@@ -75,22 +63,21 @@ function scaleOf(...says) {
   return {top, decades};
 }
 
-function drawDisc(discs, canvas, surface, edge, scale) {
-  const {gl, programs} = discs, size = pixelsOf(canvas), rim = Math.sin(edge * Math.PI / 360);
+function drawDisc(canvas, surface, edge, scale) {
+  const size = pixelsOf(canvas), rim = Math.sin(edge * Math.PI / 360);
   const tells = {...surface, incident: incidentNow(), size: [size, size], rim, ...scale, seed: 1,
                  width: size / Math.max(canvas.clientWidth, 1) * 4, stops: RAMPS[theme()].flat().map((v) => v / 255),
                  edge_colour: Array(3).fill(MARKS[theme()].edge)};
-  sizeForPicture(gl, size);
-  use(gl, programs.heat, tells);
-  fill(gl, null, size, size);
+  use(programs.heat, tells);
+  fill({width: size, height: size});
   if (settings.dots) {
     gl.enable(gl.BLEND);
     gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    use(gl, programs.dots, tells);
+    use(programs.dots, tells);
     gl.drawArrays(gl.POINTS, 0, DOTS);
     gl.disable(gl.BLEND);
   }
-  drawMarks(copyTo(gl, canvas, size), size, edge);
+  drawMarks(copyTo(canvas, size), size, edge);
 }
 
 // Rings at angles, and where the light comes from.

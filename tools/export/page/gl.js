@@ -15,24 +15,17 @@ uniform sampler2D numbers;
 
 class Trouble extends Error {}
 
+let gl; // of a canvas that is never shown: its pictures are copied to those of the page
+
 function openGl() {
-  const gl = document.createElement("canvas").getContext("webgl2", {antialias: false, alpha: true});
+  gl = document.createElement("canvas").getContext("webgl2", {antialias: false, alpha: true});
   if (!gl) throw new Trouble("This browser has no WebGL2, which the pictures need. The promises below stand.");
   if (!gl.getExtension("EXT_color_buffer_float"))
     throw new Trouble("This browser cannot draw into float textures, which the pictures need. " +
                       "The promises below stand.");
-  return gl;
 }
 
-// Little-endian floats in base64.
-function readNumbers(text) {
-  const bytes = Uint8Array.from(atob(text.replace(/\s+/g, "")), (c) => c.charCodeAt(0));
-  const view = new DataView(bytes.buffer), numbers = new Float32Array(bytes.length / 4);
-  for (let i = 0; i < numbers.length; i++) numbers[i] = view.getFloat32(4 * i, true);
-  return numbers;
-}
-
-function makeTexture(gl, format, width, height, values) {
+function makeTexture(format, width, height, values) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
@@ -41,32 +34,32 @@ function makeTexture(gl, format, width, height, values) {
   return texture;
 }
 
-function tableTexture(gl, numbers) {
-  const rows = Math.ceil(numbers.length / COLUMNS), padded = new Float32Array(COLUMNS * rows);
+// The tables' numbers: little-endian floats in base64.
+function tableTexture() {
+  const bytes = Uint8Array.from(atob(textOf("numbers").replace(/\s+/g, "")), (c) => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer), rows = Math.ceil(bytes.length / 4 / COLUMNS);
   if (rows > gl.getParameter(gl.MAX_TEXTURE_SIZE))
     throw new Trouble("These tables are too large for a texture of this browser: make the page with fewer of them.");
-  padded.set(numbers);
-  return makeTexture(gl, gl.R32F, COLUMNS, rows, padded);
-}
-
-function compile(gl, kind, text) {
-  const shader = gl.createShader(kind);
-  gl.shaderSource(shader, text);
-  gl.compileShader(shader);
-  if (!gl.getShaderParameter(shader, gl.COMPILE_STATUS) && !gl.isContextLost())
-    throw new Trouble("This browser refuses a shader of the page: " + gl.getShaderInfoLog(shader));
-  return shader;
+  const numbers = Float32Array.from({length: COLUMNS * rows}, (_, i) =>
+    4 * i < bytes.length ? view.getFloat32(4 * i, true) : 0);
+  return makeTexture(gl.R32F, COLUMNS, rows, numbers);
 }
 
 // A program of files of the page; those that sample have the kernel before them.
-function makeProgram(gl, vertex, fragment) {
-  const whole = (names) => HEAD + names.map((name) => textOf(name)).join("\n");
+function makeProgram(vertex, fragment) {
   const program = gl.createProgram();
-  gl.attachShader(program, compile(gl, gl.VERTEX_SHADER, whole(vertex)));
-  gl.attachShader(program, compile(gl, gl.FRAGMENT_SHADER, whole(fragment)));
+  const complete = (good, log) => {
+    if (!good && !gl.isContextLost()) throw new Trouble("This browser refuses a shader of the page: " + log);
+  };
+  for (const [kind, names] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+    const shader = gl.createShader(kind);
+    gl.shaderSource(shader, HEAD + names.map(textOf).join("\n"));
+    gl.compileShader(shader);
+    complete(gl.getShaderParameter(shader, gl.COMPILE_STATUS), gl.getShaderInfoLog(shader));
+    gl.attachShader(program, shader);
+  }
   gl.linkProgram(program);
-  if (!gl.getProgramParameter(program, gl.LINK_STATUS) && !gl.isContextLost())
-    throw new Trouble("This browser refuses a shader of the page: " + gl.getProgramInfoLog(program));
+  complete(gl.getProgramParameter(program, gl.LINK_STATUS), gl.getProgramInfoLog(program));
   const kinds = new Map();
   for (let i = 0; i < gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS); i++) {
     const {name, type} = gl.getActiveUniform(program, i);
@@ -76,7 +69,7 @@ function makeProgram(gl, vertex, fragment) {
 }
 
 // Sets the uniforms that the program has; a texture is given as [unit, texture].
-function use(gl, {program, kinds}, values) {
+function use({program, kinds}, values) {
   gl.useProgram(program);
   for (const [name, value] of Object.entries(values)) {
     if (!kinds.has(name)) continue;
@@ -93,30 +86,31 @@ function use(gl, {program, kinds}, values) {
 }
 
 // A target of `count` textures of four floats.
-function makeTarget(gl, width, height, count) {
+function makeTarget(width, height, count) {
   const target = {width, height, textures: [], buffer: gl.createFramebuffer()};
   gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
   for (let i = 0; i < count; i++) {
-    target.textures.push(makeTexture(gl, gl.RGBA32F, width, height, null));
+    target.textures.push(makeTexture(gl.RGBA32F, width, height, null));
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, target.textures[i], 0);
   }
   gl.drawBuffers(target.textures.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
   return target;
 }
 
-function freeTarget(gl, target) {
+function freeTarget(target) {
   target.textures.forEach((texture) => gl.deleteTexture(texture));
   gl.deleteFramebuffer(target.buffer);
 }
 
-// Draws over the whole target, or over the page's canvas in a size.
-function fill(gl, target, width, height) {
-  gl.bindFramebuffer(gl.FRAMEBUFFER, target ? target.buffer : null);
-  gl.viewport(0, 0, target ? target.width : width, target ? target.height : height);
+// Draws over a whole target; of `size` and without a buffer that is the canvas.
+function fill(target) {
+  if (!target.buffer && gl.canvas.width !== target.width) gl.canvas.width = gl.canvas.height = target.width;
+  gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer || null);
+  gl.viewport(0, 0, target.width, target.height);
   gl.drawArrays(gl.TRIANGLES, 0, 3);
 }
 
-function readTarget(gl, target, which) {
+function readTarget(target, which) {
   const values = new Float32Array(4 * target.width * target.height);
   gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
   gl.readBuffer(gl.COLOR_ATTACHMENT0 + which);
@@ -124,12 +118,7 @@ function readTarget(gl, target, which) {
   return values;
 }
 
-// The canvas of WebGL is never shown: its pictures are copied to those of the page.
-function sizeForPicture(gl, size) {
-  if (gl.canvas.width !== size) gl.canvas.width = gl.canvas.height = size;
-}
-
-function copyTo(gl, canvas, size) {
+function copyTo(canvas, size) {
   if (canvas.width !== size) canvas.width = canvas.height = size;
   const context = canvas.getContext("2d");
   context.clearRect(0, 0, size, size);

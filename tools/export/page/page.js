@@ -1,31 +1,25 @@
 // ---- the page -------------------------------------------------------------------------------------
 
+let tables, programs, targets;
+const spheres = ["a", "b"].map((name) => ({name, canvas: byId(`sphere-${name}`), targets: [], drawn: 0, size: 0}));
+let says = {}; // what was measured
+let stale = true;
+
 // Pixels of a square canvas: as the screen has them, within what a phone can draw.
 const pixelsOf = (canvas) =>
   Math.round(clamped(canvas.clientWidth * clamped(devicePixelRatio || 1, 1, 2), 64, 720));
 
-function makePrograms(gl) {
-  const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"];
-  return {
-    sphere: makeProgram(gl, screen, [...sampling, "light.glsl", "sphere.glsl"]),
-    show: makeProgram(gl, screen, ["show.glsl"]),
-    heat: makeProgram(gl, screen, [...sampling, "heat.glsl"]),
-    dots: makeProgram(gl, [...sampling, "dots.vert.glsl"], ["dots.glsl"]),
-    samples: makeProgram(gl, screen, [...sampling, "samples.glsl"]),
-    integral: makeProgram(gl, screen, [...sampling, "integral.glsl"]),
-    curve: makeProgram(gl, screen, [...sampling, "curve.glsl"]),
-  };
-}
-
 function makePage() {
-  const gl = openGl(), programs = makePrograms(gl);
-  const page = {gl, numbers: tableTexture(gl, readNumbers(textOf("numbers"))), discs: makeDiscs(gl, programs),
-                curves: makeCurves(gl, programs), stale: true, says: {}};
-  page.spheres = {a: makeSphere(gl, programs, byId("sphere-a")), b: makeSphere(gl, programs, byId("sphere-b"))};
-  return page;
+  openGl();
+  const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"];
+  programs = {show: makeProgram(screen, ["show.glsl"]),
+              sphere: makeProgram(screen, [...sampling, "light.glsl", "sphere.glsl"]),
+              dots: makeProgram([...sampling, "dots.vert.glsl"], ["dots.glsl"])};
+  for (const name of ["heat", "samples", "integral", "curve"])
+    programs[name] = makeProgram(screen, [...sampling, `${name}.glsl`]);
+  targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1), curve: makeTarget(POINTS, 1, 1)};
+  tables = tableTexture();
 }
-
-const surfaceIn = (page, name) => surfaceOf(page.numbers, settings[name]);
 
 function showScale({top, decades}, edge) {
   const colours = RAMPS[theme()].map((colour) => `rgb(${colour.join(",")})`).join(",");
@@ -36,51 +30,47 @@ function showScale({top, decades}, edge) {
 }
 
 // Everything but the spheres.
-function drawStill(page) {
-  const says = {};
-  for (const name of ["a", "b"]) {
-    const surface = surfaceIn(page, name);
-    says[name] = {samples: measureSamples(page.discs, surface), density: measureDensity(page.discs, surface)};
+function drawStill() {
+  says = {};
+  for (const {name} of spheres) {
+    const surface = surfaceOf(settings[name]);
+    says[name] = {samples: measureSamples(surface), density: measureDensity(surface)};
     showFigures(byId(`figures-${name}`), settings[name], says[name].samples, says[name].density);
   }
   const edge = edgeFor(Math.max(says.a.samples.angle, says.b.samples.angle));
   const scale = scaleOf(says.a.samples, says.b.samples);
-  for (const name of ["a", "b"]) drawDisc(page.discs, byId(`disc-${name}`), surfaceIn(page, name), edge, scale);
+  for (const {name} of spheres) drawDisc(byId(`disc-${name}`), surfaceOf(settings[name]), edge, scale);
   showScale(scale, edge);
-  drawCurves(page.curves, byId("curves"), page.numbers, Math.min(90, 3 * edge));
-  page.says = says;
-  page.stale = false;
+  drawCurves(byId("curves"), Math.min(90, 3 * edge));
+  stale = false;
 }
 
 // A fresh picture begins with as many samples as the address asks for; each later frame adds one.
-function drawSpheres(page) {
-  for (const name of ["a", "b"]) {
-    const sphere = page.spheres[name];
+function drawSpheres() {
+  for (const sphere of spheres) {
     fitSphere(sphere, pixelsOf(sphere.canvas));
     if (sphere.drawn >= ENOUGH) continue;
     const samples = sphere.drawn === 0 ? Math.max(settings.frames, 1) : 1;
-    for (let i = 0; i < samples; i++) refineSphere(sphere, surfaceIn(page, name));
+    for (let i = 0; i < samples; i++) refineSphere(sphere, surfaceOf(settings[sphere.name]));
     showSphere(sphere);
   }
 }
 
 // For tests and programs: what was measured, on the root of the document.
-function tell(page) {
-  const says = {drawn: page.spheres.a.drawn, error: page.gl.getError()};
-  for (const name of ["a", "b"]) {
-    const {samples, density} = page.says[name], light = lightOf(page.spheres[name]);
-    Object.assign(says, {
-      [`${name}_whole`]: density.whole, [`${name}_true_whole`]: density.truth, [`${name}_facing`]: samples.facing,
-      [`${name}_facing_to_density`]: samples.facing / density.facing, [`${name}_faults`]: samples.faults,
-      [`${name}_off`]: samples.off, [`${name}_kept`]: samples.kept, [`${name}_light`]: light.mean,
-      [`${name}_spread`]: light.spread, [`${name}_light_faults`]: light.faults,
-    });
+function tell() {
+  const all = {drawn: spheres[0].drawn, error: gl.getError()};
+  for (const sphere of spheres) {
+    const {samples, density} = says[sphere.name], {mean, spread, faults} = lightOf(sphere);
+    const told = {whole: density.whole, true_whole: density.truth, facing: samples.facing,
+                  facing_to_density: samples.facing / density.facing, faults: samples.faults, off: samples.off,
+                  kept: samples.kept, light: mean, spread, light_faults: faults};
+    for (const [what, value] of Object.entries(told)) all[`${sphere.name}_${what}`] = value;
   }
-  document.documentElement.dataset.measured = JSON.stringify(says);
+  document.documentElement.dataset.measured = JSON.stringify(all);
 }
 
-function turnByDragging(page, changed) {
-  for (const {canvas} of Object.values(page.spheres)) {
+function turnByDragging(changed) {
+  for (const {canvas} of spheres) {
     canvas.addEventListener("pointerdown", (event) => canvas.setPointerCapture(event.pointerId));
     canvas.addEventListener("pointermove", (event) => {
       if (!canvas.hasPointerCapture(event.pointerId)) return;
@@ -101,32 +91,32 @@ function attempt(work) {
   }
 }
 
-function run(page) {
-  const changed = (spheres) => {
-    page.stale = true;
+function run() {
+  const changed = (anew) => {
+    stale = true;
     settings.frames = 0;
-    if (spheres) for (const sphere of Object.values(page.spheres)) sphere.drawn = 0;
+    if (anew) for (const sphere of spheres) sphere.drawn = 0;
     writeAddress();
   };
   const frame = () => attempt(() => {
-    if (page.gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
-    if (page.stale) drawStill(page);
-    drawSpheres(page);
+    if (gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
+    if (stale) drawStill();
+    drawSpheres();
     requestAnimationFrame(frame);
   });
   listen(changed);
-  turnByDragging(page, changed);
-  addEventListener("resize", () => { page.stale = true; });
-  darkness.addEventListener("change", () => { page.stale = true; });
+  turnByDragging(changed);
+  addEventListener("resize", () => { stale = true; });
+  darkness.addEventListener("change", () => { stale = true; });
   addEventListener("hashchange", () => {
     readAddress();
     showSettings();
     changed(true);
   });
   if (settings.frames > 0) {
-    drawStill(page);
-    drawSpheres(page);
-    tell(page);
+    drawStill();
+    drawSpheres();
+    tell();
   }
   requestAnimationFrame(frame);
 }
@@ -134,5 +124,6 @@ function run(page) {
 attempt(() => {
   readAddress();
   showSettings();
-  run(makePage());
+  makePage();
+  run();
 });

@@ -17,91 +17,71 @@ const choices = new Map([...byId("choice-a").options].map((o) => [o.textContent.
 const optionOf = (distribution) => [...byId("choice-a").options].find((o) => Number(o.value) === distribution);
 const nameOf = (distribution) => optionOf(distribution).textContent;
 
-const numberIn = (text, low, high, otherwise) =>
-  text !== "" && Number.isFinite(Number(text)) ? clamped(Number(text), low, high) : otherwise;
-
 // What a link says; words that are not understood change nothing.
-const readers = {
-  a: (text) => { if (choices.has(text.toLowerCase())) settings.a = choices.get(text.toLowerCase()); },
-  b: (text) => { if (choices.has(text.toLowerCase())) settings.b = choices.get(text.toLowerCase()); },
-  alpha: (text) => {
-    const [x, y] = text.split(",");
-    settings.alpha[0] = numberIn(x, LEAST_ALPHA, 1, settings.alpha[0]);
-    settings.alpha[1] = y === undefined ? settings.alpha[0] : numberIn(y, LEAST_ALPHA, 1, settings.alpha[1]);
-    settings.tied = settings.alpha[0] === settings.alpha[1];
-  },
-  turn: (text) => { settings.turn = numberIn(text, -90, 90, settings.turn); },
-  theta: (text) => { settings.theta = numberIn(text, 0, 89, settings.theta); },
-  around: (text) => { settings.around = numberIn(text, -360, 360, settings.around); },
-  frames: (text) => { settings.frames = numberIn(text, 0, 4096, 0); },
-  material: (text) => { if (MATERIALS.includes(text)) settings.material = text; },
-  light: (text) => { if (LIGHTS.includes(text)) settings.light = text; },
-  median: (text) => { settings.median = text === "1"; },
-  whole: (text) => { settings.whole = text === "1"; },
-  dots: (text) => { settings.dots = text !== "0"; },
-};
-
 function readAddress() {
-  for (const [name, value] of new URLSearchParams(location.hash.slice(1)))
-    if (Object.hasOwn(readers, name)) readers[name](value);
+  const number = (text, low, high, otherwise) =>
+    text !== "" && Number.isFinite(Number(text)) ? clamped(Number(text), low, high) : otherwise;
+  const ends = {turn: [-90, 90], theta: [0, 89], around: [-360, 360], frames: [0, 4096]};
+  for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
+    if (name in ends) settings[name] = number(text, ...ends[name], settings[name]);
+    if ("ab".includes(name) && choices.has(text.toLowerCase())) settings[name] = choices.get(text.toLowerCase());
+    if (["median", "whole", "dots"].includes(name)) settings[name] = name === "dots" ? text !== "0" : text === "1";
+    if ({material: MATERIALS, light: LIGHTS}[name]?.includes(text)) settings[name] = text;
+    if (name === "alpha") {
+      const [x, y = x] = text.split(",");
+      settings.alpha = [x, y].map((text, i) => number(text, LEAST_ALPHA, 1, settings.alpha[i]));
+      settings.tied = settings.alpha[0] === settings.alpha[1];
+    }
+  }
 }
 
 function writeAddress() {
-  const words = [["a", nameOf(settings.a)], ["b", nameOf(settings.b)], ["alpha", settings.alpha.join(",")],
-                 ["turn", settings.turn], ["theta", settings.theta], ["around", Math.round(settings.around)],
-                 ["material", settings.material], ["light", settings.light],
-                 ...["median", "whole", "dots"].map((name) => [name, Number(settings[name])])];
-  const text = words.map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%2C/g, ",")}`).join("&");
+  const {a, b, alpha, turn, theta, around, material, light, median, whole, dots} = settings;
+  const words = {a: nameOf(a), b: nameOf(b), alpha: alpha.join(","), turn, theta, around: Math.round(around), material,
+                 light, median: Number(median), whole: Number(whole), dots: Number(dots)};
+  const text = Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
   try {
-    history.replaceState(null, "", "#" + text);
+    history.replaceState(null, "", "#" + text.replace(/%2C/g, ","));
   } catch {
     // Some browsers refuse this for a file; then a link keeps no settings.
   }
 }
 
 function showSettings() {
-  for (const [i, axis] of ["x", "y"].entries()) {
-    byId(`alpha-${axis}`).value = placeOf(settings.alpha[i]);
-    byId(`alpha-${axis}-says`).textContent = settings.alpha[i].toPrecision(3);
+  for (const i of [0, 1]) {
+    byId(`alpha-${"xy"[i]}`).value = placeOf(settings.alpha[i]);
+    byId(`alpha-${"xy"[i]}-says`).textContent = settings.alpha[i].toPrecision(3);
   }
-  byId("turn").value = settings.turn;
-  byId("turn-says").textContent = `${settings.turn}°`;
-  byId("theta").value = settings.theta;
-  byId("theta-says").textContent = `${settings.theta}°`;
+  for (const name of ["turn", "theta"]) {
+    byId(name).value = settings[name];
+    byId(`${name}-says`).textContent = `${settings[name]}°`;
+  }
   for (const name of ["material", "light"]) byId(name).value = settings[name];
   for (const name of ["tied", "median", "whole", "dots"]) byId(name).checked = settings[name];
-  byId("choice-a").value = settings.a;
-  byId("choice-b").value = settings.b;
+  for (const name of ["a", "b"]) byId(`choice-${name}`).value = settings[name];
 }
 
 // `changed` is called with whether the spheres are to be drawn anew.
 function listen(changed) {
-  const on = (id, kind, spheres, set) => byId(id).addEventListener(kind, (event) => {
-    set(event.target);
+  const on = (id, spheres, set) => byId(id).addEventListener("input", ({target}) => {
+    set(target);
+    if (settings.tied) settings.alpha[id === "alpha-y" ? 0 : 1] = settings.alpha[id === "alpha-y" ? 1 : 0];
     showSettings();
     changed(spheres);
   });
-  for (const i of [0, 1])
-    on(`alpha-${"xy"[i]}`, "input", true, (slider) => {
-      settings.alpha[i] = rounded(alphaAt(Number(slider.value)));
-      if (settings.tied) settings.alpha[1 - i] = settings.alpha[i];
-    });
-  on("tied", "change", true, (box) => {
-    settings.tied = box.checked;
-    if (settings.tied) settings.alpha[1] = settings.alpha[0];
-  });
-  on("median", "change", true, (box) => { settings.median = box.checked; });
-  on("turn", "input", true, (slider) => { settings.turn = Number(slider.value); });
-  on("theta", "input", false, (slider) => { settings.theta = Number(slider.value); });
-  for (const name of ["material", "light"]) on(name, "change", true, (menu) => { settings[name] = menu.value; });
-  for (const name of ["whole", "dots"]) on(name, "change", false, (box) => { settings[name] = box.checked; });
-  for (const name of ["a", "b"])
-    on(`choice-${name}`, "change", true, (menu) => { settings[name] = Number(menu.value); });
+  for (const i of [0, 1]) {
+    on(`alpha-${"xy"[i]}`, true, ({value}) => { settings.alpha[i] = rounded(alphaAt(Number(value))); });
+    on(`choice-${"ab"[i]}`, true, ({value}) => { settings["ab"[i]] = Number(value); });
+  }
+  for (const name of ["tied", "median", "whole", "dots"])
+    on(name, name === "tied" || name === "median", ({checked}) => { settings[name] = checked; });
+  for (const name of ["turn", "theta"]) on(name, name === "turn", ({value}) => { settings[name] = Number(value); });
+  for (const name of ["material", "light"]) on(name, true, ({value}) => { settings[name] = value; });
 }
 
 // What every shader is told of the surface.
-function surfaceOf(numbers, distribution) {
+function surfaceOf(distribution) {
   const scale = settings.median ? 1 / Number(optionOf(distribution).dataset.median) : 1;
-  return {numbers: [0, numbers], distribution, alpha: settings.alpha.map((alpha) => scale * alpha),
+  return {numbers: [0, tables], distribution, alpha: settings.alpha.map((alpha) => scale * alpha),
           turn: settings.turn * Math.PI / 180};
 }

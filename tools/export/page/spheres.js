@@ -18,10 +18,6 @@ const STEPS = {
   base_step: [Math.sqrt(11) % 1, Math.sqrt(13) % 1],
 };
 
-function makeSphere(gl, programs, canvas) {
-  return {gl, programs, canvas, targets: [], drawn: 0, size: 0};
-}
-
 function lampNow(light) {
   const {to, edge, shine} = LAMPS[light], length = Math.hypot(...to), angle = settings.around * Math.PI / 180;
   const [x, y, z] = to.map((v) => v / length), c = Math.cos(angle), s = Math.sin(angle);
@@ -30,35 +26,34 @@ function lampNow(light) {
 
 function fitSphere(sphere, size) {
   if (size === sphere.size) return;
-  sphere.targets.forEach((target) => freeTarget(sphere.gl, target));
-  sphere.targets = [0, 1].map(() => makeTarget(sphere.gl, size, size, 1));
+  sphere.targets.forEach(freeTarget);
+  sphere.targets = [0, 1].map(() => makeTarget(size, size, 1));
   sphere.size = size;
   sphere.drawn = 0;
 }
 
 // One more sample of each pixel.
 function refineSphere(sphere, surface) {
-  const {gl, size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
+  const {size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
   const steps = Object.fromEntries(Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]));
   const from = sphere.targets[n % 2], to = sphere.targets[1 - n % 2];
-  use(gl, sphere.programs.sphere, {...surface, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
+  use(programs.sphere, {...surface, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
     around: settings.around * Math.PI / 180, before: [1, from.textures[0]], first: n === 0, size: [size, size],
     ...steps});
-  fill(gl, to);
+  fill(to);
   sphere.drawn = n + 1;
 }
 
-function showSphere(sphere) {
-  const {gl, size} = sphere, sums = sphere.targets[sphere.drawn % 2].textures[0];
-  sizeForPicture(gl, size);
-  use(gl, sphere.programs.show, {sums: [1, sums], exposure: LAMPS[LIGHTS.indexOf(settings.light)].exposure});
-  fill(gl, null, size, size);
-  copyTo(gl, sphere.canvas, size);
+function showSphere({canvas, size, targets, drawn}) {
+  const exposure = LAMPS[LIGHTS.indexOf(settings.light)].exposure;
+  use(programs.show, {sums: [1, targets[drawn % 2].textures[0]], exposure});
+  fill({width: size, height: size});
+  copyTo(canvas, size);
 }
 
 // Mean and spread of the picture's light, and how many of its pixels are no light.
 function lightOf(sphere) {
-  const sums = readTarget(sphere.gl, sphere.targets[sphere.drawn % 2], 0);
+  const sums = readTarget(sphere.targets[sphere.drawn % 2], 0);
   let count = 0, sum = 0, squares = 0, faults = 0;
   for (let i = 0; i < sums.length; i += 4, count++) {
     const y = Math.min((0.2126 * sums[i] + 0.7152 * sums[i + 1] + 0.0722 * sums[i + 2]) / sphere.drawn, 4);

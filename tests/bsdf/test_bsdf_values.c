@@ -1,0 +1,373 @@
+/* Samples, values and densities of one hit agree with the published formulas and with each other, for every sensible
+ * set of effects of single scattering and every shape, closed forms, tables and a tail of r^-3.2, roughness from 1e-3
+ * to 3, matrices of condition up to 300, mean slopes, mixtures of up to three lobes, from both sides, cosines down to
+ * 1e-6, index ratios down to 1.001 and up to 2.4, Schlick's f0 from 0 on.
+ *
+ *   formulas      vndf_bsdf_eval and vndf_bsdf_pdf, where directions are sampled and where they are spread over the
+ *                 sphere: within 1e-5 (matrices 3e-5, their densities 1e-4) from roughness 0.01 on. The law of bounded
+ *                 normals is the library's own: chi-squares are for it
+ *   weight        f |cos_o| over the density, and the density vndf_bsdf_pdf: within 1e-5 for 99.9% of the samples
+ *                 (weights of normals that are not visible ones 98%), but for tails beyond r^-3.6
+ *   reciprocity   f(wi, wo) = f(wo, wi), of transmission over the squared index on the side where radiance comes from
+ *                 or importance goes to: within 4e-5, where the index ratio is 1.001 5e-4
+ *   facet         wm faces wi and takes it to wo, within 1e-5; wo is unit and on the side that the lobe says
+ *   bits          value and density at once are those of each alone; fewer wavelengths have the first values; retro-
+ *                 reflection turns wo by half a turn and nothing else; a lost sample is (0, 0, 1) with weights and
+ *                 density 0
+ *
+ * All of this is of directions within two roundings of those that are given (2^-22 in each coordinate; weights: one),
+ * which is as good as floats can be: a lobe is narrow, or a half vector short. */
+#include <float.h>
+
+#include "bsdf/bsdf_case.h"
+
+enum { READINGS = VNDF_WAVELENGTHS + 1, MARK = 77 }; /* f of the wavelengths and the density */
+
+typedef struct hit {
+    bsdf_subject of;
+    oracle_bsdf oracle;
+    vndf_material material;
+    vndf_bsdf bsdf;
+    vndf_vec3 wi;
+} hit;
+
+/* Largest errors, and how often. */
+typedef struct finding {
+    double eval, pdf, weight, density, reciprocity;
+    size_t positive, zero, lost, kept, extreme;
+    size_t weights, others, densities; /* beyond 1e-5; others: weights where normals are not visible ones */
+} finding;
+
+/* ---- formulas ---- */
+
+/* A value of the formulas, and how far it is from there to other readings of the same floats: with their lengths, and
+ * two roundings away. */
+typedef struct reading {
+    double value, spread;
+} reading;
+
+static void widen(const oracle_value *by, double factor, reading want[READINGS])
+{
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        want[i].spread += factor * fabs(by->f[i] - want[i].value);
+    want[VNDF_WAVELENGTHS].spread += factor * fabs(by->pdf - want[VNDF_WAVELENGTHS].value);
+}
+
+static void read_formulas(oracle_bsdf *o, vndf_vec3 wi, vndf_vec3 wo, reading want[READINGS])
+{
+    double w[2][3];
+    oracle_from_vec3(wi, w[0]);
+    oracle_from_vec3(wo, w[1]);
+    o->lengths = 0;
+    oracle_value plain = oracle_bsdf_eval(o, w[0], w[1]), other;
+    for (int i = 0; i < READINGS; i++)
+        want[i] = (reading){i < VNDF_WAVELENGTHS ? plain.f[i] : plain.pdf, 0};
+    o->lengths = 1;
+    other = oracle_bsdf_eval(o, w[0], w[1]);
+    widen(&other, 2, want);
+    for (int i = 0; i < 6; i++) {
+        double given = w[i / 3][i % 3];
+        w[i / 3][i % 3] += 0x1p-22;
+        other = oracle_bsdf_eval(o, w[0], w[1]);
+        widen(&other, 1, want);
+        w[i / 3][i % 3] = given;
+    }
+}
+
+/* Below 1e-30 what underflows is right; the tail of Beckmann's density ends where exp underflows, over wm.z^3. */
+static int agrees(double got, reading want, double within, double *worst)
+{
+    double error = fmax(fabs(got - want.value) - want.spread, 0);
+    if (!(want.value > 1e-10))
+        return got <= 1e-4 + want.spread;
+    if (want.value > 1e35)
+        return got >= 1e35;
+    *worst = fmax(*worst, error / want.value);
+    return error <= within * want.value;
+}
+
+static int check_formulas(hit *h, vndf_vec3 wo, finding *found)
+{
+    float f[VNDF_WAVELENGTHS], pdf;
+    reading want[READINGS], *density = &want[VNDF_WAVELENGTHS];
+    int good = 1, plain = h->of.is.effects.shape < VNDF_SHAPE_MATRIX;
+    vndf_bsdf_eval_pdf(&h->bsdf, wo, 1, f, &pdf);
+    if (plain && fminf(h->of.is.alpha_x, h->of.is.alpha_y) < 0.01f)
+        return 1;
+    read_formulas(&h->oracle, h->wi, wo, want);
+    if (!plain && fabsf(h->wi.z + wo.z) < 1e-6f) /* level facets divide 0 by 0 here */
+        return 1;
+    for (int w = 0; w < VNDF_WAVELENGTHS; w++)
+        good &= TEST(agrees((double)f[w], want[w], plain ? 1e-5 : 3e-5, &found->eval));
+    if (density->value >= 0)
+        good &= TEST(agrees((double)pdf, *density, plain ? 1e-5 : 1e-4, &found->pdf));
+    *(want[0].value > 0 ? &found->positive : &found->zero) += 1;
+    if (!good)
+        fprintf(stderr, "    eval %.9g want %.9g +- %.2g; pdf %.9g want %.9g +- %.2g\n", (double)f[0],
+                want[0].value, want[0].spread, (double)pdf, density->value, density->spread);
+    return good;
+}
+
+/* ---- weight ---- */
+
+/* f |cos_o| over the density, and that density, of one direction. */
+typedef struct looked {
+    double pdf, weight[VNDF_WAVELENGTHS];
+} looked;
+
+static looked look(const vndf_bsdf *bsdf, vndf_vec3 wo)
+{
+    float f[VNDF_WAVELENGTHS], pdf;
+    vndf_bsdf_eval_pdf(bsdf, wo, 0, f, &pdf);
+    looked at = {(double)pdf, {0}};
+    for (int i = 0; i < VNDF_WAVELENGTHS && pdf > 0; i++)
+        at.weight[i] = (double)f[i] * fabs((double)vndf_bsdf_cosine(bsdf, wo)) / (double)pdf;
+    return at;
+}
+
+/* How far one rounding of wo moves both. */
+static looked spread_of(const vndf_bsdf *bsdf, vndf_vec3 wo, const looked *at)
+{
+    looked sum = {0, {0}};
+    for (int i = 0; i < 6; i++) {
+        float by = i % 2 ? 0x1p-23f : -0x1p-23f;
+        vndf_vec3 near = {wo.x + (i / 2 == 0) * by, wo.y + (i / 2 == 1) * by, wo.z + (i / 2 == 2) * by};
+        looked other = look(bsdf, near);
+        sum.pdf += fabs(other.pdf - at->pdf);
+        for (int k = 0; k < VNDF_WAVELENGTHS; k++)
+            sum.weight[k] += other.pdf > 0 ? fabs(other.weight[k] - at->weight[k]) : 0;
+    }
+    return sum;
+}
+
+/* Counts what is beyond 1e-5 of surfaces without a matrix; the matrices of even distributions have nothing beyond. */
+static int check_weight(hit *h, const vndf_scattered *s, int is_even, finding *found)
+{
+    looked at = look(&h->bsdf, s->wo), spread = spread_of(&h->bsdf, s->wo, &at);
+    int is_plain = h->of.is.effects.shape < VNDF_SHAPE_MATRIX;
+    double worst = 0;
+    /* G2 of transmission through V-cavities is a difference: as exact as what it is taken from */
+    double least = h->of.is.effects.masking == VNDF_MASKING_V_CAVITIES ? 2 : is_plain ? 1e-30 : 1e-3;
+    if (!(s->density < 1e35f) || !(s->density > 1e-25f)) {
+        found->extreme++;
+        return 1;
+    }
+    if (!is_plain) {
+        reading want[READINGS];
+        read_formulas(&h->oracle, h->wi, s->wo, want);
+        spread.pdf += want[VNDF_WAVELENGTHS].spread;
+        for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+            spread.weight[i] += at.weight[i] * want[VNDF_WAVELENGTHS].spread / at.pdf;
+    }
+    double density = fmax(fabs(at.pdf - (double)s->density) - spread.pdf, 0) / (double)s->density;
+    for (int i = 0; i < VNDF_WAVELENGTHS && at.pdf > 0; i++) {
+        double beside = at.weight[i] * at.pdf / (double)s->density; /* f |cos_o| over the density of the sample */
+        double off = fmin(fabs((double)s->weight[i] - at.weight[i]), fabs((double)s->weight[i] - beside));
+        if (at.weight[i] > 1e-30 || s->weight[i] > 1e-6f) /* below it f has been cut to 0 or to FLT_MIN */
+            worst = fmax(worst, (off - spread.weight[i]) / fmax(at.weight[i], least));
+    }
+    if (!is_plain)
+        return !is_even || (TEST(density <= 1e-5) & TEST(worst <= 1e-5));
+    found->kept++;
+    found->density = fmax(found->density, density);
+    found->weight = fmax(found->weight, worst);
+    found->densities += density > 1e-5;
+    *(h->of.is.effects.normals == VNDF_NORMALS_VISIBLE ? &found->weights : &found->others) += worst > 1e-5;
+    return 1;
+}
+
+/* ---- reciprocity ---- */
+
+static double scaled_value(const hit *h, vndf_vec3 wi, vndf_vec3 wo)
+{
+    vndf_bsdf bsdf;
+    float value[VNDF_WAVELENGTHS];
+    double w[3], o[3], eta = (double)h->of.is.eta;
+    int radiance = h->of.is.effects.transport == VNDF_TRANSPORT_RADIANCE;
+    oracle_from_vec3(wi, w);
+    oracle_from_vec3(wo, o);
+    int below = oracle_bsdf_rise(&h->oracle, radiance ? w : o) < 0;
+    int crosses = (oracle_bsdf_rise(&h->oracle, w) > 0) != (oracle_bsdf_rise(&h->oracle, o) > 0);
+    vndf_bsdf_at(&bsdf, &h->material, wi);
+    vndf_bsdf_eval(&bsdf, wo, 0, value);
+    return (double)value[0] / (crosses && below ? eta * eta : 1);
+}
+
+/* Beside total reflection F hangs on the last digits of wi and wo, whose lengths are not quite 1. */
+static int is_beside_total(const vndf_description *is, vndf_vec3 wi, vndf_vec3 wo)
+{
+    double square = 0.5 * (1 + (double)wi.x * wo.x + (double)wi.y * wo.y + (double)wi.z * wo.z);
+    double index = wi.z > 0 ? (double)is->eta : 1 / (double)is->eta;
+    return (wi.z > 0) == (wo.z > 0) && fabs(1 - (1 - square) / (index * index)) < 0.01;
+}
+
+/* Directions that were sampled, and matrices, may be narrow: within roundings. */
+static int check_reciprocity(hit *h, vndf_vec3 wo, int is_sampled, finding *found)
+{
+    const vndf_description *is = &h->of.is;
+    double there = scaled_value(h, h->wi, wo), back = scaled_value(h, wo, h->wi);
+    int is_plain = is->effects.shape < VNDF_SHAPE_MATRIX;
+    if (is_plain && fminf(is->alpha_x, is->alpha_y) < 0.05f)
+        return 1;
+    if (!(there > 1e-20) || !(there < 1e30) || (!oracle_bsdf_two_sided(&is->effects) && !(wo.z > 0)))
+        return 1;
+    double error = fabs(there / back - 1);
+    if (is_sampled || !is_plain) {
+        reading want[READINGS];
+        read_formulas(&h->oracle, h->wi, wo, want);
+        error = fmax(error - 4 * want[0].spread / want[0].value, 0);
+    }
+    found->reciprocity = fmax(found->reciprocity, error);
+    return TEST(error <= (fabsf(is->eta - 1) < 0.01f || is_beside_total(is, h->wi, wo) ? 5e-4 : 4e-5));
+}
+
+/* ---- where a sample goes ---- */
+
+static int check_place(const hit *h, const vndf_scattered *s)
+{
+    const vndf_effects *e = &h->of.is.effects;
+    double i[3], o[3], m[3], rest[3], length = 0, facing = 0, beyond = 0, off = 0;
+    oracle_from_vec3(h->wi, i);
+    oracle_from_vec3(s->wo, o);
+    oracle_from_vec3(s->wm, m);
+    if (s->lobe == VNDF_LOBE_NONE)
+        return TEST(s->density == 0 && s->weight[0] == 0 && s->weight[3] == 0 && o[0] == 0 && o[1] == 0 &&
+                    o[2] == 1 && m[0] == 0 && m[1] == 0 && m[2] == 0);
+    int reflected = s->lobe == VNDF_LOBE_REFLECTION;
+    int same = oracle_bsdf_rise(&h->oracle, i) * oracle_bsdf_rise(&h->oracle, o) > 0;
+    double turn = reflected && e->reflection == VNDF_REFLECTION_RETRO ? -1 : 1;
+    double eta = reflected ? 1 : h->bsdf.eta, cosine = oracle_bsdf_cosine(&h->oracle, o);
+    int good = TEST(reflected == same) & TEST(s->density > 0);
+    good &= TEST_NEAR((double)vndf_bsdf_cosine(&h->bsdf, s->wo), cosine, 1e-6);
+    for (int k = 0; k < 3; k++)
+        length += o[k] * o[k];
+    o[0] *= turn;
+    o[1] *= turn;
+    for (int k = 0; k < 3; k++) {
+        facing += i[k] * m[k];
+        beyond += o[k] * m[k];
+    }
+    for (int k = 0; k < 3; k++) { /* wi - (wi.wm) wm, and that of wo times the index ratio, are opposite */
+        rest[k] = i[k] - facing * m[k] + eta * (o[k] - beyond * m[k]);
+        off += rest[k] * rest[k];
+    }
+    return good & TEST_NEAR(sqrt(length), 1, 10 * 0x1p-23) & TEST(sqrt(off) < 1e-5 * fmax(eta, 1)) &
+           TEST(facing > -1e-6 && (reflected ? beyond > -1e-6 : beyond < 1e-6));
+}
+
+/* ---- bits ---- */
+
+static int same(const float *a, const float *b, int count)
+{
+    return memcmp(a, b, (size_t)count * sizeof *a) == 0;
+}
+
+static int check_bits(const hit *h, vndf_vec3 wo, const float u[3], unsigned long long *state)
+{
+    float alone[READINGS], together[READINGS], fewer[READINGS], pdf = -1;
+    vndf_description other = h->of.is;
+    vndf_material material;
+    vndf_bsdf bsdf;
+    vndf_scattered s, turned;
+    for (int i = 0; i < READINGS; i++)
+        alone[i] = together[i] = fewer[i] = MARK;
+    vndf_bsdf_eval(&h->bsdf, wo, 9, alone);
+    vndf_bsdf_eval_pdf(&h->bsdf, wo, 9, together, &pdf);
+    int good = TEST(same(alone, together, READINGS) && alone[VNDF_WAVELENGTHS] == MARK) &
+               TEST(pdf == vndf_bsdf_pdf(&h->bsdf, wo));
+    other.wavelengths = 1 + (int)(3 * test_uniform(state));
+    TEST(vndf_material_resolve(&other, &material, NULL) == VNDF_OK);
+    vndf_bsdf_at(&bsdf, &material, h->wi);
+    vndf_bsdf_eval(&bsdf, wo, 9, fewer);
+    good &= TEST(same(alone, fewer, other.wavelengths) && fewer[other.wavelengths] == MARK);
+    if (h->of.is.effects.reflection != VNDF_REFLECTION_RETRO)
+        return good;
+    other = h->of.is;
+    other.effects.reflection = VNDF_REFLECTION_SPECULAR;
+    TEST(vndf_material_resolve(&other, &material, NULL) == VNDF_OK);
+    vndf_bsdf_at(&bsdf, &material, h->wi);
+    vndf_bsdf_sample(&bsdf, u, &s);
+    vndf_bsdf_sample(&h->bsdf, u, &turned);
+    float turn = s.lobe == VNDF_LOBE_REFLECTION ? -1.0f : 1.0f;
+    return good & TEST(turned.wo.x == turn * s.wo.x && turned.wo.y == turn * s.wo.y && turned.wo.z == s.wo.z &&
+                       turned.density == s.density && same(s.weight, turned.weight, VNDF_WAVELENGTHS));
+}
+
+/* ---- */
+
+static void test_hit(const oracle_ndf *all, size_t ndfs, int is_even, const vndf_effects *effects,
+                     unsigned long long *state, finding *found)
+{
+    static const float alphas[] = {1e-3f, 0.01f, 0.05f, 0.3f, 1, 3};
+    static hit h;
+    vndf_vec3 other = bsdf_direction(state);
+    vndf_scattered s;
+    float u[3];
+    double wi[3];
+    bsdf_material(&h.of, all, ndfs, effects, alphas, 6, state);
+    h.of.ndf[0] = all;
+    h.oracle = oracle_bsdf_from(&h.of.is, h.of.ndf);
+    h.wi = bsdf_direction(state);
+    bsdf_numbers(state, u);
+    if (test_uniform(state) < 0.1f) /* far out, or beside the pole */
+        u[1] = test_uniform(state) < 0.5f ? u[1] * 1e-5f : 1 - u[1] * 1e-5f;
+    if (!oracle_bsdf_two_sided(effects) && effects->shape < VNDF_SHAPE_AFFINE && test_uniform(state) < 0.9f)
+        h.wi.z = fabsf(h.wi.z);
+    oracle_from_vec3(h.wi, wi);
+    double rise = oracle_bsdf_rise(&h.oracle, wi);
+    if (effects->shape >= VNDF_SHAPE_AFFINE && fabs(rise) < 1e-5) /* along the mean plane: rounding decides */
+        return;
+    TEST(vndf_material_resolve(&h.of.is, &h.material, NULL) == VNDF_OK);
+    int seen = vndf_bsdf_at(&h.bsdf, &h.material, h.wi);
+    if (!TEST(seen == (rise > 0 || oracle_bsdf_two_sided(effects))) || !seen)
+        return;
+    vndf_bsdf_sample(&h.bsdf, u, &s);
+    int good = check_bits(&h, other, u, state) & check_formulas(&h, other, found) &
+               check_reciprocity(&h, other, 0, found);
+    if (s.lobe != VNDF_LOBE_STRAIGHT)
+        good &= check_place(&h, &s);
+    if (s.lobe == VNDF_LOBE_REFLECTION || s.lobe == VNDF_LOBE_TRANSMISSION)
+        good &= check_formulas(&h, s.wo, found) & check_reciprocity(&h, s.wo, 1, found) &
+                check_weight(&h, &s, is_even, found);
+    found->lost += s.lobe == VNDF_LOBE_NONE;
+    if (!good)
+        bsdf_describe(&h.of.is, all->name, h.wi, s.wo);
+}
+
+int main(int arguments, char **argument)
+{
+    /* two heavy tails, two with narrow cores; then what is even */
+    static const char *const names[] = {"student-t:1.6", "student-t-1.8", "hazy",    "abc-two-layer-gold",
+                                        "student-t-2.5", "ggx",           "beckmann"};
+    enum { NDFS = 7, HEAVY = 2, UNEVEN = 4 };
+    static oracle_ndf all[NDFS];
+    for (size_t i = 0; i < NDFS; i++)
+        if (!TEST(oracle_ndf_open(&all[i], names[i])))
+            return test_done();
+    for (size_t i = 0; i < NDFS; i++) {
+        unsigned long long state = 1000 * i + 17;
+        finding found = {0};
+        if (!oracle_wanted(arguments, argument, i, names[i]))
+            continue;
+        for (size_t n = 0; n < ORACLE_EFFECT_SETS; n++) {
+            vndf_effects e = oracle_effects(n);
+            for (size_t k = 0; k < test_amount(4, 24, 120) && oracle_effects_sensible(&e); k++)
+                if (e.scattering == VNDF_SCATTERING_SINGLE)
+                    test_hit(&all[i], NDFS - i, i >= UNEVEN, &e, &state, &found);
+        }
+        printf(
+            "%s: eval within %.2g, pdf %.2g, weight %.2g (%lu and %lu above 1e-5), density %.2g (%lu), reciprocity "
+            "%.2g; %lu above 0, %lu at 0; %lu samples, %lu lost, %lu extreme\n",
+            names[i], found.eval, found.pdf, found.weight, (unsigned long)found.weights,
+            (unsigned long)found.others, found.density, (unsigned long)found.densities, found.reciprocity,
+            (unsigned long)found.positive, (unsigned long)found.zero, (unsigned long)found.kept,
+            (unsigned long)found.lost, (unsigned long)found.extreme);
+        size_t few = found.kept / 1000 + 5;
+        TEST(i < HEAVY || (found.weights < few && found.others < found.kept / 50 && found.densities < few));
+        TEST(found.positive > found.zero / 4 && found.zero > 0);
+        TEST(found.kept > found.lost && found.extreme < found.kept / 20);
+    }
+    for (size_t i = 0; i < NDFS; i++)
+        oracle_ndf_close(&all[i]);
+    return test_done();
+}
