@@ -38,10 +38,9 @@ typedef struct vndf_normals_routine {
     float (*pdf)(const vndf_view *view, vndf_vec3 wm);
 } vndf_normals_routine;
 
-/* Reflectances at a microfacet, facing = wi.wm and rest = 1 - facing. */
+/* Reflectances at a microfacet. */
 typedef struct vndf_fresnel_routine {
-    void (*reflectance)(const vndf_description *is, double facing, double rest, double eta,
-                        double f[VNDF_WAVELENGTHS]);
+    void (*reflectance)(const vndf_description *is, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS]);
 } vndf_fresnel_routine;
 
 /* G, which stays finite where the cosines vanish. */
@@ -131,8 +130,8 @@ VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
 
 VNDF_INLINE void vndf_reflectance(const vndf_material *m, double cosine, double eta, double f[VNDF_WAVELENGTHS])
 {
-    double c = cosine < 1.0 ? cosine : 1.0;
-    m->fresnel->reflectance(&m->is, c, 1.0 - c, eta, f);
+    double facing = cosine < 1.0 ? cosine : 1.0;
+    m->fresnel->reflectance(&m->is, (seen_cosine){facing, 1.0 - facing}, eta, f);
 }
 
 /* The part of the samples that is reflected: the mean over the wavelengths. */

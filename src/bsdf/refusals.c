@@ -33,80 +33,52 @@ static vndf_status check_range(const vndf_effects *e, vndf_error *error)
 }
 
 /* What is wrong with a combination; NULL if nothing. */
-static const char *lobes_refused(const vndf_effects *e)
+static const char *combination_refused(const vndf_effects *e)
 {
-    if (e->lobes == VNDF_LOBES_REFLECTION)
-        return NULL;
-    if (e->fresnel == VNDF_FRESNEL_CONDUCTOR)
+    int transmits = e->lobes != VNDF_LOBES_REFLECTION, walks = e->scattering == VNDF_SCATTERING_MULTIPLE;
+    int is_retro = e->reflection == VNDF_REFLECTION_RETRO, tilts = e->shape >= VNDF_SHAPE_AFFINE;
+    if (transmits && e->fresnel == VNDF_FRESNEL_CONDUCTOR)
         return "fresnel is VNDF_FRESNEL_CONDUCTOR, and a conductor transmits nothing: lobes must be "
                "VNDF_LOBES_REFLECTION";
     if (e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE)
         return "lobes is VNDF_LOBES_BOTH and fresnel is VNDF_FRESNEL_NONE: nothing says which lobe light takes";
-    if (e->normals == VNDF_NORMALS_BOUNDED)
+    if (transmits && e->normals == VNDF_NORMALS_BOUNDED)
         return "normals is VNDF_NORMALS_BOUNDED, normals that reflect to above the horizon: lobes must be "
                "VNDF_LOBES_REFLECTION";
-    return NULL;
-}
-
-static const char *masking_refused(const vndf_effects *e)
-{
     if (e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES)
         return "normals is VNDF_NORMALS_V_CAVITY, so masking must be VNDF_MASKING_V_CAVITIES";
-    return NULL;
-}
-
-static const char *walk_refused(const vndf_effects *e)
-{
-    if (e->scattering != VNDF_SCATTERING_MULTIPLE)
-        return NULL;
-    if (e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
-        return "scattering is VNDF_SCATTERING_MULTIPLE, whose masking is Smith's by height: masking must be "
-               "VNDF_MASKING_HEIGHT_CORRELATED";
-    if (e->normals != VNDF_NORMALS_VISIBLE)
-        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk over visible normals: normals must be "
-               "VNDF_NORMALS_VISIBLE";
-    if (e->lobes == VNDF_LOBES_TRANSMISSION)
-        return "scattering is VNDF_SCATTERING_MULTIPLE and lobes is VNDF_LOBES_TRANSMISSION: a walk that transmits "
-               "also reflects, so lobes must be VNDF_LOBES_BOTH";
-    return NULL;
-}
-
-static const char *compensation_refused(const vndf_effects *e)
-{
-    if (!vndf_compensates(e))
-        return NULL;
-    if (e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
+    if (vndf_compensates(e) && e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
         return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos have Smith's "
                "masking by height: masking must be VNDF_MASKING_HEIGHT_CORRELATED";
-    if (e->lobes == VNDF_LOBES_TRANSMISSION ||
-        (e->lobes == VNDF_LOBES_BOTH && e->fresnel != VNDF_FRESNEL_DIELECTRIC))
+    if (vndf_compensates(e) && transmits &&
+        (e->lobes == VNDF_LOBES_TRANSMISSION || e->fresnel != VNDF_FRESNEL_DIELECTRIC))
         return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be "
                "VNDF_LOBES_REFLECTION, or VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC";
-    if (e->shape >= VNDF_SHAPE_AFFINE)
+    if (vndf_compensates(e) && tilts)
         return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos are of one "
                "distribution without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE";
-    return NULL;
-}
-
-/* Of mean slopes and mixtures. */
-static const char *shape_refused(const vndf_effects *e)
-{
-    int is_plain = e->shape < VNDF_SHAPE_AFFINE;
-    if (e->reflection == VNDF_REFLECTION_RETRO && e->lobes == VNDF_LOBES_TRANSMISSION)
+    if (is_retro && e->lobes == VNDF_LOBES_TRANSMISSION)
         return "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected";
-    if (e->reflection == VNDF_REFLECTION_RETRO && !is_plain)
+    if (is_retro && tilts)
         return "reflection is VNDF_REFLECTION_RETRO, which is not reciprocal with mean slopes: shape must be "
                "VNDF_SHAPE_ALIGNED, VNDF_SHAPE_ROTATED or VNDF_SHAPE_MATRIX";
-    if (is_plain)
-        return NULL;
-    if (e->normals != VNDF_NORMALS_VISIBLE)
+    if (tilts && e->normals != VNDF_NORMALS_VISIBLE)
         return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, so normals must be VNDF_NORMALS_VISIBLE";
-    if (e->masking == VNDF_MASKING_V_CAVITIES)
+    if (tilts && e->masking == VNDF_MASKING_V_CAVITIES)
         return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, whose masking is Smith's: masking must not be "
                "VNDF_MASKING_V_CAVITIES";
-    if (e->scattering == VNDF_SCATTERING_MULTIPLE)
+    if (tilts && walks)
         return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, which no walk knows: scattering must be "
                "VNDF_SCATTERING_SINGLE";
+    if (walks && e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
+        return "scattering is VNDF_SCATTERING_MULTIPLE, whose masking is Smith's by height: masking must be "
+               "VNDF_MASKING_HEIGHT_CORRELATED";
+    if (walks && e->normals != VNDF_NORMALS_VISIBLE)
+        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk over visible normals: normals must be "
+               "VNDF_NORMALS_VISIBLE";
+    if (walks && e->lobes == VNDF_LOBES_TRANSMISSION)
+        return "scattering is VNDF_SCATTERING_MULTIPLE and lobes is VNDF_LOBES_TRANSMISSION: a walk that transmits "
+               "also reflects, so lobes must be VNDF_LOBES_BOTH";
     return NULL;
 }
 
@@ -238,15 +210,11 @@ static vndf_status check_shape(const vndf_description *is, vndf_error *error)
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error)
 {
     vndf_status status = check_range(&is->effects, error);
-    const char *refused = NULL;
-    if (status != VNDF_OK)
-        return status;
-    if (!(refused = lobes_refused(&is->effects)) && !(refused = masking_refused(&is->effects)) &&
-        !(refused = compensation_refused(&is->effects)) && !(refused = shape_refused(&is->effects)))
-        refused = walk_refused(&is->effects);
+    const char *refused = status == VNDF_OK ? combination_refused(&is->effects) : NULL;
     if (refused)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
-    status = check_shape(is, error);
+    if (status == VNDF_OK)
+        status = check_shape(is, error);
     if (status == VNDF_OK && vndf_compensates(&is->effects))
         status = vndf_albedo_check(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;

@@ -12,50 +12,44 @@ static void set_all(double f[VNDF_WAVELENGTHS], double value)
         f[i] = value;
 }
 
-static void reflect_schlick(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_schlick(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
-    (void)facing;
     (void)eta;
     for (int i = 0; i < is->wavelengths; i++)
-        f[i] = schlick(rest, is->f0[i]);
+        f[i] = schlick(c.rest, is->f0[i]);
 }
 
 /* The cosine in the thinner medium: reflection is total where that has none. */
-static void reflect_schlick_thin(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_schlick_thin(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
-    reflect_schlick(is, facing, eta < 1.0 ? refracted_rest(rest, eta) : rest, eta, f);
+    c.rest = eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
+    reflect_schlick(is, c, eta, f);
 }
 
-static void reflect_dielectric(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_dielectric(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
     (void)is;
-    (void)rest;
-    set_all(f, dielectric(facing, eta));
+    set_all(f, dielectric(c.facing, eta));
 }
 
 /* From outside alone. */
-static void reflect_conductor(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_conductor(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
-    (void)rest;
     (void)eta;
     for (int i = 0; i < is->wavelengths; i++)
-        f[i] = conductor(facing, is->conductor_eta[i], is->conductor_k[i]);
+        f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
 }
 
-static void reflect_all(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_all(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
-    (void)is;
-    (void)facing;
-    (void)rest;
-    (void)eta;
+    (void)is, (void)c, (void)eta;
     set_all(f, 1.0);
 }
 
-static void reflect_nothing(const vndf_description *is, double facing, double rest, double eta, double *f)
+static void reflect_nothing(const vndf_description *is, seen_cosine c, double eta, double *f)
 {
     (void)is;
-    (void)rest;
-    set_all(f, refracted_square(facing, eta) > 0.0 ? 0.0 : 1.0);
+    set_all(f, refracted_square(c.facing, eta) > 0.0 ? 0.0 : 1.0);
 }
 
 static const vndf_fresnel_routine total = {reflect_all};
@@ -208,7 +202,7 @@ VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, c
 
 VNDF_INLINE const double *reflectances(const vndf_bsdf *b, seen_cosine c, double f[VNDF_WAVELENGTHS])
 {
-    b->material->fresnel->reflectance(&b->material->is, c.facing, c.rest, b->eta, f);
+    b->material->fresnel->reflectance(&b->material->is, c, b->eta, f);
     return f;
 }
 
@@ -309,8 +303,9 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
         return;
     double f[VNDF_WAVELENGTHS];
     e.rise = fabs((double)rise);
+    const seen_cosine c = {e.facing, reflects ? reflecting_rest(e, from, to) : e.rest};
     if (value || lobes == VNDF_LOBES_BOTH)
-        fresnel->reflectance(&m->is, e.facing, reflects ? reflecting_rest(e, from, to) : e.rest, b->eta, f);
+        fresnel->reflectance(&m->is, c, b->eta, f);
     if (value) {
         double masked = reflects ? masking->reflection(b, &e) : b->carried * masking->transmission(b, &e);
         vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);

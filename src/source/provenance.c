@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/formula/expression.h"
 #include "source/resolution.h"
 #include "source/source.h"
 #include "source/words.h"

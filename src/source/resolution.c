@@ -24,21 +24,18 @@ vndf_status vndf_resolution_check(const vndf_resolution *r, vndf_error *error)
     return VNDF_OK;
 }
 
-static void add_number(vndf_text *text, const char *option, double value)
-{
-    char number[VNDF_NUMBER_TEXT];
-    vndf_text_add_word(text, option);
-    vndf_text_add_word(text, vndf_number_print(number, value));
-}
-
 char *vndf_resolution_describe(const vndf_resolution *r, const char *description, vndf_error *error)
 {
     vndf_text text = {NULL, 0, 0, 0};
     vndf_text_add(&text, description);
-    for (size_t i = 0; i < r->break_count; i++)
-        add_number(&text, "--break", r->breaks[i]);
-    if (r->finest > 0)
-        add_number(&text, "--finest", r->finest);
+    for (size_t i = 0; i < r->break_count; i++) {
+        vndf_text_add(&text, " --break ");
+        vndf_text_add_number(&text, r->breaks[i]);
+    }
+    if (r->finest > 0) {
+        vndf_text_add(&text, " --finest ");
+        vndf_text_add_number(&text, r->finest);
+    }
     return vndf_text_finish(&text, error);
 }
 

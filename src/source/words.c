@@ -36,6 +36,12 @@ void vndf_text_add(vndf_text *text, const char *string)
     add_bytes(text, string, strlen(string));
 }
 
+void vndf_text_add_number(vndf_text *text, double value)
+{
+    char number[VNDF_NUMBER_TEXT];
+    vndf_text_add(text, vndf_number_print(number, value));
+}
+
 void vndf_text_add_word(vndf_text *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";

@@ -13,6 +13,7 @@ typedef struct vndf_text {
 } vndf_text;
 
 void vndf_text_add(vndf_text *text, const char *string);
+void vndf_text_add_number(vndf_text *text, double value); /* vndf_number_print */
 
 /* Adds a space unless the text is empty, then the word: as it is if a shell leaves it alone, otherwise
  * in single quotes. Control characters become spaces, so that the text stays one line. */

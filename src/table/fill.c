@@ -13,7 +13,7 @@ static const double NEAR = 1.18, NEAR_FIRST = 0.75;
 
 static float *row(const vndf_distribution *table, int group, size_t i)
 {
-    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1) + i);
+    return table->numbers + VNDF_HEAD + VNDF_STRIDE * i + 4 * (size_t)group;
 }
 
 static int in_range(double value, double least, double most)
@@ -21,56 +21,38 @@ static int in_range(double value, double least, double most)
     return value >= least && value <= most;
 }
 
-/* End densities over the mean of the cell; builders stay below 300. */
-static const double STEEPEST = 1e4;
-
-/* Moments of a density in the cell, but for knots beside a needle, which are a few floats apart, and for numbers at the
- * end of floats; the last cell has no end. */
-static int moments_valid(const vndf_table_draft *d, size_t i)
-{
-    double m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], least = 1e-37, most = 1e36;
-    double gap = i < d->cells ? 8 * ((double)d->knot[i + 1] - d->knot[i]) : HUGE_VAL;
-    return in_range(m0, least, most) && in_range(m1, least, fmin(most, gap * m0 + 1e-35)) &&
-           in_range(m2, least, fmin(most, gap * m1 + 1e-35)) &&
-           (!d->cubes || in_range(d->cubes[i], 0.0, i ? fmin(most, 1.0001 * pow(d->knot[i], -3)) : most));
-}
-
-static int ends_valid(const vndf_table_draft *d, size_t i)
-{
-    double r = d->knot[i], z0 = 1 / (1 + r), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0;
-    double mean0 = d->m0[i] / (z0 * z0), tail = d->m2[i] + r * (2 * (double)d->m1[i] + r * d->m0[i]);
-    double mean1 = i < d->cells ? d->m0[i] / (z1 * z1) : tail;
-    return in_range(d->g0[i], 0.0, STEEPEST * mean0) && in_range(d->g1[i], 0.0, STEEPEST * mean1);
-}
-
-/* Whether the cubic of the area beyond knot i stays above 0. */
-static int area_valid(const vndf_table_draft *d, size_t i)
-{
-    double z0 = 1 / (1 + (double)d->knot[i]), z1 = i < d->cells ? 1 / (1 + (double)d->knot[i + 1]) : 0,
-           width = z0 - z1;
-    double a0 = d->area[i], a1 = i < d->cells ? d->area[i + 1] : 1, s1 = i < d->cells ? d->slope[i + 1] : 1;
-    return in_range(a0, 1e-20, 1e20) && width * d->slope[i] >= -3 * a0 && width * s1 <= 3 * a1 &&
-           in_range(d->slope[i], -1e20, 1e20);
-}
-
-/* What is wrong with the numbers of one knot. */
+/* What is wrong with the numbers of one knot and of the cell beyond it, whose last has no end. Moments are those of a
+ * density in the cell, but for knots beside a needle, which are a few floats apart, and for numbers at the end of
+ * floats. End densities are compared with the mean of the cell; builders stay below 300 times of it. The cubic of the
+ * area has to stay above 0. */
 static const char *knot_invalid(const vndf_table_draft *d, size_t i)
 {
-    if (i < d->cells && !(d->knot[i + 1] > d->knot[i]))
+    static const double least = 1e-37, most = 1e36, steepest = 1e4;
+    int last = i == d->cells;
+    double r = d->knot[i], next = last ? HUGE_VAL : d->knot[i + 1], z0 = 1 / (1 + r), z1 = 1 / (1 + next);
+    double m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], gap = 8 * (next - r), width = z0 - z1;
+    double mean0 = m0 / (z0 * z0), mean1 = last ? m2 + r * (2 * m1 + r * m0) : m0 / (z1 * z1);
+    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1], s0 = d->slope[i], s1 = last ? 1 : d->slope[i + 1];
+    if (!(next > r))
         return "the knots do not ascend";
-    if (!moments_valid(d, i))
+    if (!in_range(m0, least, most) || !in_range(m1, least, fmin(most, gap * m0 + 1e-35)) ||
+        !in_range(m2, least, fmin(most, gap * m1 + 1e-35)) ||
+        (d->cubes && !in_range(d->cubes[i], 0.0, i ? fmin(most, 1.0001 * pow(r, -3)) : most)))
         return "a moment is out of range";
-    if (!ends_valid(d, i))
+    if (!in_range(d->g0[i], 0.0, steepest * mean0) || !in_range(d->g1[i], 0.0, steepest * mean1))
         return "a density is out of range";
     if (!in_range(d->b0[i], 0.0, 1e6) || !in_range(d->b1[i], 0.0, 1e6) || !(d->b0[i] + d->b1[i] > 1e-6f))
         return "a share is out of range";
-    return area_valid(d, i) ? NULL : "an area is out of range";
+    if (!in_range(a0, 1e-20, 1e20) || !in_range(s0, -1e20, 1e20) || width * s0 < -3 * a0 ||
+        !(width * s1 <= 3 * a1))
+        return "an area is out of range";
+    return NULL;
 }
 
 static const char *draft_invalid(const vndf_table_draft *d)
 {
-    if (d->knot[0] != 0.0f || !(d->knot[1] > 1e-12f) || !(d->knot[d->cells] < 1e9f))
-        return "the knots do not run from 0 to below 1e9";
+    if (d->knot[0] != 0.0f || !(d->knot[1] > 1e-12f) || !(d->knot[d->cells] < 1e14f))
+        return "the knots do not run from 0 to below 1e14";
     if (!(d->scale > 1e-18 && d->scale < 1e18) || !(d->normalization > 0.0) || !isfinite(d->normalization))
         return "the scale or normalization is out of range";
     for (size_t i = 0; i <= d->cells; i++) {
@@ -227,7 +209,7 @@ static vndf_table_draft draft_within(const vndf_distribution *t)
     vndf_table_draft draft = {.cells = (unsigned)t->cells,
                               .moments = (unsigned)t->moments,
                               .squarings = (unsigned)t->squarings,
-                              .stride = 4,
+                              .stride = VNDF_STRIDE,
                               .normalization = t->normalization,
                               .scale = t->scale,
                               .certificate = t->certificate,
@@ -253,7 +235,7 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
         return 0;
     for (int a = 0; a < VNDF_ARRAYS; a++)
         for (size_t i = 0; within.array[a] && i <= draft->cells; i++)
-            draft->array[a][i] = within.array[a][4 * i];
+            draft->array[a][i] = within.array[a][VNDF_STRIDE * i];
     draft->cubes = within.cubes ? draft->cubes : NULL;
     return 1;
 }

@@ -104,30 +104,8 @@ def check_spectral():
         expect("spectra", numpy.all(abs(found / want - 1) < 0.01))
 
 
-def check_chi_square(names, angles):
-    """Mitsuba's own test of samples against densities, which needs a variant with arrays (LLVM)."""
-    try:
-        mitsuba.set_variant("llvm_ad_rgb")
-        from mitsuba import chi2
-        mitsuba.load_dict({"type": "diffuse"})
-    except (ImportError, RuntimeError, AttributeError) as reason:
-        print("no chi-square:", reason)
-        return
-    for name in names:
-        for degrees in angles:
-            theta = numpy.radians(degrees)
-            sample, pdf = chi2.BSDFAdapter("measured", f'<string name="filename" value="{name}"/>',
-                                           wi=[float(numpy.sin(theta)), 0, float(numpy.cos(theta))])
-            test = chi2.ChiSquareTest(domain=chi2.SphericalDomain(), sample_func=sample, pdf_func=pdf, sample_dim=3,
-                                      sample_count=200000, res=101, ires=16)
-            good = test.run(significance_level=0.01, test_count=len(names) * len(angles))
-            print(f"{name} at {degrees} degrees: chi-square p {test.p_value:.3f}")
-            expect("chi-square", good)
-
-
 mitsuba.set_variant("scalar_rgb")
 check("rough.bsdf", 0.5, [1, 0.5, 0.25], 1000)
 check("smooth.bsdf", 0.05, [1, 1, 1], 1000)
 check_spectral()
-check_chi_square(["rough.bsdf", "smooth.bsdf"], [2, 45, 80])
 sys.exit(failures > 0)

@@ -132,26 +132,6 @@ static void test_warp(void)
     TEST(!warp_make(&to, nothing, 2, 2));
 }
 
-/* What is bilinear comes back, also where a corner is not seen; what ends in a cell goes on beyond it. */
-static void test_fit(void)
-{
-    enum { SIDE = 6, POINTS = 4, FINE = (SIDE - 1) * POINTS };
-    float value[FINE][FINE], weight[FINE][FINE];
-    double grid[SIDE][SIDE];
-    for (int y = 0; y < FINE; y++)
-        for (int x = 0; x < FINE; x++) {
-            double v = (y + 0.5) / POINTS, u = (x + 0.5) / POINTS;
-            weight[y][x] = u + v < 7.5;
-            value[y][x] = weight[y][x] > 0 ? (float)(2 + 0.5 * u - 0.25 * v + 0.1 * u * v) : 0;
-        }
-    grid_fit(&value[0][0], &weight[0][0], SIDE, POINTS, &grid[0][0]);
-    for (int y = 0; y < SIDE; y++)
-        for (int x = 0; x < SIDE; x++) {
-            double want = 2 + 0.5 * x - 0.25 * y + 0.1 * x * y;
-            TEST_NEAR(grid[y][x], want, x + y < 8 ? 0.01 : x + y < 9 ? 0.1 : 1.5);
-        }
-}
-
 /* ---- refusals ------------------------------------------------------------------------------------ */
 
 static void refused(data_file file, const char *reason)
@@ -254,7 +234,6 @@ int main(void)
     vndf_distribution *table = vndf_load(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", NULL);
     test_warp();
     test_model(table);
-    test_fit();
     test_round_trip(vndf_ggx(), 0.5f);
     if (!test_quick())
         test_round_trip(table, 0.1f);

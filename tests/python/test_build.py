@@ -95,7 +95,6 @@ class Built(unittest.TestCase):
         ends = [vndf.Surface(d, 0.3).ndf(wm) for d in (vndf.ggx(), vndf.beckmann())]
         self.assertAlmostEqual(middle / np.mean(ends), 1, 5)
 
-
     def test_textures_of_a_family_are_its_mixtures(self):
         """Each element of an array of parameters is the surface at that parameter, of surfaces and of materials; shares
         are those of the C library (vndf_family_at), inside and beyond the ends."""
@@ -238,6 +237,11 @@ class Refused(unittest.TestCase):
         signal.setitimer(signal.ITIMER_REAL, 0.02)
         with self.assertRaises(KeyboardInterrupt):
             vndf.build(vndf.Source.slope("exp(-3*r)*(1+0.8*cos(6*r))"), max_bytes=65536)
+        source = vndf.Source.slope_function(lambda r: math.exp(-r))
+        table = vndf.build(source, max_bytes=2048)
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        with self.assertRaises(KeyboardInterrupt):
+            vndf.certify(table, source)
 
 
 if __name__ == "__main__":

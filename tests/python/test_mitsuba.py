@@ -139,7 +139,6 @@ class AgainstTheLibrary(unittest.TestCase):
         # At the critical angle 1 - F has few digits in float.
         self.compare(glass, material, True, usual=3e-4, floor=1e-3)
 
-
     def test_textured_tails(self):
         """A family with a parameter at each hit is the library's mixture there."""
         family = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
@@ -215,6 +214,8 @@ class Mitsubas(unittest.TestCase):
             wi, u = directions(rng, COUNT, 0.05), rng.random((3, COUNT), dtype=np.float32)
             weight, pdf, value, again = each(ask, wi, u)
             kept = (pdf > 0) & (again > 0)
+            self.assertLess(((pdf > 0) & ~kept).mean(), 1e-5)
+            self.assertLess(np.quantile(abs(again[kept] / pdf[kept] - 1), 0.999), 1e-4)
             self.assertGreater(kept.mean(), 0.8)
             apart = abs(weight * again / np.maximum(value, 1e-30) - 1)[:, kept].max(axis=0)
             self.assertLess(np.quantile(apart, 0.99), 1e-3)

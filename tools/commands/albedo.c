@@ -1,8 +1,9 @@
-/* vndf albedo: how much single scattering keeps of the light, for one distribution, as text and as CSV. */
+/* vndf albedo: how much single scattering keeps of the light, for one distribution. */
 #include <stdio.h>
 
 #include "cli/arguments.h"
-#include "cli/output.h"
+#include "cli/figures.h"
+#include "cli/files.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
@@ -13,7 +14,7 @@ static const char name[] = "vndf albedo";
 
 static const char help[] =
     "usage: vndf albedo (FILE|ggx|beckmann | --csv FILE | --family NAME[:PARAM,...] | --ndf EXPR | --slope EXPR)\n"
-    "                   [--eta X] [--alpha LIST] [--theta LIST] [-o OUT.csv]\n"
+    "                   [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
     "\n"
     "The directional albedo E: the part of the light that one scattering event with height-correlated Smith masking\n"
     "sends on, and its average 2 integral E mu dmu. 1 - E is what energy compensation has to give back (Kulla &\n"
@@ -24,9 +25,7 @@ static const char help[] =
     "  --alpha LIST     roughness to print, 0 to 4, between commas (default 0.05,0.1,0.2,0.3,0.5,0.7,1)\n"
     "  --theta LIST     angles of incidence, 0 to 90 (default 0,15,30,45,60,75,80,85,88,89,90)\n"
     "  --csv FILE, --family NAME, --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "                   your own D, as `vndf build --help` describes them, by a table of 8 KiB\n"
-    "  -o OUT.csv       what is printed as CSV; - for stdout, in place of the text\n"
-    "\n"
+    "                   your own D, as `vndf build --help` describes them, by a table of 8 KiB\n" ROWS_HELP "\n"
     "exit status: 0 good, 2 wrong use\n"
     "\n"
     "example: vndf albedo ggx --alpha 0.1,0.5,1\n"
@@ -53,58 +52,66 @@ static float at(const report *r, int side, double theta, double alpha)
     return vndf_albedo_directional(r->albedo, side ? -cosine : cosine, (float)alpha);
 }
 
-static void print_side(const report *r, int side)
+static void print_side(FILE *file, const report *r, int side)
 {
-    printf("\nalbedo%s\n%7s", r->eta > 0 ? side ? ", from the other side" : ", from the side of z" : "", "theta");
+    fprintf(file, "\nalbedo%s; theta in degrees\n%7s",
+            r->eta > 0 ? side ? ", from the other side" : ", from the side of z" : "", "theta");
     for (size_t j = 0; j < r->alpha.count; j++)
-        printf("  a=%-6.4g", r->alpha.value[j]);
-    putchar('\n');
+        fprintf(file, "  a=%-6.4g", r->alpha.value[j]);
+    fputc('\n', file);
     for (size_t i = 0; i < r->theta.count; i++) {
-        printf("%7g", r->theta.value[i]);
+        fprintf(file, "%7g", r->theta.value[i]);
         for (size_t j = 0; j < r->alpha.count; j++)
-            printf(" %9.5f", (double)at(r, side, r->theta.value[i], r->alpha.value[j]));
-        putchar('\n');
+            fprintf(file, " %9.5f", (double)at(r, side, r->theta.value[i], r->alpha.value[j]));
+        fputc('\n', file);
     }
-    fputs("average", stdout);
+    fputs("average", file);
     for (size_t j = 0; j < r->alpha.count; j++)
-        printf(" %9.5f", (double)vndf_albedo_average(r->albedo, (float)r->alpha.value[j], side ? -1 : 1));
-    putchar('\n');
+        fprintf(file, " %9.5f", (double)vndf_albedo_average(r->albedo, (float)r->alpha.value[j], side ? -1 : 1));
+    fputc('\n', file);
 }
 
-static void print_csv(FILE *file, const report *r)
+/* Of a report. */
+static int print(FILE *file, const void *of, figures_form form)
 {
-    fputs("distribution,eta,side,alpha,theta,albedo,average\n", file);
-    for (int side = 0; side < (r->eta > 0 ? 2 : 1); side++)
-        for (size_t j = 0; j < r->alpha.count; j++)
-            for (size_t i = 0; i < r->theta.count; i++) {
-                double alpha = r->alpha.value[j], theta = r->theta.value[i];
-                table_quote(file, r->subject);
-                fprintf(file, ",%.9g,%d,%.9g,%.9g,%.9g,%.9g\n", r->eta, side ? -1 : 1, alpha, theta,
-                        (double)at(r, side, theta, alpha),
-                        (double)vndf_albedo_average(r->albedo, (float)alpha, side ? -1 : 1));
-            }
+    const report *r = of;
+    const int sides = r->eta > 0 ? 2 : 1;
+    text_table t = {.rows = 0};
+    if (form == FIGURES_TEXT)
+        fprintf(file, r->eta > 0 ? "%s, dielectric, eta %g\n" : "%s, mirror\n", r->subject, r->eta);
+    for (int side = 0; side < sides && form == FIGURES_TEXT; side++)
+        print_side(file, r, side);
+    for (size_t i = 0; i < (size_t)sides * r->alpha.count * r->theta.count && form != FIGURES_TEXT; i++) {
+        const size_t column = i / r->theta.count % r->alpha.count;
+        const int side = i >= r->alpha.count * r->theta.count;
+        double alpha = r->alpha.value[column], theta = r->theta.value[i % r->theta.count];
+        table_row(&t);
+        table_text(&t, "distribution", r->subject);
+        table_number(&t, "eta", "%.9g", r->eta);
+        table_number(&t, "side", "%.0f", side ? -1 : 1);
+        table_number(&t, "alpha", "%.9g", alpha);
+        table_number(&t, "theta", "%.9g", theta);
+        table_number(&t, "albedo", "%.9g", (double)at(r, side, theta, alpha));
+        table_number(&t, "average", "%.9g", (double)vndf_albedo_average(r->albedo, (float)alpha, side ? -1 : 1));
+    }
+    int good = form == FIGURES_TEXT       ? 1
+               : form == FIGURES_CSV      ? table_print_csv(file, &t)
+               : form == FIGURES_MARKDOWN ? table_print_markdown(file, &t)
+                                          : table_print_json(file, &t);
+    table_free(&t);
+    return good;
 }
 
-/* `csv` may be NULL; it is opened before the work begins, so that a name that cannot be written costs no time. */
-static int run(report *r, const vndf_distribution *d, const char *csv)
+static int run(report *r, const vndf_distribution *d, const figure_words *asked)
 {
     vndf_error error = {VNDF_OK, ""};
-    output_file output;
-    if (csv && !output_open(&output, name, csv))
-        return STATUS_USE;
     vndf_albedo *albedo = vndf_albedo_build(d, (float)r->eta, &error);
     if (!albedo)
-        return csv ? output_give_up(&output, error.message) : complain(name, "%s", error.message);
+        return complain(name, "%s", error.message);
     r->albedo = albedo;
-    if (!csv || !output_is_stdout(csv)) {
-        printf(r->eta > 0 ? "%s, dielectric, eta %g\n" : "%s, mirror\n", r->subject, r->eta);
-        for (int side = 0; side < (r->eta > 0 ? 2 : 1); side++)
-            print_side(r, side);
-    }
-    if (csv)
-        print_csv(output.file, r);
+    int status = rows_print(name, asked, print, r);
     vndf_albedo_free(albedo);
-    return csv ? output_commit(&output) : STATUS_GOOD;
+    return status;
 }
 
 static int read_list(const char *what, const words *given, const char *otherwise, double most, list *to)
@@ -116,9 +123,9 @@ static int read_list(const char *what, const words *given, const char *otherwise
 
 int command_albedo(int argc, char **argv)
 {
-    static const char *const forms[2] = {"csv", NULL};
+    figure_words asked = {0};
     source_words source = {0};
-    words subject = {{NULL}, 0}, eta = subject, alpha = subject, theta = subject, out = subject;
+    words subject = {{NULL}, 0}, eta = subject, alpha = subject, theta = subject;
     const option_form options[] = {
         {"--ndf", 1, 1, &source.ndf},
         {"--slope", 1, 1, &source.slope},
@@ -128,7 +135,7 @@ int command_albedo(int argc, char **argv)
         {"--eta", 1, 1, &eta},
         {"--alpha", 1, 1, &alpha},
         {"--theta", 1, 1, &theta},
-        {"-o", 1, 1, &out},
+        ROWS_OPTIONS(asked),
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 0, 1};
     char title[256];
@@ -137,29 +144,26 @@ int command_albedo(int argc, char **argv)
     if (parsed != PARSE_GO_ON)
         return parsed;
     size_t subjects = subject.count + source_words_count(&source);
-    const char *csv = only_word(&out);
     if (subjects != 1)
         return complain(name, "%s of FILE|ggx|beckmann, --ndf, --slope, --csv and --family; exactly one is needed",
                         subjects ? "more than one" : "none");
-    if (csv && output_form(name, csv, NULL, forms) < 0)
-        return STATUS_USE;
     if ((parsed = source_words_check_set(name, &source)) != PARSE_GO_ON)
         return parsed;
-    if (!option_number(name, "--eta", &eta, 0.01, 100, &r.eta) ||
+    if (!rows_check(name, &asked) || !option_number(name, "--eta", &eta, 0.01, 100, &r.eta) ||
         !read_list("--alpha", &alpha, "0.05,0.1,0.2,0.3,0.5,0.7,1", (double)VNDF_ALBEDO_ALPHA_MAX, &r.alpha) ||
         !read_list("--theta", &theta, "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta))
         return STATUS_USE;
     if (!subject.count) { /* a table of the source that was given stands for it */
         vndf_distribution *table = table_from_words(name, &source, title, sizeof title);
-        int status = table ? run(&r, table, csv) : STATUS_USE;
+        int status = table ? run(&r, table, &asked) : STATUS_USE;
         vndf_free(table);
         return status;
     }
     chosen_distribution chosen;
-    r.subject = only_word(&subject);
-    if (!distribution_open(&chosen, name, r.subject))
+    r.subject = input_name(only_word(&subject));
+    if (!distribution_open(&chosen, name, only_word(&subject)))
         return STATUS_USE;
-    int status = run(&r, chosen.distribution, csv);
+    int status = run(&r, chosen.distribution, &asked);
     distribution_close(&chosen);
     return status;
 }

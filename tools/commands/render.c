@@ -24,7 +24,6 @@ static const char help[] =
     "                  in place of the text, and an interrupt then leaves nothing\n"
     "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
-    "  --seconds S     stop after S seconds; without --spp takes as many samples as fit\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
     "  --sampler NAME  how rough materials draw directions: by visible normals (the default), by all\n"
@@ -46,13 +45,12 @@ static const char help[] =
     "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n";
 
 typedef struct render_words {
-    words output, format, spp, seconds, threads, seed, sampler, width, exposure, compare, equal, against, json,
-        grammar;
+    words output, format, spp, threads, seed, sampler, width, exposure, compare, equal, against, json, grammar;
 } render_words;
 
 typedef struct render_choice {
     unsigned long long spp, threads, seed, width;
-    double seconds, exposure;
+    double exposure;
     const char *output, *format, *against; /* NULL: none */
     int compares, has_json;
 } render_choice;
@@ -110,7 +108,6 @@ static int read_choice(const render_words *given, render_choice *r, comparison *
                          .has_json = given->json.count > 0};
     *c = (comparison){.count = 0};
     return option_count(name, "--spp", &given->spp, 1, 1e9, &r->spp) &&
-           option_number(name, "--seconds", &given->seconds, 1e-3, 1e6, &r->seconds) &&
            option_count(name, "--threads", &given->threads, 1, 256, &r->threads) &&
            option_count(name, "--seed", &given->seed, 0, 0x1p53, &r->seed) &&
            option_count(name, "--width", &given->width, 1, IMAGE_SIDE_MAX, &r->width) &&
@@ -278,12 +275,8 @@ static int render_ways(comparison *c, const scene *s, unsigned held)
     int is_whole = 1;
     for (size_t i = 0; i < c->count && is_whole; i++)
         is_whole = film_make(&c->way[i].film, s->width, s->height);
-    const film_run run = {.samples = c->samples,
-                          .seconds = c->seconds,
-                          .threads = c->threads,
-                          .seed = c->seed,
-                          .progress = progress_tell,
-                          .user = &line};
+    const film_run run = {
+        .samples = c->samples, .threads = c->threads, .seed = c->seed, .progress = progress_tell, .user = &line};
     if (is_whole)
         is_whole = c->count > 1 ? comparison_run(c) : film_render(&c->way[0].film, c->way[0].plan, &run);
     progress_end(&line);
@@ -357,8 +350,7 @@ static int render_scene(comparison *c, const render_choice *r, scene *s)
     film against = {.sum = NULL};
     if (r->width && !scene_resize(s, (int)r->width, message, sizeof message))
         return complain(name, "--width: %s", message);
-    c->samples = r->spp ? r->spp : r->seconds > 0 ? 1000000000 : s->samples;
-    c->seconds = r->seconds;
+    c->samples = r->spp ? r->spp : s->samples;
     c->threads = (unsigned)r->threads;
     c->seed = r->seed;
     for (size_t i = 0; i < c->count; i++)
@@ -377,13 +369,13 @@ int command_render(int argc, char **argv)
     render_words given = {0};
     words positional = {{NULL}, 0};
     const option_form options[] = {
-        {"-o", 1, 1, &given.output},           {"--format", 1, 1, &given.format},
-        {"--spp", 1, 1, &given.spp},           {"--seconds", 1, 1, &given.seconds},
-        {"--threads", 1, 1, &given.threads},   {"--seed", 1, 1, &given.seed},
-        {"--sampler", 1, 1, &given.sampler},   {"--width", 1, 1, &given.width},
-        {"--exposure", 1, 1, &given.exposure}, {"--compare", 1, 1, &given.compare},
-        {"--equal", 1, 1, &given.equal},       {"--against", 1, 1, &given.against},
-        {"--json", 0, 1, &given.json},         {"--grammar", 0, 1, &given.grammar},
+        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
+        {"--spp", 1, 1, &given.spp},         {"--threads", 1, 1, &given.threads},
+        {"--seed", 1, 1, &given.seed},       {"--sampler", 1, 1, &given.sampler},
+        {"--width", 1, 1, &given.width},     {"--exposure", 1, 1, &given.exposure},
+        {"--compare", 1, 1, &given.compare}, {"--equal", 1, 1, &given.equal},
+        {"--against", 1, 1, &given.against}, {"--json", 0, 1, &given.json},
+        {"--grammar", 0, 1, &given.grammar},
     };
     const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     char message[1024];

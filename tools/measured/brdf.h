@@ -55,9 +55,7 @@ int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form 
  * numbers of 32 bits, 90 90 180 (or 360), then red, green and blue, each 90 x 90 x 180 doubles, the azimuth fastest;
  * all with the least byte first. f is a number times 1/1500, 1.15/1500 and 1.66/1500. Its bins, counted from the half
  * vector h: theta_h even in its square root from 0 to 90 degrees, theta_d even, phi_d even over half a turn. A number
- * is taken as f in the middle of its bin, and masked with heights correlated. Programs that fill such files often have
- * f at the lower end, or the product of G1 of both ways: these are taken where they explain the file with half the
- * error.
+ * is taken as f in the middle of its bin, and masked with heights correlated.
  *
  * D comes from what the surface sends back to where the light came from, by power iteration (J. Dupuy, E. Heitz,
  * J.-C. Iehl, P. Poulin, V. Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with
@@ -68,8 +66,7 @@ int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form 
  *
  * D is an eigenvector, and F0 its eigenvalue, where D has the integral 1 over the projected hemisphere. (The paper has
  * the positive part of w.m in the place of |w.m|: it takes masking along the way in and along the same way out as one
- * event. Which of the two holds is a property of the surface; this is the one that the model of all files here has.)
- * Where masking is the product of G1 on both ways, f = F0 D(w) / (4 A(w)^2), and D is the fixed point of 4 f A^2. */
+ * event. Which of the two holds is a property of the surface; this is the one that the model of all files here has.) */
 
 typedef enum merl_channel { MERL_RED, MERL_GREEN, MERL_BLUE, MERL_LUMINANCE } merl_channel;
 
@@ -80,7 +77,7 @@ int merl_read(data_file *file, merl_channel channel, profile *rows);
 
 /* The fixed point for f[] at the bins of *l, from any D there, and its F0; negative where nothing is known: D is that
  * of the bin before. 0 if there is no light. */
-int merl_iterate(law *l, int is_separable, const double *f, double *f0);
+int merl_iterate(law *l, const double *f, double *f0);
 
 /* Writes single scattering with Schlick's F to an open file, 33 MiB; 0 if that fails. */
 int merl_write(FILE *file, const vndf_distribution *distribution, float alpha, const double f0[3]);

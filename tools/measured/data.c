@@ -7,6 +7,8 @@
 
 #include "cli/sort.h"
 
+enum { REACH_MOST = 256 }; /* values on each side that smoothing looks at */
+
 int refuse(data_file *file, const char *format, ...)
 {
     int length = snprintf(file->refused, sizeof file->refused, "%.300s: ", file->name);
@@ -172,8 +174,8 @@ static double noise_of(const double *value, size_t count, double *room)
     return room[n / 2] / (0.6745 * sqrt(70));
 }
 
-/* Straight lines through `reach` values on both sides, fewer at the ends; returns the root of the mean square by which
- * values moved. */
+/* Means over `reach` values on both sides, fewer at the ends, which keep straight lines; returns the root of the mean
+ * square by which values moved. */
 static double smoothed(const double *value, size_t count, size_t reach, double *to)
 {
     double square = 0;
@@ -196,7 +198,7 @@ static double smooth(double *value, size_t count, double *room, double *best)
 {
     double noise = noise_of(value, count, room);
     memcpy(best, value, count * sizeof *best);
-    for (size_t reach = 1; reach < count / 4 && smoothed(value, count, reach, room) <= noise;
+    for (size_t reach = 1; reach < REACH_MOST && reach < count / 4 && smoothed(value, count, reach, room) <= noise;
          reach += 1 + reach / 4)
         memcpy(best, room, count * sizeof *best);
     memcpy(value, best, count * sizeof *best);

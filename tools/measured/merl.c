@@ -21,10 +21,10 @@ static void directions_of(double theta_h, double theta_d, double phi_d, directio
     *wo = direction_mirrored(*wi, (direction){s, 0, c});
 }
 
-/* f where F is 1: D / (4 (A_i cos_o + A_o cos_i - cos_i cos_o)), or D / (4 A_i A_o). */
-static double masked_ndf(int is_separable, double ndf, double area_i, double cos_i, double area_o, double cos_o)
+/* f where F is 1. */
+static double masked_ndf(double ndf, double area_i, double cos_i, double area_o, double cos_o)
 {
-    return ndf / 4 / (is_separable ? area_i * area_o : area_i * cos_o + area_o * cos_i - cos_i * cos_o);
+    return ndf / (4 * (area_i * cos_o + area_o * cos_i - cos_i * cos_o));
 }
 
 /* ---- the file ------------------------------------------------------------------------------------ */
@@ -32,8 +32,6 @@ static double masked_ndf(int is_separable, double ndf, double area_i, double cos
 typedef struct search {
     const unsigned char *numbers;
     int azimuths; /* of phi_d */
-    double place; /* of a number in its bin: 1/2 in the middle, 0 at the lower end */
-    int is_separable;
     merl_channel channel;
     double back[HALVES]; /* f of light that goes back; -1 where there is no number */
     int missing;         /* how many of these */
@@ -65,7 +63,7 @@ static double value_at(const search *s, int half, int difference, int azimuth)
 /* The mean over azimuths at theta_d = 0. */
 static void read_back(search *s)
 {
-    law_even(&s->law, HALVES, s->place);
+    law_even(&s->law, HALVES, 0.5);
     s->missing = 0;
     for (int half = 0; half < HALVES; half++) {
         double sum = 0, count = 0;
@@ -88,10 +86,10 @@ static void read_probes(search *s)
     for (int half = 0; half < HALVES; half++)
         for (int difference = 1; difference < DIFFERENCES; difference += STEP_D)
             for (int azimuth = step / 2; azimuth < s->azimuths; azimuth += step) {
-                double theta_d = (difference + s->place) / DIFFERENCES * pi / 2;
+                double theta_d = (difference + 0.5) / DIFFERENCES * pi / 2;
                 double found = value_at(s, half, difference, azimuth);
                 direction wi, wo;
-                directions_of(s->law.theta[half], theta_d, (azimuth + s->place) / s->azimuths * pi, &wi, &wo);
+                directions_of(s->law.theta[half], theta_d, (azimuth + 0.5) / s->azimuths * pi, &wi, &wo);
                 if (!(wi.z > least && wo.z > least) || !(found >= 0))
                     continue;
                 s->probes[s->count].light = wi.z * wo.z * s->law.share[half] * sin(theta_d) * cos(theta_d);
@@ -105,7 +103,7 @@ static void read_probes(search *s)
 
 /* ---- the search ---------------------------------------------------------------------------------- */
 
-int merl_iterate(law *l, int is_separable, const double *f, double *f0)
+int merl_iterate(law *l, const double *f, double *f0)
 {
     double before = 0;
     if (!(law_normalise(l) > 0)) {
@@ -118,7 +116,7 @@ int merl_iterate(law *l, int is_separable, const double *f, double *f0)
         before = *f0;
         for (int i = 0; i < l->count; i++) {
             double area = law_area(l, l->theta[i]), c = cos(l->theta[i]);
-            double next = 4 * f[i] * (is_separable ? area * area : c * (2 * area - c));
+            double next = 4 * f[i] * c * (2 * area - c);
             l->ndf[i] = f[i] >= 0 ? next : i > 0 ? l->ndf[i - 1] : 0;
         }
         *f0 = law_normalise(l);
@@ -135,14 +133,13 @@ static double try_diffuse(search *s, double diffuse)
     double f[HALVES];
     for (int i = 0; i < HALVES; i++)
         f[i] = s->back[i] < 0 ? -1 : fmax(s->back[i] - diffuse, 0);
-    if (!merl_iterate(&s->law, s->is_separable, f, &s->f0))
+    if (!merl_iterate(&s->law, f, &s->f0))
         return 1;
     double found = 0, left = 0; /* light without the diffuse part, and all of it */
     for (size_t i = 0; i < s->count; i++) {
         probe *p = &s->probes[i];
         double area_i = law_area(&s->law, acos(s->cos_i[i])), area_o = law_area(&s->law, acos(s->cos_o[i]));
-        double shape =
-            masked_ndf(s->is_separable, law_ndf(&s->law, s->theta_h[i]), area_i, s->cos_i[i], area_o, s->cos_o[i]);
+        double shape = masked_ndf(law_ndf(&s->law, s->theta_h[i]), area_i, s->cos_i[i], area_o, s->cos_o[i]);
         p->found = s->found[i] - diffuse;
         p->low = shape * (1 - s->rise[i]);
         p->high = shape * s->rise[i];
@@ -183,32 +180,15 @@ static double find_diffuse(search *s)
     return try_diffuse(s, 0) <= 1.01 * best + 1e-5 ? 0 : (low + high) / 2;
 }
 
-/* The residual of the file as it is taken, with the diffuse part that is best. */
-static double try_convention(search *s, int convention, double *diffuse)
-{
-    s->place = convention & 1 ? 0 : 0.5;
-    s->is_separable = convention >> 1;
-    read_back(s);
-    read_probes(s);
-    *diffuse = s->count ? find_diffuse(s) : 0;
-    return s->count ? try_diffuse(s, *diffuse) : 1;
-}
-
 static int search_file(data_file *file, search *s)
 {
-    double best = INFINITY, diffuse;
-    int chosen = 0;
-    for (int i = 0; i < 4; i++) {
-        double residual = try_convention(s, i, &diffuse);
-        chosen = residual < best / 2 ? i : chosen;
-        best = chosen == i ? residual : best;
-    }
-    if (try_convention(s, chosen, &diffuse) >= 1 || !(s->f0 > 0))
-        return refuse(file, s->count
-                                ? "no light comes back to where it came from, or D explains nothing of the file"
-                                : "no direction within 80 degrees has a value");
-    note(file, "bins %s", s->place > 0 ? "middle" : "lower end");
-    note(file, "masking %s", s->is_separable ? "separable" : "correlated");
+    read_back(s);
+    read_probes(s);
+    if (s->count == 0)
+        return refuse(file, "no direction within 80 degrees has a value");
+    double diffuse = find_diffuse(s);
+    if (try_diffuse(s, diffuse) >= 1 || !(s->f0 > 0))
+        return refuse(file, "no light comes back to where it came from, or D explains nothing of the file");
     note(file, "angles_without_light %d", s->missing);
     note(file, "diffuse %.4g", diffuse * pi);
     note(file, "f0 %.4g", s->fitted.f0);
@@ -224,7 +204,7 @@ static void note_channels(data_file *file, search *s)
     for (int i = 0; i < 3; i++) {
         s->channel = (merl_channel)i;
         read_back(s);
-        if (merl_iterate(&s->law, s->is_separable, s->back, &s->f0))
+        if (merl_iterate(&s->law, s->back, &s->f0))
             note(file, "%s %.4g", names[i], s->f0);
     }
 }
@@ -281,7 +261,7 @@ static void fill(float *values, const vndf_surface *surface)
                 directions_of(theta_h, (i + 0.5) / DIFFERENCES * pi / 2, (k + 0.5) / HALF_TURN * pi, &wi, &wo);
                 *values = 0;
                 if (wi.z > 0 && wo.z > 0)
-                    *values = (float)masked_ndf(0, ndf, model_area(surface, acos(wi.z)), wi.z,
+                    *values = (float)masked_ndf(ndf, model_area(surface, acos(wi.z)), wi.z,
                                                 model_area(surface, acos(wo.z)), wo.z);
                 values++;
             }

@@ -1,4 +1,4 @@
-/* A distribution as a .bsdf; rgl.h says what its fields are. D stands at NORMALS + 1 angles. The vndf is coarser in
+/* A distribution as a .bsdf; brdf.h says what its fields are. D stands at NORMALS + 1 angles. The vndf is coarser in
  * theta by FINE, and each of its numbers is the mean over the cells beside it, so that no ring of D falls between two
  * of them: what is reflected there has to be drawn as well. rgb is fitted (grid.h) to R at POINTS^2 places of each
  * cell, so that the light of a cell where wo meets the horizon is right. */

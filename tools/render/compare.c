@@ -2,8 +2,6 @@
 
 #include <stdlib.h>
 
-#include "cli/clock.h"
-
 enum { TURNS = 16, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,
@@ -14,53 +12,37 @@ const char *const verdict_names[3] = {"same", "differs", "unknown"};
 
 /* ---- rendering ---- */
 
-typedef struct watch {
-    const comparison *c;
-    double begun;
-} watch;
-
-static double spent(const watch *w)
-{
-    return clock_seconds() - w->begun;
-}
-
-static double done_part(const watch *w)
-{
-    double done = 0, count = (double)w->c->count;
-    for (size_t i = 0; i < w->c->count; i++)
-        done += fmin((double)w->c->way[i].film.samples / (double)w->c->samples, 1) / count;
-    return w->c->seconds > 0 ? fmin(fmax(done, spent(w) / w->c->seconds), 1) : done;
-}
-
-/* Of all ways, whatever is done of a pass. */
+/* How far all ways are, whatever is done of a pass. */
 static int tell(double done, void *user)
 {
-    const watch *w = user;
+    const comparison *c = user;
+    double whole = 0;
     (void)done;
-    return w->c->progress ? w->c->progress(done_part(w), w->c->user) : 0;
+    for (size_t i = 0; i < c->count; i++)
+        whole += fmin((double)c->way[i].film.samples / (double)c->samples, 1) / (double)c->count;
+    return c->progress ? c->progress(whole, c->user) : 0;
 }
 
-static int render_some(watch *w, way *one, uint64_t samples)
+static int render_some(comparison *c, way *one, uint64_t samples)
 {
-    const uint64_t own = (uint64_t)(one - w->c->way) * 0x9E3779B97F4A7C15u;
+    const uint64_t own = (uint64_t)(one - c->way) * 0x9E3779B97F4A7C15u;
     const film_run run = {
-        .samples = samples, .threads = w->c->threads, .seed = w->c->seed + own, .progress = tell, .user = w};
+        .samples = samples, .threads = c->threads, .seed = c->seed + own, .progress = tell, .user = c};
     return film_render(&one->film, one->plan, &run);
 }
 
 int comparison_run(comparison *c)
 {
-    watch w = {c, clock_seconds()};
     way *first = &c->way[0];
-    const uint64_t part = c->seconds > 0 ? film_pass_samples(&first->film) : c->samples / TURNS;
-    while (first->film.samples < c->samples && !(c->seconds > 0 && spent(&w) >= c->seconds)) {
-        uint64_t left = c->samples - first->film.samples, step = part < 1 ? 1 : part < left ? part : left;
-        if (!render_some(&w, first, step))
+    const uint64_t part = c->samples < TURNS ? 1 : c->samples / TURNS;
+    while (first->film.samples < c->samples) {
+        const uint64_t left = c->samples - first->film.samples, step = part < left ? part : left;
+        if (!render_some(c, first, step))
             return 0;
         for (size_t i = 1; i < c->count; i++) {
             const film *f = &c->way[i].film;
             while (c->has_equal_time ? f->processor < first->film.processor : f->samples < first->film.samples)
-                if (!render_some(&w, &c->way[i], c->has_equal_time ? film_pass_samples(f) : step))
+                if (!render_some(c, &c->way[i], c->has_equal_time ? film_pass_samples(f) : step))
                     return 0;
         }
     }

@@ -17,7 +17,6 @@ typedef struct comparison {
     size_t count;
     int has_equal_time;
     uint64_t samples; /* of the first way, a pixel */
-    double seconds;   /* of all ways together, roughly; 0: no limit */
     unsigned threads;
     uint64_t seed;                            /* each way has its own numbers */
     int (*progress)(double done, void *user); /* as in film_run */

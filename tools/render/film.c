@@ -98,48 +98,33 @@ static path_counts render_pass(pass *p)
 
 /* ---- passes ---- */
 
-static void add_pass(film *f, const pass *p, const path_counts *counts)
-{
-    size_t count = film_pixels(f);
-    for (size_t i = 0; i < 3 * count; i++)
-        f->sum[i] += p->sum[i];
-    for (size_t i = 0; i < count; i++)
-        f->square[i] += p->square[i];
-    f->samples += p->samples;
-    add_counts(&f->counts, counts);
-}
-
 uint64_t film_pass_samples(const film *f)
 {
     uint64_t samples = PASS_PATHS / film_pixels(f);
     return samples > 1 ? samples : 1;
 }
 
-/* The part of the samples or seconds that is done. */
-static double done_part(const film_run *run, uint64_t samples, double seconds)
-{
-    double part = (double)samples / (double)run->samples;
-    return run->seconds > 0 ? fmin(fmax(part, seconds / run->seconds), 1) : part;
-}
-
 static int render_passes(film *f, pass *p)
 {
     const film_run *run = p->run;
     const uint64_t start = f->samples, end = start + run->samples, most = film_pass_samples(f);
-    const double begun = clock_seconds(), before = f->seconds,
-                 processor = f->processor - clock_processor_seconds();
-    for (double spent = 0; f->samples < end && !(run->seconds > 0 && spent >= run->seconds);) {
+    const double begun = f->seconds - clock_seconds(), processor = f->processor - clock_processor_seconds();
+    while (f->samples < end) {
         p->first = f->samples;
         p->samples = most < end - f->samples ? most : end - f->samples;
-        p->done = done_part(run, f->samples - start, spent);
-        p->part = done_part(run, f->samples - start + p->samples, spent) - p->done;
+        p->done = (double)(f->samples - start) / (double)run->samples;
+        p->part = (double)p->samples / (double)run->samples;
         p->next_row = 0;
         const path_counts counts = render_pass(p);
         if (p->stopped)
             return 0;
-        add_pass(f, p, &counts);
-        spent = clock_seconds() - begun;
-        f->seconds = before + spent;
+        for (size_t i = 0; i < 3 * film_pixels(f); i++)
+            f->sum[i] += p->sum[i];
+        for (size_t i = 0; i < film_pixels(f); i++)
+            f->square[i] += p->square[i];
+        f->samples += p->samples;
+        add_counts(&f->counts, &counts);
+        f->seconds = begun + clock_seconds();
         f->processor = processor + clock_processor_seconds();
     }
     return 1;

@@ -26,7 +26,6 @@ void film_free(film *f);
 
 typedef struct film_run {
     uint64_t samples; /* a pixel, to add */
-    double seconds;   /* stops after so many, between passes; 0: no limit */
     unsigned threads;
     uint64_t seed;
     int (*progress)(double done, void *user); /* a result other than 0 stops between rows; may be NULL */

@@ -1,11 +1,11 @@
 /* Rays against shapes, and the hierarchy of boxes about them.
  *
- *   meets      one shape: a sphere by the part of its centre across the ray (small and distant spheres do not
- * cancel), a parallelogram or half of one by Moeller & Trumbore ("Fast, Minimum Storage Ray/Triangle
- * Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes between neighbours build from
- * the root down, at the plane between bins of centroids with the least area_left n_left + area_right n_right
- * (Wald, "On fast construction of SAH-based bounding volume hierarchies", RT 2007) walk       the nearer child
- * first describe   the place that was met: computed from the shape, so that it lies on it
+ *   meets      one shape: a sphere by the part of its centre across the ray (small and distant spheres do not cancel),
+ *              a parallelogram or half of one by Moeller & Trumbore ("Fast, Minimum Storage Ray/Triangle
+ *              Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes between neighbours
+ *   build      from the root down, in the middle of the longest side
+ *   walk       the nearer child first
+ *   describe   the place that was met: computed from the shape, so that it lies on it
  *
  * All of it is in double from coordinates below 1e7: places are exact to some 1e-15 of the coordinates. */
 #include "render/geometry.h"
@@ -106,25 +106,13 @@ static box box_of(const shape *s)
     return b;
 }
 
-/* Half of the surface; in double it cannot overflow. */
-static double area(const box *b)
-{
-    const double x = (double)b->high[0] - (double)b->low[0], y = (double)b->high[1] - (double)b->low[1];
-    const double z = (double)b->high[2] - (double)b->low[2];
-    return x * y + y * z + z * x;
-}
-
 /* ---- building ---- */
 
-enum {
-    BINS = 16,
-    LEAF_MAX = 8,      /* larger leaves are split at any cost */
-    PLANES_DEPTH = 60, /* deeper nodes are halved, so that DEPTH_MAX bounds them all: 60 + log2(2^32) */
-    DEPTH_MAX = 96
-};
+enum { LEAF_MAX = 3, DEPTH_MAX = 96, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds them all */ };
 
 typedef struct reference {
     box box;
+    float centre[3];
     uint32_t shape;
 } reference;
 
@@ -134,107 +122,42 @@ typedef struct builder {
     reference *references;
 } builder;
 
-typedef struct plane {
-    double cost, from, scale; /* of a bin: (centroid - from) scale */
-    int axis, bin;            /* this bin and lower ones are on the left */
-} plane;
-
-static int bin_of(const reference *r, const plane *p)
+/* Moves the references before the middle of the longest side of all centres to the front; how many they are. */
+static uint32_t split(reference *references, uint32_t count, int depth)
 {
-    const double centroid = 0.5 * ((double)r->box.low[p->axis] + (double)r->box.high[p->axis]);
-    const int bin = (int)((centroid - p->from) * p->scale);
-    return bin < BINS - 1 ? bin : BINS - 1;
-}
-
-/* Sets the best plane between bins, and its cost: 2 areas times counts. */
-static void choose_bin(const box bins[BINS], const uint32_t counts[BINS], plane *p)
-{
-    double right[BINS];
-    box side = no_box;
-    uint32_t count = 0;
-    for (int i = BINS - 1; i > 0; i--) {
-        enclose(&side, &bins[i]);
-        count += counts[i];
-        right[i] = count ? area(&side) * count : DBL_MAX;
-    }
-    side = no_box;
-    count = 0;
-    for (int i = 0; i + 1 < BINS; i++) {
-        enclose(&side, &bins[i]);
-        count += counts[i];
-        const double cost = count ? area(&side) * count + right[i + 1] : DBL_MAX;
-        if (cost < p->cost) {
-            p->cost = cost;
-            p->bin = i;
-        }
-    }
-}
-
-/* The plane of the least cost on any axis; its cost is DBL_MAX where all centroids are equal. */
-static plane choose_plane(const reference *references, uint32_t count)
-{
-    plane best = {.cost = DBL_MAX};
-    for (int axis = 0; axis < 3; axis++) {
-        box bins[BINS];
-        uint32_t counts[BINS] = {0};
-        double low = DBL_MAX, high = -DBL_MAX;
-        for (uint32_t i = 0; i < count; i++) {
-            const box *b = &references[i].box;
-            low = fmin(low, 0.5 * ((double)b->low[axis] + (double)b->high[axis]));
-            high = fmax(high, 0.5 * ((double)b->low[axis] + (double)b->high[axis]));
-        }
-        if (!(high > low))
-            continue;
-        plane p = {DBL_MAX, low, BINS / (high - low), axis, 0};
-        for (int i = 0; i < BINS; i++)
-            bins[i] = no_box;
-        for (uint32_t i = 0; i < count; i++) {
-            const int bin = bin_of(&references[i], &p);
-            enclose(&bins[bin], &references[i].box);
-            counts[bin]++;
-        }
-        choose_bin(bins, counts, &p);
-        best = p.cost < best.cost ? p : best;
-    }
-    return best;
-}
-
-/* Moves the references on the left of the best plane to the front; how many they are. 0: makes a leaf. */
-static uint32_t split(reference *references, uint32_t count, double node_area, int depth)
-{
-    plane p = {.cost = DBL_MAX};
-    if (count == 1)
-        return 0;
-    if (depth < PLANES_DEPTH)
-        p = choose_plane(references, count);
-    if (count <= LEAF_MAX &&
-        !(node_area + p.cost < node_area * count)) /* a walk through a node costs like a test */
-        return 0;
-    if (p.cost == DBL_MAX)
-        return count / 2;
+    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
     uint32_t left = 0;
+    int axis = 0;
     for (uint32_t i = 0; i < count; i++)
-        if (bin_of(&references[i], &p) <= p.bin) {
+        for (int k = 0; k < 3; k++) {
+            low[k] = fminf(low[k], references[i].centre[k]);
+            high[k] = fmaxf(high[k], references[i].centre[k]);
+        }
+    for (int k = 1; k < 3; k++)
+        axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
+    const float middle = 0.5f * low[axis] + 0.5f * high[axis];
+    for (uint32_t i = 0; i < count && depth < MIDDLES_DEPTH; i++)
+        if (references[i].centre[axis] < middle) {
             const reference moved = references[i];
             references[i] = references[left];
             references[left++] = moved;
         }
-    return left;
+    return left > 0 && left < count ? left : count / 2;
 }
 
 static void build(builder *b, uint32_t first, uint32_t count, int depth)
 {
     bvh_node *node = &b->nodes[b->count++];
     reference *references = b->references + first;
-    node->box = no_box;
+    *node = (bvh_node){no_box, first, count};
     for (uint32_t i = 0; i < count; i++)
         enclose(&node->box, &references[i].box);
-    const uint32_t left = split(references, count, area(&node->box), depth);
-    *node = (bvh_node){node->box, first, left ? 0 : count};
-    if (!left)
+    if (count <= LEAF_MAX)
         return;
+    const uint32_t left = split(references, count, depth);
     build(b, first, left, depth + 1);
     node->at = b->count;
+    node->count = 0;
     build(b, first + left, count - left, depth + 1);
 }
 
@@ -250,8 +173,11 @@ int geometry_build(geometry *g)
         free(sorted);
         return 0;
     }
-    for (size_t i = 0; i < g->count; i++)
-        references[i] = (reference){box_of(&g->shapes[i]), (uint32_t)i};
+    for (size_t i = 0; i < g->count; i++) {
+        references[i] = (reference){.box = box_of(&g->shapes[i]), .shape = (uint32_t)i};
+        for (int k = 0; k < 3; k++)
+            references[i].centre[k] = 0.5f * references[i].box.low[k] + 0.5f * references[i].box.high[k];
+    }
     builder b = {g->nodes, 0, references};
     build(&b, 0, (uint32_t)g->count, 0);
     for (size_t i = 0; i < g->count; i++)

@@ -75,19 +75,6 @@ PRINTF_LIKE(3, 4) static int refuse(image_error *error, const char *name, const 
     return 0;
 }
 
-/* Reads the next word of the head, of at most 31 letters, and the one blank that ends it; 0 if there is none. */
-static int next_word(const char *bytes, size_t size, size_t *at, char word[32])
-{
-    size_t letters = 0, most = size < HEAD_MAX ? size : HEAD_MAX;
-    while (*at < most && letters < 31 && bytes[*at] > ' ' && bytes[*at] <= '~')
-        word[letters++] = bytes[(*at)++];
-    word[letters] = '\0';
-    if (!letters || *at >= most || !strchr(" \t\r\n", bytes[*at]))
-        return 0;
-    *at += bytes[*at] == '\r' && *at + 1 < most && bytes[*at + 1] == '\n' ? 2 : 1;
-    return 1;
-}
-
 static int read_side(const char *word, int *side)
 {
     char *end;
@@ -98,12 +85,13 @@ static int read_side(const char *word, int *side)
 
 static int read_head(const char *bytes, size_t size, pfm_head *head, const char *name, image_error *error)
 {
-    char kind[32], width[32], height[32], order[32], *end;
-    size_t at = 0;
-    if (size < 3 || !next_word(bytes, size, &at, kind) || (strcmp(kind, "PF") != 0 && strcmp(kind, "Pf") != 0))
+    char text[HEAD_MAX + 1] = "", kind[4] = "", width[32], height[32], order[32], *end;
+    int at = 0;
+    memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
+    int found = sscanf(text, "%3s%31s%31s%31s%n", kind, width, height, order, &at);
+    if (memcmp(text, kind, 2) != 0 || (strcmp(kind, "PF") != 0 && strcmp(kind, "Pf") != 0))
         return refuse(error, name, "this is no PFM image; it would begin with PF or Pf");
-    if (!next_word(bytes, size, &at, width) || !next_word(bytes, size, &at, height) ||
-        !next_word(bytes, size, &at, order))
+    if (found < 4 || !text[at] || !strchr(" \t\r\n", text[at]))
         return refuse(error, name, "the head of the PFM is not whole: after %s come width, height and a scale",
                       kind);
     if (!read_side(width, &head->width) || !read_side(height, &head->height))
@@ -117,7 +105,7 @@ static int read_head(const char *bytes, size_t size, pfm_head *head, const char 
                       order);
     head->channels = kind[1] == 'F' ? 3 : 1;
     head->is_little = order_of < 0.0;
-    head->size = at;
+    head->size = (size_t)at + (text[at] == '\r' && text[at + 1] == '\n' ? 2 : 1);
     return 1;
 }
 

@@ -4,11 +4,10 @@
  *   vt u [v [w]]      a texture coordinate, v from the bottom; images here begin at the top, so v is flipped
  *   vn x y z          a normal, of any length
  *   f A B C ...       a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
- * v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
+ *                     v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
  *
- * Blanks separate words, a backslash before the end of a line joins it to the next, # begins a comment; other
- * lines are ignored. Triangles without an area are ignored. Where the normals of a triangle contradict the order
- * of its corners, the normals win. */
+ * Blanks separate words, # begins a comment; other lines are ignored. Triangles without an area are ignored. Where the
+ * normals of a triangle contradict the order of its corners, the normals win. */
 #include "render/geometry.h"
 
 #include <stdarg.h>
@@ -22,20 +21,20 @@
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
 enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
 
-/* Rows of three numbers. */
+enum { V, VT, VN, TABLES };
+static const char *const table_names[TABLES] = {"corners (v)", "texture coordinates (vt)", "normals (vn)"};
+
 typedef struct table {
-    double (*row)[3];
+    vec3 *row;
     size_t count, room;
-    const char *name; /* "corners (v)" */
 } table;
 
 typedef struct reader {
     const char *name, *at; /* at: the rest of the text */
     unsigned long long line;
-    const char *word; /* the last one, of so many letters, and how many of them messages quote */
+    const char *word; /* the last one, of so many letters */
     size_t letters;
-    int quoted;
-    table v, vt, vn;
+    table of[TABLES];
     size_t triangles;
     const placement *where;
     geometry *g;
@@ -60,24 +59,20 @@ PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
 
 /* ---- words ---- */
 
-/* Reads the next word of the line: 1; 0 where the line has no more, -1 after a complaint. */
+/* Reads the next word of the line; 0 where the line has no more. */
 static int next_word(reader *r)
 {
-    for (;;) {
-        r->at += strspn(r->at, " \t\r\v\f");
-        if (*r->at != '\\')
-            break;
-        size_t end = 1 + (r->at[1] == '\r');
-        if (r->at[end] != '\n')
-            return complain_at(r, "a backslash stands only at the end of a line, which it joins to the next") - 1;
-        r->at += end + 1;
-        r->line++;
-    }
+    r->at += strspn(r->at, " \t\r\v\f");
     r->word = r->at;
-    r->letters = *r->at == '#' ? 0 : strcspn(r->at, " \t\r\v\f\n\\");
-    r->quoted = r->letters < 40 ? (int)r->letters : 40;
+    r->letters = *r->at == '#' ? 0 : strcspn(r->at, " \t\r\v\f\n");
     r->at += r->letters;
     return r->letters > 0;
+}
+
+/* How many letters of the word messages quote. */
+static int quoted(const reader *r)
+{
+    return r->letters < 40 ? (int)r->letters : 40;
 }
 
 static int is_word(const reader *r, const char *word)
@@ -85,55 +80,53 @@ static int is_word(const reader *r, const char *word)
     return r->letters == strlen(word) && memcmp(r->word, word, r->letters) == 0;
 }
 
+/* ---- items ---- */
+
 /* Reads the numbers up to the end of the line, `least` at least, and keeps the first three; 0 after a complaint. */
 static int read_numbers(reader *r, const char *what, int least, double values[3])
 {
-    int count = 0, is_there;
-    while ((is_there = next_word(r)) == 1) {
+    int count = 0;
+    for (; next_word(r); count++) {
         char *end;
         const double value = strtod(r->word, &end); /* which takes nan too */
         if (strspn(r->word, "0123456789+-.eE") < r->letters || end != r->word + r->letters)
-            return complain_at(r, "'%.*s' should be a number", r->quoted, r->word);
+            return complain_at(r, "'%.*s' should be a number", quoted(r), r->word);
         if (!(fabs(value) <= 1e30))
-            return complain_at(r, "'%.*s' is too large a number", r->quoted, r->word);
+            return complain_at(r, "'%.*s' is too large a number", quoted(r), r->word);
         if (count < 3)
             values[count] = value;
-        count++;
     }
-    if (is_there == 0 && count < least)
-        return complain_at(r, "%s has %d number%s, it should have %d", what, count, count == 1 ? "" : "s", least);
-    return is_there == 0;
+    return count >= least ||
+           complain_at(r, "%s has %d number%s, it should have %d", what, count, count == 1 ? "" : "s", least);
 }
 
-/* ---- items ---- */
-
-static int append(reader *r, table *t, vec3 v)
+static int append(reader *r, int which, vec3 v)
 {
+    table *t = &r->of[which];
     if (t->count == ITEMS_MAX)
-        return complain_at(r, "there are more than %d %s", ITEMS_MAX, t->name);
+        return complain_at(r, "there are more than %d %s", ITEMS_MAX, table_names[which]);
     if (t->count == t->room) {
         const size_t room = 64 + 2 * t->room;
-        double(*larger)[3] = realloc(t->row, room * sizeof *larger);
+        vec3 *larger = realloc(t->row, room * sizeof *larger);
         if (!larger)
-            return complain_at(r, "no memory for %zu %s", room, t->name);
+            return complain_at(r, "no memory for %zu %s", room, table_names[which]);
         t->row = larger;
         t->room = room;
     }
-    const double row[3] = {v.x, v.y, v.z};
-    memcpy(t->row[t->count++], row, sizeof row);
+    t->row[t->count++] = v;
     return 1;
 }
 
 static int read_v(reader *r)
 {
+    const double reach = 1e7;
     double p[3];
     if (!read_numbers(r, "v", 3, p))
         return 0;
-    const vec3 placed = along(r->where->move, r->where->scale, placement_turn(r->where, vec(p[0], p[1], p[2])));
-    const double reach = 1e7;
-    if (!(fabs(placed.x) <= reach && fabs(placed.y) <= reach && fabs(placed.z) <= reach))
+    const vec3 at = along(r->where->move, r->where->scale, placement_turn(r->where, vec(p[0], p[1], p[2])));
+    if (!(fabs(at.x) <= reach && fabs(at.y) <= reach && fabs(at.z) <= reach))
         return complain_at(r, "this corner lies farther than %g from the origin", reach);
-    return append(r, &r->v, placed);
+    return append(r, V, at);
 }
 
 static int read_vt(reader *r)
@@ -144,7 +137,7 @@ static int read_vt(reader *r)
         return 0;
     if (!(fabs(p[0]) <= reach && fabs(p[1]) <= reach))
         return complain_at(r, "a texture coordinate is beyond %g", reach);
-    return append(r, &r->vt, vec(p[0], 1 - p[1], 0));
+    return append(r, VT, vec(p[0], 1 - p[1], 0));
 }
 
 static int read_vn(reader *r)
@@ -154,68 +147,61 @@ static int read_vn(reader *r)
         return 0;
     const double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
     const vec3 n = placement_turn(r->where, vec(p[0], p[1], p[2]));
-    return append(r, &r->vn, largest > 0 ? unit(scale(n, 1 / largest)) : n);
+    return append(r, VN, largest > 0 ? unit(scale(n, 1 / largest)) : n);
 }
 
 /* ---- faces ---- */
 
+/* Numbers of its items, from 1; 0: not there. */
 typedef struct corner {
-    size_t v, vt, vn; /* from 1; 0: not there */
+    size_t of[TABLES];
 } corner;
-
-/* Reads an index at *at, which moves behind it; 0 after a complaint. */
-static int read_index(reader *r, const char **at, const table *of, size_t *index)
-{
-    char *end;
-    const long long given = strtoll(*at, &end, 10); /* a number too large becomes the largest */
-    const long long count = (long long)of->count;
-    if (end == *at || end > r->word + r->letters)
-        return complain_at(r, "'%.*s' should be v, v/vt, v//vn or v/vt/vn, in numbers", r->quoted, r->word);
-    *at = end;
-    if (given == 0)
-        return complain_at(r, "'%.*s': %s are counted from 1", r->quoted, r->word, of->name);
-    if (given > count || given < -count)
-        return complain_at(r, "'%.*s': there are %lld %s so far", r->quoted, r->word, count, of->name);
-    *index = (size_t)(given > 0 ? given : count + 1 + given);
-    return 1;
-}
 
 static int read_corner(reader *r, corner *c)
 {
     const char *at = r->word, *end = at + r->letters;
-    *c = (corner){0, 0, 0};
-    if (!read_index(r, &at, &r->v, &c->v))
-        return 0;
-    if (*at == '/' && *++at != '/' && !read_index(r, &at, &r->vt, &c->vt))
-        return 0;
-    if (*at == '/') {
-        at++;
-        if (!read_index(r, &at, &r->vn, &c->vn))
-            return 0;
+    *c = (corner){{0, 0, 0}};
+    for (int i = 0; i < TABLES; i++) {
+        char *behind;
+        if (i > 0 && *at != '/')
+            break;
+        if (i > 0 && *++at == '/' && i == VT) /* v//vn */
+            continue;
+        const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
+        const long long count = (long long)r->of[i].count;
+        if (behind == at || behind > end)
+            return complain_at(r, "'%.*s' should be v, v/vt, v//vn or v/vt/vn, in numbers", quoted(r), r->word);
+        if (given == 0)
+            return complain_at(r, "'%.*s': %s are counted from 1", quoted(r), r->word, table_names[i]);
+        if (given > count || given < -count)
+            return complain_at(r, "'%.*s': there are %lld %s so far", quoted(r), r->word, count, table_names[i]);
+        c->of[i] = (size_t)(given > 0 ? given : count + 1 + given);
+        at = behind;
     }
     return at == end ||
-           complain_at(r, "'%.*s' should end after '%.*s'", r->quoted, r->word, (int)(at - r->word), r->word);
+           complain_at(r, "'%.*s' should end after '%.*s'", quoted(r), r->word, (int)(at - r->word), r->word);
 }
 
-static vec3 row_of(const table *t, size_t index)
+static vec3 item_of(const reader *r, const corner *c, int which)
 {
-    const double *row = t->row[index - 1];
-    return vec(row[0], row[1], row[2]);
+    return r->of[which].row[c->of[which] - 1];
 }
 
 static shape triangle_of(const reader *r, const corner *a, const corner *b, const corner *c)
 {
     const corner *at[3] = {a, b, c};
-    shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = row_of(&r->v, a->v)};
-    t.edge_u = subtract(row_of(&r->v, b->v), t.corner);
-    t.edge_v = subtract(row_of(&r->v, c->v), t.corner);
-    for (int i = 0; i < 3 && a->vn && b->vn && c->vn; i++) {
-        const vec3 n = row_of(&r->vn, at[i]->vn);
-        t.normal[i] = (vndf_vec3){(float)n.x, (float)n.y, (float)n.z};
-    }
-    for (int i = 0; i < 3 && a->vt && b->vt && c->vt; i++) {
-        t.u[i] = (float)r->vt.row[at[i]->vt - 1][0];
-        t.v[i] = (float)r->vt.row[at[i]->vt - 1][1];
+    shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = item_of(r, a, V)};
+    t.edge_u = subtract(item_of(r, b, V), t.corner);
+    t.edge_v = subtract(item_of(r, c, V), t.corner);
+    for (int i = 0; i < 3; i++) {
+        if (a->of[VN] && b->of[VN] && c->of[VN]) {
+            const vec3 n = item_of(r, at[i], VN);
+            t.normal[i] = (vndf_vec3){(float)n.x, (float)n.y, (float)n.z};
+        }
+        if (a->of[VT] && b->of[VT] && c->of[VT]) {
+            t.u[i] = (float)item_of(r, at[i], VT).x;
+            t.v[i] = (float)item_of(r, at[i], VT).y;
+        }
     }
     return t;
 }
@@ -224,11 +210,10 @@ static int add_triangle(reader *r, const corner c[3])
 {
     shape t = triangle_of(r, &c[0], &c[1], &c[2]);
     const vec3 n = cross(t.edge_u, t.edge_v);
-    const double least =
-        1e-15 * (dot(t.edge_u, t.edge_u) + dot(t.edge_v, t.edge_v)); /* what is left of rounding */
-    if (!(length(n) > least))
-        return 1;
+    const double rounding = 1e-15 * (dot(t.edge_u, t.edge_u) + dot(t.edge_v, t.edge_v));
     double agreement = 0;
+    if (!(length(n) > rounding))
+        return 1;
     for (int i = 0; i < 3; i++)
         agreement += n.x * (double)t.normal[i].x + n.y * (double)t.normal[i].y + n.z * (double)t.normal[i].z;
     if (agreement < 0)
@@ -241,29 +226,23 @@ static int add_triangle(reader *r, const corner c[3])
 static int read_f(reader *r)
 {
     corner c[3]; /* the first corner, the one before, and this one */
-    int count = 0, is_there;
-    while ((is_there = next_word(r)) == 1) {
-        if (!read_corner(r, &c[count < 2 ? count : 2]))
+    int count = 0;
+    for (; next_word(r); count++) {
+        if (!read_corner(r, &c[count < 2 ? count : 2]) || (count >= 2 && !add_triangle(r, c)))
             return 0;
-        if (++count < 3)
-            continue;
-        if (!add_triangle(r, c))
-            return 0;
-        c[1] = c[2];
-        count = 3;
+        if (count >= 2)
+            c[1] = c[2];
     }
-    if (is_there == 0 && count < 3)
-        return complain_at(r, "f has %d corner%s, it should have 3 or more", count, count == 1 ? "" : "s");
-    return is_there == 0;
+    return count >= 3 ||
+           complain_at(r, "f has %d corner%s, it should have 3 or more", count, count == 1 ? "" : "s");
 }
 
 /* ---- files ---- */
 
 static int read_line(reader *r)
 {
-    const int is_there = next_word(r);
-    if (is_there != 1)
-        return is_there == 0;
+    if (!next_word(r))
+        return 1;
     return is_word(r, "v")    ? read_v(r)
            : is_word(r, "f")  ? read_f(r)
            : is_word(r, "vt") ? read_vt(r)
@@ -275,12 +254,10 @@ static int read_all(reader *r, size_t length)
 {
     if (memchr(r->at, '\0', length))
         return complain_at(r, "the file has a byte 0: it is no text");
-    while (read_line(r)) {
+    for (; read_line(r); r->at++, r->line++) {
         r->at += strcspn(r->at, "\n");
         if (!*r->at || !r->at[1])
             return r->triangles > 0 || complain_at(r, "the file ends here without a triangle that has an area");
-        r->at++;
-        r->line++;
     }
     return 0;
 }
@@ -292,9 +269,6 @@ int obj_read_text(geometry *g, const char *name, const char *text, size_t length
     reader r = {.name = name,
                 .at = text,
                 .line = 1,
-                .v = {.name = "corners (v)"},
-                .vt = {.name = "texture coordinates (vt)"},
-                .vn = {.name = "normals (vn)"},
                 .where = where,
                 .g = g,
                 .material = material,
@@ -303,9 +277,8 @@ int obj_read_text(geometry *g, const char *name, const char *text, size_t length
     const int is_read = read_all(&r, length);
     if (!is_read)
         g->count = before;
-    free(r.v.row);
-    free(r.vt.row);
-    free(r.vn.row);
+    for (int i = 0; i < TABLES; i++)
+        free(r.of[i].row);
     return is_read;
 }
 

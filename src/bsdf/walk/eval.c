@@ -11,7 +11,7 @@
  *
  * turns the two contributions of a path into half their harmonic mean: a narrow lobe at one end makes no spike, unless
  * both walks meet it. */
-#include "bsdf/walk/connect.h"
+#include "bsdf/walk/path.h"
 
 /* One end of the paths, turned up. */
 typedef struct end {

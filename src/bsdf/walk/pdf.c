@@ -14,7 +14,7 @@
  * a thousandth more, so that the density is positive where the first event's is not. Light that enters
  * the denser medium mostly stays there; light that comes from it is reflected totally, the more the
  * flatter it comes. */
-#include "bsdf/walk/connect.h"
+#include "bsdf/walk/path.h"
 
 static const double inverse_pi = 0.31830988618379067;
 

@@ -21,8 +21,7 @@
  * leaves upwards. Surfaces have no mean slope.
  *
  * walk.c   samples, and the routines of a material
- * path.h   a ray on its way: travel and bounce
- * connect.h  the density of scattering from an event to a given direction
+ * path.h   a ray on its way: travel and bounce; the density of scattering to a given direction
  * eval.c   f, estimated from both ends        pdf.c   a density near that of samples */
 #ifndef VNDF_BSDF_WALK_WALK_H
 #define VNDF_BSDF_WALK_WALK_H

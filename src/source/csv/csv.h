@@ -23,13 +23,10 @@
 
 #define VNDF_RIGHT_ANGLE 1.57079632679489661923
 
-typedef enum vndf_csv_first { VNDF_CSV_THETA_DEG, VNDF_CSV_THETA, VNDF_CSV_SLOPE } vndf_csv_first;
-typedef enum vndf_csv_second { VNDF_CSV_NDF, VNDF_CSV_P22 } vndf_csv_second;
-
-/* The numbers of a file that has been checked: at least two rows. Angles are in radians; the last may be pi/2. */
+/* Rows that have been checked: at least two. Angles are in radians; the last may be pi/2. */
 typedef struct vndf_csv_rows {
-    vndf_csv_first first;
-    vndf_csv_second second;
+    vndf_rows_over over;
+    vndf_rows_of of;
     double *x, *value; /* owned */
     size_t count;
 } vndf_csv_rows;

@@ -27,8 +27,8 @@ typedef struct many_rows {
 
 typedef struct csv_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
-    vndf_csv_first first;
-    vndf_csv_second second;
+    vndf_rows_over over;
+    vndf_rows_of of;
     curve curve; /* over asinh(x/scale) */
     double scale;
     int logarithmic;   /* the curve is the logarithm of the second column */
@@ -140,12 +140,12 @@ static double p22_at(const csv_source *source, double r)
 {
     if (r > source->last_slope)
         return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
-    double x = source->first == VNDF_CSV_SLOPE ? r : atan(r);
+    double x = source->over == VNDF_ROWS_OVER_SLOPE ? r : atan(r);
     double y = source->falls_to_0 && r > source->last_but_one
                    ? value_before_end(&source->curve, distance_to_grazing(source->scale, r))
                    : value_at(&source->curve, asinh(x / source->scale));
     double value = source->logarithmic ? exp(y) : y;
-    return source->second == VNDF_CSV_NDF ? value * cosine4(r) : value;
+    return source->of == VNDF_ROWS_OF_NDF ? value * cosine4(r) : value;
 }
 
 static void p22(const vndf_source *self, const double *r, size_t count, double *values)
@@ -191,14 +191,14 @@ static void destroy(vndf_source *self)
 
 static double slope_of_row(const vndf_csv_rows *rows, size_t i)
 {
-    if (rows->first == VNDF_CSV_SLOPE)
+    if (rows->over == VNDF_ROWS_OVER_SLOPE)
         return rows->x[i];
     return rows->x[i] >= VNDF_RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
 }
 
 static double p22_of_row(const vndf_csv_rows *rows, size_t i)
 {
-    return rows->second == VNDF_CSV_P22 ? rows->value[i] : rows->value[i] * cosine4(slope_of_row(rows, i));
+    return rows->of == VNDF_ROWS_OF_P22 ? rows->value[i] : rows->value[i] * cosine4(slope_of_row(rows, i));
 }
 
 static void fit_curve(csv_source *source, const vndf_csv_rows *rows)
@@ -292,8 +292,8 @@ vndf_source *vndf_csv_source(const vndf_csv_rows *rows, char *description, vndf_
     }
     source->base = (vndf_source){
         .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS, .reach = reach};
-    source->first = rows->first;
-    source->second = rows->second;
+    source->over = rows->over;
+    source->of = rows->of;
     source->breaks = block;
     source->curve = (curve){block + BREAKS, block + BREAKS + n, block + BREAKS + 2 * n, n};
     fit_curve(source, rows);

@@ -15,6 +15,7 @@
 
 static const double APART = 1e-12; /* of themselves: the abscissa of the curve could not tell closer rows apart */
 
+/* Columns, in the order of vndf_rows_over behind degrees, and of vndf_rows_of. */
 static const char *const first_names[] = {"theta_deg", "theta", "slope"};
 static const char *const second_names[] = {"ndf", "p22"};
 
@@ -31,6 +32,7 @@ typedef struct reader {
     vndf_status refusal;
     size_t capacity; /* in rows */
     vndf_csv_rows rows;
+    int degrees; /* the first column */
     vndf_error *error;
 } reader;
 
@@ -63,6 +65,11 @@ static vndf_source *source_of(reader *r, vndf_status status, const char *option,
 
 /* ---- rows ------------------------------------------------------------------------------------- */
 
+static const char *first_name(const reader *r)
+{
+    return first_names[r->degrees ? 0 : 1 + r->rows.over];
+}
+
 static vndf_status append(reader *r, double x, double value)
 {
     vndf_csv_rows *rows = &r->rows;
@@ -89,17 +96,17 @@ static vndf_status append(reader *r, double x, double value)
 static vndf_status take_row(reader *r, double given, double value)
 {
     const vndf_csv_rows *rows = &r->rows;
-    const char *first = first_names[rows->first];
-    int degrees = rows->first == VNDF_CSV_THETA_DEG, angle = rows->first != VNDF_CSV_SLOPE;
+    const char *first = first_name(r);
+    int degrees = r->degrees, angle = rows->over == VNDF_ROWS_OVER_THETA;
     int grazing = degrees ? given == 90 : angle && fabs(given - VNDF_RIGHT_ANGLE) <= 1e-9;
     double x = grazing ? VNDF_RIGHT_ANGLE : degrees ? given * (VNDF_RIGHT_ANGLE / 90) : given;
     char number[VNDF_NUMBER_TEXT];
     if (!isfinite(given) || given < 0)
         return refuse(r, "%s is %s; it must be finite and not negative", first, vndf_number_print(number, given));
     if (!isfinite(value) || value < 0)
-        return refuse(r, "%s is %s; it must be finite and not negative", second_names[rows->second],
+        return refuse(r, "%s is %s; it must be finite and not negative", second_names[rows->of],
                       vndf_number_print(number, value));
-    if (grazing && rows->second == VNDF_CSV_P22)
+    if (grazing && rows->of == VNDF_ROWS_OF_P22)
         return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
     if (angle && x > VNDF_RIGHT_ANGLE)
         return refuse(r, "%s is %s; angles from the normal are at most %s", first,
@@ -182,8 +189,9 @@ static vndf_status read_header(reader *r)
     if (second == 2)
         return refuse(r, "the second column is called '%s'; the header names it ndf or p22",
                       vndf_excerpt(excerpt, field[1].text, field[1].size));
-    r->rows.first = (vndf_csv_first)first;
-    r->rows.second = (vndf_csv_second)second;
+    r->degrees = first == 0;
+    r->rows.over = first == 2 ? VNDF_ROWS_OVER_SLOPE : VNDF_ROWS_OVER_THETA;
+    r->rows.of = second == 0 ? VNDF_ROWS_OF_NDF : VNDF_ROWS_OF_P22;
     return VNDF_OK;
 }
 
@@ -208,8 +216,8 @@ static vndf_status read_all(reader *r)
     int found = 1;
     vndf_status status = read_header(r);
     while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
-        if (read_number(r, field[0], first_names[r->rows.first], &x) != VNDF_OK ||
-            read_number(r, field[1], second_names[r->rows.second], &value) != VNDF_OK ||
+        if (read_number(r, field[0], first_name(r), &x) != VNDF_OK ||
+            read_number(r, field[1], second_names[r->rows.of], &value) != VNDF_OK ||
             take_row(r, x, value) != VNDF_OK)
             return VNDF_ERROR_SYNTAX;
     if (status == VNDF_OK && r->rows.count < 2)
@@ -289,8 +297,8 @@ vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double
     vndf_error own;
     reader r = {.unit = "row", .refusal = VNDF_ERROR_DISTRIBUTION, .error = error ? error : &own};
     vndf_status status = check_arguments(over, of, x, value, count, error);
-    r.rows.first = over == VNDF_ROWS_OVER_SLOPE ? VNDF_CSV_SLOPE : VNDF_CSV_THETA;
-    r.rows.second = of == VNDF_ROWS_OF_P22 ? VNDF_CSV_P22 : VNDF_CSV_NDF;
+    r.rows.over = over;
+    r.rows.of = of;
     for (; r.at < count && status == VNDF_OK; r.at++)
         status = take_row(&r, x[r.at], value[r.at]);
     uint32_t crc = status == VNDF_OK ? checksum(checksum(0, x, count), value, count) : 0;

@@ -109,34 +109,26 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
     return VNDF_OK;
 }
 
-/* `whole` is "sgd:alum-bronze/r": the list holds whole names. */
-static vndf_status read_material(part whole, lobe *l, vndf_error *error)
-{
-    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
-    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
-    if (!material)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
-                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
-                         vndf_materials_near(nearest, whole.text, whole.size));
-    memcpy(l->parameter, material->parameter, sizeof l->parameter);
-    return VNDF_OK;
-}
-
-/* Only these families have materials. The name of a material starts with a letter, a number does not. */
-static int is_material(const vndf_family_form *form, part rest)
-{
-    char first = rest.size > 0 ? rest.text[0] : '\0';
-    int letter = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
-    return letter && (strcmp(form->name, "sgd") == 0 || strcmp(form->name, "abc") == 0);
-}
-
+/* A material's whole name, "sgd:alum-bronze/r", is in the list; it starts with a letter behind the family, as a number
+ * does not. */
 static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
 {
+    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
     part rest = whole, name = cut(&rest, ':');
+    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
     *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
     if (!l->form)
         return unknown_family(name, error);
-    return is_material(l->form, rest) ? read_material(whole, l, error) : read_parameters(rest, l, error);
+    if (material) {
+        memcpy(l->parameter, material->parameter, sizeof l->parameter);
+        return VNDF_OK;
+    }
+    int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
+    if (has_materials && rest.size > 0 && ((rest.text[0] | 32) >= 'a' && (rest.text[0] | 32) <= 'z'))
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
+                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
+                         vndf_materials_near(nearest, whole.text, whole.size));
+    return read_parameters(rest, l, error);
 }
 
 /* ---- mix -------------------------------------------------------------------------------------- */

@@ -173,11 +173,10 @@ static vndf_source *read_formula(vndf_formula_of of, const char *text, const vnd
     vndf_text_add_word(&words, is_ndf ? "--ndf" : "--slope");
     vndf_text_add_word(&words, text);
     for (size_t i = 0; i < count; i++) {
-        char value[VNDF_NUMBER_TEXT];
         vndf_text_add_word(&words, "--set");
         vndf_text_add_word(&words, parameters[i].name);
         vndf_text_add(&words, "=");
-        vndf_text_add(&words, vndf_number_print(value, parameters[i].value));
+        vndf_text_add_number(&words, parameters[i].value);
     }
     return vndf_formula_source(of, &lobe, 1, vndf_text_finish(&words, error), error);
 }

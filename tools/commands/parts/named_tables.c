@@ -2,6 +2,7 @@
 
 #include <stdlib.h>
 
+#include "cli/files.h"
 #include "cli/subject.h"
 
 int named_tables_open(const char *command, const words *files, int families, export_document *document)
@@ -15,7 +16,7 @@ int named_tables_open(const char *command, const words *files, int families, exp
             return 0;
         if (!is_family && !chosen.owned)
             return complain(command, "'%s' is a closed form: every kernel has it", file), 0;
-        if (!document_add(document, file, chosen.owned, family))
+        if (!document_add(document, input_name(file), chosen.owned, family))
             return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
                             document->as.upper, document->table[i].name),
                    0;

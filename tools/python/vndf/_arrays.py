@@ -15,7 +15,7 @@ import numpy.typing as npt
 Floats = npt.NDArray[np.float32]
 #: what arguments may be: numbers, sequences, arrays
 Numbers = npt.ArrayLike
-Generator = Optional[np.random.Generator]
+Generator = Union[None, int, np.random.Generator]  # a number is the seed of one
 Size = Union[None, int, tuple[int, ...]]
 
 
@@ -45,7 +45,7 @@ def uniform(u: Any, count: int, rng: Generator, size: Size, shape: Callable[[], 
         raise TypeError("a sample takes u, or rng=numpy.random.default_rng() and size=")
     if rng is not None:
         axes = shape() if size is None else tuple(np.atleast_1d(size))
-        return rng.random((count, *axes), dtype=np.float32)
+        return np.random.default_rng(rng).random((count, *axes), dtype=np.float32)
     numbers = components(u, count, "u")
     few = numbers.ravel().tolist() if numbers.size < 10 else [numbers.min(), numbers.max()]  # quick for one element
     if not all(0 <= number <= 1 for number in few):  # false for NaN, which min() keeps

@@ -19,16 +19,8 @@ Progress = Callable[[float, str], Any]
 
 
 class Source(Owner):
-    """A distribution of normals as it is given, at any scale, normalised or not.
-
-    ``Source.slope("exp(-a*r)", a=3)``: P22, the density of slopes, in r = tan(theta).
-    ``Source.ndf("c^20")``: D, per steradian, in c = cos(theta), theta (radians), t = tan(theta).
-    ``Source.family("student-t:2.5")``: a name; ``vndf.family_help()`` lists them.
-    ``Source.csv("gloss.csv")``: a file with columns theta_deg, theta or slope, and ndf or p22.
-    ``Source.rows(theta=angles, ndf=values)``: the same from arrays.
-    ``Source.slope_function(f)``, ``Source.ndf_function(f)``: a Python function of r, or of cos(theta).
-    ``Source.of(table)``: what a table was built from.
-    """
+    """A distribution of normals as it is given, at any scale, normalised or not: a formula, a name, a file, arrays, a
+    function, or what a table was built from."""
 
     _free = "source_free"
     _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows, .slope_function, .ndf_function or .of"
@@ -159,12 +151,13 @@ def _function(name: str, function: Callable[[float], float], origin: str) -> Sou
 
 class Reporter(_Failure):
     """Runs a long call of C in a thread, with a progress function. Python delivers signals to the main thread alone, so
-    Control-C arrives where this waits, never inside C; the next report of progress then ends the call."""
+    Control-C arrives where this waits, never inside C, where it would be lost; the next report of progress then ends
+    the call, and the function of the source returns at once."""
 
     def __init__(self, progress: Optional[Progress], source: Optional[Source] = None) -> None:
         super().__init__()
         self._stop = False
-        function = source._function if source is not None else None
+        self._function = function = source._function if source is not None else None
 
         def call(done: float, what: bytes, user: Any) -> int:
             if self._stop or (function is not None and function.failed()):
@@ -192,8 +185,10 @@ class Reporter(_Failure):
         thread.start()
         try:
             thread.join()
-        except BaseException:
+        except BaseException as raised:
             self._stop = True
+            if self._function is not None:
+                self._function.keep(raised)
             thread.join()
             raise
         self.raise_what_failed()
@@ -244,7 +239,7 @@ def certify(distribution: Distribution, source: Source) -> Certificate:
     want(source, Source)
     struct = _library.vndf_certificate()
     try:
-        checked("certify", distribution._pointer, source._pointer, byref(struct))
+        Reporter(None, source).run(lambda: checked("certify", distribution._pointer, source._pointer, byref(struct)))
     finally:
         source._raise_what_failed()
     return certificate_of(struct)

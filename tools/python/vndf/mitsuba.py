@@ -44,10 +44,6 @@ _MOST_LOBES = 8
 _LEAST_ALPHA = 1e-4
 
 
-def _texture(props: Any, name: str, default: float) -> Any:
-    return props.get_texture(name, default)
-
-
 class MicrofacetDistribution:
     """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
     are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann"."""
@@ -111,7 +107,7 @@ class _Lobe:
         name = str(props["distribution" + suffix])
         self.name = name
         path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
-        self.parameter = {parameter: _texture(props, parameter, 1.0)} if parameter in props else {}
+        self.parameter = {parameter: props.get_texture(parameter, 1.0)} if parameter in props else {}
         self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
         self.laws = self.tails.laws if self.tails else [law_of(name if name in ("ggx", "beckmann") else path)]
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
@@ -119,8 +115,8 @@ class _Lobe:
             raise ValueError(f"{both} and {along} or {across}: one or the other")
         if (along in props) != (across in props):
             raise ValueError(f"{along} needs {across}, and the other way round")
-        self.alphas = {n: _texture(props, n, 0.1) for n in ([along, across] if along in props else [both])}
-        self.weight = {"weight" + suffix: _texture(props, "weight" + suffix, 1.0)}
+        self.alphas = {n: props.get_texture(n, 0.1) for n in ([along, across] if along in props else [both])}
+        self.weight = {"weight" + suffix: props.get_texture("weight" + suffix, 1.0)}
 
     def at(self, si: Any, active: Any) -> list[Any]:
         """Of a hit each law, with alpha_u, alpha_v and its weight."""
@@ -142,7 +138,7 @@ class _Microsurface:
             if len(self.lobes) != i - 1:
                 raise ValueError(f"distribution_{i} without distribution_{i - 1}: lobes are numbered without a gap")
             self.lobes.append(_Lobe(props, f"_{i}"))
-        self.rotation = _texture(props, "rotation", 0.0) if "rotation" in props else None
+        self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
         masking = str(props.get("masking", "height-correlated"))
         if masking not in ("height-correlated", "separable"):
             raise ValueError(f'masking is "height-correlated" or "separable", not "{masking}"')
@@ -153,9 +149,6 @@ class _Microsurface:
         for lobe in self.lobes:
             named.update({**lobe.alphas, **lobe.weight, **lobe.parameter})
         return named
-
-    def at(self, si: Any, active: Any) -> _Hit:
-        return _Hit(self, si, active)
 
 
 class _Hit:
@@ -170,18 +163,12 @@ class _Hit:
                          for _, _, weight in self._shapes]  # fmt: skip
         self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
 
-    def turned(self, w: Any) -> Any:
-        """In the frame of the axes of roughness."""
+    def turned(self, w: Any, sign: float = 1.0) -> Any:
+        """In the frame of the axes of roughness; with sign -1 back from there."""
         if self._turn is None:
             return w
-        sine, cosine = self._turn
+        sine, cosine = sign * self._turn[0], self._turn[1]
         return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
-
-    def turned_back(self, w: Any) -> Any:
-        if self._turn is None:
-            return w
-        sine, cosine = self._turn
-        return mi.Vector3f(cosine * w.x - sine * w.y, cosine * w.y + sine * w.x, w.z)
 
     def seen_from(self, w: Any) -> tuple[list[Any], Any]:
         """The lobes' views, and the projected area of all."""
@@ -269,7 +256,7 @@ def register() -> None:
             if "material" in props:
                 optics["material"] = props["material"]
             if "specular_reflectance" in props:
-                optics["specular_reflectance"] = _texture(props, "specular_reflectance", 1.0)
+                optics["specular_reflectance"] = props.get_texture("specular_reflectance", 1.0)
             self._optics = mi.load_dict(optics)
             flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide | mi.BSDFFlags.Anisotropic
             self.m_components = [flags]
@@ -284,13 +271,13 @@ def register() -> None:
         def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
             bs = dr.zeros(mi.BSDFSample3f)
             active = mi.Bool(active) & (si.wi.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
-            hit = self._surface.at(si, active)
+            hit = _Hit(self._surface, si, active)
             wi = hit.turned(si.wi)
             views, area = hit.seen_from(wi)
             wm, density = hit.sample(views, area, sample2.x, sample2.y)
             facing = dr.dot(wi, wm)
             wo = mi.Vector3f(2.0 * facing * wm - wi)
-            bs.wo = hit.turned_back(wo)
+            bs.wo = hit.turned(wo, -1.0)
             bs.pdf = density / (4.0 * facing)
             bs.eta = 1.0
             bs.sampled_component = mi.UInt32(0)
@@ -308,7 +295,7 @@ def register() -> None:
 
         def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
             active = mi.Bool(active) & (si.wi.z > 0.0) & (wo.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
-            hit = self._surface.at(si, active)
+            hit = _Hit(self._surface, si, active)
             wi, wo = hit.turned(si.wi), hit.turned(wo)
             views, area = hit.seen_from(wi)
             wm = dr.normalize(wi + wo)
@@ -330,7 +317,7 @@ def register() -> None:
             self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
             if not self._eta > 0.0 or self._eta == 1.0:
                 raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
-            self._colours = {name: _texture(props, name, 1.0) if name in props else None
+            self._colours = {name: props.get_texture(name, 1.0) if name in props else None
                              for name in ("specular_reflectance", "specular_transmittance")}  # fmt: skip
             sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide | mi.BSDFFlags.Anisotropic
             reflection = mi.BSDFFlags.GlossyReflection | sides
@@ -353,7 +340,7 @@ def register() -> None:
             bs = dr.zeros(mi.BSDFSample3f)
             can_reflect, can_transmit = self._enabled(ctx)
             active = mi.Bool(active) & (si.wi.z != 0.0) & (can_reflect or can_transmit)
-            hit = self._surface.at(si, active)
+            hit = _Hit(self._surface, si, active)
             wi = hit.turned(si.wi)
             views, area = hit.seen_from(_up(wi))
             wm, density = hit.sample(views, area, sample2.x, sample2.y)
@@ -364,7 +351,7 @@ def register() -> None:
             reflects = (sample1 < chance) | (chance >= 1.0)
             wo = dr.select(reflects, 2.0 * facing * wm - wi, mi.refract(wi, mi.Normal3f(wm), cos_t, eta_back))
             active = active & (reflects | (r_i < 1.0)) & (dr.select(reflects, wi.z, -wi.z) * wo.z > 0.0)
-            bs.wo = hit.turned_back(mi.Vector3f(wo))
+            bs.wo = hit.turned(mi.Vector3f(wo), -1.0)
             bs.eta = dr.select(reflects, 1.0, eta)
             bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
             bs.sampled_type = dr.select(
@@ -394,7 +381,7 @@ def register() -> None:
             reflects = si.wi.z * wo.z > 0.0
             active = mi.Bool(active) & (si.wi.z * wo.z != 0.0)
             active = active & dr.select(reflects, mi.Bool(can_reflect), mi.Bool(can_transmit))
-            hit = self._surface.at(si, active)
+            hit = _Hit(self._surface, si, active)
             wi, wo = hit.turned(si.wi), hit.turned(wo)
             views, area = hit.seen_from(_up(wi))
             eta = dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)

@@ -1,0 +1,197 @@
+/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
+ * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
+ * rectangles on a matte floor is that of closed forms: R^2/d^2 cos for a sphere, the form factor of a parallel
+ * rectangle above its corner; and what stands before a light bars it. A rough metal shows the integral of f cos
+ * over lights, from narrow lobes and small lights to wide ones, for all samplers: a sum over points of the light
+ * with vndf_bsdf_eval, which shares no code with paths. All samplers show the same of metals and glass, also
+ * through refraction and walks; perfect sampling has no more variance than visible normals, which have less than
+ * all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their own surface, by
+ * roulette, by weights of drawn light, at shading normals; wrong densities, areas, powers and cosines, lights
+ * that shine backwards, shadow rays that end too early or too late, candidates that are not kept in proportion
+ * to their weight, and a sampler that is not used. */
+#include "render_case.h"
+
+/* ---- the furnace ---- */
+
+static const char *const lossless[] = {
+    "material m matte colour 1 1 1\n",
+    "material m shape distribution ggx alpha 0.8 scattering multiple\n",
+    "material m shape distribution beckmann alpha 0.2 0.9 scattering multiple\n",
+    "material m dielectric index 1.5 distribution ggx alpha 0.4 scattering multiple\n",
+};
+
+#define DOME "environment constant 1 1 1\n"
+/* Six rectangles that shine inwards: their light is drawn. */
+#define ROOM                                                              \
+  "material wall light radiance 1 1 1\n"                                  \
+  "rectangle corner -6 -6 -6 edge-u 0 0 12 edge-v 12 0 0 material wall\n" \
+  "rectangle corner -6 6 -6 edge-u 12 0 0 edge-v 0 0 12 material wall\n"  \
+  "rectangle corner -6 -6 -6 edge-u 0 12 0 edge-v 0 0 12 material wall\n" \
+  "rectangle corner 6 -6 -6 edge-u 0 0 12 edge-v 0 12 0 material wall\n"  \
+  "rectangle corner -6 -6 -6 edge-u 12 0 0 edge-v 0 12 0 material wall\n" \
+  "rectangle corner -6 -6 6 edge-u 0 12 0 edge-v 12 0 0 material wall\n"
+
+/* In a dome every sample is 1; in a room it is, on average. */
+static void test_furnace(const char *kind, const char *lit, double most)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "film width 24 height 24\ncamera from 0 0 5 to 0 0 0 field 24\nintegrator depth 10000\n%s%s"
+             "sphere centre 0 0 0 radius 1 material m\n",
+             lit, kind);
+    scene *s = case_scene(text);
+    film f = {.sum = NULL};
+    double worst = 0;
+    if (!s)
+        return;
+    case_render(&f, s, SAMPLER_VISIBLE, test_amount(16, 64, 64), 1);
+    for (size_t i = 0; i < film_pixels(&f); i++)
+        worst = fmax(worst, fabs(film_light(&f, i) - 1));
+    if (!(TEST(worst < most) & case_agrees(case_mean_of(&f), 1, 2e-4)))
+        fprintf(stderr, "    %s%s    worst %g\n", lit, kind, worst);
+    film_free(&f);
+    scene_free(s);
+}
+
+/* ---- closed forms ---- */
+
+#define FLOOR                                                                                 \
+  "camera from 0 1 3 to 0 0 0\nintegrator depth 1\nmaterial floor matte colour 0.5 0.5 0.5\n" \
+  "rectangle corner -9 0 9 edge-u 18 0 0 edge-v 0 0 -18 material floor\n"
+
+/* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel &
+ * Howell). */
+static double corner_factor(double a, double b)
+{
+    double x = sqrt(1 + a * a), y = sqrt(1 + b * b);
+    return (a / x * atan(b / x) + b / y * atan(a / y)) / (2 * PI);
+}
+
+static void test_floor(const char *lights, double want)
+{
+    char text[2048];
+    snprintf(text, sizeof text, FLOOR "%s", lights);
+    scene *s = case_point(text);
+    if (s && !case_agrees(case_light(s, SAMPLER_VISIBLE, test_amount(64, 512, 512)), want, 1e-4))
+        fprintf(stderr, "    %s", lights);
+    scene_free(s);
+}
+
+/* ---- the integral over a light ---- */
+
+enum { SIDE = 400 };
+
+/* Seen from (0, 1, 1) towards the origin, a point of the plane y = 0 whose u goes along x. */
+static double integral(float alpha, vec3 corner, vec3 u, vec3 v)
+{
+    const vndf_description is = {.distribution = vndf_ggx(), .alpha_x = alpha, .alpha_y = alpha};
+    const vec3 n = cross(u, v);
+    vndf_material resolved;
+    vndf_bsdf bsdf;
+    double sum = 0;
+    if (!TEST(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK))
+        return 0;
+    vndf_bsdf_at(&bsdf, &resolved, (vndf_vec3){0.0f, -(float)sqrt(0.5), (float)sqrt(0.5)});
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const vec3 p = along(along(corner, (i % SIDE + 0.5) / SIDE, u), ((double)(i / SIDE) + 0.5) / SIDE, v);
+        const vec3 w = unit(p);
+        float f[3];
+        vndf_bsdf_eval(&bsdf, (vndf_vec3){(float)w.x, -(float)w.z, (float)w.y}, 0, f);
+        sum += (double)f[0] * w.y * -dot(w, n) / dot(p, p); /* n is the area, too */
+    }
+    return sum / (SIDE * SIDE);
+}
+
+static void test_integral(double alpha, double size)
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "camera from 0 1 1 to 0 0 0\nintegrator depth 1\nmaterial lamp light radiance 3 3 3\n"
+             "material floor shape distribution ggx alpha %g\n"
+             "rectangle corner -2 0 2 edge-u 4 0 0 edge-v 0 0 -4 material floor\n"
+             "rectangle corner %g 2 %g edge-u %g 0 0 edge-v 0 0 %g material lamp\n",
+             alpha, -0.3 * size, -2 - 0.5 * size, size, size);
+    const double want =
+        3 * integral((float)alpha, vec(-0.3 * size, 2, -2 - 0.5 * size), vec(size, 0, 0), vec(0, 0, size));
+    scene *s = case_point(text);
+    for (int sampler = 0; sampler < SAMPLERS && s; sampler++)
+        if (!case_agrees(case_light(s, (path_sampler)sampler, test_amount(64, 512, 512)), want, 1e-3))
+            fprintf(stderr, "    alpha %g, size %g, %s\n", alpha, size, path_sampler_names[sampler]);
+    scene_free(s);
+}
+
+/* ---- samplers ---- */
+
+static void test_samplers(const char *kind, int has_all, double order[3])
+{
+    char text[2048];
+    snprintf(text, sizeof text,
+             "camera from 0 0.25 3 to 0 0 0\nimage sky pattern studio width 64 height 32\nenvironment image sky\n"
+             "material m %s\nmaterial floor matte colour 0.5 0.5 0.5\n"
+             "rectangle corner -3 0 3 edge-u 6 0 0 edge-v 0 0 -6 material m\n"
+             "rectangle corner -3 -0.5 3 edge-u 6 0 0 edge-v 0 0 -6 material m\n"
+             "rectangle corner -9 -1 9 edge-u 18 0 0 edge-v 0 0 -18 material floor\n",
+             kind);
+    scene *s = case_point(text);
+    for (int i = 0; i < SAMPLERS && s; i++) {
+        const case_mean mean = case_light(s, i == SAMPLER_ALL && !has_all ? SAMPLER_VISIBLE : (path_sampler)i,
+                                          test_amount(64, 256, 256));
+        static case_mean visible;
+        if (i == SAMPLER_VISIBLE)
+            visible = mean;
+        if (!TEST_NEAR(mean.value, visible.value, 4.5 * hypot(mean.sigma, visible.sigma)))
+            fprintf(stderr, "    %s: %s\n", kind, path_sampler_names[i]);
+        order[i] = mean.variance;
+    }
+    scene_free(s);
+}
+
+static void test_all_furnaces(void)
+{
+    for (size_t i = 0; i < sizeof lossless / sizeof *lossless; i++) {
+        test_furnace(lossless[i], DOME, 2e-3);
+        test_furnace(lossless[i], ROOM, 0.5);
+    }
+}
+
+static void test_all_floors(void)
+{
+    const double above = 0.5 * 8 * 0.25 * 0.25 / (2 * 2), aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0);
+    const double panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
+#define LAMP "material lamp light radiance 8 8 8\n"
+#define PANEL "rectangle corner -1 2 -0.5 edge-u 2 0 0 edge-v 0 0 1 material lamp\n"
+    test_floor(LAMP "sphere centre 0 2 0 radius 0.25 material lamp\n", above);
+    test_floor(LAMP "sphere centre 4 3 0 radius 0.25 material lamp\n", aside);
+    test_floor(LAMP PANEL, panel);
+    test_floor(
+        LAMP
+        "sphere centre 0 2.2 0 radius 0.1 material lamp\nsphere centre 4 3 0 radius 0.25 material lamp\n" PANEL,
+        panel + aside); /* the panel hides the first */
+    test_floor(LAMP PANEL "rectangle corner -1 1.999999 -0.5 edge-u 1 0 0 edge-v 0 0 1 material floor\n",
+               panel / 2);
+    test_floor(LAMP "rectangle corner -1 2 0.5 edge-u 2 0 0 edge-v 0 0 -1 material lamp\n" /* its front is above */
+                    "sphere centre 4 3 0 radius 0.25 material lamp\n",
+               aside);
+    test_floor(LAMP "sphere centre 0 0 0 radius 40 material lamp\n",
+               0); /* all is inside, where it does not shine */
+}
+
+int main(void)
+{
+    static const double alphas[] = {0.02, 0.1, 0.4, 1}, sizes[] = {0.05, 0.5, 3};
+    for (size_t i = 0; i < 4; i++)
+        for (size_t k = 0; k < 3; k++)
+            test_integral(alphas[i], sizes[k]);
+    double variance[3];
+    test_samplers("conductor of gold distribution ggx alpha 0.1", 1, variance);
+    test_samplers("dielectric index 1.5 distribution ggx alpha 0.3", 1, variance);
+    test_samplers("dielectric index 1.5 distribution beckmann alpha 0.05 0.4", 1, variance);
+    test_samplers("dielectric index 1 distribution ggx alpha 0.3", 1, variance);
+    test_samplers("dielectric index 1.3 distribution ggx alpha 0.4 scattering multiple", 0, variance);
+    test_samplers("shape distribution ggx alpha 0.5", 1, variance);
+    TEST(variance[SAMPLER_PERFECT] < variance[SAMPLER_VISIBLE] &&
+         variance[SAMPLER_VISIBLE] < variance[SAMPLER_ALL]);
+    test_all_furnaces();
+    test_all_floors();
+    return test_done();
+}
