@@ -343,12 +343,12 @@ HERE quad transposed(const float *const row[LANES])
 
 HERE quad look_rows(table t, int group, whole i)
 {
-    const float *first = t.numbers + 4 * (group * (t.cells + 1)), *row[LANES];
+    const float *first = t.numbers + 4 * group, *row[LANES];
     int32_t at[LANES];
     memcpy(at, &i, sizeof at);
     LANES_UNROLLED
     for (int l = 0; l < LANES; l++)
-        row[l] = first + 4 * at[l];
+        row[l] = first + VNDF_STRIDE * at[l];
     return transposed(row);
 }
 
@@ -406,7 +406,7 @@ HERE whole look_first(table t, whole eighth)
 #endif
 }
 
-/* Row i of a group. */
+/* A row of knot i. */
 HERE quad look(table t, int group, whole i)
 {
 #if VNDF_LANES == 16
@@ -423,8 +423,8 @@ HERE quad look(table t, int group, whole i)
 /* Entry `at` of the levels is knot i; a knot that is not there fails all comparisons. */
 HERE void copy_knot(table t, table_copies *copies, int at, int i)
 {
-    const float none = __builtin_inff(), *row = t.numbers + 4 * i, *tail = row + 4 * VNDF_TAIL * (t.cells + 1),
-                *low = row + 4 * VNDF_LOW * (t.cells + 1);
+    const float none = __builtin_inff(), *row = t.numbers + VNDF_STRIDE * i, *tail = row + 4 * VNDF_TAIL,
+                *low = row + 4 * VNDF_LOW;
     float of[SEARCHED] = {none, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
     if (i <= t.cells) {
         const float knot[SEARCHED] = {row[0] * row[0], row[0], tail[0], tail[1], tail[2], tail[3], low[0], low[1]};

@@ -97,12 +97,12 @@ HERE real pick(mask m, real yes, real no)
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
 HERE real least(real a, real b)
 {
-    return _mm_cvtss_f32(_mm_min_ss(lane(a), lane(b)));
+    return a < b ? a : b;
 }
 
 HERE real most(real a, real b)
 {
-    return _mm_cvtss_f32(_mm_max_ss(lane(a), lane(b)));
+    return a > b ? a : b;
 }
 
 #else
@@ -232,10 +232,10 @@ HERE whole look_first(table t, whole eighth)
     return t.first[eighth];
 }
 
-/* Row i of a group. */
+/* A row of knot i. */
 HERE quad look(table t, int group, whole i)
 {
-    const float *row = t.numbers + 4 * (size_t)group * ((size_t)t.cells + 1) + 4 * (size_t)(unsigned)i;
+    const float *row = t.numbers + VNDF_STRIDE * (size_t)(unsigned)i + 4 * group;
     quad q = {row[0], row[1], row[2], row[3]};
     return q;
 }

@@ -9,15 +9,19 @@
 
 #include "kernel/math.h"
 
-/* M, in units of the table's slopes, and the mean slope. */
+/* M, in units of the table's slopes, and the mean slope. A `plain` surface has roughness alone, xx and yy above 0: its
+ * other numbers are not read. */
 typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
+    int plain;
 } affine_map;
 
 /* |det M|. Only matrices that turn or shear need all the digits of their products. */
 HERE real affine_determinant(affine_map m)
 {
     real determinant = size(m.xx * m.yy);
+    if (m.plain > 0)
+        return determinant;
     mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
     if (any(sheared))
         determinant = pick(sheared, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), determinant);
@@ -28,8 +32,11 @@ HERE real affine_determinant(affine_map m)
  * mean slopes up to 1e6. NaN fails all comparisons. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = affine_determinant(m), means = size(m.mean_x) + size(m.mean_y);
-    real entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
+    real determinant = affine_determinant(m), means = set(0.0f), entries = m.xx + m.yy;
+    if (m.plain == 0) {
+        means = size(m.mean_x) + size(m.mean_y);
+        entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
+    }
     mask large = at_most(most(entries * 4e-16f, set(1e-36f)), determinant);
     mask small = both(at_most(entries, set(2e15f)), at_most(means, set(2e6f)));
     return both(both(large, small), at_most(determinant, set(1e36f)));
@@ -51,7 +58,24 @@ typedef struct frame {
     real size;        /* w of wi as it was given is this times (ux, uy, uz) */
     real determinant; /* |det M| */
     real densest;     /* the largest density: 0 straight from below, where nothing is seen */
+    real near;        /* below this cosine to the scaled wi, rounding may turn a normal away */
 } frame;
+
+/* w of the direction (x, y, z), unscaled. */
+typedef struct stretched {
+    real x, y, z;
+} stretched;
+
+HERE stretched affine_stretched(affine_map m, real x, real y, real z)
+{
+    stretched w = {m.xx * x, m.yy * y, z};
+    if (m.plain == 0) {
+        w.x = w.x + m.yx * y;
+        w.y = m.xy * x + w.y;
+        w.z = z - (x * m.mean_x + y * m.mean_y);
+    }
+    return w;
+}
 
 /* Scales wi, then w, to a length of about 1 in the lanes where w is short or long (`odd`): its squares stay
  * floats. */
@@ -62,24 +86,23 @@ HERE frame frame_scaled(frame f, mask odd)
     f.wx = f.wx * k;
     f.wy = f.wy * k;
     f.wz = f.wz * k;
-    f.ux = f.m.xx * f.wx + f.m.yx * f.wy;
-    f.uy = f.m.xy * f.wx + f.m.yy * f.wy;
-    f.uz = f.wz - (f.wx * f.m.mean_x + f.wy * f.m.mean_y);
-    largest = most(most(size(f.ux), size(f.uy)), size(f.uz));
+    stretched w = affine_stretched(f.m, f.wx, f.wy, f.wz);
+    largest = most(most(size(w.x), size(w.y)), size(w.z));
     f.scale = pick(odd, inverse_scale(largest), set(1.0f));
-    f.ux = f.ux * f.scale;
-    f.uy = f.uy * f.scale;
-    f.uz = f.uz * f.scale;
+    f.ux = w.x * f.scale;
+    f.uy = w.y * f.scale;
+    f.uz = w.z * f.scale;
+    f.near = f.near * most(k, set(1.0f));
     f.size = 1.0f / k / f.scale;
     return f;
 }
 
 HERE frame frame_of(affine_map m, real x, real y, real z)
 {
-    real ux = m.xx * x + m.yx * y, uy = m.xy * x + m.yy * y, uz = z - (x * m.mean_x + y * m.mean_y);
-    real one = set(1.0f);
-    frame f = {m, x, y, z, ux, uy, uz, one, one, affine_determinant(m), set(3.4028234e38f)};
-    real under = ux * ux + uy * uy, square = under + uz * uz;
+    stretched w = affine_stretched(m, x, y, z);
+    real one = set(1.0f), near = 6e-7f * ((size(x) + size(y)) + size(z)) + 2e-12f;
+    frame f = {m, x, y, z, w.x, w.y, w.z, one, one, affine_determinant(m), set(3.4028234e38f), near};
+    real under = w.x * w.x + w.y * w.y, square = under + w.z * w.z;
     mask odd = either(less(square, set(1e-4f)), less(set(1e4f), square));
     if (any(odd))
         f = frame_scaled(f, odd);
@@ -102,24 +125,42 @@ HERE real frame_density(frame f, real density)
     return least(most(density, set(1.17549435e-38f)), f.densest);
 }
 
-/* The real normal of one of the unit problem. Where rounding turns it away from wi it is turned back, by wi, and the
- * density is that of where it went: wi . wm exceeds what three more roundings may take. */
+/* A normal of the surface, of any length. */
+typedef struct long_normal {
+    real x, y, z;
+} long_normal;
+
+/* Turns it to wi where rounding may have turned it away: wi . wm exceeds what three more roundings may take. */
+HERE long_normal frame_turned_back(frame f, long_normal n)
+{
+    real up = most(f.wz, set(0.0f)), a = f.wx * n.x, b = f.wy * n.y, c = f.wz * n.z;
+    real tiny = 1e-12f * most(most(size(n.x), size(n.y)), n.z); /* all terms may be 0 */
+    real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
+    real turn_by = lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f));
+    mask away = less(set(0.0f), lack); /* not by a turn of 0: that would make -0 of 0 */
+    long_normal m = {pick(away, n.x + turn_by * f.wx, n.x), pick(away, n.y + turn_by * f.wy, n.y),
+                     pick(away, n.z + turn_by * up, n.z)};
+    return m;
+}
+
+/* The normal of the surface for one of the unit problem; the density is that of where it was turned to. */
 HERE sampled frame_sampled(frame f, drawn n)
 {
-    real x = (f.m.xx * n.x + f.m.xy * n.y) - f.m.mean_x * n.z,
-         y = (f.m.yx * n.x + f.m.yy * n.y) - f.m.mean_y * n.z;
-    real z = n.z, up = most(f.wz, set(0.0f)), a = f.wx * x, b = f.wy * y, c = f.wz * z;
-    real tiny = 1e-12f * most(most(size(x), size(y)), z); /* all terms may be 0 */
-    real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
-    mask away = less(set(0.0f), lack);
-    if (any(away)) {
-        real turn_by = lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f));
-        x = pick(away, x + turn_by * f.wx, x); /* not by a turn of 0: that would make -0 of 0 */
-        y = pick(away, y + turn_by * f.wy, y);
-        z = pick(away, z + turn_by * up, z);
+    affine_map m = f.m;
+    long_normal w = {m.xx * n.x, m.yy * n.y, n.z};
+    if (m.plain == 0) {
+        w.x = (w.x + m.xy * n.y) - m.mean_x * n.z;
+        w.y = (m.yx * n.x + w.y) - m.mean_y * n.z;
     }
-    real square = (x * x + y * y) + z * z, reach = root(square), per = reach * (1.0f / square);
-    sampled s = {x * per, y * per, z * per, frame_density(f, (n.density * reach) * (square / f.determinant))};
+    real square = (w.x * w.x + w.y * w.y) + w.z * w.z, reach = root(square);
+    if (any(at_most((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * reach))) {
+        w = frame_turned_back(f, w);
+        square = (w.x * w.x + w.y * w.y) + w.z * w.z;
+        reach = root(square);
+    }
+    real per = reach * (1.0f / square);
+    sampled s = {w.x * per, w.y * per, w.z * per,
+                 frame_density(f, (n.density * reach) * (square / f.determinant))};
     return s;
 }
 
@@ -131,13 +172,17 @@ typedef struct unit_normal {
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
     affine_map m = f.m;
-    real a = x + m.mean_x * z, b = y + m.mean_y * z, determinant = m.xx * m.yy;
-    real along = m.yy * a, aside = m.xx * b;
-    mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
-    if (any(sheared)) { /* which takes all the digits of products */
-        determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), determinant);
-        along = pick(sheared, difference_of_products(m.yy, a, m.xy, b), along);
-        aside = pick(sheared, difference_of_products(m.xx, b, m.yx, a), aside);
+    real determinant = m.xx * m.yy, along = m.yy * x, aside = m.xx * y;
+    if (m.plain == 0) {
+        real a = x + m.mean_x * z, b = y + m.mean_y * z;
+        along = m.yy * a;
+        aside = m.xx * b;
+        mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
+        if (any(sheared)) { /* which takes all the digits of products */
+            determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), determinant);
+            along = pick(sheared, difference_of_products(m.yy, a, m.xy, b), along);
+            aside = pick(sheared, difference_of_products(m.xx, b, m.yx, a), aside);
+        }
     }
     real per = 1.0f / determinant;
     unit_normal n = {along * per, aside * per, z, ((f.wx * x + f.wy * y) + f.wz * z) * f.scale};

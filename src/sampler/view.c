@@ -4,32 +4,36 @@
 #include "sampler/sampler.h"
 #include "sampler/state.h"
 
-/* The surface in units of its distribution. */
-VNDF_INLINE affine_map map_of(const vndf_affine *affine)
+/* A surface in units of its distribution, which is NULL if the surface is not valid. */
+typedef struct vndf_mapped {
+    const vndf_distribution *distribution;
+    affine_map m;
+} vndf_mapped;
+
+VNDF_INLINE vndf_mapped mapped(const vndf_distribution *d, affine_map m)
 {
-    float unit = affine->distribution->unit;
-    affine_map m = {affine->xx * unit, affine->xy * unit, affine->yx * unit,
-                    affine->yy * unit, affine->mean_x,    affine->mean_y};
-    return m;
+    vndf_mapped s = {any(affine_is_valid(m)) ? d : NULL, m};
+    return s;
 }
 
-/* A surface that is valid, in those units; 0 if it is not. */
-static int valid_map_of(const vndf_affine *affine, affine_map *m)
+VNDF_INLINE vndf_mapped affine_mapped(const vndf_affine *a)
 {
-    if (!affine || !affine->distribution)
-        return 0;
-    *m = map_of(affine);
-    return any(affine_is_valid(*m)) != 0;
-}
-
-/* A plain surface is a diagonal matrix. */
-VNDF_INLINE vndf_affine affine_of(const vndf_surface *s)
-{
-    vndf_affine none = {0};
-    if (!s || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
+    vndf_mapped none = {0};
+    if (!a || !a->distribution)
         return none;
-    vndf_affine affine = {s->distribution, s->alpha_x, 0.0f, 0.0f, s->alpha_y, 0.0f, 0.0f};
-    return affine;
+    float unit = a->distribution->unit;
+    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, 0};
+    return mapped(a->distribution, m);
+}
+
+VNDF_INLINE vndf_mapped surface_mapped(const vndf_surface *s)
+{
+    vndf_mapped none = {0};
+    if (!s || !s->distribution || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
+        return none;
+    float unit = s->distribution->unit;
+    affine_map m = {s->alpha_x * unit, 0.0f, 0.0f, s->alpha_y * unit, 0.0f, 0.0f, 1};
+    return mapped(s->distribution, m);
 }
 
 VNDF_INLINE int is_direction(vndf_vec3 w)
@@ -39,51 +43,81 @@ VNDF_INLINE int is_direction(vndf_vec3 w)
 
 /* ---- views ---- */
 
-VNDF_INLINE void see(vndf_state *s, const vndf_distribution *d, const affine_map *m, vndf_vec3 wi)
+/* What a distribution makes of the direction: each kind writes to memory by itself, since a common end would keep all
+ * numbers of all kinds in registers. */
+VNDF_RARE void see_table(vndf_state *s, const vndf_distribution *d, float ux, float uy, float uz)
 {
-    s->f = frame_of(*m, wi.x, wi.y, wi.z);
-    if (d->kind == VNDF_KIND_TABLE)
-        s->of.table = vndf_is_below(s) ? table_view_of(table_of(d), s->f, 1) : table_view_of(table_of(d), s->f, 0);
-    else if (d->kind == VNDF_KIND_GGX)
-        s->of.ggx = ggx_see(s->f.ux, s->f.uy, s->f.uz);
-    else
-        s->of.beckmann = beckmann_see(s->f.ux, s->f.uy, s->f.uz);
+    frame f = {.ux = ux, .uy = uy, .uz = uz};
+    s->of.table = table_view_of(table_of(d), f, 0);
 }
 
-VNDF_INLINE void make_view(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi)
+VNDF_RARE void see_table_below(vndf_state *s, const vndf_distribution *d, float ux, float uy, float uz)
+{
+    frame f = {.ux = ux, .uy = uy, .uz = uz};
+    s->of.table = table_view_of(table_of(d), f, 1);
+}
+
+VNDF_RARE void see_ggx(vndf_state *s, float ux, float uy, float uz)
+{
+    s->of.ggx = ggx_see(ux, uy, uz);
+}
+
+VNDF_RARE void see_beckmann(vndf_state *s, float ux, float uy, float uz)
+{
+    s->of.beckmann = beckmann_see(ux, uy, uz);
+}
+
+VNDF_INLINE void view_into(vndf_view *view, vndf_mapped surface, vndf_vec3 wi)
 {
     view->distribution = NULL;
     view->wi = wi;
-    if (!affine || !affine->distribution)
+    if (!surface.distribution || !is_direction(wi))
         return;
-    affine_map m = map_of(affine);
-    if (!any(both(affine_is_valid(m), direction_is_valid(wi.x, wi.y, wi.z))))
-        return;
-    view->distribution = affine->distribution;
-    see((vndf_state *)(void *)view->numbers, affine->distribution, &m, wi);
+    vndf_state *s = (vndf_state *)(void *)view->numbers;
+    frame f = frame_of(surface.m, wi.x, wi.y, wi.z);
+    view->distribution = surface.distribution;
+    s->f = f;
+    if (surface.distribution->kind == VNDF_KIND_GGX)
+        see_ggx(s, f.ux, f.uy, f.uz);
+    else if (surface.distribution->kind == VNDF_KIND_BECKMANN)
+        see_beckmann(s, f.ux, f.uy, f.uz);
+    else if (f.uz < 0.0f)
+        see_table_below(s, surface.distribution, f.ux, f.uy, f.uz);
+    else
+        see_table(s, surface.distribution, f.ux, f.uy, f.uz);
 }
 
 void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi)
 {
-    make_view(view, affine, wi);
+    view_into(view, affine_mapped(affine), wi);
 }
 
 vndf_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
 {
     vndf_view view;
-    make_view(&view, affine, wi);
+    view_into(&view, affine_mapped(affine), wi);
     return view;
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_affine affine = affine_of(surface);
     vndf_view view;
-    make_view(&view, &affine, wi);
+    view_into(&view, surface_mapped(surface), wi);
     return view;
 }
 
 /* ---- samples ---- */
+
+/* A normal to be returned. x and y are returned in one register, which gcc would read back from two stores: the
+ * processor would wait until both are in the cache. */
+VNDF_INLINE vndf_vec3 vec3_of(float x, float y, float z)
+{
+    vndf_vec3 v = {x, y, z};
+#if defined(VNDF_KERNEL_SSE2)
+    _mm_storel_pi((__m64 *)(void *)&v, _mm_unpacklo_ps(lane(x), lane(y)));
+#endif
+    return v;
+}
 
 VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int weigh)
 {
@@ -104,22 +138,18 @@ VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int we
 
 VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
-    float density = 0.0f, factor = 0.0f;
+    sampled n = {0.0f, 0.0f, 1.0f, 0.0f};
+    float factor = 0.0f;
     if (view->distribution) {
         weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
-        sampled n = frame_sampled(vndf_state_of(view)->f, w.n);
-        wm.x = n.x;
-        wm.y = n.y;
-        wm.z = n.z;
-        density = n.pdf;
+        n = frame_sampled(vndf_state_of(view)->f, w.n);
         factor = w.weight;
     }
     if (pdf)
-        *pdf = density;
+        *pdf = n.pdf;
     if (weight)
         *weight = factor;
-    return wm;
+    return vec3_of(n.x, n.y, n.z);
 }
 
 vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf)
@@ -234,32 +264,39 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
     return least(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
 }
 
+VNDF_INLINE float ndf_of(vndf_mapped surface, vndf_vec3 wm)
+{
+    if (!surface.distribution || !(wm.z >= 0.0f))
+        return 0.0f;
+    frame f = frame_of(surface.m, 0.0f, 0.0f, 1.0f);
+    return least(unit_ndf(surface.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
+}
+
 float vndf_affine_ndf(const vndf_affine *affine, vndf_vec3 wm)
 {
-    affine_map m;
-    if (!valid_map_of(affine, &m) || !(wm.z >= 0.0f))
-        return 0.0f;
-    frame f = frame_of(m, 0.0f, 0.0f, 1.0f);
-    return least(unit_ndf(affine->distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
+    return ndf_of(affine_mapped(affine), wm);
 }
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
-    vndf_affine affine = affine_of(surface);
-    return vndf_affine_ndf(&affine, wm);
+    return ndf_of(surface_mapped(surface), wm);
 }
 
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
-float vndf_affine_p22(const vndf_affine *affine, float x, float y)
+VNDF_INLINE float p22_of(vndf_mapped surface, float x, float y)
 {
     vndf_vec3 normal = {-x, -y, 1.0f};
-    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? vndf_affine_ndf(affine, normal) : 0.0f;
+    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? ndf_of(surface, normal) : 0.0f;
+}
+
+float vndf_affine_p22(const vndf_affine *affine, float x, float y)
+{
+    return p22_of(affine_mapped(affine), x, y);
 }
 
 float vndf_p22(const vndf_surface *surface, float x, float y)
 {
-    vndf_affine affine = affine_of(surface);
-    return vndf_affine_p22(&affine, x, y);
+    return p22_of(surface_mapped(surface), x, y);
 }
 
 /* ---- area and masking ---- */
@@ -284,14 +321,14 @@ VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
     return law_area(t, v, f->uz < 0.0f) * frame_reach(*f);
 }
 
-static look_at look_along(const vndf_distribution *d, const affine_map *m, vndf_vec3 w)
+static look_at look_along(vndf_mapped surface, vndf_vec3 w)
 {
     look_at at = {0.0f, 0.0f};
-    if (!is_direction(w))
+    if (!surface.distribution || !is_direction(w))
         return at;
-    frame f = frame_of(*m, w.x, w.y, w.z);
+    frame f = frame_of(surface.m, w.x, w.y, w.z);
     at.cosine = f.uz * f.size;
-    at.area = area_along(d, &f) * f.size;
+    at.area = area_along(surface.distribution, &f) * f.size;
     return at;
 }
 
@@ -303,20 +340,13 @@ float vndf_view_own_area(const vndf_view *view)
 
 float vndf_view_area(const vndf_view *view, vndf_vec3 w)
 {
-    return view->distribution ? look_along(view->distribution, &vndf_state_of(view)->f.m, w).area : 0.0f;
+    vndf_mapped surface = {view->distribution, vndf_state_of(view)->f.m};
+    return look_along(surface, w).area;
 }
 
 float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)
 {
-    const affine_map *m = &vndf_state_of(view)->f.m;
-    return view->distribution ? w.z - (w.x * m->mean_x + w.y * m->mean_y) : 0.0f;
-}
-
-static look_at affine_look(const vndf_affine *affine, vndf_vec3 w)
-{
-    const look_at nothing = {0.0f, 0.0f};
-    affine_map m;
-    return valid_map_of(affine, &m) ? look_along(affine->distribution, &m, w) : nothing;
+    return view->distribution ? affine_stretched(vndf_state_of(view)->f.m, w.x, w.y, w.z).z : 0.0f;
 }
 
 float vndf_lambda_of(float area, float cosine)
@@ -339,21 +369,29 @@ float vndf_g2_of(float gi, float go, vndf_g2_model model)
     return lesser * (greater / (greater + lesser * (1.0f - greater)));
 }
 
+VNDF_INLINE float lambda_at(look_at at)
+{
+    return vndf_lambda_of(at.area, at.cosine);
+}
+
+VNDF_INLINE float g1_at(look_at at)
+{
+    return vndf_g1_of(at.area, at.cosine);
+}
+
 float vndf_affine_projected_area(const vndf_affine *affine, vndf_vec3 w)
 {
-    return affine_look(affine, w).area;
+    return look_along(affine_mapped(affine), w).area;
 }
 
 float vndf_affine_lambda(const vndf_affine *affine, vndf_vec3 w)
 {
-    look_at at = affine_look(affine, w);
-    return vndf_lambda_of(at.area, at.cosine);
+    return lambda_at(look_along(affine_mapped(affine), w));
 }
 
 float vndf_affine_g1(const vndf_affine *affine, vndf_vec3 w)
 {
-    look_at at = affine_look(affine, w);
-    return vndf_g1_of(at.area, at.cosine);
+    return g1_at(look_along(affine_mapped(affine), w));
 }
 
 float vndf_affine_g2(const vndf_affine *affine, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
@@ -363,24 +401,20 @@ float vndf_affine_g2(const vndf_affine *affine, vndf_vec3 wi, vndf_vec3 wo, vndf
 
 float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_affine affine = affine_of(surface);
-    return affine_look(&affine, w).area;
+    return look_along(surface_mapped(surface), w).area;
 }
 
 float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_affine affine = affine_of(surface);
-    return vndf_affine_lambda(&affine, w);
+    return lambda_at(look_along(surface_mapped(surface), w));
 }
 
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
-    vndf_affine affine = affine_of(surface);
-    return vndf_affine_g1(&affine, w);
+    return g1_at(look_along(surface_mapped(surface), w));
 }
 
 float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
 {
-    vndf_affine affine = affine_of(surface);
-    return vndf_affine_g2(&affine, wi, wo, model);
+    return vndf_g2_of(vndf_g1(surface, wi), vndf_g1(surface, wo), model);
 }

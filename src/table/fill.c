@@ -13,7 +13,7 @@ static const double NEAR = 1.18, NEAR_FIRST = 0.75;
 
 static float *row(const vndf_distribution *table, int group, size_t i)
 {
-    return table->numbers + VNDF_HEAD + 4 * ((size_t)group * ((size_t)table->cells + 1) + i);
+    return table->numbers + VNDF_HEAD + VNDF_STRIDE * i + 4 * (size_t)group;
 }
 
 static int in_range(double value, double least, double most)
@@ -209,7 +209,7 @@ static vndf_table_draft draft_within(const vndf_distribution *t)
     vndf_table_draft draft = {.cells = (unsigned)t->cells,
                               .moments = (unsigned)t->moments,
                               .squarings = (unsigned)t->squarings,
-                              .stride = 4,
+                              .stride = VNDF_STRIDE,
                               .normalization = t->normalization,
                               .scale = t->scale,
                               .certificate = t->certificate,
@@ -235,7 +235,7 @@ int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
         return 0;
     for (int a = 0; a < VNDF_ARRAYS; a++)
         for (size_t i = 0; within.array[a] && i <= draft->cells; i++)
-            draft->array[a][i] = within.array[a][4 * i];
+            draft->array[a][i] = within.array[a][VNDF_STRIDE * i];
     draft->cubes = within.cubes ? draft->cubes : NULL;
     return 1;
 }

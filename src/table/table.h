@@ -8,8 +8,8 @@
  * A cell knows the moments of f/R, integral t^k f/R dR with t = R - R_i, and the density of f/R per xi at its ends. All
  * that is drawn follows from these numbers (kernel/law.h).
  *
- * In memory they stand in one array of floats, the same that GPUs read (vndf_numbers): a head, then VNDF_GROUPS groups
- * of a row of four numbers for each knot. */
+ * In memory they stand in one array of floats, the same that GPUs read (vndf_numbers): a head, then for each knot
+ * VNDF_GROUPS rows of four numbers, side by side since a sample reads nearly all of them. */
 #ifndef VNDF_TABLE_TABLE_H
 #define VNDF_TABLE_TABLE_H
 
@@ -21,7 +21,7 @@
 enum {
     VNDF_CELLS_MAX = 4095,  /* N */
     VNDF_SQUARINGS_MAX = 5, /* tails of P22 down to r^-3.04 */
-    VNDF_HEAD = 8           /* numbers before the groups: N, moments, squarings, scale, highest, steps, 0, 0 */
+    VNDF_HEAD = 8           /* numbers before the rows: N, moments, squarings, scale, highest, steps, 0, 0 */
 };
 
 /* Where the law of k~ begins is looked up by rho, rounded to the middle of an eighth of an octave from 2^-13 to 2^15.
@@ -38,14 +38,15 @@ VNDF_INLINE float vndf_rounded_rho(int i)
     return i < VNDF_RHO_PARTS - 1 ? middle.rho : 3e38f;
 }
 
-/* Groups of rows, one row for each knot 0 to N. */
+/* The rows of a knot, 0 to N. */
 enum {
     VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
     VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end; moments 0 and 1 */
     VNDF_MORE, /* moment 2; mean of R^-3 in f/R; shares of the two terms below the horizon at this knot */
     VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4; at knot 0 the last three are those of knot 1 */
     VNDF_LOW, /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
-    VNDF_GROUPS
+    VNDF_GROUPS,
+    VNDF_STRIDE = 4 * VNDF_GROUPS /* from knot to knot */
 };
 
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;

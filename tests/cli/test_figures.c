@@ -144,11 +144,11 @@ static void test_check(void)
 {
     char *text = PRINTED(NULL, "check", "t", "--samples", "20000"), *quiet;
     char *json = PRINTED(NULL, "check", "t", "--samples", "20000", "--hard", "--json");
-    TEST(strstr(text, "\ncertificate  tv_above ") && strstr(text, "\nchi-square ") &&
+    TEST(strstr(text, "\ncertificate of tv_above ") && strstr(text, "\nchi_square alpha_x 1 ") &&
          strstr(text, "\nresult good\n"));
     TEST(*json_end(json) == '\0');
-    TEST_HAS(json, "\"chi_square\": [\n    {\"alpha\": \"1x1\", \"theta\": 0, ");
-    TEST_HAS(json, "\"property\": \"facing\"");
+    TEST_HAS(json, "\"chi_square\": [\n    {\"alpha_x\": 1, \"alpha_y\": 1, \"theta\": 0, ");
+    TEST_HAS(json, "\"of\": \"facing\"");
     TEST_HAS(json, "\"result\": \"good\"");
     quiet = PRINTED(NULL, "check", "ggx", "--samples", "1000", "-q");
     TEST(quiet && *quiet == '\0');

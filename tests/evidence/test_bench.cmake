@@ -66,8 +66,8 @@ expect("the yardstick's ratio to itself: ${caps}" caps MATCHES
 foreach(method "spherical caps (2023) | scalar" "spherical caps (2023), batch | portable"
         "GGX disc (2018) | scalar" "all normals (2007) | scalar"
         "closed form | scalar" "closed form, batch | portable" "closed form: diagonal | scalar"
-        "closed form: affine | scalar" "closed form: two lobes | scalar" "closed form: affine, batch | portable"
-        "closed form: two lobes, batch | portable")
+        "closed form: affine | scalar" "closed form: mixture | scalar" "closed form: affine, batch | portable"
+        "closed form: mixture, batch | portable")
     has(output "| ggx | ${method} |")
 endforeach()
 run(0 --only "GGX disc" --seconds 0.1 --json)
@@ -85,13 +85,13 @@ foreach(instructions scalar portable) # bytes in memory, then of the file, which
 endforeach()
 expect("rows that were not asked for: ${output}" NOT output MATCHES "8 KiB|3 moments|caps|all normals")
 run(0 --slope "exp(-r)" --only "8 KiB, 4 moments" --seconds 0.1 -o -)
-foreach(row "table 8 KiB, 4 moments: two lobes\",\"--slope 'exp(-r)'\",scalar,call,"
+foreach(row "table 8 KiB, 4 moments: mixture\",\"--slope 'exp(-r)'\",scalar,call,"
         "table 8 KiB, 4 moments\",\"student-t:2.5\",scalar,table,")
     has(output "${row}")
 endforeach()
 run(0 --only beckmann --seconds 0.1)
 has(output "Newton on erf (2014)")
-has(output "latency")
+has(output "shared")
 expect("rows that were not asked for: ${output}" NOT output MATCHES "student|GGX")
 
 # ---- effects ------------------------------------------------------------------------------------

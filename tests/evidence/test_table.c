@@ -12,7 +12,7 @@ static void add_row(text_table *t, const char *group, const char *name, double x
     table_text(t, "group", group);
     table_text(t, "name", name);
     table_word(t, "set", "avx2");
-    table_number(t, "x:\nfirst", "%.1f", x);
+    table_number(t, "x: first", "%.1f", x);
     table_mark(t, x > 5 ? "no" : NULL);
     table_value(t, "y", y);
 }
@@ -44,14 +44,12 @@ static void check(const text_table *t, int (*print)(FILE *, const text_table *),
 static void test_printers(const text_table *t)
 {
     check(t, table_print_text,
-          "a              set      x:      y\n"
-          "                     first       \n"
-          "  short        avx2    1.2      -\n"
-          "  a | \"b\" & c  avx2   10.0      3\n"
+          "a              set   x: first      y\n"
+          "  short        avx2       1.2      -\n"
+          "  a | \"b\" & c  avx2      10.0      3\n"
           "\n"
-          "bé             set      x:      y\n"
-          "                     first       \n"
-          "  last         avx2      -  1e-07\n");
+          "bé             set   x: first      y\n"
+          "  last         avx2         -  1e-07\n");
     check(t, table_print_markdown,
           "| group | name | set | x: first | y |\n"
           "|---|---|---|--:|--:|\n"
@@ -65,7 +63,7 @@ static void test_printers(const text_table *t)
           "\"bé\",\"last\",avx2,,1e-07\n");
     check(
         t, table_print_html,
-        "<div class=\"scroll\"><table><thead><tr><th>group</th><th>name</th><th>set</th><th>x:\nfirst</th>"
+        "<div class=\"scroll\"><table><thead><tr><th>group</th><th>name</th><th>set</th><th>x: first</th>"
         "<th>y</th></tr></thead>\n<tbody>\n"
         "<tr><td>a</td><td>short</td><td>avx2</td><td>1.2</td><td>-</td></tr>\n"
         "<tr><td>a</td><td>a | &quot;b&quot; &amp; c</td><td>avx2</td><td class=\"no\">10.0</td><td>3</td></tr>\n"

@@ -1,10 +1,10 @@
-/* Files are what they say, and broken ones are refused with the place and the reason. A PFM that is written is read back
- * to the bit; files of either byte order, of one channel, with CR LF are read. Meshes are scaled, turned and moved; a
- * broken one adds nothing. Scenes that are wrong are refused with file, line, column and what would be right. Notices
- * rows from the wrong end, a byte order that is not swapped, sizes that are believed; indices off by one or taken from
- * the wrong end, polygons cut wrongly, v not flipped, normals that do not win over the order of corners; clauses that
- * are taken where they do not belong, numbers that are not checked, words that are cut wrongly, and places that are
- * off. */
+/* Files are what they say, and broken ones are refused with the place and the reason. A PFM that is written is
+ * read back to the bit; files of either byte order, of one channel, with CR LF are read. Meshes are scaled,
+ * turned and moved; a broken one adds nothing. Scenes that are wrong are refused with file, line, column and
+ * what would be right. Notices rows from the wrong end, a byte order that is not swapped, sizes that are
+ * believed; indices off by one or taken from the wrong end, polygons cut wrongly, v not flipped, normals that do
+ * not win over the order of corners; clauses that are taken where they do not belong, numbers that are not
+ * checked, words that are cut wrongly, and places that are off. */
 #include "render_case.h"
 
 /* ---- images ---- */

@@ -1,13 +1,14 @@
-/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose none of
- * it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and rectangles on a matte
- * floor is that of closed forms: R^2/d^2 cos for a sphere, the form factor of a parallel rectangle above its corner; and
- * what stands before a light bars it. A rough metal shows the integral of f cos over lights, from narrow lobes and small
- * lights to wide ones, for all samplers: a sum over points of the light with vndf_bsdf_eval, which shares no code with
- * paths. All samplers show the same of metals and glass, also through refraction and walks; perfect sampling has no more
- * variance than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose or
- * gain: by rays that meet their own surface, by roulette, by weights of drawn light, at shading normals; wrong densities,
- * areas, powers and cosines, lights that shine backwards, shadow rays that end too early or too late, candidates that
- * are not kept in proportion to their weight, and a sampler that is not used. */
+/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
+ * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
+ * rectangles on a matte floor is that of closed forms: R^2/d^2 cos for a sphere, the form factor of a parallel
+ * rectangle above its corner; and what stands before a light bars it. A rough metal shows the integral of f cos
+ * over lights, from narrow lobes and small lights to wide ones, for all samplers: a sum over points of the light
+ * with vndf_bsdf_eval, which shares no code with paths. All samplers show the same of metals and glass, also
+ * through refraction and walks; perfect sampling has no more variance than visible normals, which have less than
+ * all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their own surface, by
+ * roulette, by weights of drawn light, at shading normals; wrong densities, areas, powers and cosines, lights
+ * that shine backwards, shadow rays that end too early or too late, candidates that are not kept in proportion
+ * to their weight, and a sampler that is not used. */
 #include "render_case.h"
 
 /* ---- the furnace ---- */

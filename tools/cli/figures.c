@@ -69,7 +69,7 @@ static void note_unit(figures *f, const char *name, const char *unit)
     for (int i = 0; i < f->units; i++)
         if (f->unit[i].list == f->list && strcmp(f->unit[i].name, name) == 0)
             return;
-    if (f->units < FIGURES_MAX)
+    if (*unit && f->units < FIGURES_MAX)
         f->unit[f->units++] = (struct figures_unit){f->list, name, unit};
 }
 
@@ -81,7 +81,7 @@ void figures_number(figures *f, const char *name, int digits, double x, const ch
         fprintf(f->file, isfinite(x) ? "%.*g" : "null", digits, x);
         note_unit(f, name, unit);
     } else
-        fprintf(f->file, "%.*g %s", digits, x, unit);
+        fprintf(f->file, "%.*g%s%s", digits, x, *unit ? " " : "", unit);
     put_end(f);
 }
 

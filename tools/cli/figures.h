@@ -46,7 +46,7 @@ figures figures_begin(const figure_words *asked);
 
 void figures_text(figures *f, const char *name, const char *text);
 
-/* With this many digits; in JSON an infinity or NaN is null. */
+/* With this many digits, and a unit or ""; in JSON an infinity or NaN is null. */
 void figures_number(figures *f, const char *name, int digits, double x, const char *unit);
 
 /* "yes" or "no", in JSON true or false. */

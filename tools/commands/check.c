@@ -1,5 +1,4 @@
-/* vndf check: is a distribution what it claims to be? Three parts, and a fourth with --hard, print lines that
- * end with good or FAILED:
+/* vndf check: is a distribution what it claims to be? Three lists of findings, and a fourth with --hard:
  *   certificate  measured again against the source, compared with what the table says;
  *   consistency  sample, pdf and invert agree with each other (consistency.h);
  *   chi-square   samples follow the density that they claim (chi_square.h), over a grid of views;
@@ -9,10 +8,10 @@
 #include <string.h>
 
 #include "cli/arguments.h"
+#include "cli/figures.h"
 #include "evidence/measure/chi_square.h"
 #include "command.h"
 #include "evidence/measure/consistency.h"
-#include "cli/figures.h"
 #include "cli/progress.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
@@ -25,7 +24,7 @@ static const char name[] = "vndf check";
 static const char help[] =
     "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S] [--json] [-q]\n"
     "\n"
-    "Measures a distribution again and prints a table; exit status 1 if a claim fails.\n"
+    "Measures a distribution again and prints what it finds; exit status 1 if a claim fails.\n"
     "\n"
     "  certificate  the numbers stored in the table against a new measurement from its source; more than\n"
     "               20% (and 1e-7) worse fails. Closed forms have none.\n"
@@ -57,129 +56,134 @@ typedef struct check_words {
     figure_words figures;
 } check_words;
 
-static const char *verdict(int good)
+/* What is being checked, where findings go, and whether all were good. */
+typedef struct checking {
+    const vndf_distribution *distribution;
+    figures to;
+    progress bar;
+    unsigned long long samples, seed;
+    int good;
+} checking;
+
+/* The next part of the work, up to `until` of all of it. */
+static void part(checking *c, const char *what, double until)
 {
-    return good ? "good" : "FAILED";
+    progress_step(&c->bar, until);
+    progress_show(0, what, &c->bar);
+}
+
+/* Ends a finding. */
+static void judge(checking *c, int is_good)
+{
+    figures_truth(&c->to, "good", is_good);
+    c->good &= is_good;
+}
+
+/* A number of a finding; nine digits bring back every float. */
+static void tell(checking *c, const char *key, double x)
+{
+    figures_number(&c->to, key, 9, x, "");
+}
+
+static void begin(checking *c, const char *what)
+{
+    figures_record(&c->to);
+    figures_text(&c->to, "of", what);
 }
 
 /* ---- certificate --------------------------------------------------------------------------------- */
 
-/* floor: what the number is when nothing is wrong, 0 for an error, 1 for a ratio; factor: how much worse it may
- * be. */
-static int compare(figures *f, const char *what, float stored, float measured, double floor, double factor)
+/* A number may be a fifth worse than stored, above what it is when nothing is wrong: 0 for an error, 1 for a
+ * ratio. */
+static void compare(checking *c, const char *what, float stored, float measured, double floor)
 {
-    double allowed = floor + factor * ((double)stored - floor) + 1e-7;
-    int good = (double)measured <= allowed;
-    if (f->form == FIGURES_TEXT)
-        printf("certificate  %-14s stored %-12.5g measured %-12.5g %s\n", what, (double)stored, (double)measured,
-               verdict(good));
-    else {
-        figures_record(f);
-        figures_text(f, "figure", what);
-        figures_number(f, "stored", 5, (double)stored, "as vndf info says");
-        figures_number(f, "measured", 5, (double)measured, "as vndf info says");
-        figures_truth(f, "good", good);
-    }
-    return good;
+    begin(c, what);
+    figures_number(&c->to, "stored", 5, (double)stored, "");
+    figures_number(&c->to, "measured", 5, (double)measured, "");
+    judge(c, (double)measured <= floor + 1.2 * ((double)stored - floor) + 1e-7);
 }
 
-static int compare_certificates(figures *f, const vndf_certificate *stored, const vndf_certificate *measured)
-{
-    const double factor = 1.2;
-    figures_list(f, "certificate");
-    int good = compare(f, "tv", stored->tv, measured->tv, 0, factor);
-    good &= compare(f, "tv_above", stored->tv_above, measured->tv_above, 0, factor);
-    good &= compare(f, "max_weight", stored->max_weight, measured->max_weight, 1, factor);
-    good &= compare(f, "area_error", stored->area_error, measured->area_error, 0, factor);
-    good &= compare(f, "consistency", stored->consistency, measured->consistency, 0, factor);
-    good &= compare(f, "ndf_error", stored->ndf_error, measured->ndf_error, 0, factor);
-    good &= compare(f, "weight_unbound", 1 - stored->weight_bounded, 1 - measured->weight_bounded, 0, factor);
-    good &= compare(f, "hidden", stored->hidden, measured->hidden, 0, factor);
-    good &= compare(f, "finest", stored->finest, measured->finest, 0, factor);
-    figures_list_end(f);
-    return good;
-}
-
-/* What the table was built from; NULL with the reason printed if that cannot be had. */
-static vndf_source *original_source(figures *f, const vndf_distribution *table, const char *csv, int *failed)
+/* What the table was built from; NULL with the reason said if that cannot be had. */
+static vndf_source *original_source(checking *c, const char *csv, int *failed)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(table, &error);
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
     *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
     if (*failed && !csv)
         complain(name, "%s", error.message);
-    else if (!source && f->form == FIGURES_TEXT)
-        printf("certificate  not measured again: %s\n", error.message);
-    else if (!source)
-        figures_text(f, "not_measured_again", error.message);
+    else if (!source && !csv)
+        figures_text(&c->to, "certificate_not_measured", error.message);
     return source;
 }
 
-static int check_certificate(figures *f, const vndf_distribution *table, const char *csv)
+static int check_certificate(checking *c, const char *csv)
 {
-    vndf_certificate measured;
+    vndf_certificate m, s = vndf_distribution_info(c->distribution).certificate;
     vndf_error error = {VNDF_OK, ""};
     int failed;
-    vndf_info info = vndf_distribution_info(table);
-    vndf_source *source = original_source(f, table, csv, &failed);
+    vndf_source *source = original_source(c, csv, &failed);
     if (!source)
         return failed ? STATUS_USE : STATUS_GOOD;
-    if (csv && f->form == FIGURES_TEXT && strcmp(vndf_source_description(source), info.source) != 0)
-        printf("certificate  note: the table says %s\n             and the source is %s\n", info.source,
-               vndf_source_description(source));
-    vndf_status status = vndf_certify(table, source, &measured, &error);
+    if (strcmp(vndf_source_description(source), vndf_distribution_info(c->distribution).source) != 0)
+        figures_text(&c->to, "certificate_measured_of", vndf_source_description(source));
+    part(c, "certificate", 0.2);
+    vndf_status status = vndf_certify(c->distribution, source, &m, &error);
     vndf_source_free(source);
     if (status != VNDF_OK)
         return complain(name, "%s", error.message);
-    return compare_certificates(f, &info.certificate, &measured) ? STATUS_GOOD : STATUS_NO;
+    figures_list(&c->to, "certificate");
+    compare(c, "tv", s.tv, m.tv, 0);
+    compare(c, "tv_above", s.tv_above, m.tv_above, 0);
+    compare(c, "max_weight", s.max_weight, m.max_weight, 1);
+    compare(c, "area_error", s.area_error, m.area_error, 0);
+    compare(c, "consistency", s.consistency, m.consistency, 0);
+    compare(c, "ndf_error", s.ndf_error, m.ndf_error, 0);
+    compare(c, "weight_unbound", 1 - s.weight_bounded, 1 - m.weight_bounded, 0);
+    compare(c, "hidden", s.hidden, m.hidden, 0);
+    compare(c, "finest", s.finest, m.finest, 0);
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- consistency --------------------------------------------------------------------------------- */
 
-static int check_quantiles(figures *f, const char *what, const consistency_quantiles *found, double usual,
-                           double rare)
+static void check_quantiles(checking *c, const char *what, const consistency_quantiles *found, double usual,
+                            double rare)
 {
-    int good = found->usual <= usual && found->rare <= rare;
-    if (f->form == FIGURES_TEXT)
-        printf("consistency  %-30s 99.9%%: %.2g of %g, 99.99%%: %.2g of %g %s\n", what, found->usual, usual,
-               found->rare, rare, verdict(good));
-    else {
-        figures_record(f);
-        figures_text(f, "of", what);
-        figures_number(f, "samples", 9, (double)found->measured, "normals");
-        figures_number(f, "error_999", 3, found->usual, "relative, of 99.9%");
-        figures_number(f, "limit_999", 3, usual, "relative, of 99.9%");
-        figures_number(f, "error_9999", 3, found->rare, "relative, of 99.99%");
-        figures_number(f, "limit_9999", 3, rare, "relative, of 99.99%");
-        figures_truth(f, "good", good);
-    }
-    return good;
+    begin(c, what);
+    figures_number(&c->to, "samples", 9, (double)found->measured, "");
+    figures_number(&c->to, "most_999", 2, found->usual, "");
+    figures_number(&c->to, "limit_999", 2, usual, "");
+    figures_number(&c->to, "most_9999", 2, found->rare, "");
+    figures_number(&c->to, "limit_9999", 2, rare, "");
+    judge(c, found->usual <= usual && found->rare <= rare);
 }
 
-static int check_consistency(figures *f, const vndf_distribution *distribution, unsigned long long seed)
+static int check_consistency(checking *c)
 {
     consistency found;
-    if (!consistency_measure(distribution, 200000, seed, &found))
+    part(c, "consistency", 0.3);
+    if (!consistency_measure(c->distribution, 200000, c->seed, &found))
         return complain(name, "no memory");
-    const consistency_point *at = &found.invalid_at;
-    int good = found.invalid == 0;
-    if (f->form == FIGURES_TEXT) {
-        printf("consistency  %zu points (%zu see nothing), %zu invalid results %s\n", found.points, found.blind,
-               found.invalid, verdict(good));
-        if (!good) /* the numbers are exact enough to come to the same floats */
-            printf("             at theta %.17g phi %.17g alpha %.9g,%.9g u1 %.9g u2 %.9g\n", at->theta, at->phi,
-                   (double)at->alpha_x, (double)at->alpha_y, (double)at->u1, (double)at->u2);
-    } else {
-        figures_number(f, "points", 9, (double)found.points, "views");
-        figures_number(f, "see_nothing", 9, (double)found.blind, "views");
-        figures_number(f, "invalid", 9, (double)found.invalid, "views");
+    figures_list(&c->to, "consistency");
+    begin(c, "valid results");
+    tell(c, "samples", (double)found.points);
+    tell(c, "blind", (double)found.blind);
+    tell(c, "invalid", (double)found.invalid);
+    if (found.invalid) {
+        const consistency_point *at = &found.invalid_at;
+        const double where[] = {at->theta,           at->phi,        (double)at->alpha_x,
+                                (double)at->alpha_y, (double)at->u1, (double)at->u2};
+        static const char *const keys[] = {"theta", "phi", "alpha_x", "alpha_y", "u1", "u2"};
+        for (int i = 0; i < 6; i++)
+            figures_number(&c->to, keys[i], 17, where[i], "");
     }
-    figures_list(f, "consistency");
-    good &= check_quantiles(f, "pdf of samples, above horizon", &found.above, 1e-5, 1e-4);
-    good &= check_quantiles(f, "pdf of samples, below horizon", &found.below, 1e-4, 1e-3);
-    good &= check_quantiles(f, "invert, then sample", &found.inverted, 1e-5, 1e-4);
-    figures_list_end(f);
-    return good ? STATUS_GOOD : STATUS_NO;
+    judge(c, found.invalid == 0);
+    check_quantiles(c, "pdf against sample, above the horizon", &found.above, 1e-5, 1e-4);
+    check_quantiles(c, "pdf against sample, below the horizon", &found.below, 1e-4, 1e-3);
+    check_quantiles(c, "invert, then sample", &found.inverted, 1e-5, 1e-4);
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- chi-square ---------------------------------------------------------------------------------- */
@@ -187,42 +191,7 @@ static int check_consistency(figures *f, const vndf_distribution *distribution, 
 static const double angles[] = {0, 30, 60, 80, 89, 130};
 static const float roughness[][2] = {{1, 1}, {0.05f, 0.4f}};
 
-enum {
-    ANGLES = sizeof angles / sizeof angles[0],
-    ROUGHNESSES = sizeof roughness / sizeof roughness[0],
-    TESTS = ANGLES * ROUGHNESSES
-};
-
-static void print_chi_square(figures *f, const chi_square *found, const vndf_surface *surface, double theta,
-                             double phi, int good)
-{
-    char alpha[32];
-    snprintf(alpha, sizeof alpha, "%gx%g", (double)surface->alpha_x, (double)surface->alpha_y);
-    if (f->form != FIGURES_TEXT) {
-        figures_record(f);
-        figures_text(f, "alpha", alpha);
-        figures_number(f, "theta", 9, theta, "degrees");
-        figures_number(f, "phi", 9, phi, "degrees");
-        figures_truth(f, "sees_nothing", found->blind);
-        figures_number(f, "bins", 9, (double)found->bins, "bins");
-        figures_number(f, "pooled", 9, (double)found->pooled, "bins");
-        figures_number(f, "statistic", 6, found->blind ? NAN : found->statistic, "chi-square");
-        figures_number(f, "p", 4, found->blind ? NAN : found->p, "probability");
-        figures_number(f, "mass_error", 2, found->blind ? NAN : found->mass - 1, "of the mass");
-        figures_number(f, "without_density", 9, (double)found->unclaimed, "samples");
-        figures_truth(f, "good", good);
-        return;
-    }
-    printf("chi-square   %-9s %5g %4g ", alpha, theta, phi);
-    if (found->blind)
-        printf("  sees nothing");
-    else
-        printf("%6zu %6zu %12.1f %9.4f %10.1e", found->bins, found->pooled, found->statistic, found->p,
-               found->mass - 1);
-    if (found->unclaimed && !found->blind)
-        printf(" %zu samples have no density", found->unclaimed);
-    printf(" %s\n", verdict(good));
-}
+enum { ANGLES = sizeof angles / sizeof angles[0], TESTS = 2 * ANGLES };
 
 /* Below the horizon a narrow lobe may hold less than a float can tell from nothing. */
 static int is_good(const chi_square *found, const vndf_surface *surface, vndf_vec3 wi)
@@ -232,131 +201,92 @@ static int is_good(const chi_square *found, const vndf_surface *surface, vndf_ve
     return found->p >= statistics_sidak(0.01, TESTS) && fabs(found->mass - 1) <= 1e-5 && found->unclaimed == 0;
 }
 
-static int check_view(figures *f, const vndf_surface *surface, double theta, double phi, size_t samples,
-                      unsigned long long seed)
+static int check_chi_square(checking *c)
 {
-    chi_square found;
-    vndf_vec3 wi = direction_from(theta, phi);
-    if (!chi_square_test(surface, wi, samples, seed, &found))
-        return complain(name, "no memory");
-    int good = is_good(&found, surface, wi);
-    print_chi_square(f, &found, surface, theta, phi, good);
-    return good ? STATUS_GOOD : STATUS_NO;
-}
-
-static int check_chi_square(figures *f, progress *p, const vndf_distribution *distribution, size_t samples,
-                            unsigned long long seed)
-{
-    int worst = STATUS_GOOD;
-    if (f->form == FIGURES_TEXT) {
-        printf("chi-square   %zu samples per test, significance %.3g each; degrees\n", samples,
-               statistics_sidak(0.01, TESTS));
-        printf("             alpha     theta  phi   bins pooled    statistic         p     mass-1\n");
+    part(c, "chi-square", 0.8);
+    figures_number(&c->to, "chi_square_samples", 9, (double)c->samples, "");
+    figures_number(&c->to, "chi_square_level", 3, statistics_sidak(0.01, TESTS), "");
+    figures_list(&c->to, "chi_square");
+    for (size_t i = 0; i < TESTS; i++) {
+        const vndf_surface surface = {c->distribution, roughness[i / ANGLES][0], roughness[i / ANGLES][1]};
+        double theta = angles[i % ANGLES], phi = i < ANGLES ? 0 : 25;
+        vndf_vec3 wi = direction_from(theta, phi);
+        chi_square found;
+        progress_show((double)i / TESTS, "chi-square", &c->bar);
+        if (!chi_square_test(&surface, wi, (size_t)c->samples, c->seed + 1000 * (i + 1), &found))
+            return complain(name, "no memory");
+        figures_record(&c->to);
+        figures_number(&c->to, "alpha_x", 3, (double)surface.alpha_x, "");
+        figures_number(&c->to, "alpha_y", 3, (double)surface.alpha_y, "");
+        figures_number(&c->to, "theta", 3, theta, "degrees");
+        figures_truth(&c->to, "blind", found.blind);
+        tell(c, "bins", (double)found.bins);
+        tell(c, "pooled", (double)found.pooled);
+        figures_number(&c->to, "statistic", 6, found.statistic, "");
+        figures_number(&c->to, "p", 4, found.p, "");
+        figures_number(&c->to, "mass_error", 2, found.blind ? 0 : found.mass - 1, "");
+        tell(c, "unclaimed", (double)found.unclaimed);
+        judge(c, is_good(&found, &surface, wi));
     }
-    figures_list(f, "chi_square");
-    for (size_t r = 0; r < ROUGHNESSES && worst != STATUS_USE; r++) {
-        vndf_surface surface = {distribution, roughness[r][0], roughness[r][1]};
-        double phi = surface.alpha_x == surface.alpha_y ? 0 : 25;
-        for (size_t a = 0; a < ANGLES && worst != STATUS_USE; a++) {
-            progress_show((double)(r * ANGLES + a) / TESTS, "chi-square", p);
-            int status = check_view(f, &surface, angles[a], phi, samples, seed + 1000 * (r * ANGLES + a + 1));
-            worst = status == STATUS_GOOD ? worst : status;
-        }
-    }
-    figures_list_end(f);
-    return worst;
+    figures_list_end(&c->to);
+    return STATUS_GOOD;
 }
 
 /* ---- hard ---------------------------------------------------------------------------------------- */
 
-static int check_property(figures *f, stress_id id, const stress_finding *found)
+static void check_hard(checking *c)
 {
-    const stress_property *property = stress_property_of(id);
-    const stress_point *at = &found->at;
-    const vndf_affine *m = &at->surface;
-    int good = found->failed == 0;
-    if (f->form != FIGURES_TEXT) {
-        figures_record(f);
-        figures_text(f, "property", property->name);
-        figures_text(f, "meaning", property->meaning);
-        figures_number(f, "worst", 3, fmax(found->worst, 0), "as meant");
-        figures_number(f, "limit", 3, property->limit, "as meant");
-        figures_number(f, "points", 9, (double)found->checked, "samples");
-        figures_number(f, "failed", 9, (double)found->failed, "samples");
-        figures_truth(f, "good", good);
-        return good;
+    static const char *const keys[] = {"xx",   "xy",   "yx",   "yy",   "mean_x", "mean_y", "wi_x",
+                                       "wi_y", "wi_z", "wo_x", "wo_y", "wo_z",   "u1",     "u2"};
+    part(c, "hard cases", 1);
+    stress_result result = stress_run(c->distribution, 1, 40000, c->seed);
+    figures_number(&c->to, "hard_samples", 9, (double)result.samples, "");
+    figures_number(&c->to, "hard_views", 9, (double)result.views, "");
+    figures_number(&c->to, "roughnesses_left_out", 9, (double)result.outside, "");
+    figures_list(&c->to, "hard");
+    for (int id = 0; id < STRESS_COUNT; id++) {
+        const stress_property *property = stress_property_of((stress_id)id);
+        const stress_finding *found = &result.found[id];
+        const vndf_affine *m = &found->at.surface;
+        const float at[] = {m->xx,          m->xy,          m->yx,          m->yy,          m->mean_x,
+                            m->mean_y,      found->at.wi.x, found->at.wi.y, found->at.wi.z, found->at.wo.x,
+                            found->at.wo.y, found->at.wo.z, found->at.u1,   found->at.u2};
+        begin(c, property->name);
+        figures_text(&c->to, "is", property->meaning);
+        figures_number(&c->to, "worst", 3, fmax(found->worst, 0), "");
+        figures_number(&c->to, "limit", 3, property->limit, "");
+        tell(c, "points", (double)found->checked);
+        tell(c, "failed", (double)found->failed);
+        for (int i = 0; i < 14 && found->failed; i++)
+            tell(c, keys[i], (double)at[i]);
+        judge(c, found->failed == 0);
     }
-    printf("hard         %-9s worst %-9.3g of %-5.3g at %7zu points: %s ", property->name, fmax(found->worst, 0),
-           property->limit, found->checked, property->meaning);
-    if (!good)
-        printf("%zu ", found->failed);
-    puts(verdict(good));
-    if (found->worst > 0) /* nine digits bring back every float */
-        printf("             at matrix %.9g,%.9g,%.9g,%.9g mean %.9g,%.9g wi %.9g,%.9g,%.9g u %.9g,%.9g wo "
-               "%.9g,%.9g,%.9g\n",
-               (double)m->xx, (double)m->xy, (double)m->yx, (double)m->yy, (double)m->mean_x, (double)m->mean_y,
-               (double)at->wi.x, (double)at->wi.y, (double)at->wi.z, (double)at->u1, (double)at->u2,
-               (double)at->wo.x, (double)at->wo.y, (double)at->wo.z);
-    return good;
-}
-
-static int check_hard(figures *f, const vndf_distribution *distribution, unsigned long long seed)
-{
-    stress_result result = stress_run(distribution, 1, 40000, seed);
-    int good = 1;
-    if (f->form == FIGURES_TEXT) {
-        printf("hard         %zu samples of %zu views", result.samples, result.views);
-        if (result.outside)
-            printf("; %zu roughnesses left out: alpha times the scale must be within 1e-18 and 1e18",
-                   result.outside);
-        putchar('\n');
-    }
-    figures_list(f, "hard");
-    for (int id = 0; id < STRESS_COUNT; id++)
-        good &= check_property(f, (stress_id)id, &result.found[id]);
-    figures_list_end(f);
-    return good ? STATUS_GOOD : STATUS_NO;
+    figures_list_end(&c->to);
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-/* Of all the time that a table takes, roughly: the certificate, consistency, chi-square. */
-static const double after_certificate = 0.05, after_consistency = 0.2;
-
 static int check_all(const chosen_distribution *chosen, const check_words *given)
 {
-    unsigned long long samples = 1000000, seed = 1;
-    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &samples) ||
-        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed))
+    checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
+    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &c.samples) ||
+        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &c.seed))
         return STATUS_USE;
     if (!chosen->owned && given->csv.count)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
-    figures f = figures_begin(&given->figures);
-    progress p = progress_begin("checking", 0);
-    p.is_seen &= !given->figures.quiet.count;
-    int status[4] = {STATUS_GOOD, STATUS_GOOD, STATUS_GOOD, STATUS_GOOD}, good = 1;
-    progress_step(&p, after_certificate);
-    progress_show(0, "the certificate", &p);
-    if (chosen->owned)
-        status[0] = check_certificate(&f, chosen->owned, only_word(&given->csv));
-    progress_step(&p, after_consistency);
-    progress_show(0, "consistency", &p);
-    if (status[0] != STATUS_USE)
-        status[1] = check_consistency(&f, chosen->distribution, seed);
-    progress_step(&p, 1);
-    if (status[0] != STATUS_USE && status[1] != STATUS_USE)
-        status[2] = check_chi_square(&f, &p, chosen->distribution, (size_t)samples, seed);
-    if (given->hard.count && status[0] != STATUS_USE && status[2] != STATUS_USE)
-        status[3] = check_hard(&f, chosen->distribution, seed);
-    progress_end(&p);
-    for (int i = 0; i < 4; i++) {
-        if (status[i] == STATUS_USE)
-            return STATUS_USE;
-        good &= status[i] == STATUS_GOOD;
-    }
-    figures_text(&f, "result", verdict(good));
-    figures_end(&f);
-    return good ? STATUS_GOOD : STATUS_NO;
+    c.to = figures_begin(&given->figures);
+    c.bar = progress_begin(name, 0);
+    c.bar.is_seen &= !given->figures.quiet.count;
+    int failed = (chosen->owned && check_certificate(&c, only_word(&given->csv)) != STATUS_GOOD) ||
+                 check_consistency(&c) != STATUS_GOOD || check_chi_square(&c) != STATUS_GOOD;
+    if (!failed && given->hard.count)
+        check_hard(&c);
+    progress_end(&c.bar);
+    if (failed)
+        return STATUS_USE;
+    figures_text(&c.to, "result", c.good ? "good" : "FAILED");
+    figures_end(&c.to);
+    return c.good ? STATUS_GOOD : STATUS_NO;
 }
 
 int command_check(int argc, char **argv)

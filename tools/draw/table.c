@@ -100,98 +100,49 @@ static const char *shown(const text_table *t, size_t row, size_t column)
 }
 
 /* Characters of UTF-8. */
-static size_t length_of(const char *text, size_t bytes)
+static size_t length_of(const char *text)
 {
     size_t length = 0;
-    for (size_t i = 0; i < bytes; i++)
-        length += ((unsigned char)text[i] & 0xc0) != 0x80;
+    for (; *text; text++)
+        length += ((unsigned char)*text & 0xc0) != 0x80;
     return length;
 }
 
-/* The first `bytes` of a text, with spaces before or behind it. */
-static void put_padded(FILE *file, const char *text, size_t bytes, size_t width, int is_right)
+/* With spaces before or behind it. */
+static void put_padded(FILE *file, const char *text, size_t width, int is_right)
 {
-    size_t length = length_of(text, bytes), spaces = width > length ? width - length : 0;
-    fprintf(file, "%*s%.*s%*s", is_right ? (int)spaces : 0, "", (int)bytes, text, is_right ? 0 : (int)spaces, "");
-}
-
-/* A line of a heading; its bytes. */
-static size_t line_of(const char **heading, size_t line)
-{
-    for (; line && **heading; line--) {
-        *heading += strcspn(*heading, "\n");
-        *heading += **heading == '\n';
-    }
-    return strcspn(*heading, "\n");
+    size_t length = length_of(text), spaces = width > length ? width - length : 0;
+    fprintf(file, "%*s%s%*s", is_right ? (int)spaces : 0, "", text, is_right ? 0 : (int)spaces, "");
 }
 
 /* What a terminal shows: groups by the first column, then a label if the second one holds texts. */
-typedef struct layout {
-    size_t label, numbers; /* width of the label; the first column behind it */
-    size_t lines;          /* of headings */
-    size_t width[TABLE_COLUMNS_MAX];
-} layout;
-
-static void widen(size_t *width, const char *text, size_t bytes)
-{
-    size_t length = length_of(text, bytes);
-    *width = length > *width ? length : *width;
-}
-
-static void measure_heading(layout *l, const text_table *t, size_t column)
-{
-    for (size_t line = 0;; line++) {
-        const char *from = t->heading[column];
-        size_t bytes = line_of(&from, line);
-        if (!bytes)
-            break;
-        widen(&l->width[column], from, bytes);
-        l->lines = line + 1 > l->lines ? line + 1 : l->lines;
-    }
-}
-
-static layout layout_of(const text_table *t)
-{
-    layout l = {.numbers = t->columns > 1 && t->kind[1] == TABLE_TEXT ? 2 : 1};
-    for (size_t k = l.numbers; k < t->columns; k++)
-        measure_heading(&l, t, k);
-    for (size_t i = 0; i < t->rows; i++) {
-        for (size_t k = 0; k < t->columns; k++)
-            widen(k < l.numbers ? &l.label : &l.width[k], shown(t, i, k), strlen(shown(t, i, k)));
-    }
-    return l;
-}
-
-static void put_heading(FILE *file, const text_table *t, const layout *l, const char *group)
-{
-    for (size_t line = 0; line < l->lines; line++) {
-        put_padded(file, group, line ? 0 : strlen(group), l->label + 2, 0);
-        for (size_t k = l->numbers; k < t->columns; k++) {
-            const char *from = t->heading[k];
-            size_t bytes = line_of(&from, line);
-            fputs("  ", file);
-            put_padded(file, from, bytes, l->width[k], t->kind[k] == TABLE_NUMBER);
-        }
-        fputc('\n', file);
-    }
-}
-
 int table_print_text(FILE *file, const text_table *t)
 {
+    size_t width[TABLE_COLUMNS_MAX] = {0}, first = t->columns > 1 && t->kind[1] == TABLE_TEXT ? 2 : 1;
     if (t->failed)
         return 0;
-    layout l = layout_of(t);
+    for (size_t k = 0; k < t->columns; k++) {
+        size_t *of = &width[k < first ? 0 : k]; /* labels and groups share a column */
+        for (size_t i = 0; i <= t->rows; i++) {
+            size_t length = i < t->rows ? length_of(shown(t, i, k)) : k < first ? 0 : length_of(t->heading[k]);
+            *of = length > *of ? length : *of;
+        }
+    }
     for (size_t i = 0; i < t->rows; i++) {
-        const char *label = l.numbers > 1 ? shown(t, i, 1) : "";
         if (i == 0 || strcmp(shown(t, i, 0), shown(t, i - 1, 0)) != 0) {
             fputs(i ? "\n" : "", file);
-            put_heading(file, t, &l, shown(t, i, 0));
+            put_padded(file, shown(t, i, 0), width[0] + 2, 0);
+            for (size_t k = first; k < t->columns; k++) {
+                fputs("  ", file);
+                put_padded(file, t->heading[k], width[k], t->kind[k] == TABLE_NUMBER);
+            }
+            fputc('\n', file);
         }
         fputs("  ", file);
-        put_padded(file, label, strlen(label), l.label, 0);
-        for (size_t k = l.numbers; k < t->columns; k++) {
+        put_padded(file, first > 1 ? shown(t, i, 1) : "", width[0], 0);
+        for (size_t k = first; k < t->columns; k++) {
             fputs("  ", file);
-            put_padded(file, shown(t, i, k), strlen(shown(t, i, k)), l.width[k], t->kind[k] == TABLE_NUMBER);
+            put_padded(file, shown(t, i, k), width[k], t->kind[k] == TABLE_NUMBER);
         }
         fputc('\n', file);
     }
@@ -250,8 +201,7 @@ int table_print_csv(FILE *file, const text_table *t)
         return 0;
     for (size_t k = 0; k < t->columns; k++) {
         fputs(k ? "," : "", file);
-        for (const char *at = t->heading[k]; *at; at++)
-            fputc(*at == '\n' ? ' ' : *at, file);
+        fputs(t->heading[k], file);
     }
     for (size_t i = 0; i < t->count; i++) {
         fputs(i % t->columns ? "," : "\n", file);

@@ -7,7 +7,7 @@
  *     table_number(&t, "TV", "%.1e", row->tv);
  *
  * The first row makes the headings; all rows fill the same columns. What is NaN is printed as a dash, in CSV as
- * nothing. A heading of several lines has '\n' in it, which Markdown and CSV print as a space. */
+ * nothing. */
 #ifndef TOOLS_DRAW_TABLE_H
 #define TOOLS_DRAW_TABLE_H
 

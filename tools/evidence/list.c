@@ -156,7 +156,7 @@ static int table_wanted(const char *only, const char *subject_name, size_t i, in
 {
     char names[200];
     snprintf(names, sizeof names, "%s, batch, exported C%s", table_sizes[i].name,
-             has_calls ? ": sample, weight: pdf: invert: ndf: lambda: diagonal: affine: two lobes" : "");
+             has_calls ? ": weight: pdf: invert: ndf: lambda: diagonal: affine: mixture" : "");
     return is_in(names, only) || is_in(subject_name, only) || is_in("scalar portable avx2 avx512", only);
 }
 

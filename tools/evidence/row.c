@@ -6,53 +6,57 @@
 
 #include "draw/table.h"
 
-/* How a column is named and shown to people; without a heading it is for files alone. */
+/* How a column is named and shown to people; without a heading it is for files alone. A terminal has no room for
+ * those that are wide. */
 typedef enum style { NUMBER, TIME, BYTES } style;
+
+enum { WIDE = 1 };
 
 static const struct {
     const char *key, *heading, *format;
     double factor;
     style style;
+    int is_wide;
 } columns[COLUMNS] = {
     [COL_ALPHA_X] = {"alpha_x", "alpha", "%.3g", 1, NUMBER},
     [COL_ALPHA_Y] = {"alpha_y", NULL, NULL, 1, NUMBER},
     [COL_THETA] = {"theta", "theta", "%.3g", 1, NUMBER},
-    [COL_MEMORY] = {"memory", "memory", NULL, 1, BYTES},
-    [COL_FILE] = {"file_bytes", "file", NULL, 1, BYTES},
+    [COL_MEMORY] = {"memory", "memory", NULL, 1, BYTES, WIDE},
+    [COL_FILE] = {"file_bytes", "file", NULL, 1, BYTES, WIDE},
     [COL_MOMENTS] = {"moments", NULL, NULL, 1, NUMBER},
     [COL_WRONG] = {"wrong", NULL, NULL, 1, NUMBER},
     [COL_NS] = {"ns", "ns", NULL, 1, TIME},
     [COL_NS_LOW] = {"ns_low", NULL, NULL, 1, NUMBER},
     [COL_NS_HIGH] = {"ns_high", NULL, NULL, 1, NUMBER},
-    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER},
+    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER, WIDE},
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
-    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME},
-    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER},
+    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME, WIDE},
+    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER, WIDE},
     [COL_TO_BARE] = {"to_bare_ns", "to bare", "%+.1f", 1, NUMBER},
-    [COL_TV] = {"tv", "TV above", "%.1e", 1, NUMBER},
+    [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
     [COL_TV_THETA] = {"tv_theta", NULL, NULL, 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
     [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER},
-    [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER},
-    [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER},
-    [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER},
-    [COL_BIAS_60] = {"bias_60", "bias 60", "%+.2g%%", 100, NUMBER},
-    [COL_BIAS_85] = {"bias_85", "bias 85", "%+.2g%%", 100, NUMBER},
-    [COL_MEAN] = {"mean", "mean", "%.4f", 1, NUMBER},
+    [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER, WIDE},
+    [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER, WIDE},
+    [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER, WIDE},
+    [COL_BIAS_60] = {"bias_60", "bias 60", "%+.2g%%", 100, NUMBER, WIDE},
+    [COL_BIAS_85] = {"bias_85", "bias 85", "%+.2g%%", 100, NUMBER, WIDE},
+    [COL_MEAN] = {"mean", "mean", "%.4f", 1, NUMBER, WIDE},
     [COL_NOISE] = {"noise", NULL, NULL, 1, NUMBER},
-    [COL_LOST] = {"lost", "lost", "%.2f%%", 100, NUMBER},
-    [COL_VARIANCE] = {"variance", "variance", "%.3e", 1, NUMBER},
+    [COL_LOST] = {"lost", "lost", "%.2f%%", 100, NUMBER, WIDE},
+    [COL_VARIANCE] = {"variance", "variance", "%.2e", 1, NUMBER},
     [COL_EFF_VISIBLE] = {"efficiency", "eff", "%.3g", 1, NUMBER},
 };
 
 static const char legend_normals[] =
-    "memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
+    "set: of instructions. memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
     "quartiles); shared: 256 samples of one direction; latency: each waits for the last; ratio: to spherical caps.\n"
-    "TV above, below: largest total variation to the true visible normals from above the horizon and from all\n"
+    "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
     "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
     "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"
     "under a small light; bias: of that albedo, where it is beyond its noise.\n";
@@ -85,11 +89,12 @@ static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
         table_number(t, heading, fabs(x) < 1e-9 ? "%.0f" : columns[c].format, x);
 }
 
-static int is_filled(const evidence_rows *all, evidence_column c)
+static int is_filled(const evidence_rows *all, evidence_column c, int is_wide)
 {
+    int takes_room = columns[c].is_wide || (c == COL_SHARED && all->row[0].kind == ROW_EFFECT);
     for (size_t i = 0; i < all->count; i++)
         if (!isnan(all->row[i].number[c]))
-            return columns[c].heading != NULL;
+            return columns[c].heading && (is_wide || !takes_room);
     return 0;
 }
 
@@ -102,9 +107,9 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
         table_text(&t, "distribution", r->kind == ROW_MOVE ? "yardstick" : r->distribution);
         table_text(&t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
         if (all->row[0].kind != ROW_EFFECT)
-            table_word(&t, "instructions", r->instructions);
+            table_word(&t, "set", r->instructions);
         for (evidence_column c = 0; c < COLUMNS; c++)
-            if (is_filled(all, c))
+            if (is_filled(all, c, form != table_print_text))
                 put_cell(&t, r, c);
     }
     int good = form(file, &t);

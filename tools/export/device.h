@@ -30,7 +30,7 @@ HERE table table_at(int base)
 /* Row i of a group. */
 HERE quad look(table t, int group, whole i)
 {
-    const int at = t.at + 4 * (group * (t.cells + 1) + i);
+    const int at = t.at + 20 * i + 4 * group;
     const quad row = {fetch(at), fetch(at + 1), fetch(at + 2), fetch(at + 3)};
     return row;
 }

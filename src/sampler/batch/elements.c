@@ -32,6 +32,12 @@ static vndf_affine surface_at(const vndf_call *c, size_t i)
     return s;
 }
 
+static vndf_view view_at(const vndf_call *c, const vndf_affine *s, vndf_vec3 wi)
+{
+    const vndf_surface plain = {s->distribution, s->xx, s->yy};
+    return c->diagonal ? vndf_view_from(&plain, wi) : vndf_affine_view_from(s, wi);
+}
+
 static void sample(const vndf_call *c, size_t i, const vndf_view *view)
 {
     float u1 = c->read[VNDF_READ_A][i], u2 = c->read[VNDF_READ_B][i], *pdf = c->write[3] ? &c->write[3][i] : NULL;
@@ -50,19 +56,19 @@ static void one(const vndf_call *c, size_t i)
     float *to = &c->write[0][i], numbers[2];
     switch (c->task) {
     case VNDF_TASK_SAMPLE:
-        view = vndf_affine_view_from(&surface, wi);
+        view = view_at(c, &surface, wi);
         sample(c, i, &view);
         break;
     case VNDF_TASK_PDF:
-        view = vndf_affine_view_from(&surface, wi);
+        view = view_at(c, &surface, wi);
         *to = vndf_pdf(&view, wm);
         break;
     case VNDF_TASK_VISIBLE:
-        view = vndf_affine_view_from(&surface, wi);
+        view = view_at(c, &surface, wi);
         *to = vndf_visible(&view, wm);
         break;
     case VNDF_TASK_INVERT:
-        view = vndf_affine_view_from(&surface, wi);
+        view = view_at(c, &surface, wi);
         vndf_invert(&view, wm, &numbers[0], &numbers[1]);
         *to = numbers[0];
         c->write[1][i] = numbers[1];

@@ -37,7 +37,7 @@ typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 typedef struct block {
     const vndf_call *call;
     table t;
-    int groups;
+    int groups, plain; /* plain: of all its surfaces (kernel/surface.h) */
     const float *read[VNDF_READS];
     mask valid[GROUPS];
 } block;
@@ -69,9 +69,15 @@ typedef struct side {
 HERE affine_map map_at(const block *b, int g)
 {
     const float unit = b->call->distribution->unit;
-    affine_map m = {input(b, VNDF_READ_XX, g) * unit, input(b, VNDF_READ_XY, g) * unit,
-                    input(b, VNDF_READ_YX, g) * unit, input(b, VNDF_READ_YY, g) * unit,
-                    input(b, VNDF_READ_MEAN_X, g),    input(b, VNDF_READ_MEAN_Y, g)};
+    const real zero = set(0.0f);
+    affine_map m = {
+        input(b, VNDF_READ_XX, g) * unit, zero, zero, input(b, VNDF_READ_YY, g) * unit, zero, zero, b->plain};
+    if (!m.plain) {
+        m.xy = input(b, VNDF_READ_XY, g) * unit;
+        m.yx = input(b, VNDF_READ_YX, g) * unit;
+        m.mean_x = input(b, VNDF_READ_MEAN_X, g);
+        m.mean_y = input(b, VNDF_READ_MEAN_Y, g);
+    }
     return m;
 }
 
@@ -498,6 +504,7 @@ HERE void keep_frame(frames *at, int g, frame f)
     at->f[g].wz = f.wz;
     at->f[g].determinant = f.determinant;
     at->f[g].densest = f.densest;
+    at->f[g].near = f.near;
 }
 
 /* Writes the samples of a group. */
@@ -774,38 +781,77 @@ HERE void areas(const block *b, float *to, const vndf_kind kind)
 
 /* ---- blocks ---- */
 
-STEP void block_of_table(const block *b, float *const to[VNDF_WRITES])
+HERE void sample(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
-    switch (b->call->task) {
-    case VNDF_TASK_SAMPLE: sample_table(b, to); break;
-    case VNDF_TASK_PDF: density_table(b, to[0]); break;
-    case VNDF_TASK_VISIBLE: visible_table(b, to[0]); break;
-    case VNDF_TASK_INVERT: invert_table(b, to); break;
-    case VNDF_TASK_NDF: ndf(b, to[0], VNDF_KIND_TABLE); break;
-    default: areas(b, to[0], VNDF_KIND_TABLE);
-    }
+    if (kind == VNDF_KIND_TABLE)
+        sample_table(b, to);
+    else
+        (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to);
 }
 
-HERE void block_of_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
+HERE void block_of(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
     switch (b->call->task) {
-    case VNDF_TASK_SAMPLE: (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to); break;
+    case VNDF_TASK_SAMPLE: sample(b, to, kind); break;
     case VNDF_TASK_PDF:
-    case VNDF_TASK_VISIBLE: density_closed(b, to[0], kind); break;
-    case VNDF_TASK_INVERT: invert_closed(b, to, kind); break;
+        if (kind == VNDF_KIND_TABLE)
+            density_table(b, to[0]);
+        else
+            density_closed(b, to[0], kind);
+        break;
+    case VNDF_TASK_VISIBLE:
+        if (kind == VNDF_KIND_TABLE)
+            visible_table(b, to[0]);
+        else
+            density_closed(b, to[0], kind);
+        break;
+    case VNDF_TASK_INVERT:
+        if (kind == VNDF_KIND_TABLE)
+            invert_table(b, to);
+        else
+            invert_closed(b, to, kind);
+        break;
     case VNDF_TASK_NDF: ndf(b, to[0], kind); break;
     default: areas(b, to[0], kind);
     }
 }
 
+STEP void block_of_table(const block *b, float *const to[VNDF_WRITES])
+{
+    block_of(b, to, VNDF_KIND_TABLE);
+}
+
 STEP void block_of_ggx(const block *b, float *const to[VNDF_WRITES])
 {
-    block_of_closed(b, to, VNDF_KIND_GGX);
+    block_of(b, to, VNDF_KIND_GGX);
 }
 
 STEP void block_of_beckmann(const block *b, float *const to[VNDF_WRITES])
 {
-    block_of_closed(b, to, VNDF_KIND_BECKMANN);
+    block_of(b, to, VNDF_KIND_BECKMANN);
+}
+
+/* Samples of plain surfaces once more, where the compiler knows that they are. */
+HERE void sample_plain(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
+{
+    block plain = *b;
+    plain.plain = 1;
+    sample(&plain, to, kind);
+}
+
+STEP void sample_plain_table(const block *b, float *const to[VNDF_WRITES])
+{
+    sample_plain(b, to, VNDF_KIND_TABLE);
+}
+
+STEP void sample_plain_ggx(const block *b, float *const to[VNDF_WRITES])
+{
+    sample_plain(b, to, VNDF_KIND_GGX);
+}
+
+STEP void sample_plain_beckmann(const block *b, float *const to[VNDF_WRITES])
+{
+    sample_plain(b, to, VNDF_KIND_BECKMANN);
 }
 
 /* Copies for the last lanes of a call, numbers that all elements share, and what became valid. */
@@ -834,19 +880,18 @@ HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
 }
 
 /* Elements whose matrix and direction are far from what is invalid. */
-HERE mask is_plain(const block *b, int g)
+HERE mask is_ordinary(const block *b, int g)
 {
     affine_map m = map_at(b, g);
     real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), z = input(b, VNDF_READ_WI_Z, g);
-    real sum = (size(x) + size(y)) + size(z), means = size(m.mean_x) + size(m.mean_y);
-    real entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
-    mask plain = both(less(most(sum, entries + means), set(1e6f)), less(set(1e-9f), sum)), regular;
-    real along = m.xx * m.yy, across = m.xy * m.yx;
-    if (b->call->diagonal)
-        regular = less(set(1e-12f), least(m.xx, m.yy));
-    else
+    real sum = (size(x) + size(y)) + size(z), largest = most(sum, m.xx + m.yy);
+    mask regular = less(set(1e-12f), least(m.xx, m.yy));
+    if (!b->plain) {
+        real along = m.xx * m.yy, across = m.xy * m.yx, means = size(m.mean_x) + size(m.mean_y);
         regular = less(1e-4f * (size(along) + size(across)) + 1e-24f, size(along - across));
-    return both(plain, regular);
+        largest = most(sum, ((size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy))) + means);
+    }
+    return both(both(less(largest, set(1e6f)), less(set(1e-9f), sum)), regular);
 }
 
 /* Reads a group of elements from copies, where those that are invalid have the unit matrix and a direction straight up.
@@ -855,7 +900,7 @@ HERE mask make_valid(const block *b, int g, copies *c)
 {
     const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
     mask valid = affine_is_valid(map_at(b, g));
-    if (b->call->diagonal)
+    if (b->plain)
         valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
     if (b->call->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
@@ -868,12 +913,12 @@ HERE mask make_valid(const block *b, int g, copies *c)
 /* Sets which elements are valid; if some are not, the block reads from copies. */
 HERE void set_valid(block *b, copies *c)
 {
-    mask plain = less(set(0.0f), set(1.0f));
+    mask ordinary = less(set(0.0f), set(1.0f));
     for (int g = 0; g < b->groups; g++) {
-        b->valid[g] = is_plain(b, g);
-        plain = both(plain, b->valid[g]);
+        b->valid[g] = is_ordinary(b, g);
+        ordinary = both(ordinary, b->valid[g]);
     }
-    if (all(plain))
+    if (all(ordinary))
         return;
     for (int g = 0; g < b->groups; g++)
         b->valid[g] = make_valid(b, g, c);
@@ -884,7 +929,14 @@ HERE void set_valid(block *b, copies *c)
 static void run_block(const block *b, float *const to[VNDF_WRITES])
 {
     const vndf_kind kind = b->call->distribution->kind;
-    (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(b, to);
+    if (b->plain && b->call->task == VNDF_TASK_SAMPLE)
+        (kind == VNDF_KIND_TABLE ? sample_plain_table
+         : kind == VNDF_KIND_GGX ? sample_plain_ggx
+                                 : sample_plain_beckmann)(b, to);
+    else
+        (kind == VNDF_KIND_TABLE ? block_of_table
+         : kind == VNDF_KIND_GGX ? block_of_ggx
+                                 : block_of_beckmann)(b, to);
 }
 
 void LANES_ENTRY(const vndf_call *call)
@@ -893,6 +945,7 @@ void LANES_ENTRY(const vndf_call *call)
     copies c;
     block b;
     b.call = call;
+    b.plain = call->diagonal;
     if (call->distribution->kind == VNDF_KIND_TABLE)
         b.t = table_of(call->distribution, &table_parts);
     for (size_t first = 0; first < call->count; first += BLOCK) {

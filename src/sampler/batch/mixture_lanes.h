@@ -31,6 +31,7 @@ STEP void enter_lobe(const mixed *m, int l, vndf_task task, block *b, copies *c)
     b->call = &m->of->call[l];
     b->t = m->of->t[l];
     b->groups = m->groups;
+    b->plain = b->call->diagonal;
     place_reads(b, m->first, m->count, 1, c);
 }
 

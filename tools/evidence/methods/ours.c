@@ -186,14 +186,14 @@ static const struct {
     method_run *each, *shared, *batch, *batch_shared;
 } calls[METHOD_CALLS] = {
     [METHOD_SAMPLE] = {"", one, each, shared, batch_each, batch_shared},
-    [METHOD_WEIGHT] = {": sample, weight", NULL, each_call, NULL, batch_call, NULL},
+    [METHOD_WEIGHT] = {": weight", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_PDF] = {": pdf", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_INVERT] = {": invert", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_NDF] = {": ndf", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_LAMBDA] = {": lambda", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_DIAGONAL] = {": diagonal", one_affine, each_affine, NULL, NULL, NULL},
     [METHOD_AFFINE] = {": affine", one_affine, each_affine, NULL, batch_affine, NULL},
-    [METHOD_TWO_LOBES] = {": two lobes", one_lobes, each_lobes, NULL, batch_lobes, NULL},
+    [METHOD_TWO_LOBES] = {": mixture", one_lobes, each_lobes, NULL, batch_lobes, NULL},
 };
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)

@@ -35,7 +35,7 @@ class Law:
 
     def _frame(self, alpha_x: Any, alpha_y: Any, wi: Any) -> Any:
         x, y = alpha_x * self.scale, alpha_y * self.scale
-        return kernel.vndf_frame_of(kernel.vndf_affine_map(x, 0.0, 0.0, y, 0.0, 0.0), wi.x, wi.y, dr.maximum(wi.z, 0.0))
+        return kernel.vndf_frame_of(kernel.vndf_affine_map(x, 0.0, 0.0, y, 0.0, 0.0, 1), wi.x, wi.y, dr.maximum(wi.z, 0.0))
 
     def view(self, alpha_x: Any, alpha_y: Any, wi: Any) -> View:
         """A surface seen from wi."""
@@ -92,7 +92,7 @@ class Table(Law):
 
     def look(self, group: int, i: Any) -> Any:
         """Row i of a group: four numbers."""
-        row = 4 * (group * (self.cells + 1) + i)
+        row = 20 * i + 4 * group
         if not dr.is_jit_v(mi.Float):
             return kernel.vndf_quad(*self._numbers[int(row) : int(row) + 4])
         at = mi.UInt32(row)
