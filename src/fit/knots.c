@@ -128,6 +128,8 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     double f1 = 2 * PI * k->profile->f1, far = k->rim[from].s1 / f1, density = 0, unused = 0;
     if (tail && far / 8 > enough && from < k->last)
         return far / 8;
+    if (!vndf_guard_spend(k->profile->guard, 8 * (double)(end - from)))
+        return 0;
     view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
     double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
     if (from > 0 && !tail && k->strips.edge[end] > WIDE * v.cell.r && mass > WIDE_MASS)
