@@ -9,27 +9,17 @@
 vndf_family *vndf_family_allocate(size_t count)
 {
     vndf_family *family = count ? calloc(1, sizeof *family) : NULL;
-    if (!family)
-        return NULL;
-    family->count = count;
-    family->parameter = calloc(count, sizeof *family->parameter);
-    family->distance = calloc(count, sizeof *family->distance);
-    family->distribution = calloc(count, sizeof *family->distribution);
-    if (family->parameter && family->distance && family->distribution)
-        return family;
-    vndf_family_free(family);
-    return NULL;
+    if (family)
+        family->count = count;
+    return family;
 }
 
 void vndf_family_free(vndf_family *family)
 {
     if (!family)
         return;
-    for (size_t i = 0; family->owns && family->distribution && i < family->count; i++)
+    for (size_t i = 0; family->owns && i < family->count; i++)
         vndf_free((vndf_distribution *)family->distribution[i]);
-    free(family->parameter);
-    free(family->distance);
-    free((void *)family->distribution);
     free(family->source);
     free(family->tool);
     free(family);

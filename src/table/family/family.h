@@ -15,10 +15,10 @@
 struct vndf_family {
     size_t count;
     int reciprocal;
-    int owns;                               /* the distributions, which are tables then */
-    float *parameter;                       /* count */
-    float *distance;                        /* count - 1; zeros where nothing was measured */
-    const vndf_distribution **distribution; /* count */
+    int owns; /* the distributions, which are tables then */
+    float parameter[VNDF_LIMIT_FAMILY_KNOTS];
+    float distance[VNDF_LIMIT_FAMILY_KNOTS]; /* to the next knot; zeros where nothing was measured */
+    const vndf_distribution *distribution[VNDF_LIMIT_FAMILY_KNOTS];
     float grazing;
     char *source, *tool; /* owned, or NULL */
     size_t bytes;        /* of the file */
@@ -31,7 +31,8 @@ VNDF_INLINE double vndf_family_weight(double a, double b, double p, int reciproc
     return reciprocal ? share * (b / p) : share;
 }
 
-/* With zeros as parameters and distributions; 0 knots are no family. NULL if there is no memory. */
+/* Of 1 to VNDF_LIMIT_FAMILY_KNOTS knots, with zeros as parameters and distributions; 0 knots are no family. NULL if
+ * there is no memory. */
 vndf_family *vndf_family_allocate(size_t count);
 
 /* Why the numbers are none of a family; NULL if they are. */

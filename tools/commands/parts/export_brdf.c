@@ -29,48 +29,32 @@ int brdf_wanted(const brdf_words *given)
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
-static int read_wavelengths(const char *command, const brdf_words *given, rgl_form *form)
-{
-    double nanometres[RGL_CHANNELS];
-    if (!given->wavelengths.count)
-        return 1;
-    size_t count = parse_numbers(command, "--wavelengths", only_word(&given->wavelengths), 1, 1e6, 1, RGL_CHANNELS,
-                                 nanometres);
-    for (size_t i = 0; i < count; i++) {
-        form->wavelength[i] = (float)nanometres[i];
-        if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1])) {
-            complain(command, "--wavelengths '%s': they must ascend", only_word(&given->wavelengths));
-            return 0;
-        }
-    }
-    form->channels = (int)count;
-    form->is_spectral = 1;
-    return count > 0;
-}
-
-/* One number for all channels, or one for each. */
-static int read_f0(const char *command, const brdf_words *given, rgl_form *form)
-{
-    size_t channels = (size_t)form->channels, count = 1;
-    form->f0[0] = 1;
-    if (given->f0.count)
-        count = parse_numbers(command, "--f0", only_word(&given->f0), 0, 1, 1, channels, form->f0);
-    if (count > 1 && count < channels) {
-        complain(command, "--f0 has %zu numbers; 1 or %zu are needed", count, channels);
-        return 0;
-    }
-    for (size_t i = count; i < channels; i++)
-        form->f0[i] = form->f0[0];
-    return count > 0;
-}
-
+/* Roughness, wavelengths, and F0: one number for all channels, or one for each. */
 static int read_form(const char *command, const brdf_words *given, rgl_form *form)
 {
-    double alpha = 1;
+    double alpha = 1, nanometres[RGL_CHANNELS];
+    size_t channels = 3, count = 1;
     if (!option_number(command, "--alpha", &given->alpha, 1e-4, 10, &alpha))
         return 0;
+    if (given->wavelengths.count)
+        channels = parse_numbers(command, "--wavelengths", only_word(&given->wavelengths), 1, 1e6, 1, RGL_CHANNELS,
+                                 nanometres);
+    for (size_t i = 0; i < channels && given->wavelengths.count; i++) {
+        form->wavelength[i] = (float)nanometres[i];
+        if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1]))
+            return complain(command, "--wavelengths '%s': they must ascend", only_word(&given->wavelengths)), 0;
+    }
     form->alpha = (float)alpha;
-    return read_wavelengths(command, given, form) && read_f0(command, given, form);
+    form->channels = (int)channels;
+    form->is_spectral = given->wavelengths.count > 0;
+    form->f0[0] = 1;
+    if (channels > 0 && given->f0.count)
+        count = parse_numbers(command, "--f0", only_word(&given->f0), 0, 1, 1, channels, form->f0);
+    if (count > 1 && count < channels)
+        return complain(command, "--f0 has %zu numbers; 1 or %zu are needed", count, channels), 0;
+    for (size_t i = count; i < channels; i++)
+        form->f0[i] = form->f0[0];
+    return channels > 0 && count > 0;
 }
 
 static int is_merl(const brdf_words *given)
@@ -96,30 +80,23 @@ static int check_words(const char *command, const brdf_words *given)
 
 /* ---- work ---------------------------------------------------------------------------------------- */
 
-static int write_file(const char *command, const brdf_words *given, const vndf_distribution *distribution,
-                      const rgl_form *form)
-{
-    output_file output;
-    if (!output_open(&output, command, only_word(&given->output)))
-        return STATUS_USE;
-    if (!(is_merl(given) ? merl_write(output.file, distribution, form->alpha, form->f0)
-                         : rgl_write(output.file, distribution, form)))
-        return output_give_up(&output, "no memory, or no place on the disk");
-    return output_commit(&output);
-}
-
 int export_brdf(const char *command, const brdf_words *given)
 {
-    rgl_form form = {.alpha = 1, .channels = 3};
+    rgl_form form = {0};
     chosen_distribution chosen;
     char description[600];
-    const char *table = given->tables.count ? given->tables.item[0] : "";
+    output_file output;
     if (check_words(command, given) != STATUS_GOOD || !read_form(command, given, &form) ||
-        !distribution_open(&chosen, command, table))
+        !distribution_open(&chosen, command, given->tables.item[0]))
         return STATUS_USE;
-    snprintf(description, sizeof description, "vndf %.500s, alpha %g", table, (double)form.alpha);
+    snprintf(description, sizeof description, "vndf %.500s, alpha %g", given->tables.item[0], (double)form.alpha);
     form.description = description;
-    int status = write_file(command, given, chosen.distribution, &form);
+    int status = STATUS_USE;
+    if (output_open(&output, command, only_word(&given->output))) {
+        int written = is_merl(given) ? merl_write(output.file, chosen.distribution, form.alpha, form.f0)
+                                     : rgl_write(output.file, chosen.distribution, &form);
+        status = written ? output_commit(&output) : output_give_up(&output, "no memory, or no place on the disk");
+    }
     distribution_close(&chosen);
     return status;
 }
