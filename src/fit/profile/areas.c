@@ -46,26 +46,12 @@ double vndf_profile_s(const vndf_profile *profile, double rho)
     return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
 }
 
-/* v - atan v, as a series for v^2 = y^2 - 1 near 0, with a relative error of 1e-11. */
-static double lens_of(double v, double v2, double angle)
-{
-    return v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 * (1.0 / 7 - v2 / 9))) : v - angle;
-}
-
-double vndf_profile_kernel(double y)
-{
-    const double far = 32; /* as a series of 1/y from there on */
-    double v2 = (y - 1) * (y + 1), v = sqrt(v2), u = 1 / y;
-    return y > far ? y - HALF_PI + u / 2 * (1 + u * u / 12) : lens_of(v, v2, atan(v));
-}
-
 /* Adds P r dr = weight at r: the three integrals over rho, 1 and 1. */
 static void add_point(vndf_area *sum, double r, double rho, double weight)
 {
-    double y = r / rho, v2 = (y - 1.0) * (y + 1.0), v = sqrt(v2), angle = atan(v);
-    sum->below += weight * rho * lens_of(v, v2, angle);
-    sum->turned += weight * angle;
-    sum->along += weight * rho * v;
+    sum->below += weight * vndf_profile_kernel(r, rho);
+    sum->turned += weight * acos(rho / r);
+    sum->along += weight * sqrt((r - rho) * (r + rho));
 }
 
 /* integral over R in [from, to], rho <= from < to, within a panel: by t with R = rho + t^2 where the root shows. One
