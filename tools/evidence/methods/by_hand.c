@@ -15,9 +15,19 @@ static inline float ggx_area(const vndf_surface *s, vndf_vec3 w)
     return 0.5f * (w.z + sqrtf(x * x + y * y + w.z * w.z));
 }
 
-static inline float area_of(const vndf_surface *s, vndf_vec3 w)
+/* What a user knows of a distribution, asked once for a loop. */
+typedef enum hand_kind { HAND_GGX, HAND_CLOSED, HAND_TABLE } hand_kind;
+
+static hand_kind kind_of(const vndf_surface *s)
 {
-    return s->distribution == vndf_ggx() ? ggx_area(s, w) : vndf_projected_area(s, w);
+    return s->distribution == vndf_ggx()                       ? HAND_GGX
+           : vndf_distribution_info(s->distribution).bytes > 0 ? HAND_TABLE
+                                                               : HAND_CLOSED;
+}
+
+static inline float area_of(const vndf_surface *s, vndf_vec3 w, hand_kind kind)
+{
+    return kind == HAND_GGX ? ggx_area(s, w) : vndf_projected_area(s, w);
 }
 
 /* G2/(cos_i cos_o), of A(wi) and A(wo). */
@@ -45,10 +55,9 @@ static const vndf_surface *surface_of(const method *m)
 
 /* ---- over vndf.h --------------------------------------------------------------------------------- */
 
-/* The view is not part of a struct with wi and the area: the processor would wait for the copy. `is_table` is a
- * constant of a loop. */
+/* The view is not part of a struct with wi and the area: the processor would wait for the copy. */
 static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area, const float u[3],
-                          vndf_scattered *out, int is_table)
+                          vndf_scattered *out, hand_kind kind)
 {
     float pdf, quotient = area;
     vndf_vec3 wm = vndf_sample(view, u[0], u[1], &pdf);
@@ -58,42 +67,44 @@ static inline void sample(const vndf_surface *s, const vndf_view *view, vndf_vec
         *out = (vndf_scattered){.wo = {0, 0, 1}};
         return;
     }
-    if (is_table)
+    if (kind == HAND_TABLE)
         quotient = vndf_ndf(s, wm) * facing / pdf;
-    float weight = quotient * wo.z * masking(wi, area, wo, area_of(s, wo));
+    float weight = quotient * wo.z * masking(wi, area, wo, area_of(s, wo, kind));
     *out = (vndf_scattered){wo, {weight, weight, weight}, pdf / (4.0f * facing), VNDF_LOBE_REFLECTION, wm};
 }
 
+/* (A copy of wi would be stored by floats and loaded whole, for which the processor waits: method.h.) */
 static void each(const method *m, block *b, size_t first, size_t count)
 {
     const vndf_surface *s = surface_of(m);
-    int is_table = vndf_distribution_info(s->distribution).bytes > 0;
+    hand_kind kind = kind_of(s);
     for (size_t i = first; i < first + count; i++) {
-        vndf_vec3 wi = b->in[i].wi;
-        vndf_view view = vndf_view_from(s, wi);
-        sample(s, &view, wi, area_of(s, wi), b->in[i].u, &b->out[i], is_table);
+        const method_input *in = &b->in[i];
+        vndf_view view = vndf_view_from(s, in->wi);
+        sample(s, &view, in->wi, area_of(s, in->wi, kind), in->u, &b->out[i], kind);
     }
 }
 
 static void shared(const method *m, block *b, size_t first, size_t count)
 {
     const vndf_surface *s = surface_of(m);
-    int is_table = vndf_distribution_info(s->distribution).bytes > 0;
+    hand_kind kind = kind_of(s);
     vndf_vec3 wi = b->in[first].wi;
     vndf_view view = vndf_view_from(s, wi);
-    float area = area_of(s, wi);
+    float area = area_of(s, wi, kind);
     for (size_t i = first; i < first + count; i++)
-        sample(s, &view, wi, area, b->in[i].u, &b->out[i], is_table);
+        sample(s, &view, wi, area, b->in[i].u, &b->out[i], kind);
 }
 
 static void eval(const method *m, block *b, size_t first, size_t count)
 {
     const vndf_surface *s = surface_of(m);
+    hand_kind kind = kind_of(s);
     vndf_vec3 wi = b->in[first].wi;
-    float area = area_of(s, wi);
+    float area = area_of(s, wi, kind);
     for (size_t i = first; i < first + count; i++) {
         vndf_vec3 wo = b->in[i].given;
-        float f = 0.25f * vndf_ndf(s, half_of(wi, wo)) * masking(wi, area, wo, area_of(s, wo));
+        float f = 0.25f * vndf_ndf(s, half_of(wi, wo)) * masking(wi, area, wo, area_of(s, wo, kind));
         b->out[i].weight[0] = b->out[i].weight[1] = b->out[i].weight[2] = f;
     }
 }
