@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "fit/certificate.h"
+#include "fit/draft.h"
 #include "table/table.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };

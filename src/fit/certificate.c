@@ -1,4 +1,6 @@
-#include "fit/certificate.h"
+/* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
+ * that of the laws of R: the drawn one (fit/law.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
+#include "fit/draft.h"
 
 #include <math.h>
 #include <stdlib.h>

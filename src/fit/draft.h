@@ -23,4 +23,7 @@ int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_
 
 void vndf_draft_free(vndf_draft *draft);
 
+/* How good the table is (certificate.c); 0 if there is no memory. */
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_draft *draft, const vndf_profile *profile);
+
 #endif

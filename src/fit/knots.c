@@ -8,15 +8,15 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-static const double BELOW = 1.4e-2; /* weight of an error below the horizon */
-static const double ANYWAY = 2e-3,
-                    AT = 1e-5; /* beyond one that k~ hides, or less where cells err by less than AT, */
-static const double AREA = 0.3, DRAWN = 1e-4;   /* of an error of the area, and of what is drawn of it below, */
-static const double DENSITY = 2e-4;             /* and of the largest error of D */
-static const double FIRST = 1e-3;               /* of the width of the first cell, where D errs by twice that */
+/* Weights of errors: below the horizon, beyond one that k~ hides there anyway, or less where cells err by less than AT;
+ * of the area, and of what is drawn of it below; of the largest of D; and of the width of the first cell, where D errs
+ * by twice that. */
+static const double BELOW = 1.4e-2, ANYWAY = 2e-3, AT = 1e-5;
+static const double AREA = 0.3, DRAWN = 1e-4, DENSITY = 2e-4, FIRST = 1e-3;
+
 static const double ENOUGH = 1e-13, MOST = 0.1; /* errors of cells */
-static const double WIDE = 2.5,
-                    WIDE_MASS = 1e-6; /* a cell that holds more is no wider: k~ begins at a knot near rho */
+/* A cell that holds more than WIDE_MASS is no wider than this factor, since k~ begins at a knot near rho. */
+static const double WIDE = 2.5, WIDE_MASS = 1e-6;
 static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p43;
 static const double M0_LEAST = 1e-28;  /* of f/R beyond the last knot, since numbers are floats */
 static const double RHO_MOST = 0x1p20; /* claims end there */
@@ -128,6 +128,8 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     double f1 = 2 * PI * k->profile->f1, far = k->rim[from].s1 / f1, density = 0, unused = 0;
     if (tail && far / 8 > enough && from < k->last)
         return far / 8;
+    if (!vndf_guard_spend(k->profile->guard, 8 * (double)(end - from)))
+        return 0;
     view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
     double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
     if (from > 0 && !tail && k->strips.edge[end] > WIDE * v.cell.r && mass > WIDE_MASS)

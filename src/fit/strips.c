@@ -8,8 +8,8 @@ static const double PI = 3.14159265358979323846;
 static const double SAME = 1.3e-7;   /* of a slope: a knot may be the end of a panel, rounded */
 static const double INSIDE = 1.5e-7; /* of a slope: a float beyond an edge, where P22 may jump beside it */
 
-/* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered to
- * one strip. */
+/* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered
+ * to one strip. */
 typedef struct maker {
     vndf_strips *to;
     const vndf_profile *profile;
@@ -173,8 +173,8 @@ static double need_of(const vndf_profile *profile, size_t i)
     return change * cbrt(fmax(fmax(f, along / profile->f1), below * along / beyond));
 }
 
-/* Adds what lies in a panel from one slope to another, `parts` strips to `edge` if it does not have to be gathered; in a
- * gap they are the narrower the nearer to what is seen from there. */
+/* Adds what lies in a panel from one slope to another, `parts` strips to `edge` if it does not have to be gathered; in
+ * a gap they are the narrower the nearer to what is seen from there. */
 static void add_piece(maker *m, size_t i, double from, double to, double edge, double parts)
 {
     const double closer = 1.5;

@@ -196,7 +196,7 @@ static int put_call(writer *w, int at, int bare)
     return close + 1;
 }
 
-/* The space or line break that stands before a word. */
+/* The space or line break that stands before a word; a comment in an expression is left out. */
 static void put_space(const writer *w, const word *at)
 {
     int broken = memchr(at->text - at->gap, '\n', (size_t)at->gap) != NULL;
@@ -536,8 +536,8 @@ static int put_statement(writer *w, int at)
 /* Python would change the caller's struct, and WGSL forbids to change a parameter. */
 static int is_copied(const writer *w, const declaration *d, int name)
 {
-    return (w->to->apart && !w->to->indents && is_assigned(w, d, &w->word[name])) ||
-           (w->to->indents && is_assigned(w, d, &w->word[name]) && declared(w, &w->word[name - 1], STRUCT));
+    return is_assigned(w, d, &w->word[name]) &&
+           (w->to->indents ? declared(w, &w->word[name - 1], STRUCT) != NULL : w->to->apart);
 }
 
 static void put_parameters(writer *w, const declaration *d)
