@@ -129,8 +129,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * Size and moments are what accuracy costs. Bytes buy cells: the slope length is drawn closer to D. Moments bound
  * how far the law of the slope length from one direction is from the visible one: above the horizon by 6.5e-2 with
  * 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D, direction and roughness. Below the horizon the total
- * variation is some percent with any of them. Fewer moments take fewer bytes and less time. If max_bytes and
- * max_tv are both 0, the table is the smallest one that reaches a max_tv of 1e-3, or else the best of 8192 bytes.
+ * variation is some 3e-2 at most with any of them. Fewer moments take fewer bytes and less time. If max_bytes and
+ * max_tv are both 0, the table is about the smallest that reaches a max_tv of 1e-3, or else the best of 8192 bytes.
  *
  * Narrow features. The builder bounds formulas and families between all points by interval arithmetic, and reads
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
@@ -143,7 +143,7 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * slope there. `finest` costs 280/finest evaluations. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
-    double max_tv; /* build the smallest table that reaches this total variation above the horizon, and 30 times it
+    double max_tv; /* about the smallest table that reaches this total variation above the horizon, and 30 times it
                     * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "fit/certificate.h"
+#include "fit/draft.h"
 #include "table/table.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
@@ -71,8 +71,8 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
 static double try_knots(const builder *b, unsigned knots, vndf_draft *draft)
 {
     vndf_draft_free(draft);
-    unsigned there = vndf_knots_refine(b->knots, knots);
-    int good = vndf_draft_from(draft, b->knots, there < knots ? there : knots, b->moments) &&
+    vndf_knots_place(b->knots, knots);
+    int good = vndf_draft_from(draft, b->knots, b->moments) &&
                vndf_certificate_measure(&draft->table.certificate, draft, b->profile);
     b->profile->guard->starved |= !good;
     return good ? excess_of(&draft->table.certificate, b->max_tv) : 0;
@@ -83,19 +83,20 @@ static double try_knots(const builder *b, unsigned knots, vndf_draft *draft)
  * not. */
 static void search(const builder *b, unsigned least, unsigned most, vndf_draft *draft)
 {
-    const double step_least = 1.25, step_most = 2.5;
-    unsigned few = least, enough = least;
+    const double step_least = 1.1, step_most = 2.5, step_slow = 1.5, close = 0.7;
+    unsigned few = least, enough = least, there = 0;
     double excess = try_knots(b, least, draft), before = HUGE_VAL;
-    while (excess > 1 && enough < most && b->knots->count >= enough) {
-        double next =
-            excess * enough > before * few ? most : enough * fmin(fmax(sqrt(excess), step_least), step_most);
+    while (excess > 1 && enough < most && b->knots->count > there) {
+        there = b->knots->count;
+        int slow = excess * enough > before * few;
+        double next = enough * (slow ? step_slow : fmin(fmax(1.1 * sqrt(excess), step_least), step_most));
         few = enough;
         before = excess;
         enough = next < most ? (unsigned)next : most;
         excess = try_knots(b, enough, draft);
     }
     int reached = excess <= 1;
-    while (reached && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
+    while (reached && excess < close && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
         unsigned middle = (few + enough) / 2;
         excess = try_knots(b, middle, draft);
         *(excess <= 1 ? &enough : &few) = middle;
@@ -120,8 +121,12 @@ static unsigned knots_in(const builder *b, size_t bytes)
 
 static vndf_distribution *make_table(const builder *b, vndf_error *error)
 {
-    unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes);
-    unsigned least = b->knots->start > CELLS_LEAST ? b->knots->start : CELLS_LEAST + 1;
+    unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes), least = CELLS_LEAST + 1;
+    if (most >= least && !vndf_knots_from(b->knots, b->profile, most)) {
+        b->profile->guard->starved = 1;
+        return NULL;
+    }
+    least = b->knots->least > least ? b->knots->least : least;
     if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
@@ -188,7 +193,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     b.profile = profile;
     b.knots = calloc(1, sizeof *b.knots);
     vndf_guard_stage(&guard, 0.5, "knots and certificate");
-    if (b.knots && vndf_knots_from(b.knots, profile))
+    if (b.knots)
         table = make_table(&b, error);
     else
         guard.starved = 1;
@@ -202,7 +207,8 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     }
     if (table && certificate)
         *certificate = table->certificate;
-    free(b.knots ? b.knots->points.at : NULL);
+    if (b.knots)
+        vndf_knots_free(b.knots);
     free(b.knots);
     vndf_profile_free(profile);
     return table;

@@ -1,4 +1,6 @@
-#include "fit/certificate.h"
+/* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
+ * that of the laws of R: the drawn one (fit/law.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
+#include "fit/draft.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -7,169 +9,144 @@
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
 static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p20;
-enum { DIRECTIONS_MOST = 320, CELLS_MOST = 80, CANDIDATES = 512 };
+enum { CELLS_MOST = 64, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
 enum { TV, WEIGHT, AREA_ERROR, CONSISTENCY, FIGURES };
 
+/* Directions are those with rho at an edge. */
 typedef struct direction {
-    double rho, side[2][FIGURES]; /* above, below */
+    double side[2][FIGURES]; /* above, below */
+    int known;
 } direction;
-
-/* A part of what is seen, and the ratio in which it is drawn too rarely. */
-typedef struct part {
-    double ratio, seen;
-} part;
 
 typedef struct survey {
     const vndf_draft *draft;
     const vndf_profile *profile;
-    double *kernel; /* of the points, seen from below: sqrt(y^2 - 1) - acos(1/y), 0 where y < 1 */
-    direction at[DIRECTIONS_MOST];
-    int count;
-    part candidate
-        [CANDIDATES]; /* of the direction at hand: parts that may be left out, and those drawn too rarely */
-    int candidates;
+    direction *at;       /* of each edge */
+    double *xi, *kernel; /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
+    double
+        rarely[RATIOS]; /* of the direction at hand: what is seen, by the ratio in which it is drawn too rarely */
 } survey;
 
 /* ---- one direction ---- */
 
-static int by_ratio(const void *a, const void *b)
-{
-    double x = ((const part *)a)->ratio, y = ((const part *)b)->ratio;
-    return (x < y) - (x > y);
-}
-
 /* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
-static double largest_weight(survey *s, double least)
+static double largest_weight(const survey *s, double least)
 {
     double sum = 0;
-    int n = 0;
-    for (int i = 0; i < s->candidates; i++)
-        if (s->candidate[i].ratio > least)
-            s->candidate[n++] = s->candidate[i];
-    qsort(s->candidate, (size_t)n, sizeof *s->candidate, by_ratio);
-    for (int i = 0; i < n; i++) {
-        sum += s->candidate[i].seen;
-        if (sum > LEFT_OUT)
-            return s->candidate[i].ratio;
-    }
+    for (int i = RATIOS - 1; i >= 0; i--)
+        if ((sum += s->rarely[i]) > LEFT_OUT)
+            return fmax(exp2((i + 0.5) / PER_OCTAVE), least);
     return least;
 }
 
-/* Compares what is drawn with what is seen, point by point. `area` is what the points see, which is the area but for a
- * rho between slopes that count as one. */
-static void compare(survey *s, const vndf_law *law, double area, double drawn_area, double *figure)
+/* Compares what is drawn with what is seen, strip by strip. */
+static void compare(survey *s, const vndf_law *law, size_t edge, double seen_area, double drawn_area,
+                    double *figure)
 {
     const vndf_draft *d = s->draft;
-    double miss = 0, weight = 1, add = law->below ? 0 : PI, seen_per = law->c / (PI * area);
-    s->candidates = 0;
+    double miss = 0, weight = 1, add = law->below ? 0 : PI * law->rho, per = law->s / (PI * seen_area);
+    memset(s->rarely, 0, sizeof s->rarely);
     for (unsigned i = law->below ? law->first : 0; i <= d->table.cells; i++) {
         vndf_drawn cell = vndf_law_cell(law, i);
-        double xi = law->below && i == law->first ? law->xi : 0, per = 1 / (1 - xi);
-        for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
-            const vndf_point *p = &d->points.at[n];
-            double place = (p->xi - xi) * per, width = p->width * per;
-            double drawn = place + width / 2 > 0 ? vndf_drawn_part(&cell, place, width) / drawn_area : 0;
-            double seen = p->mass * (s->kernel[n] + add) * seen_per;
+        int partial = law->below && i == law->first;
+        double xi = partial ? law->xi : 0, stretch = 1 / (1 - xi), before = 0;
+        for (size_t n = partial ? edge : d->first[i]; n < d->first[i + 1]; n++) {
+            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
+            double drawn = (next - before) / drawn_area;
+            double seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * d->strips.at[n].f);
+            before = next;
             miss += fabs(seen - drawn);
             if (seen > LEFT_OUT && seen > weight * drawn)
                 weight = drawn > 0 ? seen / drawn : HUGE_VAL;
-            else if (seen > weight * drawn && s->candidates < CANDIDATES)
-                s->candidate[s->candidates++] = (part){drawn > 0 ? seen / drawn : HUGE_VAL, seen};
+            else if (seen > weight * drawn)
+                s->rarely[drawn * 0x1p31 > seen ? (int)(PER_OCTAVE * log2(seen / drawn)) : RATIOS - 1] += seen;
         }
     }
     figure[TV] = fmin(miss / 2, 1);
     figure[WEIGHT] = largest_weight(s, weight);
 }
 
-/* One side. Where rho is among slopes that count as one, the area may be anything between those of its neighbours. */
-static void look(survey *s, double rho, int below, double area, double *figure)
+/* One side. */
+static void look(survey *s, size_t edge, int below, double *figure)
 {
     const vndf_draft *d = s->draft;
+    double rho = d->strips.edge[edge];
     vndf_law law = vndf_law_of(&d->laws, rho, below);
     unsigned cell = vndf_laws_cell(&d->laws, rho), first = below ? law.first : 0;
-    double drawn = 0, seen = 0, add = below ? 0 : PI;
+    double drawn = 0, seen = below ? 0 : PI * rho, beyond = 0;
     float rounded = 0;
     for (unsigned i = d->table.cells + 1; i-- > first;) {
         double mass = vndf_law_cell(&law, i).mass;
         drawn += mass;
         rounded += (float)mass;
     }
-    for (size_t i = d->first[first]; i < d->points.count; i++)
-        seen += d->points.at[i].mass * (s->kernel[i] + add);
+    for (size_t i = 2 * edge; i < 2 * d->strips.count; i++)
+        beyond += s->kernel[i];
+    seen = (seen + beyond) * law.s / PI;
+    if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
+        return;
     figure[CONSISTENCY] = fabs(rounded / drawn - 1);
-    if (cell == d->table.cells || d->laws.cell[cell + 1].r - d->laws.cell[cell].r > 2 * VNDF_GRAIN * rho)
-        figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / area - 1);
-    if (seen > 0)
-        compare(s, &law, seen * law.c / PI, drawn, figure);
+    if (cell == d->table.cells || d->laws.cell[cell + 1].r - d->laws.cell[cell].r > VNDF_GRAIN * rho)
+        figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / seen - 1);
+    compare(s, &law, edge, seen, drawn, figure);
 }
 
-/* Looks from rho above and below the horizon, and keeps directions ascending. */
-static void add_direction(survey *s, double rho)
+/* Looks from rho at an edge, above and below the horizon. */
+static void look_from(survey *s, size_t edge)
 {
-    const vndf_draft *d = s->draft;
-    int i = 0;
-    rho = fmin(fmax(rho, RHO_LEAST), RHO_MOST);
-    while (i < s->count && s->at[i].rho < rho)
-        i++;
-    if ((i < s->count && s->at[i].rho == rho) || s->count == DIRECTIONS_MOST ||
-        !vndf_guard_spend(s->profile->guard, 6 * (double)d->points.count))
+    const vndf_strips *strips = &s->draft->strips;
+    double rho = strips->edge[edge];
+    direction *at = &s->at[edge];
+    if (at->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
+        !vndf_guard_spend(s->profile->guard, 6 * (double)strips->count))
         return;
-    for (size_t k = 0; k < d->points.count; k++) {
-        double y = d->points.at[k].r / rho;
-        s->kernel[k] = y > 1 ? vndf_profile_kernel(y) : 0;
-    }
-    direction made = {rho, {{0, 1, 0, 0}, {0, 1, 0, 0}}};
-    double c = rho / (1 + rho), below = vndf_profile_below(s->profile, 1 / (1 + rho), c).below;
-    look(s, rho, 0, below + c, made.side[0]);
-    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(1 / (1 + rho), c))
-        look(s, rho, 1, below, made.side[1]);
-    memmove(s->at + i + 1, s->at + i, (size_t)(s->count - i) * sizeof *s->at);
-    s->at[i] = made;
-    s->count++;
+    *at = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
+    for (size_t i = 0; i < 2 * strips->count; i++)
+        s->kernel[i] = strips->r[i] > rho ? strips->mass[i] * vndf_profile_kernel(strips->r[i], rho) : 0;
+    look(s, edge, 0, at->side[0]);
+    look(s, edge, 1, at->side[1]);
 }
 
 /* ---- all directions ---- */
 
-/* Adds directions on both sides of the one with the largest figure, and again. */
-static void add_peak(survey *s, int side, int figure)
+/* Looks from the edges beside the one with the largest figure, the nearer the later. */
+static void look_near_worst(survey *s, int side, int figure, size_t apart)
 {
-    enum { STEPS = 4 };
-    for (int step = 0; step < STEPS; step++) {
-        int best = 0;
-        for (int i = 1; i < s->count; i++)
-            best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
-        double rho = s->at[best].rho, before = best > 0 ? s->at[best - 1].rho : rho;
-        double after = best + 1 < s->count ? s->at[best + 1].rho : rho;
-        add_direction(s, sqrt(before * rho));
-        add_direction(s, sqrt(rho * after));
+    size_t best = 0, edges = s->draft->strips.count;
+    for (; apart > 0; apart /= 2) {
+        for (size_t i = 0; i < edges; i++)
+            best = s->at[i].known && s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
+        look_from(s, best > apart ? best - apart : 0);
+        look_from(s, best + apart < edges ? best + apart : edges - 1);
     }
 }
 
-/* Some angles of incidence at alpha 1; of every so many cells the left knot and the middle; and the neighbourhood of
+/* Some angles of incidence at alpha 1; of every so many cells the left knot and two places; and the neighbourhood of
  * what is worst. */
 static void look_around(survey *s)
 {
     static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
-    const vndf_laws *laws = &s->draft->laws;
+    const vndf_draft *d = s->draft;
     for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
-        add_direction(s, 1 / (tan(degrees[i] * PI / 180) * s->profile->scale));
-    for (unsigned i = 0; i <= laws->cells; i += laws->cells / CELLS_MOST + 1) {
-        double r = laws->cell[i].r, end = i < laws->cells ? laws->cell[i + 1].r : 4 * r;
-        add_direction(s, fmax(r * (1 + 1e-6), 1e-2 * end));
-        add_direction(s, (r + end) / 2);
+        look_from(s, vndf_strips_edge(&d->strips, 1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
+    for (unsigned i = 0; i <= d->table.cells; i += d->table.cells / CELLS_MOST + 1) {
+        size_t from = d->first[i], strips = d->first[i + 1] - from;
+        look_from(s, from);
+        look_from(s, from + strips / 3);
+        if (i > 0)
+            look_from(s, from + 2 * strips / 3);
     }
-    for (int figure = TV; figure <= AREA_ERROR; figure++) {
-        add_peak(s, 0, figure);
-        add_peak(s, 1, figure);
-    }
+    for (int figure = TV; figure <= AREA_ERROR; figure++)
+        for (int side = 0; side < 2; side++)
+            look_near_worst(s, side, figure, 4);
 }
 
-static void take(vndf_certificate *c, const direction *at, int side, double scale)
+static void take(vndf_certificate *c, const direction *at, double rho, int side, double scale)
 {
     const double *f = at->side[side];
-    double angle = atan2(1, at->rho * scale) * 180 / PI, theta = side ? 180 - angle : angle;
+    double angle = atan2(1, rho * scale) * 180 / PI, theta = side ? 180 - angle : angle;
     if (f[TV] > c->tv) {
         c->tv = (float)f[TV];
         c->tv_theta = (float)theta;
@@ -186,22 +163,25 @@ static void take(vndf_certificate *c, const direction *at, int side, double scal
 /* ---- D, and its ends ---- */
 
 /* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence
- * were, over the points that hold all but LEFT_OUT of the mass on either side. */
-static double ndf_error(const vndf_draft *d)
+ * were, over the strips that hold all but LEFT_OUT of the mass on either side. */
+static double ndf_error(const survey *s)
 {
-    double before = 0, worst = 0;
+    const vndf_draft *d = s->draft;
+    double sum = 0, worst = 0;
     for (unsigned i = 0; i <= d->table.cells; i++) {
-        const vndf_cell *c = &d->laws.cell[i];
         int tail = i == d->table.cells;
         const vndf_weight all = {tail, !tail, 0, 0};
-        vndf_drawn cell = vndf_drawn_by(c, &all);
+        vndf_drawn cell = vndf_drawn_by(&d->laws.cell[i], &all);
+        double before = 0;
         for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
-            const vndf_point *p = &d->points.at[n];
-            double width = p->width / (vndf_cell_density(c, p->r) * p->r); /* of log R */
-            double drawn = vndf_drawn_part(&cell, p->xi, p->width) / (tail ? p->r : 1);
-            before += p->mass;
-            if (before > LEFT_OUT / 2 && before < 1 - LEFT_OUT / 2 && p->mass > LEFT_OUT * width)
-                worst = fmax(worst, fabs(drawn / p->mass - 1));
+            const vndf_strip *strip = &d->strips.at[n];
+            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? s->xi[n + 1] : 1);
+            double error = fabs((next - before) / (tail ? strip->along : strip->f) - 1);
+            before = next;
+            sum += strip->f;
+            if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
+                strip->f > LEFT_OUT * log(d->strips.edge[n + 1] / d->strips.edge[n]))
+                worst = fmax(worst, error);
         }
     }
     return worst;
@@ -215,28 +195,34 @@ static double power_between(const vndf_profile *profile, double r0, double r1)
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
 {
-    survey *s = calloc(1, sizeof *s);
-    double *kernel = malloc((draft->points.count + 1) * sizeof *kernel);
-    if (s && kernel) {
-        double first = profile->panel[0].r, end = profile->panel[profile->count].r;
-        s->draft = draft;
-        s->profile = profile;
-        s->kernel = kernel;
-        look_around(s);
+    size_t n = draft->strips.count;
+    survey s = {.draft = draft,
+                .profile = profile,
+                .at = calloc(n + 1, sizeof *s.at),
+                .xi = malloc((n + 1) * sizeof *s.xi),
+                .kernel = malloc(2 * n * sizeof *s.kernel)};
+    int good = s.at && s.xi && s.kernel;
+    if (good) {
+        for (unsigned i = 0; i <= draft->table.cells; i++)
+            for (size_t k = draft->first[i]; k < draft->first[i + 1]; k++)
+                s.xi[k] = vndf_cell_place(&draft->laws.cell[i], draft->strips.edge[k]);
+        look_around(&s);
         memset(c, 0, sizeof *c);
         c->max_weight = 1;
-        for (int i = 0; i < 2 * s->count; i++)
-            take(c, &s->at[i / 2], i % 2, profile->scale);
-        c->ndf_error = (float)ndf_error(draft);
+        for (size_t i = 0; i < 2 * n; i++)
+            if (s.at[i / 2].known)
+                take(c, &s.at[i / 2], draft->strips.edge[i / 2], i % 2, profile->scale);
+        c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
+        double first = profile->panel[0].r, end = profile->panel[profile->count].r;
         double power = power_between(profile, end / 16, end / 4) - 4;
         c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
         c->weight_bounded = !(power < -4e-3) && !(power_between(profile, 4 * first, 16 * first) >= 7e-3);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }
-    int good = s && kernel;
-    free(kernel);
-    free(s);
+    free(s.at);
+    free(s.xi);
+    free(s.kernel);
     return good;
 }

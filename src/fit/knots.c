@@ -1,244 +1,283 @@
 /* A cell counts by what it adds to the total variation: of the directions above the horizon together with all other
  * cells, for whose laws f and R f stand; below it nearly alone, since those see little beyond rho, and rho cuts the
- * cell. */
+ * cell. Knots are as far apart as one error allows: from 0 on each cell is as long as it may be. */
 #include "fit/knots.h"
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double PI = 3.14159265358979323846;
-static const double BELOW = 2.5e-3;               /* weight of an error below the horizon, */
-static const double AREA = 0.3;                   /* of an error of the area, */
-static const double DENSITY = 2e-4;               /* and of the largest error of D */
-static const double FIRST = 1e-3;                 /* of the width of the first cell, where D errs by twice that */
-static const double ENOUGH = 1e-9;                /* no cell with a smaller error is cut */
-static const double SHARE0 = 0.45, SHARE1 = 0.55; /* of the law below, about */
-static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p29;
-static const double RHO_MOST = 0x1p20; /* claims end there */
+/* Weights of errors: below the horizon, beyond one that k~ hides there anyway, or less where cells err by less than AT;
+ * of the area, and of what is drawn of it below; of the largest of D; and of the width of the first cell, where D errs
+ * by twice that. */
+static const double BELOW = 1.4e-2, ANYWAY = 2e-3, AT = 1e-5;
+static const double AREA = 0.3, DRAWN = 1e-4, DENSITY = 2e-4, FIRST = 1e-3;
 
-/* A cell and its points. */
-typedef struct view {
-    const vndf_profile *profile;
-    vndf_knot from, to;
-    vndf_cell cell;
-    const vndf_point *point;
-    size_t count;
-} view;
+static const double ENOUGH = 1e-13, MOST = 0.1; /* errors of cells */
+/* A cell that holds more than WIDE_MASS is no wider than this factor, since k~ begins at a knot near rho. */
+static const double WIDE = 2.5, WIDE_MASS = 1e-6;
+static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p43;
+static const double M0_LEAST = 1e-28;  /* of f/R beyond the last knot, since numbers are floats */
+static const double RHO_MOST = 0x1p20; /* claims end there */
 
 /* ---- the error of a cell ---- */
 
-/* |drawn - true| of a point; what is drawn far too rarely counts more often, since it decides the largest weight. */
+/* From one edge to another; `end` is the last for the tail cell. */
+typedef struct view {
+    vndf_knots *knots;
+    size_t from, end;
+    vndf_cell cell;
+} view;
+
+/* |drawn - true|; what is drawn far too rarely counts more often, since it decides the largest weight. */
 static double miss_of(double seen, double drawn)
 {
     const double rarely = 2, more = 6;
     return seen > rarely * drawn ? more * seen : fabs(seen - drawn);
 }
 
-/* Half the integral of |drawn - true| for the weight w1 R^2 + w0 R. */
-static double miss_by(const view *v, double w1, double w0)
+/* Half the integral of |drawn - true| for the weight w1 R^2 + w0 R; *density: the largest relative error. */
+static double miss_by(const view *v, double w1, double w0, double *density)
 {
     const vndf_weight w = {w1, w0, 0, 0};
     vndf_drawn drawn = vndf_drawn_by(&v->cell, &w);
-    double sum = 0;
-    for (size_t i = 0; i < v->count; i++) {
-        const vndf_point *p = &v->point[i];
-        sum += miss_of(p->mass * (w1 * p->r + w0), vndf_drawn_part(&drawn, p->xi, p->width));
+    double sum = 0, before = 0;
+    const vndf_strip *s = v->knots->strips.at;
+    for (size_t i = v->from; i < v->end; i++) {
+        double next = vndf_drawn_before(&drawn, v->knots->xi[i + 1 - v->from]),
+               seen = w1 * s[i].along + w0 * s[i].f;
+        sum += miss_of(seen, next - before);
+        *density = seen > 0 ? fmax(*density, fabs((next - before) / seen - 1)) : *density;
+        before = next;
     }
     return sum / 2;
 }
 
-/* The same from below, from a rho before the cell's end; over all that is seen from there. */
-static double miss_below(const view *v, double rho)
+/* The shares that touch k where what is seen from an edge lies, about; the first is 1. */
+static double second_share(const vndf_rim *rim)
 {
-    double mass = 0, sum = 0, seen = SHARE0 * 2 * PI * vndf_profile_s(v->profile, rho);
-    double xi0 = rho > v->cell.r ? vndf_cell_place(&v->cell, rho) : 0, per = 1 / (1 - xi0);
-    vndf_drawn drawn = vndf_drawn_below(&v->cell, rho, SHARE0, SHARE1);
-    for (size_t i = 0; i < v->count; i++) {
-        double way = v->point[i].r - rho;
-        mass += way > 0 ? v->point[i].mass * way * (SHARE0 + SHARE1 * way / v->point[i].r) : 0;
-    }
-    if (!(mass > 0))
-        return 0;
-    drawn = (vndf_drawn){1, xi0 > 0 ? 0 : drawn.d0 / mass, drawn.d1 / (per * mass)};
-    for (size_t i = 0; i < v->count; i++) {
-        const vndf_point *p = &v->point[i];
-        double way = fmax(p->r - rho, 0), true_part = p->mass * way * (SHARE0 + SHARE1 * way / p->r) / mass;
-        if (p->xi + p->width / 2 > xi0)
-            sum += miss_of(true_part, vndf_drawn_part(&drawn, (p->xi - xi0) * per, p->width * per));
-    }
-    return sum / 2 * fmin(mass / seen, 1);
+    return 1.33 + (rim->s2 > 1e-8 * rim->s1 ? rim->s1 / rim->s2 : 1e8);
 }
 
-/* The worst of some rho: at the cell's left knot, inside, or the last that counts. */
-static double worst_below(const view *v, double last)
+/* The same from below, from an edge before the cell's end, over all that is seen from there. */
+static double miss_below(const view *v, size_t edge)
 {
-    const vndf_cell *c = &v->cell;
-    double middle = c->power > 0 ? 1.5 * c->r : c->r + 0.4 * c->h / (c->z * c->z);
-    if (last <= c->r)
-        return miss_below(v, last);
-    return fmax(c->r > 0 ? miss_below(v, c->r) : 0, miss_below(v, fmin(middle, last)));
+    const vndf_knots *k = v->knots;
+    const vndf_rim *rim = &k->rim[edge];
+    double rho = k->strips.edge[edge], b1 = second_share(rim), all = rim->s1 + b1 * rim->s2, mass = 0, sum = 0;
+    vndf_drawn drawn = vndf_drawn_below(&v->cell, rho, 1, b1);
+    size_t from = edge > v->from ? edge : v->from;
+    double xi0 = k->xi[from - v->from], per = 1 / (1 - xi0), before = 0;
+    if (!(all > 0))
+        return 0;
+    for (int round = 0; round < 2; round++) {
+        if (round)
+            drawn = (vndf_drawn){mass, edge > v->from ? 0 : drawn.d0, drawn.d1 / per};
+        for (size_t i = from; i < v->end; i++) {
+            const vndf_strip *s = &k->strips.at[i];
+            double e = k->strips.edge[i], d = e - rho;
+            double part = s->m2 + (d + e) * s->m1 + d * e * s->m0 + b1 * (s->m2 + d * (2 * s->m1 + d * s->m0));
+            if (!round) {
+                mass += part;
+                continue;
+            }
+            double next = vndf_drawn_before(&drawn, (k->xi[i + 1 - v->from] - xi0) * per);
+            sum += miss_of(part, next - before);
+            before = next;
+        }
+    }
+    return sum / 2 / all;
 }
 
 /* By how much the spline errs in the middle of the cell, where x = c/(c + s): of the area above the horizon, or of what
- * is left of it below, while that is not much smaller. */
+ * is left of it below, while that is not much smaller; and below by how much the drawn area does, between shares that
+ * make it exact at the knots. */
 static double area_miss(const view *v)
 {
     const double smaller = 0.02;
-    double x0 = v->cell.x, x1 = v->cell.power > 0 ? 1 : x0 + v->cell.h, x = (x0 + x1) / 2;
-    double a0 = v->from.area.below + x0, a1 = v->to.area.below + x1,
-           d0 = 1 - v->from.area.turned - v->from.area.along;
-    double d1 = 1 - v->to.area.turned - v->to.area.along, below = vndf_profile_below(v->profile, 1 - x, x).below;
-    double miss = fabs((a0 + a1) / 2 + (x1 - x0) * (d0 - d1) / 8 - below - x);
-    return miss / fmax(below, smaller * x);
-}
-
-/* The largest relative error of f, in a cell with more than a small part of the mass. */
-static double density_miss(const view *v, double mass)
-{
-    const double small = 1e-3;
-    const vndf_weight all = {0, 1, 0, 0};
-    vndf_drawn drawn = vndf_drawn_by(&v->cell, &all);
-    double worst = 0;
-    for (size_t i = 0; i < v->count && v->cell.power == 0; i++)
-        if (v->point[i].mass > 0)
-            worst = fmax(worst,
-                         fabs(vndf_drawn_part(&drawn, v->point[i].xi, v->point[i].width) / v->point[i].mass - 1));
-    return fmin(worst, 1) * fmin(mass / small, 1);
-}
-
-static double error_of(const view *v, double last)
-{
-    double f1 = 2 * PI * v->profile->f1, mass = v->cell.m1 + v->cell.r * v->cell.m0;
-    double error = fmax(miss_by(v, 0, 1), miss_by(v, 1, 0) / f1);
-    if (v->cell.r == 0) /* there and in the tail k~ has no pole, and strays more */
-        error += mass * (v->cell.h / v->cell.z) / (4 * f1) + FIRST * v->cell.h;
-    if (v->cell.power > 0)
-        error += mass / 8;
-    error = fmax(error, DENSITY * density_miss(v, mass));
-    return fmax(error, fmax(BELOW * worst_below(v, last), AREA * area_miss(v)));
-}
-
-/* ---- cuts ---- */
-
-/* The slope before which half of |drawn - true| lies, if a part of the cell's mass strays: within a feature that the
- * cell does not resolve. */
-static double unresolved(const view *v)
-{
-    const double part = 0.02, nothing = 1e-20;
-    const vndf_weight near = {0, 1, 0, 0};
-    vndf_drawn drawn = vndf_drawn_by(&v->cell, &near);
-    double all = 2 * miss_by(v, 0, 1), sum = 0;
-    for (size_t i = 0; i < v->count && all > fmax(2 * part * drawn.mass, nothing); i++) {
-        const vndf_point *p = &v->point[i];
-        sum += fabs(p->mass - vndf_drawn_part(&drawn, p->xi, p->width));
-        if (sum > all / 2)
-            return p->r;
-    }
-    return 0;
-}
-
-/* The nearest float that may be a knot beside one at r: cells that cannot be cut are narrower than VNDF_GRAIN. */
-static float apart(float r, int up)
-{
-    const float width = 0x1p-22f;
-    return up ? r * (1 + width) : r * (1 - width);
-}
-
-/* The place of a cut, some floats from both ends; 0 if there is none. */
-static float cut_of(const view *v, float from, float to)
-{
-    double z = 1 / (1 + (double)from), middle = 2 * (double)from, own = unresolved(v);
-    if (to < HUGE_VALF)
-        middle = (from * z + to / (1 + (double)to)) / (z + 1 / (1 + (double)to));
-    float first = apart(from, 1), last = to < HUGE_VALF ? apart(to, 0) : HUGE_VALF;
-    float at = (float)(own > 0 && (to < HUGE_VALF || own < 4 * (double)from) ? own : middle);
-    at = at < first ? first : at > last ? last : at;
-    return at >= first && at <= last && at >= KNOT_LEAST && at <= KNOT_MOST ? at : 0.0f;
-}
-
-static vndf_interval interval_of(vndf_knots *knots, vndf_knot from, vndf_knot to)
-{
-    view v = {.profile = knots->profile, .from = from, .to = to};
-    v.cell = vndf_cell_measure(v.profile, from.r, to.r, knots->squarings, &knots->points, 0);
-    v.point = knots->points.at;
-    v.count = knots->points.count;
-    return (vndf_interval){from, to, error_of(&v, knots->last), cut_of(&v, from.r, to.r)};
-}
-
-/* ---- the first knots ---- */
-
-static vndf_knot knot_at(const vndf_profile *profile, float r)
-{
-    double s = 1 / (1 + (double)r);
-    return (vndf_knot){r, vndf_profile_below(profile, s, r * s)};
-}
-
-/* Keeps knots ascending; 0 if there is one as near as knots must not be. */
-static int add_start(vndf_knots *knots, float r)
-{
-    unsigned i = knots->start;
-    for (unsigned k = 0; k < knots->start; k++)
-        if (knots->knot[k].r < apart(r, 1) && knots->knot[k].r > apart(r, 0))
-            return 0;
-    if (!(r == 0 || (r >= KNOT_LEAST && r <= KNOT_MOST)))
+    vndf_knots *k = v->knots;
+    int tail = v->cell.power > 0;
+    size_t middle = v->from + (v->end - v->from) / 2;
+    if (middle == v->from || middle > k->last)
         return 0;
-    for (; i > 0 && knots->knot[i - 1].r > r; i--)
-        knots->knot[i] = knots->knot[i - 1];
-    knots->knot[i] = knot_at(knots->profile, r);
-    knots->start++;
-    return 1;
+    vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
+    if (!tail)
+        b = *vndf_knots_area(k, v->end);
+    double x0 = v->cell.x, h = tail ? v->cell.z : v->cell.h, x1 = x0 + h, x = 1 - k->rim[middle].z,
+           t = (x - x0) / h, u = 1 - t, d0 = h * (1 - a.turned - a.along), d1 = h * (1 - b.turned - b.along);
+    double spline =
+        u * u * ((1 + 2 * t) * (a.below + x0) + t * d0) + t * t * ((1 + 2 * u) * (b.below + x1) - u * d1);
+    double miss = AREA * fabs(spline - m.below - x) / fmax(m.below, smaller * x);
+    if (v->from > 0 && v->end <= k->deep) {
+        const vndf_rim *r0 = &k->rim[v->from], *r1 = &k->rim[v->end], *r = &k->rim[middle];
+        double c0 = second_share(r0), c1 = second_share(r1), xi = k->xi[middle - v->from];
+        double b0 = (1 - xi) * a.below / (r0->z * (r0->s1 + c0 * r0->s2)),
+               b1 = xi * b.below / (r1->z * (r1->s1 + c1 * r1->s2));
+        double drawn = (b0 + b1) * r->s1 + (b0 * c0 + b1 * c1) * r->s2;
+        miss = fmax(miss, DRAWN * fmin(fabs(drawn * r->z / m.below - 1), 10));
+    }
+    return miss;
 }
+
+/* The error of the cell between two edges, or some of it that is more than enough. */
+static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
+{
+    const double small = 1e-3; /* a part of the mass below which D counts less */
+    int tail = end == k->strips.count;
+    double f1 = 2 * PI * k->profile->f1, far = k->rim[from].s1 / f1, density = 0, unused = 0;
+    if (tail && far / 8 > enough && from < k->last)
+        return far / 8;
+    if (!vndf_guard_spend(k->profile->guard, 8 * (double)(end - from)))
+        return 0;
+    view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
+    double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
+    if (from > 0 && !tail && k->strips.edge[end] > WIDE * v.cell.r && mass > WIDE_MASS)
+        return MOST;
+    for (size_t i = from; i <= end; i++)
+        k->xi[i - from] = tail ? vndf_cell_place(&v.cell, k->strips.edge[i])
+                               : (k->strips.edge[i] - v.cell.r) * k->rim[i].z * per;
+    double error = fmax(miss_by(&v, 0, 1, &density), miss_by(&v, 1, 0, &unused) / f1);
+    if (from == 0) /* there and in the tail k~ has no pole, and strays more */
+        error += mass * (v.cell.h / v.cell.z) / (4 * f1) + FIRST * v.cell.h;
+    if (tail)
+        error += mass / 8;
+    else
+        error = fmax(error, DENSITY * fmin(density, 1) * fmin(mass / small, 1));
+    size_t middle = from + (end - from) / 2;
+    double anyway = ANYWAY * fmin(enough / AT, 1);
+    if (error <= enough && from > 0)
+        error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - anyway));
+    if (error <= enough && middle > from)
+        error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - anyway));
+    return error <= enough ? fmax(error, area_miss(&v)) : error;
+}
+
+/* ---- placing ---- */
+
+/* The last edge to which a cell may go from another; as far as the one before it, it is tried first. Knots are floats,
+ * and no closer than the grain. */
+static size_t reach_of(vndf_knots *k, size_t from, size_t stop, size_t step, double enough)
+{
+    size_t good = from + 1, bad = stop + 1;
+    for (size_t end = from + step; good + 1 < bad; end = bad > stop ? 2 * end - from : good + (bad - good) / 2) {
+        end = end > stop ? stop : end <= good ? good + 1 : end;
+        if (error_of(k, from, end, enough) <= enough)
+            good = end;
+        else
+            bad = end;
+    }
+    while (good < stop && k->strips.edge[good] < k->strips.edge[from] * (1 + 0.49 * VNDF_GRAIN))
+        good++;
+    return k->strips.edge[good] * (1 + 0.49 * VNDF_GRAIN) > k->strips.edge[stop] ? stop : good;
+}
+
+/* Knots for an error, until there are more than `most`. */
+static unsigned march(vndf_knots *k, double enough, unsigned most)
+{
+    size_t from = 0, step = 4;
+    unsigned n = 0;
+    for (;;) {
+        if (n < VNDF_CELLS_MAX + 1)
+            k->at[n] = from;
+        if (++n > most || from >= k->last || vndf_guard_stopped(k->profile->guard))
+            return n;
+        size_t stop = from + 1, furthest = n == 1 ? k->last - 1 : k->last;
+        while (stop < furthest && !k->rim[stop].stop)
+            stop++;
+        if (stop == k->last && !k->rim[stop].stop && n > 2 && error_of(k, from, k->strips.count, enough) <= enough)
+            return n;
+        size_t end = reach_of(k, from, stop, step, enough);
+        step = end - from;
+        from = end < k->first ? k->first : end;
+    }
+}
+
+/* The least error for which there are not too many. The number falls as its root of third order. */
+void vndf_knots_place(vndf_knots *k, unsigned count)
+{
+    enum { STEPS = 24 };
+    double low = ENOUGH / 2, high = MOST, error = 3 / pow(count, 3), best = MOST;
+    unsigned n = 0;
+    for (int i = 0; i < STEPS && n != count && high > 1.02 * low && !vndf_guard_stopped(k->profile->guard); i++) {
+        error = error > low && error < high ? error : sqrt(low * high);
+        n = march(k, error, count);
+        if (n > count)
+            low = error;
+        else
+            best = high = error;
+        error *= n <= count ? pow((double)n / count, 3) : high < MOST ? 1.3 : 4;
+        if (high <= ENOUGH)
+            break;
+    }
+    k->count = n == count ? n : march(k, best, count);
+    k->count = k->count > count ? count : k->count;
+}
+
+float vndf_knots_slope(const vndf_knots *k, unsigned i)
+{
+    size_t edge = k->at[i];
+    double r = k->strips.edge[edge];
+    float knot = (float)r;
+    if (k->strips.at[edge].gathered)
+        return (double)knot > r ? nextafterf(knot, 0.0f) : knot;
+    return edge > 0 && k->strips.at[edge - 1].gathered && (double)knot < r ? nextafterf(knot, HUGE_VALF) : knot;
+}
+
+const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
+{
+    vndf_rim *rim = &k->rim[edge];
+    if (!rim->known)
+        rim->area = vndf_profile_below(k->profile, rim->z, k->strips.edge[edge] * rim->z);
+    rim->known = 1;
+    return &rim->area;
+}
+
+/* ---- jumps ---- */
 
 /* A jump or a pole; a knot there has the side with more normals in one cell. */
 static int jumps_at(const vndf_profile *profile, double r, int *up)
 {
     const double beside = 1e-9, widely = 1e-4; /* of the slope: just beyond it, and away from it */
-    const double jump_least = 1e-4, pole_least = 1.5, worth = 1e-12;
+    const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
     double before = vndf_profile_p22(profile, r * (1 - beside)),
            after = vndf_profile_p22(profile, r * (1 + beside));
     double around = fmax(vndf_profile_p22(profile, r * (1 - widely)), vndf_profile_p22(profile, r * (1 + widely)));
     double most = fmax(before, after);
     *up = before > after;
-    return most * r * r > worth && (fabs(before - after) > jump_least * most || most > pole_least * around);
+    return most * r * r > worth && most < needle * around &&
+           (fabs(before - after) > jump_least * most || most > pole_least * around);
 }
 
-/* A jump or a pole made panels narrow, or is a break of the source, where a panel begins. */
-static void add_jumps(vndf_knots *knots)
+enum { JUMPS_MAX = 16 };
+
+/* A jump or a pole made panels narrow, or is a break of the source, where a panel begins. Returns how many there are,
+ * after a 0. */
+static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    enum { JUMPS_MAX = 16 };
-    const double narrow = 1e-10, same = 1e-12; /* of a slope */
-    const vndf_profile *profile = knots->profile;
+    const double narrow = 1e-10, same = 1e-12, apart = 0x1p-21; /* of a slope */
     const vndf_source *source = profile->source;
     const vndf_panel *p = profile->panel;
-    unsigned jumps = 0;
-    for (size_t i = 1, next = 0; i < profile->count && jumps < JUMPS_MAX; i++) {
+    size_t n = 1;
+    jump[0] = 0;
+    for (size_t i = 1, next = 0; i < profile->count && n <= JUMPS_MAX; i++) {
         double r = p[i].r, own = r * profile->scale;
         int up;
         while (next < source->break_count && source->breaks[next] < own * (1 - same))
             next++;
         int is_break = next < source->break_count && source->breaks[next] < own * (1 + same);
-        if ((!is_break && fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r) || !jumps_at(profile, r, &up))
+        if ((!is_break && fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r) || r < KNOT_LEAST || r > KNOT_MOST ||
+            !jumps_at(profile, r, &up))
             continue;
         float knot = (float)r;
         knot = up && knot < r ? nextafterf(knot, HUGE_VALF) : !up && knot > r ? nextafterf(knot, 0.0f) : knot;
-        jumps += (unsigned)add_start(knots, knot);
+        if (knot > jump[n - 1] * (1 + apart))
+            jump[n++] = knot;
     }
+    return n;
 }
 
-/* Octaves about the median 1, where something lies. */
-static void add_octaves(vndf_knots *knots)
-{
-    enum { OCTAVES = 4 };
-    const double nothing = 1e-12;
-    const vndf_profile *profile = knots->profile;
-    for (int i = -OCTAVES; i <= OCTAVES; i++) {
-        float r = ldexpf(1.0f, i);
-        const vndf_panel *p = &profile->panel[vndf_profile_panel(profile, r)];
-        int before = p[1].f0 > nothing * profile->f0, beyond = p->t0 > nothing * profile->f0;
-        if ((before && beyond) || (i == OCTAVES && knots->start == 1))
-            add_start(knots, r);
-    }
-}
+/* ---- the whole ---- */
 
 /* The least with which R^2 P22, by xi, stays finite in the tail. */
 static unsigned squarings_of(const vndf_profile *profile)
@@ -251,53 +290,48 @@ static unsigned squarings_of(const vndf_profile *profile)
     return n;
 }
 
-/* Where next to nothing is seen from below. */
-static double last_of(const vndf_profile *profile)
+int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
 {
     const double margin = 0.5;
-    double low = 0x1p-20, high = RHO_MOST, least = margin * vndf_profile_claimed(profile) * profile->f1;
-    for (int step = 0; step < 40; step++) {
-        double middle = sqrt(low * high);
-        if (vndf_profile_s(profile, middle) > least)
-            low = middle;
-        else
-            high = middle;
+    float jump[JUMPS_MAX + 1];
+    size_t jumps = find_jumps(profile, jump);
+    memset(k, 0, sizeof *k);
+    k->profile = profile;
+    k->squarings = squarings_of(profile);
+    int good = vndf_strips_from(&k->strips, profile, jump, jumps, 6 * (size_t)most + 360);
+    size_t n = k->strips.count, next = 0;
+    k->rim = good ? calloc(n + 1, sizeof *k->rim) : NULL;
+    k->xi = good ? malloc((n + 1) * sizeof *k->xi) : NULL;
+    if (!k->rim || !k->xi)
+        return 0;
+    double m0 = 0, m1 = 0, m2 = 0, least = margin * vndf_profile_claimed(profile) * 2 * PI * profile->f1;
+    for (size_t i = n; i-- > 0;) {
+        const vndf_strip *s = &k->strips.at[i];
+        double r = k->strips.edge[i], gap = i + 1 < n ? k->strips.edge[i + 1] - r : 0;
+        m2 += gap * (2 * m1 + gap * m0) + s->m2;
+        m1 += gap * m0 + s->m1;
+        m0 += s->m0;
+        k->rim[i] = (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2};
+        if (k->last == 0 && r <= KNOT_MOST && m0 > M0_LEAST)
+            k->last = k->strips.edge[i + 1] <= KNOT_MOST ? i + 1 : i;
+        k->deep = k->deep == 0 && r <= RHO_MOST && k->rim[i].s1 > least ? i : k->deep;
     }
-    return low;
+    while (k->first < k->last && k->strips.edge[k->first] < KNOT_LEAST)
+        k->first++;
+    for (size_t i = 1; i < n; i++) {
+        while (next + 1 < jumps && (double)jump[next] < k->strips.edge[i])
+            next++;
+        k->rim[i].stop = (double)jump[next] == k->strips.edge[i];
+        k->last = k->rim[i].stop && i > k->last ? i : k->last;
+    }
+    k->least = march(k, 2 * MOST, VNDF_CELLS_MAX + 1);
+    k->least = k->least < 3 ? 3 : k->least;
+    return 1;
 }
 
-int vndf_knots_from(vndf_knots *knots, const vndf_profile *profile)
+void vndf_knots_free(vndf_knots *k)
 {
-    const vndf_knot outside = {HUGE_VALF, {0, 0, 0}};
-    *knots = (vndf_knots){.profile = profile, .squarings = squarings_of(profile), .last = last_of(profile)};
-    add_start(knots, 0.0f);
-    add_jumps(knots);
-    add_octaves(knots);
-    knots->count = knots->start;
-    for (unsigned i = 0; i < knots->start; i++)
-        knots->interval[i] =
-            interval_of(knots, knots->knot[i], i + 1 < knots->start ? knots->knot[i + 1] : outside);
-    return !knots->points.starved;
-}
-
-/* ---- more knots ---- */
-
-unsigned vndf_knots_refine(vndf_knots *knots, unsigned count)
-{
-    while (knots->count < count && !vndf_guard_stopped(knots->profile->guard)) {
-        unsigned worst = 0, n = knots->count;
-        double most = ENOUGH;
-        for (unsigned i = 0; i < n; i++)
-            if (knots->interval[i].cut > 0 && knots->interval[i].error > most) {
-                most = knots->interval[i].error;
-                worst = i;
-            }
-        if (!(most > ENOUGH))
-            break;
-        vndf_interval cell = knots->interval[worst];
-        vndf_knot cut = knots->knot[knots->count++] = knot_at(knots->profile, cell.cut);
-        knots->interval[worst] = interval_of(knots, cell.from, cut);
-        knots->interval[n] = interval_of(knots, cut, cell.to);
-    }
-    return knots->count;
+    vndf_strips_free(&k->strips);
+    free(k->rim);
+    free(k->xi);
 }

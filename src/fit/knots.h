@@ -1,37 +1,40 @@
-/* Where the knots of a table stand. The worst cell is cut, again and again, so that the first so many knots are those
- * of a table of any size. */
+/* Where the knots of a table stand: as far apart as an error of cells allows, which is chosen so that there are as many
+ * as wanted. */
 #ifndef VNDF_FIT_KNOTS_H
 #define VNDF_FIT_KNOTS_H
 
-#include "fit/cells.h"
+#include "fit/law.h"
 
-/* A knot, and the areas for rho there, s + c = 1 (profile.h). */
-typedef struct vndf_knot {
-    float r;
-    vndf_area area;
-} vndf_knot;
-
-/* Between two knots; the error of what is drawn there, and where it would be cut. */
-typedef struct vndf_interval {
-    vndf_knot from, to; /* to: infinite in the tail cell */
-    double error;
-    float cut; /* 0: it cannot be cut */
-} vndf_interval;
+/* What is known at an edge of a strip. */
+typedef struct vndf_rim {
+    double z;        /* 1/(1 + R) */
+    double s1, s2;   /* integrals of (R - edge) f and of (R - edge)^2 f/R beyond it */
+    vndf_area area;  /* from the direction with this rho, s + c = 1, */
+    int known, stop; /* if it was asked for; whether a knot has to stand there */
+} vndf_rim;
 
 typedef struct vndf_knots {
     const vndf_profile *profile;
     unsigned squarings;
-    double last;                        /* the largest rho from which what is seen below the horizon counts */
-    vndf_knot knot[VNDF_CELLS_MAX + 1]; /* `start` ascending, from 0; then as they were added */
-    unsigned start, count;
-    vndf_interval interval[VNDF_CELLS_MAX + 1];
-    vndf_points points; /* of the cell at hand */
+    vndf_strips strips;
+    vndf_rim *rim;
+    double *xi;                    /* of the edges in the cell at hand */
+    size_t first, last, deep;      /* edges: of the least and largest knot; of the largest rho that counts below */
+    unsigned least, count;         /* how few knots there can be, how many there are, */
+    size_t at[VNDF_CELLS_MAX + 1]; /* and their edges */
 } vndf_knots;
 
-/* 0 if there is no memory; free knots->points.at either way. */
-int vndf_knots_from(vndf_knots *knots, const vndf_profile *profile);
+/* For up to `most` knots. 0 if there is no memory; free them either way. */
+int vndf_knots_from(vndf_knots *knots, const vndf_profile *profile, unsigned most);
+void vndf_knots_free(vndf_knots *knots);
 
-/* Adds knots until there are `count`, or no cell can be cut; returns how many there are. */
-unsigned vndf_knots_refine(vndf_knots *knots, unsigned count);
+/* Places at most `count` knots, but no more than errors are worth. */
+void vndf_knots_place(vndf_knots *knots, unsigned count);
+
+/* A knot as a float: what is gathered to one place stays on its side. */
+float vndf_knots_slope(const vndf_knots *knots, unsigned i);
+
+/* The areas for rho at an edge. */
+const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 #endif

@@ -7,7 +7,8 @@ static const double PI = 3.14159265358979323846;
 
 /* ---- one cell ---- */
 
-vndf_cell vndf_cell_between(double r, double end, unsigned squarings)
+/* Where it lies. */
+static vndf_cell cell_between(double r, double end, unsigned squarings)
 {
     double z = 1 / (1 + r), power = end < HUGE_VAL ? 0 : (double)(1u << squarings);
     double h = power > 0 ? power * z : (end - r) * z / (1 + end);
@@ -16,17 +17,60 @@ vndf_cell vndf_cell_between(double r, double end, unsigned squarings)
 
 double vndf_cell_place(const vndf_cell *cell, double r)
 {
-    double z = 1 / (1 + r);
+    double z = 1 / (1 + r), left = z / cell->z;
     if (cell->power == 0)
         return (r - cell->r) * z * cell->z / cell->h;
-    double left = z / cell->z;
-    return 1 - (cell->power == 1 ? left : pow(left, 1 / cell->power));
+    for (double power = cell->power; power > 1; power /= 2)
+        left = sqrt(left);
+    return 1 - left;
 }
 
-double vndf_cell_density(const vndf_cell *cell, double r)
+/* 2 pi P22 h/z^4 at the end with this z, h = z^2 dR/dxi, within bounds about the mean: for poles, zeros and light
+ * tails. */
+static double end_of(double p22, double h, double z, double mean)
 {
-    double z = 1 / (1 + r);
-    return cell->power == 0 ? z * z / cell->h : z / cell->power * (1 - vndf_cell_place(cell, r));
+    const double least = 0.02, most = 300;
+    return fmin(fmax(2 * PI * p22 * h / (z * z * z * z), least * mean), most * mean);
+}
+
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
+                            unsigned squarings)
+{
+    const double mass_least = 1e-30, least = 1e-36, cube_most = 1e30;
+    const double near_end = 4e-2; /* 1 - xi where the limit of a tail is read */
+    double to = strips->edge[end];
+    vndf_cell c = cell_between(strips->edge[first], to, squarings);
+    for (size_t i = first; i < end; i++) {
+        const vndf_strip *s = &strips->at[i];
+        double d = strips->edge[i] - c.r;
+        c.m0 += s->m0;
+        c.m1 += s->m1 + d * s->m0;
+        c.m2 += s->m2 + d * (2 * s->m1 + d * s->m0);
+        c.cube += s->m4;
+    }
+    c.cube = c.m0 > 0 ? c.cube / c.m0 : 0;
+    if (c.m0 < mass_least) { /* an even density that floats can hold */
+        double width = to < HUGE_VAL ? to - c.r : c.r;
+        c.m0 = mass_least;
+        c.m1 = c.m0 * width / 2;
+        c.m2 = c.m0 * width * width / 3;
+        c.cube = 1 / (c.r * c.r * c.r);
+    }
+    c.m1 = fmax(c.m1, least);
+    c.m2 = fmax(c.m2, least);
+    c.cube = c.cube > least ? fmin(fmin(c.cube, 1 / (c.r * c.r * c.r)), cube_most) : 0;
+    if (c.r == 0) { /* no law reads these two; the first may be infinite */
+        c.m0 = 2 * c.m1 / to;
+        c.cube = 0;
+    }
+    c.g0 = end_of(strips->at[first].p0, c.h, c.z, c.m0 / (c.z * c.z));
+    if (c.power > 0) {
+        double z = c.z * pow(near_end, c.power), far = 1 / z - 1;
+        c.g1 = end_of(vndf_profile_p22(profile, far), c.power * z / near_end, z,
+                      c.m2 + (2 * c.m1 + c.m0 * c.r) * c.r);
+    } else
+        c.g1 = end_of(strips->at[end - 1].p1, c.h, c.z - c.h, c.m0 / ((c.z - c.h) * (c.z - c.h)));
+    return c;
 }
 
 /* z^2 W, with the mean of R^-3 in the cell. */
@@ -59,24 +103,6 @@ vndf_drawn vndf_drawn_below(const vndf_cell *c, double rho, double b0, double b1
                         c->g0 * (d * c->z) * (e * c->z), c->g1 * below_flat(c, rho, b0, b1)};
 }
 
-/* The mass before xi. */
-static double before(const vndf_drawn *d, double xi)
-{
-    double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
-    return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
-}
-
-double vndf_drawn_part(const vndf_drawn *d, double xi, double width)
-{
-    const double wide = 0.2; /* no point of a rule over a whole cell stands for more */
-    if (!(width < wide))
-        return before(d, fmin(xi + width / 2, 1)) - before(d, fmax(xi - width / 2, 0));
-    xi = xi > 0 ? xi : 0;
-    double eta = 1 - xi, w = xi * eta, under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
-    double part = under > 0 ? d->mass / under : 0;
-    return (d->d1 * xi * xi + 2 * d->mass * w + d->d0 * eta * eta) * part * part * width;
-}
-
 /* ---- tables ---- */
 
 int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *d)
@@ -84,7 +110,7 @@ int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *d)
     *laws = (vndf_laws){d, d->cells, malloc((d->cells + 1) * sizeof *laws->cell)};
     for (unsigned i = 0; laws->cell && i <= d->cells; i++) {
         vndf_cell *c = &laws->cell[i];
-        *c = vndf_cell_between(d->knot[i], i < d->cells ? (double)d->knot[i + 1] : HUGE_VAL, d->squarings);
+        *c = cell_between(d->knot[i], i < d->cells ? (double)d->knot[i + 1] : HUGE_VAL, d->squarings);
         c->g0 = d->g0[i];
         c->g1 = d->g1[i];
         c->m0 = d->m0[i];

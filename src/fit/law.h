@@ -8,22 +8,23 @@
 #ifndef VNDF_FIT_LAW_H
 #define VNDF_FIT_LAW_H
 
+#include "fit/strips.h"
 #include "table/table.h"
 
-/* Where a cell lies, and its numbers. x grows by h from its left knot; in the tail cell z falls as (1 - xi)^power,
- * to 0. */
+/* x grows by h from the left knot; in the tail cell z falls as (1 - xi)^power, to 0. The numbers are the table's. */
 typedef struct vndf_cell {
     double r, x, z, h;
     double power; /* 0: not the tail */
     double g0, g1, m0, m1, m2, cube;
 } vndf_cell;
 
-/* Without its numbers. An infinite end is that of a tail. */
-vndf_cell vndf_cell_between(double r, double end, unsigned squarings);
+/* The cell of strips `first` to `end` - 1 and its numbers. Where less than floats can hold is in a cell, it gets a
+ * little that is even. */
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
+                            unsigned squarings);
 
-/* xi of a slope in the cell, and d xi/dR. */
+/* xi of a slope in the cell. */
 double vndf_cell_place(const vndf_cell *cell, double r);
-double vndf_cell_density(const vndf_cell *cell, double r);
 
 /* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
 typedef struct vndf_weight {
@@ -40,8 +41,12 @@ vndf_drawn vndf_drawn_by(const vndf_cell *cell, const vndf_weight *weight);
 /* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
 vndf_drawn vndf_drawn_below(const vndf_cell *cell, double rho, double b0, double b1);
 
-/* The mass that is drawn over `width` about xi, for a point of a rule: by the density; of a wide part exactly. */
-double vndf_drawn_part(const vndf_drawn *drawn, double xi, double width);
+/* The mass that is drawn before xi. */
+static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
+{
+    double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
+    return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
+}
 
 /* A table as laws read it; the draft must stay. */
 typedef struct vndf_laws {

@@ -5,20 +5,14 @@
  * V-cavities: at a slope length R = x/z a normal sees wi by p + q cos a, a from the azimuth of wi, p = vz z, q = s x >=
  * 0, and its mirror twin by p - q cos a. Of the two one is taken by what it sees, so a has the density
  *
- *     1/pi where only the normal sees wi,     (1 + t cos a)/(2 pi) where both do, |t cos a| <= 1, t = q/p,
+ *     1/pi where only the normal sees wi,     (p + q cos a)/(2 pi p) where both do, |q cos a| <= p,
  *
- * and 0 elsewhere. With h = asin(min(1, 1/t))/pi and g = 1/2 + h - a/pi in [0, 2 h] the mass beyond a, of half a turn,
- * is
- *
- *     F(g) = g - (2 t/pi) sin(pi g/2) sin(pi (h - g/2)),      F' = 1 - t sin(pi (h - g)),                    (1)
- *
- * Kepler's equation at h = 1/2. The product of sines stands for a difference of cosines, without which t > 1e3 would
- * lose F. It is solved from two rational cells (Gregory & Delbourgo 1982) by two steps of Halley's method, or four; F
- * is convex. */
+ * and 0 elsewhere. With A the end of the arc where the normal sees wi at all, p + q cos A = 0, both see it from pi - A
+ * to A: there the azimuth solves Kepler's equation (arc.h). */
 #ifndef VNDF_KERNEL_NORMALS_H
 #define VNDF_KERNEL_NORMALS_H
 
-#include "kernel/math.h"
+#include "kernel/arc.h"
 
 /* A slope length x/z and K of D cos(theta_m): with any azimuth a that is uniform, (x cos a, x sin a, z) has it. */
 typedef struct any_slope {
@@ -51,70 +45,18 @@ HERE drawn all_normals_draw(any_slope r, real u1)
     return n;
 }
 
-/* t and h; then F, F' and F''. */
-typedef struct v_cavity {
-    real t, h;
-} v_cavity;
-
-typedef struct v_cavity_mass {
-    real mass, density, bend;
-} v_cavity_mass;
-
-HERE v_cavity v_cavity_of(real p, real q)
-{
-    real t = least(q / most(p, 1e-15f * q + 1e-37f), set(1e15f)), over = most(t, set(1.0f));
-    real tangent = 1.0f / (over + root((over - 1.0f) * (over + 1.0f))), t2 = tangent * tangent;
-    const v_cavity k = {t, 0.636619772f * (tangent - tangent * t2 * arc_rest(t2))};
-    return k;
-}
-
-HERE v_cavity_mass v_cavity_beyond(v_cavity k, real g)
-{
-    real away = k.h - g, sine = with_sign(sine_quarter(size(away)), away);
-    real product = sine_quarter(0.5f * g) * sine_quarter(size(k.h - 0.5f * g));
-    const v_cavity_mass f = {g - 0.636619772f * k.t * product, 1.0f - k.t * sine,
-                             3.14159265f * k.t * sine_quarter(most(0.5f - size(away), set(0.0f)))};
-    return f;
-}
-
-/* A g with about the mass `rest` beyond: a cell before h and one after it, in units of h. */
-HERE real v_cavity_start(v_cavity k, real rest)
-{
-    real half = sine_quarter(0.5f * k.h), middle = 1.0f - 0.636619772f * k.t * (half * half) / k.h;
-    real target = rest / k.h, rise = least(k.t, set(1.0f));
-    mask beyond = less(middle, target);
-    real m = pick(beyond, 2.0f - middle, middle), left = most(target - pick(beyond, middle, set(0.0f)), set(0.0f));
-    real e0 = pick(beyond, set(1.0f), 1.0f - rise), sum = 1.0f + pick(beyond, 1.0f + rise, 1.0f - rise),
-         v = least(left, m);
-    real twice = 2.0f * v * m, turned = e0 * m - v * sum,
-         discriminant = root(turned * turned + 2.0f * twice * m * (m - v));
-    mask rising = at_most(set(0.0f), turned + twice);
-    real over = pick(rising, twice, discriminant - turned),
-         under = pick(rising, discriminant + turned, 2.0f * m * (m - v));
-    return k.h * (pick(beyond, set(1.0f), set(0.0f)) + over / (over + under + 1e-30f));
-}
-
-HERE real v_cavity_step(v_cavity k, real g, real rest)
-{
-    v_cavity_mass f = v_cavity_beyond(k, g);
-    real miss = f.mass - rest, below = f.density * f.density - 0.5f * miss * f.bend;
-    real step = pick(less(set(0.0f), below), miss * f.density / most(below, set(1e-30f)), set(0.0f));
-    return least(most(g - step, set(0.0f)), 2.0f * k.h);
-}
-
 /* Sine and cosine of the azimuth from that of wi; p and q not both 0. u1 turns from behind wi (0) through its azimuth
- * (1/2) and round; it is met within 8e-8, measured. */
+ * (1/2) and round; it is met as the azimuth of a table is. */
 HERE turn v_cavity_azimuth(real p, real q, real u1)
 {
-    v_cavity k = v_cavity_of(p, q);
-    real rest = 2.0f * least(u1, 1.0f - u1), end = 2.0f * k.h, g = v_cavity_start(k, least(rest, end));
-    g = v_cavity_step(k, v_cavity_step(k, g, rest), rest);
-    mask rare = both(less(size(k.t - 1.0f), set(0.15f)), less(rest, set(0.06f))); /* F begins as a cube */
-    if (any(rare))
-        g = pick(rare, v_cavity_step(k, v_cavity_step(k, g, rest), rest), g);
-    real part = pick(at_most(end, rest), 0.5f - 0.5f * rest, (0.5f - g) + k.h);
-    turn a = half_turn(least(most(part, set(0.0f)), set(1.0f)));
-    a.sine = with_sign(a.sine, u1 - 0.5f);
+    real lean = most(q, 1e-6f * p + 1e-37f), rest = arc_half(u1);
+    arc k = arc_of(p, lean, lean - p, 0);
+    real goal = 3.14159265f * k.cc * rest, per = k.sum / lean;
+    bearing b = arc_step(k, arc_start(k, least(goal / k.mass, set(1.0f)), 0), goal);
+    turn front = half_turn(0.5f - 0.5f * rest);
+    mask both_see = at_most(1.57079633f * (1.0f + rest), k.length);
+    const turn a = {with_sign(pick(both_see, b.aside * per, front.sine), u1 - 0.5f),
+                    pick(both_see, b.along * per, front.cosine)};
     return a;
 }
 

@@ -12,17 +12,8 @@ typedef struct weighed {
     real weight;
 } weighed;
 
-HERE drawn table_draw(table t, table_view view, real u1, real u2, const int below)
-{
-    aim a = table_aim(view.v, u2, below);
-    reached at = table_find(t, view.v, a, below);
-    found f = table_cell(t, view.v, a, at, below);
-    drawn_length d = table_length(t, view.v, f, law_invert(f.at, f.before), below);
-    arc k = table_arc(view.v, d.r, below);
-    return table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
-}
-
-HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below)
+/* A visible normal, with its weight if that is asked for, else 1. */
+HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below, const int weigh)
 {
     aim a = table_aim(view.v, u2, below);
     reached at = table_find(t, view.v, a, below);
@@ -31,9 +22,17 @@ HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, cons
     drawn_length d = table_length(t, view.v, f, in, below);
     arc k = table_arc(view.v, d.r, below);
     weighed s;
-    s.weight = table_weight(t, view.v, at.i, f, in, d.r, k, law_area(t, view.v, below), below);
+    s.weight = set(1.0f);
+    if (weigh)
+        s.weight = table_weight(t, view.v, at.i, f, in, d.r, k, law_area(t, view.v, below), below);
     s.n = table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, u1, below)));
     return s;
+}
+
+HERE drawn table_draw(table t, table_view view, real u1, real u2, const int below)
+{
+    weighed s = table_draw_weighed(t, view, u1, u2, below, 0);
+    return s.n;
 }
 
 /* A normal of the unit problem in the frame of the direction. */

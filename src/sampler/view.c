@@ -125,11 +125,10 @@ VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int we
     weighed w = {{0.0f, 0.0f, 1.0f, 0.0f}, 1.0f};
     if (view->distribution->kind == VNDF_KIND_TABLE) {
         table t = table_of(view->distribution);
-        if (weigh)
-            return vndf_is_below(s) ? table_draw_weighed(t, s->of.table, u1, u2, 1)
-                                    : table_draw_weighed(t, s->of.table, u1, u2, 0);
-        w.n = vndf_is_below(s) ? table_draw(t, s->of.table, u1, u2, 1) : table_draw(t, s->of.table, u1, u2, 0);
-    } else if (view->distribution->kind == VNDF_KIND_GGX)
+        return vndf_is_below(s) ? table_draw_weighed(t, s->of.table, u1, u2, 1, weigh)
+                                : table_draw_weighed(t, s->of.table, u1, u2, 0, weigh);
+    }
+    if (view->distribution->kind == VNDF_KIND_GGX)
         w.n = ggx_draw(s->of.ggx, u1, u2);
     else
         w.n = beckmann_draw(s->of.beckmann, u1, u2);

@@ -51,8 +51,8 @@ static const char *knot_invalid(const vndf_table_draft *d, size_t i)
 
 static const char *draft_invalid(const vndf_table_draft *d)
 {
-    if (d->knot[0] != 0.0f || !(d->knot[1] > 1e-12f) || !(d->knot[d->cells] < 1e9f))
-        return "the knots do not run from 0 to below 1e9";
+    if (d->knot[0] != 0.0f || !(d->knot[1] > 1e-12f) || !(d->knot[d->cells] < 1e14f))
+        return "the knots do not run from 0 to below 1e14";
     if (!(d->scale > 1e-18 && d->scale < 1e18) || !(d->normalization > 0.0) || !isfinite(d->normalization))
         return "the scale or normalization is out of range";
     for (size_t i = 0; i <= d->cells; i++) {

@@ -1,8 +1,8 @@
 # `vndf explore` writes one page that asks the network for nothing and is the same each time, whatever its tables' names
-# are; it refuses wrong use; its shaders are GLSL ES 3.00 by glslang's judgement; and in a headless Chromium what the
-# page draws and measures is right: the density integrates to 1, drawn normals have the mean that it says, none is
-# turned away, the spheres have light on them. Without WebGL2 it says so. Chromium takes a quarter of a minute for a
-# setting where it has no GPU: LONG=ON (more_explore) has three of them and a screenshot, else there is one.
+# are; it refuses wrong use; and in a headless Chromium, which compiles its shaders, what the page draws and measures is
+# right: the density integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have
+# light on them. Without WebGL2 it says so. Chromium takes a quarter of a minute for a setting where it has no GPU:
+# LONG=ON (more_explore) has three of them and a screenshot, else there is one.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -64,38 +64,6 @@ file(WRITE ${OUT}/broken.vndf "broken")
 answers(2 "broken.vndf" explore broken.vndf -o none.html)
 expect("a refused page was written" NOT EXISTS ${OUT}/none.html)
 answers(0 "example: vndf explore" explore --help)
-
-# ---- shaders ------------------------------------------------------------------------------------
-
-# As gl.js puts them together.
-string(CONCAT head "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n"
-    "uniform sampler2D numbers;\n#define VNDF_FETCH(i) texelFetch(numbers, ivec2((i) & 1023, (i) >> 10), 0).r\n")
-find_program(GLSLANG glslangValidator)
-if(GLSLANG)
-    answers(0 "" export ${tables}/hazy.vndf --language glsl --buffer hazy.f32 -o hazy.glsl)
-    function(validate stage)
-        file(WRITE ${OUT}/shader.${stage} "${head}")
-        foreach(name IN LISTS ARGN)
-            get_filename_component(path ${name} ABSOLUTE BASE_DIR ${SOURCE}/tools/export/page)
-            file(READ ${path} part)
-            file(APPEND ${OUT}/shader.${stage} "${part}")
-        endforeach()
-        execute_process(COMMAND ${GLSLANG} ${OUT}/shader.${stage} RESULT_VARIABLE status OUTPUT_VARIABLE output)
-        if(NOT status EQUAL 0)
-            message(SEND_ERROR "${ARGN} are no shader of GLSL ES 3.00:\n${output}")
-        endif()
-    endfunction()
-    foreach(name heat samples integral curve)
-        validate(frag ${OUT}/hazy.glsl surface.glsl ${name}.glsl)
-    endforeach()
-    validate(frag ${OUT}/hazy.glsl surface.glsl light.glsl sphere.glsl)
-    validate(vert ${OUT}/hazy.glsl surface.glsl dots.vert.glsl)
-    validate(frag show.glsl)
-    validate(frag dots.glsl)
-    validate(vert screen.vert.glsl)
-else()
-    message("no glslangValidator here: the shaders are not judged by it")
-endif()
 
 # ---- in a browser -------------------------------------------------------------------------------
 

@@ -30,7 +30,8 @@ static void check_scene(const scene *s)
     for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
         vndf_material resolved;
-        fuzz_require(m->name && is_of(s, m->colour_map) && is_of(s, m->alpha_map), "maps are images of the scene");
+        fuzz_require(m->name[0] && is_of(s, m->colour_map) && is_of(s, m->alpha_map),
+                     "maps are images of the scene");
         if (m->kind == MATERIAL_ROUGH)
             fuzz_require(vndf_material_resolve(&m->is, &resolved, NULL) == VNDF_OK, "the library takes it");
     }

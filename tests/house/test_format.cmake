@@ -16,7 +16,7 @@ endif()
 file(GLOB_RECURSE files ${SOURCE}/include/*.h ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch]
     ${SOURCE}/include/*.hpp ${SOURCE}/tests/*.cpp)
 list(LENGTH files count)
-if(count LESS 400)
+if(count LESS 200)
     message(FATAL_ERROR "${count} sources under ${SOURCE}")
 endif()
 execute_process(COMMAND ${CLANG_FORMAT} --dry-run --Werror ${files} RESULT_VARIABLE status ERROR_VARIABLE output)

@@ -28,7 +28,7 @@ set(subs_table family)
 set(subs_sampler batch)
 set(subs_bsdf walk)
 set(subs_source interval csv formula family)
-set(subs_fit profile certificate family)
+set(subs_fit profile)
 
 set(rooms_tools cli draw evidence render export measured manual commands)
 set(below_cli "")

@@ -62,7 +62,7 @@ static const struct {
     const char *message;
 } NUMBERS[] = {{KNOT, 0, 1e-3f, "knots do not run"},
                {KNOT, 1, 1e-13f, "knots do not run"},
-               {KNOT, 9999, 2e9f, "knots do not run"},
+               {KNOT, 9999, 2e14f, "knots do not run"},
                {KNOT, 5, 0, "ascend"},
                {KNOT, 5, NAN, "ascend"},
                {DENSITY_LEFT, 2, -1e-6f, "density is out of range"},

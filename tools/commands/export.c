@@ -166,6 +166,10 @@ static int read_settings(const export_words *given, export_document *document)
 static int fits(const export_document *document)
 {
     const language *as = document->as.to;
+    for (size_t i = 0; i < document->tables; i++)
+        if (document->table[i].family && document->lobes < 2)
+            return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
+                   0;
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     return complain(

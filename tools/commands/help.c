@@ -62,7 +62,10 @@ static const char head_end[] =
     "the program quietly, by SIGPIPE or, where SIGPIPE is ignored, with status 2\n"
     "\n"
     "files: a written file appears whole or not at all, keeps its permissions, and is never an input of the\n"
-    "same command; symbolic links are followed to their file. `-o -` is stdout, without other text\n";
+    "same command; symbolic links are followed to their file. `-o -` is stdout, without other text, and - in\n"
+    "the place of an input is stdin, once\n"
+    "\n"
+    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all\n";
 
 enum { HEAD_SIZE = 8192 };
 

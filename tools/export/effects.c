@@ -104,6 +104,7 @@ int effects_have(const export_effects *effects, const char *word, int length)
            : is_word(word, length, "reflects")  ? reflects
            : is_word(word, length, "transmits") ? transmits
            : is_word(word, length, "indexed")   ? transmits || c[1] == VNDF_FRESNEL_DIELECTRIC
+           : is_word(word, length, "smith")     ? c[2] < VNDF_MASKING_V_CAVITIES
            : is_word(word, length, "coloured")  ? transmits || c[1] != VNDF_FRESNEL_NONE
                                                 : 0;
 }

@@ -23,7 +23,8 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
  *
  *     reflects, transmits    a lobe is on this side, on the other
  *     indexed                there is an index ratio, and both sides are seen
- *     coloured               there are reflectances */
+ *     coloured               there are reflectances
+ *     smith                  masking takes the area that wo sees */
 int effects_have(const export_effects *effects, const char *word, int length);
 
 vndf_effects effects_of(const export_effects *effects);

@@ -164,7 +164,7 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
-        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below);
+        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
         n = both_drawn.n;
         weight = both_drawn.weight;
     }

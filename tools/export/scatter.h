@@ -90,36 +90,54 @@ HERE vec3 reflectances(vndf_bsdf b, seen_cosine c)
     /* end */
 }
 
-/* The part of the samples that is reflected: the mean, which is exact where all are the same. */
-HERE float mean_of(vec3 f)
+/* A microfacet between two directions, and whether it reflects. */
+typedef struct meeting {
+    event e;
+    int reflects;
+} meeting;
+
+/* What its lobe has of the light, and of the samples: the mean, which is exact where all are the same. */
+typedef struct lobe_share {
+    vec3 f;
+    float part;
+} lobe_share;
+
+HERE lobe_share share_of(vndf_bsdf b, meeting m)
 {
-    return f.x + ((f.y - f.x) + (f.z - f.x)) * 0.333333333f;
+    lobe_share s = {vec3(1.0f, 1.0f, 1.0f), 1.0f};
+    /* only coloured */
+    const seen_cosine c = {m.e.facing, m.e.rest};
+    s.f = reflectances(b, c);
+    s.part = s.f.x + ((s.f.y - s.f.x) + (s.f.z - s.f.x)) * 0.333333333f; /* only lobes=both */
+    /* only transmits */
+    if (!m.reflects) {
+        s.f = vec3(1.0f - s.f.x, 1.0f - s.f.y, 1.0f - s.f.z);
+        s.part = 1.0f - s.part; /* only lobes=both */
+    }
+    /* end */
+    return s;
 }
 
-/* A(w) of another direction. */
-HERE float area_towards(vndf_bsdf b, direction w)
+/* G2/(cos_i cos_o), of transmission with what the transport asks for. */
+HERE float masked(vndf_bsdf b, meeting m)
 {
-    return vndf_projected_area(vndf_view_of(b.material.surface, vector_of(w)));
-}
-
-/* G2/(cos_i cos_o) of reflection. */
-HERE float masked_reflection(vndf_bsdf b, event e)
-{
-    return masked_by_height(b.rise, e.rise, b.area, area_towards(b, e.up)); /* only masking=correlated */
-    return masked_apart(b.area, area_towards(b, e.up));                     /* only masking=separable */
-    return masked_in_cavities(b.rise, e.rise, e.facing, e.wm.z);            /* only masking=v-cavities */
-    return 1.0f / (b.rise * e.rise);                                        /* only masking=none */
-}
-
-/* G2/(cos_i cos_o) of transmission, with what the transport asks for. */
-HERE float masked_transmission(vndf_bsdf b, event e)
-{
+    const event e = m.e;
+    const float area_o = vndf_projected_area(vndf_view_of(b.material.surface, vector_of(e.up))); /* only smith */
     float carried = 1.0f;
-    carried = 1.0f / (b.eta * b.eta);                                                 /* only transport=radiance */
-    return carried * passed_by_height(b.rise, e.rise, b.area, area_towards(b, e.up)); /* only masking=correlated */
-    return carried * masked_apart(b.area, area_towards(b, e.up));                     /* only masking=separable */
-    return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);  /* only masking=v-cavities */
-    return carried / (b.rise * e.rise);                                               /* only masking=none */
+    /* only transmits transport=radiance */
+    if (!m.reflects)
+        carried = 1.0f / (b.eta * b.eta);
+    /* only transmits masking=correlated */
+    if (!m.reflects)
+        return carried * passed_by_height(b.rise, e.rise, b.area, area_o);
+    /* only transmits masking=v-cavities */
+    if (!m.reflects)
+        return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);
+    /* end */
+    return carried * masked_by_height(b.rise, e.rise, b.area, area_o);     /* only masking=correlated */
+    return carried * masked_apart(b.area, area_o);                         /* only masking=separable */
+    return carried * masked_in_cavities(b.rise, e.rise, e.facing, e.wm.z); /* only masking=v-cavities */
+    return carried / (b.rise * e.rise);                                    /* only masking=none */
 }
 
 /* ---- samples ---- */
@@ -140,56 +158,41 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     const vndf_sampled n = vndf_sample(b.view, u.x, u.y);
     const direction wi = direction_of(b.view.wi), wm = direction_of(n.wm);
     const seen_cosine c = seen_cosine_of(wi, wm);
-    vec3 f = vec3(1.0f, 1.0f, 1.0f);
-    float part = 1.0f, masked = 0.0f, side = b.side;
-    event e;
-    f = reflectances(b, c); /* only coloured */
-    int reflects = 1;       /* only lobes=reflection */
-    int reflects = 0;       /* only lobes=transmission */
+    meeting m;
+    m.reflects = 1; /* only lobes=reflection */
+    m.reflects = 0; /* only lobes=transmission */
     /* only lobes=both */
-    part = mean_of(f);
-    int reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
-    if (!reflects)
-        part = 1.0f - part;
+    m.reflects = 1;
+    m.e.facing = c.facing;
+    m.e.rest = c.rest;
+    const float part = share_of(b, m).part;
+    m.reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
     /* end */
-    if (reflects)                    /* only reflects */
-        e = reflected_at(wi, wm, c); /* only reflects */
-    /* only transmits */
-    if (!reflects) {
-        e = refracted_at(wi, wm, c, b.eta);
-        f = vec3(1.0f - f.x, 1.0f - f.y, 1.0f - f.z);
-        side = -side;
-    }
-    /* end */
-    e.rise = projected(b.material.surface, vector_of(e.up));
-    if (!any(e.met) || !(e.rise > 0.0f) || !(b.rise > 0.0f))
+    if (m.reflects)                           /* only reflects */
+        m.e = reflected_at(wi, wm, c);        /* only reflects */
+    if (!m.reflects)                          /* only transmits */
+        m.e = refracted_at(wi, wm, c, b.eta); /* only transmits */
+    m.e.rise = projected(b.material.surface, vector_of(m.e.up));
+    if (!any(m.e.met) || !(m.e.rise > 0.0f) || !(b.rise > 0.0f))
         return s;
-    if (reflects)                           /* only reflects */
-        masked = masked_reflection(b, e);   /* only reflects */
-    if (!reflects)                          /* only transmits */
-        masked = masked_transmission(b, e); /* only transmits */
-    s.wo = scaled(side, vector_of(e.up));
-    s.weight = scaled(masked * e.rise * (b.area * n.weight) / part, f);
-    s.pdf = least(most(n.pdf * e.jacobian * part, 1.17549435e-38f), 3.4028234e38f);
-    s.lobe = 2 - reflects;
+    const lobe_share share = share_of(b, m);                 /* only coloured */
+    const lobe_share share = {vec3(1.0f, 1.0f, 1.0f), 1.0f}; /* only fresnel=none lobes=reflection */
+    s.wo = scaled(pick(same(m.reflects, 1), b.side, -b.side), vector_of(m.e.up));
+    s.weight = scaled(masked(b, m) * m.e.rise * (b.area * n.weight) / share.part, share.f);
+    s.pdf = least(most(n.pdf * m.e.jacobian * share.part, 1.17549435e-38f), 3.4028234e38f);
+    s.lobe = 2 - m.reflects;
     /* only transmits */
-    if (!reflects && b.eta == 1.0f) {
+    if (!m.reflects && b.eta == 1.0f) {
         s.pdf = 1.0f;
         s.lobe = 3;
     }
     /* end */
-    if (reflects)                              /* only reflection=retro */
+    if (m.reflects)                            /* only reflection=retro */
         s.wo = vec3(-s.wo.x, -s.wo.y, s.wo.z); /* only reflection=retro */
     return s;
 }
 
 /* ---- values and densities ---- */
-
-/* The microfacet between wi and wo, and whether it reflects. */
-typedef struct meeting {
-    event e;
-    int reflects;
-} meeting;
 
 HERE meeting meeting_of(vndf_bsdf b, vec3 given)
 {
@@ -219,23 +222,11 @@ HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
 {
     const meeting m = meeting_of(b, wo);
     vec3 f = vec3(1.0f, 1.0f, 1.0f);
-    float masked = 0.0f;
     if (!any(m.e.met))
         return vec3(0.0f, 0.0f, 0.0f);
-    /* only coloured */
-    const seen_cosine c = {m.e.facing, m.e.rest};
-    f = reflectances(b, c);
-    /* end */
-    if (m.reflects)                         /* only reflects */
-        masked = masked_reflection(b, m.e); /* only reflects */
-    /* only transmits */
-    if (!m.reflects) {
-        masked = masked_transmission(b, m.e);
-        f = vec3(1.0f - f.x, 1.0f - f.y, 1.0f - f.z);
-    }
-    /* end */
+    f = share_of(b, m).f; /* only coloured */
     const float ndf = placed_ndf(b.view, vector_of(m.e.wm));
-    return scaled(b.tilt * ndf * m.e.facing * m.e.jacobian * masked, f);
+    return scaled(b.tilt * ndf * m.e.facing * m.e.jacobian * masked(b, m), f);
 }
 
 /* The density per steradian with which vndf_bsdf_sample draws wo. */
@@ -245,11 +236,6 @@ HERE float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
     float part = 1.0f;
     if (!any(m.e.met))
         return 0.0f;
-    /* only lobes=both */
-    const seen_cosine c = {m.e.facing, m.e.rest};
-    part = mean_of(reflectances(b, c));
-    if (!m.reflects)
-        part = 1.0f - part;
-    /* end */
+    part = share_of(b, m).part; /* only lobes=both */
     return least(part * (vndf_pdf(b.view, vector_of(m.e.wm)) * m.e.jacobian), 3.4028234e38f);
 }

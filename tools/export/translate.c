@@ -196,7 +196,7 @@ static int put_call(writer *w, int at, int bare)
     return close + 1;
 }
 
-/* The space or line break that stands before a word. */
+/* The space or line break that stands before a word; a comment in an expression is left out. */
 static void put_space(const writer *w, const word *at)
 {
     int broken = memchr(at->text - at->gap, '\n', (size_t)at->gap) != NULL;
@@ -316,13 +316,22 @@ static void put_indent(const writer *w)
     fprintf(w->file, "%*s", 4 * w->depth, "");
 }
 
-static const char *put_inner_comment(const writer *w, const char *from)
+/* A comment that begins there; returns what follows. Python has a sign on each line of it. */
+static const char *put_comment(const writer *w, const char *from)
 {
     const char *end = strstr(from, "*/") + 2;
-    fputs(w->to->indents ? "#" : "/*", w->file);
-    put_prefixed(w->t, w->file, from + 2,
-                 (size_t)(end - from - 4 - w->to->indents)); /* no blank at Python's end */
-    fputs(w->to->indents ? "" : "*/", w->file);
+    if (!w->to->indents)
+        put_prefixed(w->t, w->file, from, (size_t)(end - from));
+    for (const char *at = from + 2; w->to->indents && at < end - 3;) {
+        at += strspn(at, " *");
+        size_t line = strcspn(at, "\n");
+        line = at + line < end - 3 ? line : (size_t)(end - 3 - at);
+        if (at > from + 3)
+            fprintf(w->file, "\n%*s", 4 * w->depth, "");
+        fputs("# ", w->file);
+        put_prefixed(w->t, w->file, at, line);
+        at += line + 1;
+    }
     return end;
 }
 
@@ -333,7 +342,7 @@ static void put_line_end(const writer *w, int at)
     from += strspn(from, " ");
     if (*from == '/' && w->word[at].gap > 0) {
         fputs(w->to->indents ? "  " : " ", w->file);
-        put_inner_comment(w, from);
+        put_comment(w, from);
     }
     fputs("\n", w->file);
 }
@@ -346,7 +355,7 @@ static void put_between(const writer *w, int at)
     for (int lines = 0; from < end;) {
         if (*from == '/') {
             put_indent(w);
-            from = put_inner_comment(w, from);
+            from = put_comment(w, from);
             fputs("\n", w->file);
             lines = -1;
         } else {
@@ -527,8 +536,8 @@ static int put_statement(writer *w, int at)
 /* Python would change the caller's struct, and WGSL forbids to change a parameter. */
 static int is_copied(const writer *w, const declaration *d, int name)
 {
-    return (w->to->apart && !w->to->indents && is_assigned(w, d, &w->word[name])) ||
-           (w->to->indents && is_assigned(w, d, &w->word[name]) && declared(w, &w->word[name - 1], STRUCT));
+    return is_assigned(w, d, &w->word[name]) &&
+           (w->to->indents ? declared(w, &w->word[name - 1], STRUCT) != NULL : w->to->apart);
 }
 
 static void put_parameters(writer *w, const declaration *d)
@@ -609,26 +618,16 @@ static void put_array(writer *w, const declaration *d)
 }
 
 /* The comment that ends on the line before. */
-static void put_comment(writer *w, const declaration *d)
+static void put_comment_before(const writer *w, const declaration *d)
 {
     const word *first = &w->word[d->begin];
-    const char *from = first->text - first->gap, *open = NULL, *close = first->text - 4;
-    if (first->gap < 5 || strncmp(close, " */\n", 4) != 0)
+    const char *comment = NULL;
+    if (first->gap < 5 || strncmp(first->text - 4, " */\n", 4) != 0)
         return;
-    for (const char *at = from; at < close; at++)
-        open = strncmp(at, "/*", 2) == 0 ? at : open;
-    if (!w->to->indents) {
-        put_prefixed(w->t, w->file, open, (size_t)(close + 3 - open));
-        fputs("\n", w->file);
-        return;
-    }
-    for (const char *at = open + 2; at < close;) {
-        at += strspn(at, " *");
-        size_t n = strcspn(at, "\n");
-        n = at + n < close ? n : (size_t)(close - at);
-        fprintf(w->file, "# %.*s\n", (int)n, at);
-        at += n + 1;
-    }
+    for (const char *at = first->text - first->gap; at < first->text; at++)
+        comment = strncmp(at, "/*", 2) == 0 ? at : comment;
+    put_comment(w, comment);
+    fputs("\n", w->file);
 }
 
 int translation_want(const translation *t, kernel *from, const word *name)
@@ -661,7 +660,7 @@ void translate(const translation *t, FILE *to, kernel *from)
         fputs(in_constants && d->kind != CONSTANT ? "\n" : "", to);
         in_constants = d->kind == CONSTANT;
         if (!in_constants || d->name == d->begin + 2)
-            put_comment(&w, d);
+            put_comment_before(&w, d);
         if (d->kind == FUNCTION)
             put_function(&w, d);
         else if (d->kind == STRUCT)

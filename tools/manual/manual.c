@@ -98,7 +98,7 @@ static void put_command(const command_form *form, void *to)
 
 void manual_write_man(FILE *to, const char *head)
 {
-    static const char *const sections[] = {"exit status", "files"};
+    static const char *const sections[] = {"exit status: ", "files: ", "figures: "};
     const char *purpose = strstr(head, " - ") + 3;
     fputs(".\\\" Made by `vndf help --man`.\n.TH VNDF 1 \"\" \"vndf " VNDF_VERSION
           "\" \"User Commands\"\n.nh\n.ad l\n"
@@ -118,8 +118,8 @@ void manual_write_man(FILE *to, const char *head)
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) { /* paragraphs "files: ..." of the head */
         const char *at = strstr(head, sections[i]);
         size_t title = strlen(sections[i]);
-        put_heading(to, at, title);
-        for (at += title + 2; *at && *at != '\n'; at += strcspn(at, "\n") + 1)
+        put_heading(to, at, title - 2);
+        for (at += title; *at && *at != '\n'; at += strcspn(at, "\n") + 1)
             put_text(to, at, strcspn(at, "\n"));
     }
 }

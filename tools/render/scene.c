@@ -14,7 +14,6 @@
 enum {
     BYTES_MAX = 1 << 22,
     MATERIALS_MAX = 4096,
-    NAME_MAX_LETTERS = 64,
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
 
@@ -29,6 +28,11 @@ typedef struct reader {
     size_t folder;         /* the length of the folder in the name of the file, with its slash */
     unsigned seen;         /* a bit for each statement */
     size_t pixels;         /* of all images so far */
+    struct made_table {
+        size_t form;
+        unsigned bytes;
+        const char *text;
+    } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
 } reader;
 
 #define FORMS(forms) forms, sizeof(forms) / sizeof *(forms)
@@ -50,18 +54,6 @@ static void set_three(float to[3], const clause *c)
 }
 
 /* ---- names and paths ---- */
-
-/* A copy to be freed; NULL after a refusal. */
-static char *copy_text(reader *r, const word *at)
-{
-    size_t size = strlen(at->text) + 1;
-    char *copy = malloc(size);
-    if (!copy)
-        refuse_word(&r->words, at, "there is no memory for '%.64s'", at->text);
-    else
-        memcpy(copy, at->text, size);
-    return copy;
-}
 
 /* The path relative to the working folder, noted as an input; to be freed. NULL after a refusal. */
 static char *path_of(reader *r, const word *at)
@@ -89,8 +81,8 @@ static int new_name(reader *r, const word **name)
                                                                  : "material wall matte colour 0.5 0.5 0.5");
     *name = &r->list[1];
     size_t letters = strlen((*name)->text);
-    return (letters > 0 && letters <= NAME_MAX_LETTERS) ||
-           refuse_word(&r->words, *name, "a name has 1 to %d letters", NAME_MAX_LETTERS);
+    return (letters > 0 && letters < SCENE_NAME) ||
+           refuse_word(&r->words, *name, "a name has 1 to %d letters", SCENE_NAME - 1);
 }
 
 /* ---- once in a scene ---- */
@@ -148,11 +140,13 @@ static int read_integrator(reader *r)
 
 static int find_image(reader *r, const clause *c, const image **found)
 {
+    const char *names[SCENE_IMAGES_MAX];
     size_t i;
+    for (i = 0; i < r->made->image_count; i++)
+        names[i] = r->made->image_names[i];
     if (!c->at)
         return 1;
-    if (!read_choice(&r->words, c, "image that is defined before this", (const char *const *)r->made->image_names,
-                     r->made->image_count, &i))
+    if (!read_choice(&r->words, c, "image that is defined before this", names, r->made->image_count, &i))
         return 0;
     *found = &r->made->images[i];
     return 1;
@@ -235,9 +229,7 @@ static int read_image(reader *r)
             return refuse_word(&r->words, r->c[i].at, "'%s' is of a pattern; a file has its own",
                                r->c[i].at->text);
     image *made = &s->images[s->image_count];
-    if (!(s->image_names[s->image_count] = copy_text(r, name)))
-        return 0;
-    s->image_count++;
+    strcpy(s->image_names[s->image_count++], name->text);
     if (!make_image(r, made))
         return 0;
     r->pixels += (size_t)made->width * (size_t)made->height;
@@ -271,28 +263,19 @@ static int find_table(reader *r, size_t form, const word *text, unsigned bytes, 
 {
     scene *s = r->made;
     vndf_error error = {VNDF_OK, ""};
-    size_t size = strlen(text->text) + 64, i = 0;
-    char *key = malloc(size);
-    if (!key || s->table_count == SCENE_TABLES_MAX) {
-        free(key);
-        return refuse_word(&r->words, text, "these are more than %d tables, or there is no memory",
-                           SCENE_TABLES_MAX);
-    }
-    snprintf(key, size, "%zu %u %s", form, bytes, text->text);
-    while (i < s->table_count && strcmp(s->table_names[i], key) != 0)
+    size_t i = 0;
+    while (i < s->table_count && (r->tables[i].form != form || r->tables[i].bytes != bytes ||
+                                  strcmp(r->tables[i].text, text->text) != 0))
         i++;
-    if (i < s->table_count) {
-        free(key);
-        *found = s->tables[i];
-        return 1;
+    if (i == SCENE_TABLES_MAX)
+        return refuse_word(&r->words, text, "these are more than %d tables", SCENE_TABLES_MAX);
+    if (i == s->table_count) {
+        if (!(s->tables[i] = make_table(r, form, text, bytes, &error))) /* else path_of has refused */
+            return error.message[0] ? refuse_word(&r->words, text, "%s", error.message) : 0;
+        r->tables[s->table_count++] = (struct made_table){form, bytes, text->text};
     }
-    *found = s->tables[i] = make_table(r, form, text, bytes, &error);
-    if (*found) {
-        s->table_names[s->table_count++] = key;
-        return 1;
-    }
-    free(key);
-    return error.message[0] ? refuse_word(&r->words, text, "%s", error.message) : 0; /* else path_of has refused */
+    *found = s->tables[i];
+    return 1;
 }
 
 static int read_distribution(reader *r, const clause *c, const clause *bytes, const clause *alpha,
@@ -458,8 +441,9 @@ static int read_material(reader *r)
     set_three(made.colour, &r->c[RADIANCE]);
     if (!find_image(r, &r->c[COLOUR_MAP], &made.colour_map) ||
         !check_map(r, &r->c[COLOUR_MAP], made.colour_map, "colour", 3, 0, 1) ||
-        (made.kind == MATERIAL_ROUGH && !read_rough(r, kind, &made)) || !(made.name = copy_text(r, name)))
+        (made.kind == MATERIAL_ROUGH && !read_rough(r, kind, &made)))
         return 0;
+    strcpy(made.name, name->text);
     s->materials[s->material_count++] = made;
     return 1;
 }
@@ -665,16 +649,10 @@ void scene_free(scene *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < s->material_count; i++)
-        free(s->materials[i].name);
-    for (size_t i = 0; i < s->image_count; i++) {
+    for (size_t i = 0; i < s->image_count; i++)
         image_free(&s->images[i]);
-        free(s->image_names[i]);
-    }
-    for (size_t i = 0; i < s->table_count; i++) {
+    for (size_t i = 0; i < s->table_count; i++)
         vndf_free(s->tables[i]);
-        free(s->table_names[i]);
-    }
     free(s->materials);
     free(s->environment.rows);
     free(s->environment.cells);

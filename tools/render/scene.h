@@ -6,6 +6,8 @@
 #include "render/image.h"
 #include "vndf_bsdf.h"
 
+enum { SCENE_NAME = 65, SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
+
 typedef enum material_kind {
     MATERIAL_ROUGH, /* vndf_bsdf.h */
     MATERIAL_MATTE, /* Lambert's */
@@ -13,7 +15,7 @@ typedef enum material_kind {
 } material_kind;
 
 typedef struct material {
-    char *name; /* owned */
+    char name[SCENE_NAME];
     material_kind kind;
     vndf_description is;                 /* ROUGH: the library takes it */
     float colour[3];                     /* LIGHT: radiance; others: multiplies what is scattered */
@@ -40,8 +42,6 @@ typedef struct environment {
     float *rows, *cells;
 } environment;
 
-enum { SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
-
 typedef struct scene {
     vec3 from, to, up; /* of the camera */
     double field;      /* of view, radians, across the height of the film */
@@ -55,10 +55,9 @@ typedef struct scene {
     material *materials; /* owned, as are all below */
     size_t material_count;
     image images[SCENE_IMAGES_MAX];
-    char *image_names[SCENE_IMAGES_MAX];
+    char image_names[SCENE_IMAGES_MAX][SCENE_NAME];
     size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
-    char *table_names[SCENE_TABLES_MAX];
     size_t table_count;
 } scene;
 

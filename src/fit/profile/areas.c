@@ -13,7 +13,8 @@ static const double FAR = 16;
 
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
 
-size_t vndf_profile_panel(const vndf_profile *profile, double r)
+/* The panel of a slope: r_i <= R < r_(i+1), the ends extended. */
+static size_t panel_of(const vndf_profile *profile, double r)
 {
     size_t low = 0, high = profile->count;
     while (high - low > 1) {
@@ -29,43 +30,12 @@ size_t vndf_profile_panel(const vndf_profile *profile, double r)
 /* Less than this part of a sum changes no bit of it. */
 static const double LOST = 0x1p-55;
 
-double vndf_profile_s(const vndf_profile *profile, double rho)
-{
-    const vndf_panel *p = &profile->panel[vndf_profile_panel(profile, rho)],
-                     *end = &profile->panel[profile->count];
-    if (rho >= end->r)
-        return profile->tail_m1 * end->r / rho; /* or a little more: no panel resolves it */
-    double from = rho > p->r ? rho : p->r;
-    double inside = p[1].s + p[1].t0 * (p[1].r - from);
-    vndf_profile_point point[VNDF_GAUSS];
-    if (!(p->m0 * (p[1].r - p->r) < LOST * inside)) {
-        vndf_profile_rule(profile, from, p[1].r, point);
-        for (int i = 0; i < VNDF_GAUSS; i++)
-            inside += point[i].weight * (point[i].r - from);
-    }
-    return inside + (from > rho ? p->t0 * (from - rho) : 0.0);
-}
-
-/* v - atan v, as a series for v^2 = y^2 - 1 near 0, with a relative error of 1e-11. */
-static double lens_of(double v, double v2, double angle)
-{
-    return v < 0.05 ? v * v2 * (1.0 / 3 - v2 * (1.0 / 5 - v2 * (1.0 / 7 - v2 / 9))) : v - angle;
-}
-
-double vndf_profile_kernel(double y)
-{
-    const double far = 32; /* as a series of 1/y from there on */
-    double v2 = (y - 1) * (y + 1), v = sqrt(v2), u = 1 / y;
-    return y > far ? y - HALF_PI + u / 2 * (1 + u * u / 12) : lens_of(v, v2, atan(v));
-}
-
 /* Adds P r dr = weight at r: the three integrals over rho, 1 and 1. */
 static void add_point(vndf_area *sum, double r, double rho, double weight)
 {
-    double y = r / rho, v2 = (y - 1.0) * (y + 1.0), v = sqrt(v2), angle = atan(v);
-    sum->below += weight * rho * lens_of(v, v2, angle);
-    sum->turned += weight * angle;
-    sum->along += weight * rho * v;
+    sum->below += weight * vndf_profile_kernel(r, rho);
+    sum->turned += weight * acos(rho / r);
+    sum->along += weight * sqrt((r - rho) * (r + rho));
 }
 
 /* integral over R in [from, to], rho <= from < to, within a panel: by t with R = rho + t^2 where the root shows. One
@@ -122,7 +92,7 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
 {
     vndf_area sum = {0.0, 0.0, 0.0};
     double rho = c / s;
-    size_t count = profile->count, i = vndf_profile_panel(profile, rho), first = i;
+    size_t count = profile->count, i = panel_of(profile, rho), first = i;
     const vndf_panel *p = profile->panel;
     if (!(s > 0.0) || rho >= p[count].r)
         return sum;

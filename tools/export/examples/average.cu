@@ -25,8 +25,7 @@ __global__ void add_weights(const float *numbers, float cosine, float alpha, int
         float3 wo = make_float3(2.0f * facing * drawn.wm.x - wi.x, 2.0f * facing * drawn.wm.y - wi.y,
                                 2.0f * facing * drawn.wm.z - wi.z);
         if (wo.z > 0.0f) // G2/G1, times the true density over the drawn one
-            weights += vndf_g2(numbers, surface, wi, wo) / vndf_g1(numbers, surface, wi) *
-                       (vndf_visible(numbers, view, drawn.wm) / drawn.pdf);
+            weights += vndf_g2(numbers, surface, wi, wo) / vndf_g1(numbers, surface, wi) * drawn.weight;
     }
     atomicAdd(sum, weights);
 }

@@ -16,11 +16,10 @@ bounce bounce_at_metal(vec3 wi, float roughness, vec3 f0, vec2 random) {
     float facing = dot(wi, drawn.wm);
     vec3 wo = 2.0 * facing * drawn.wm - wi;
     // f = D F G2/(4 wi.z wo.z), and the density of wo is pdf/(4 facing). Dv = G1 D facing/wi.z leaves F G2/G1 times
-    // how much the true visible density exceeds the drawn one: 1 within what the table states.
+    // drawn.weight, the true visible density over the drawn one: 1 within what the table states.
     vec3 fresnel = f0 + (1.0 - f0) * pow(1.0 - facing, 5.0);
     float g = vndf_g2(surface, wi, wo) / max(vndf_g1(surface, wi), 1e-30);
-    float truth = vndf_visible(view, drawn.wm) / drawn.pdf;
-    return bounce(wo, wo.z > 0.0 ? fresnel * (g * truth) : vec3(0.0), drawn.pdf / (4.0 * facing));
+    return bounce(wo, wo.z > 0.0 ? fresnel * (g * drawn.weight) : vec3(0.0), drawn.pdf / (4.0 * facing));
 }
 
 // Value and density of a given wo, for light that was sampled: f cos in xyz, density in w.

@@ -1,5 +1,4 @@
 // D along the x axis, from the mean normal to the angle `last`.
-uniform vec2 size;
 uniform float last;
 out vec4 value;
 

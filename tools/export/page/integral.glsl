@@ -1,6 +1,4 @@
 // The density on a grid over all slopes, times the solid angle of a cell.
-uniform vec3 incident;
-uniform vec2 size;
 out vec4 part; // of the integral of the density, of facing times it, and of the true visible normals
 
 void main() {

@@ -13,7 +13,7 @@ function makePage() {
   openGl();
   const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"];
   programs = {show: makeProgram(screen, ["show.glsl"]),
-              sphere: makeProgram(screen, [...sampling, "light.glsl", "sphere.glsl"]),
+              sphere: makeProgram(screen, [...sampling, "sphere.glsl"]),
               dots: makeProgram([...sampling, "dots.vert.glsl"], ["dots.glsl"])};
   for (const name of ["heat", "samples", "integral", "curve"])
     programs[name] = makeProgram(screen, [...sampling, `${name}.glsl`]);

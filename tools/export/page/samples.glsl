@@ -1,6 +1,4 @@
 // Many drawn normals, one a pixel, and what is to be said of each.
-uniform vec3 incident;
-uniform vec2 size;
 layout(location = 0) out vec4 drawn_out; // facing, density, angle from the mean normal, how far vndf_pdf is off
 layout(location = 1) out vec4 light_out; // G2/G1 of the reflected direction, true over drawn density, faults
 

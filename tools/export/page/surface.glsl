@@ -5,6 +5,9 @@ const float PI = 3.14159265;
 uniform int distribution; // the first number of a table, VNDF_GGX or VNDF_BECKMANN
 uniform vec2 alpha;
 uniform float turn; // of the axes, radians
+uniform vec3 incident;
+uniform vec2 size; // of the target, pixels
+uniform float rim; // of a disc: sin(theta/2) at its edge
 
 vndf_surface surface_here() {
     float c = cos(turn);
@@ -25,13 +28,12 @@ vec3 random_at(uvec3 v) {
     return vec3(v >> 8u) / 16777216.0;
 }
 
-// A normal on a disc of radius 1, seen from above; equal areas are equal solid angles. `rim` is sin(theta/2) at the
-// edge of the disc.
-vec2 disc_from_normal(vec3 wm, float rim) {
+// A normal on a disc of radius 1, seen from above; equal areas are equal solid angles.
+vec2 disc_from_normal(vec3 wm) {
     return wm.xy / (rim * sqrt(2.0 * (1.0 + wm.z)));
 }
 
-vec3 normal_from_disc(vec2 p, float rim) {
+vec3 normal_from_disc(vec2 p) {
     float s2 = dot(p, p) * rim * rim;
     return vec3(p * rim * 2.0 * sqrt(max(1.0 - s2, 0.0)), max(1.0 - 2.0 * s2, 0.0));
 }

@@ -4,15 +4,136 @@
  * P22 is tabulated at slopes that are even in log r, where sums converge fast: families are smooth there, and features
  * that are no wider than a slope step are refused or resolved when tables are built. The distance between two knots
  * grows as the square of the way between them: its root is shared out evenly, again and again, as de Boor shares out
- * knots of splines ("Good approximation by splines with variable knots", 1973). */
+ * knots of splines ("Good approximation by splines with variable knots", 1973).
+ *
+ * A family of sources along one number is a specification (vndf_source_family) with {p} in the place of the number; a
+ * name alone, "student-t", is "student-t:{p}". */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
-#include "fit/family/pattern.h"
+#include "source/family/family.h"
+#include "source/words.h"
 #include "table/family/family.h"
+#include "vndf_build.h"
+
+/* ---- patterns ---- */
+
+static const char PLACE[] = "{p}";
+
+/* With seven digits: what knots and probes are rounded to, so that a specification shows all of them. */
+static double number_of(double p)
+{
+    char text[VNDF_NUMBER_TEXT];
+    snprintf(text, sizeof text, "%.6e", p);
+    return strtod(text, NULL);
+}
+
+/* The words of a specification with this name. */
+static vndf_status unknown_family(const char *pattern, vndf_error *error)
+{
+    vndf_error inner = {VNDF_OK, ""};
+    vndf_source_free(vndf_source_family(pattern, &inner));
+    return inner.status == VNDF_OK ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
+}
+
+static vndf_status no_parameter(const vndf_family_form *form, vndf_error *error)
+{
+    char known[160] = "";
+    size_t used = 0;
+    const vndf_family_form *other;
+    for (size_t i = 0; (other = vndf_family_form_at(i)) != NULL && used < sizeof known; i++)
+        if (other->count > 0 && other->required < 2)
+            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", other->name);
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "%s has no parameter; families that have one are %s", form->name,
+                     known);
+}
+
+/* A name alone stands for one parameter. */
+static vndf_status two_parameters(const vndf_family_form *form, vndf_error *error)
+{
+    const char *name = form->name, *first = form->range[0].name, *second = form->range[1].name;
+    return vndf_fail(
+        error, VNDF_ERROR_SYNTAX,
+        "%s has the parameters %s and %s: right would be %s:{p},%s or %s:%s,{p}, with a number for the "
+        "other",
+        name, first, second, name, second, name, first);
+}
+
+static vndf_status check_form(const char *pattern, size_t name, vndf_error *error)
+{
+    const vndf_family_form *form = vndf_family_form_find(pattern, name);
+    if (!form)
+        return strncmp(pattern, "mix", 3) == 0 ? VNDF_OK : unknown_family(pattern, error);
+    if (form->count == 0)
+        return no_parameter(form, error);
+    return form->required > 1 && !pattern[name] ? two_parameters(form, error) : VNDF_OK;
+}
+
+static vndf_status check_pattern(const char *pattern, vndf_error *error)
+{
+    char excerpt[VNDF_EXCERPT];
+    if (!pattern)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
+    if (strlen(pattern) > VNDF_LIMIT_FAMILY_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %lu characters; at most %d are possible",
+                         (unsigned long)strlen(pattern), VNDF_LIMIT_FAMILY_LENGTH);
+    if (strchr(pattern, ':') && !strstr(pattern, PLACE))
+        return vndf_fail(error, VNDF_ERROR_SYNTAX,
+                         "'%s' does not say where the parameter stands; right would be {p} in its place, as in "
+                         "abc:{p},0.8, or a name alone, as in student-t",
+                         vndf_excerpt(excerpt, pattern, strlen(pattern)));
+    return check_form(pattern, strcspn(pattern, ":"), error);
+}
+
+/* The pattern with the number in its places. */
+static void add_filled(vndf_text *text, const char *pattern, const char *number)
+{
+    const char *place;
+    char piece[2] = "";
+    while ((place = strstr(pattern, PLACE)) != NULL) {
+        for (; pattern < place; pattern++) {
+            piece[0] = *pattern;
+            vndf_text_add(text, piece);
+        }
+        vndf_text_add(text, number);
+        pattern = place + strlen(PLACE);
+    }
+    vndf_text_add(text, pattern);
+}
+
+/* The source at p; NULL and an error. */
+static vndf_source *source_at(const char *pattern, double p, vndf_error *error)
+{
+    char number[VNDF_NUMBER_TEXT];
+    vndf_text text = {NULL, 0, 0, 0};
+    vndf_number_print(number, p);
+    add_filled(&text, pattern, number);
+    if (!strchr(pattern, ':') && !strstr(pattern, PLACE)) {
+        vndf_text_add(&text, ":");
+        vndf_text_add(&text, number);
+    }
+    char *specification = vndf_text_finish(&text, error);
+    vndf_source *source = specification ? vndf_source_family(specification, error) : NULL;
+    free(specification);
+    return source;
+}
+
+/* Arguments of `vndf build`, to be freed; NULL and an error. */
+static char *describe(const char *pattern, double low, double high, vndf_error *error)
+{
+    char number[VNDF_NUMBER_TEXT];
+    vndf_text text = {NULL, 0, 0, 0};
+    vndf_text_add_word(&text, "--family");
+    vndf_text_add_word(&text, pattern);
+    vndf_text_add_word(&text, "--parameter");
+    vndf_text_add_word(&text, vndf_number_print(number, low));
+    vndf_text_add(&text, "..");
+    vndf_text_add(&text, vndf_number_print(number, high));
+    return vndf_text_finish(&text, error);
+}
 
 enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
 enum { SLOPES_TO_E = 24, OCTAVES = 100, SLOPES_MOST = SLOPES_TO_E * 139 };
@@ -76,7 +197,7 @@ static double slope_at(size_t i)
 static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *error)
 {
     vndf_error inner = {VNDF_OK, ""};
-    vndf_source *source = vndf_pattern_source(b->pattern, p, &inner);
+    vndf_source *source = source_at(b->pattern, p, &inner);
     double sum = 0, along = 0;
     if (!source)
         return vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
@@ -97,7 +218,7 @@ static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *
 static vndf_status choose_slopes(builder *b, vndf_error *error)
 {
     double middle = b->low > 0 ? sqrt(b->low) * sqrt(b->high) : 0.5 * (b->low + b->high);
-    double member[3] = {b->low, vndf_pattern_number(middle), b->high};
+    double member[3] = {b->low, number_of(middle), b->high};
     size_t first = SLOPES_MOST, end = 0;
     b->end = SLOPES_MOST;
     for (int k = 0; k < 3; k++) {
@@ -180,7 +301,7 @@ static void share_out(const builder *b, const spread *old, spread *s)
             before += sqrt(old->distance[i++]);
         double from = old->knot[i], to = old->knot[i + 1], root = sqrt(old->distance[i]);
         double part = root > 0 ? fmin((target - before) / root, 1) : 0.5;
-        s->knot[k] = vndf_pattern_number(b->low > 0 ? from * pow(to / from, part) : from + (to - from) * part);
+        s->knot[k] = number_of(b->low > 0 ? from * pow(to / from, part) : from + (to - from) * part);
     }
 }
 
@@ -198,10 +319,9 @@ static vndf_status spread_knots(builder *b, vndf_error *error)
     double n = (double)(b->count - 1), mean = 0;
     for (size_t i = 0; i < b->count; i++) {
         double part = (double)i / n, p = b->low + (b->high - b->low) * part;
-        b->trial.knot[i] = i == 0 ? b->low
-                           : i + 1 == b->count
-                               ? b->high
-                               : vndf_pattern_number(b->low > 0 ? b->low * pow(b->high / b->low, part) : p);
+        b->trial.knot[i] = i == 0              ? b->low
+                           : i + 1 == b->count ? b->high
+                                               : number_of(b->low > 0 ? b->low * pow(b->high / b->low, part) : p);
     }
     b->spread.worst = HUGE_VAL;
     for (int sweep = 0; sweep < SWEEPS && ascends(b, &b->trial); sweep++) {
@@ -303,7 +423,7 @@ static vndf_status build_table(builder *b, vndf_family *family, size_t index, vn
     if (status != VNDF_OK)
         return status;
     double p = b->spread.knot[index];
-    vndf_source *source = vndf_pattern_source(b->pattern, p, &inner);
+    vndf_source *source = source_at(b->pattern, p, &inner);
     family->parameter[index] = (float)p;
     family->distance[index] = index + 1 < b->count ? (float)fmin(b->spread.distance[index], 1) : 0.0f;
     family->distribution[index] = source ? vndf_build(source, &options, NULL, &inner) : NULL;
@@ -319,7 +439,7 @@ static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
     family->owns = 1;
     family->reciprocal = b->reciprocal;
     family->grazing = (float)fmin(b->spread.grazing, 1);
-    family->source = vndf_pattern_describe(b->pattern, b->low, b->high, error);
+    family->source = describe(b->pattern, b->low, b->high, error);
     family->tool = malloc(sizeof tool);
     if (!family->source || !family->tool)
         return no_memory(error);
@@ -341,7 +461,7 @@ static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
 static vndf_status check(const char *pattern, double low, double high, const vndf_family_options *options,
                          vndf_error *error)
 {
-    vndf_status status = vndf_pattern_check(pattern, error);
+    vndf_status status = check_pattern(pattern, error);
     if (status != VNDF_OK)
         return status;
     if (!(low < high && fabs(low) < 1e30 && fabs(high) < 1e30) || (float)low == (float)high)
@@ -377,8 +497,8 @@ vndf_family *vndf_build_family(const char *specification, double low, double hig
     b->options = *options;
     if (!options->knots && !(options->max_distance > 0.0))
         b->options.max_distance = DISTANCE_DEFAULT;
-    b->low = vndf_pattern_number(low);
-    b->high = vndf_pattern_number(high);
+    b->low = number_of(low);
+    b->high = number_of(high);
     vndf_family *family = NULL;
     vndf_status status = place(b, error);
     if (status == VNDF_OK && !(family = vndf_family_allocate(b->count)))

@@ -1,0 +1,35 @@
+/* The measure f dR of a profile in narrow strips: what knots are chosen among, cells are summed from and laws are
+ * compared with. A strip is so narrow that two points in it stand for all of its f. */
+#ifndef VNDF_FIT_STRIPS_H
+#define VNDF_FIT_STRIPS_H
+
+#include "fit/profile/profile.h"
+
+/* Slopes nearer than this part of themselves count as one: normals of floats hardly tell them apart. */
+#define VNDF_GRAIN 0x1p-20
+
+/* From edge[i] to edge[i + 1], t = R - edge[i]. */
+typedef struct vndf_strip {
+    double m0, m1, m2, m4; /* integrals of f/R, t f/R, t^2 f/R and f/R^4 */
+    double f, along;       /* of f and of R f */
+    double p0, p1;         /* P22 inside both ends */
+    int gathered;          /* all of it stands at one place */
+} vndf_strip;
+
+typedef struct vndf_strips {
+    size_t count;
+    double *edge; /* ascending floats, from 0; edge[count] is infinite */
+    vndf_strip *at;
+    double *r, *mass; /* two points of each strip: f dR = mass */
+} vndf_strips;
+
+/* About `count` strips; some end at knots, which ascend from 0. 0 if there is no memory; free them either
+ * way. */
+int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
+                     size_t count);
+void vndf_strips_free(vndf_strips *strips);
+
+/* The last edge at or before a slope. */
+size_t vndf_strips_edge(const vndf_strips *strips, double r);
+
+#endif
