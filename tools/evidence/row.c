@@ -8,46 +8,43 @@
 
 /* How a column is named and shown to people; without a heading it is for files alone. A terminal has no room for
  * those that are wide. */
-typedef enum style { NUMBER, TIME, BYTES } style;
-
-enum { WIDE = 1 };
+enum { NUMBER, TIME, BYTES, WIDE = 4 };
 
 static const struct {
     const char *key, *heading, *format;
     double factor;
-    style style;
-    int is_wide;
+    int style;
 } columns[COLUMNS] = {
     [COL_ALPHA_X] = {"alpha_x", "alpha", "%.3g", 1, NUMBER},
     [COL_ALPHA_Y] = {"alpha_y", NULL, NULL, 1, NUMBER},
     [COL_THETA] = {"theta", "theta", "%.3g", 1, NUMBER},
-    [COL_MEMORY] = {"memory", "memory", NULL, 1, BYTES, WIDE},
-    [COL_FILE] = {"file_bytes", "file", NULL, 1, BYTES, WIDE},
+    [COL_MEMORY] = {"memory", "memory", NULL, 1, BYTES | WIDE},
+    [COL_FILE] = {"file_bytes", "file", NULL, 1, BYTES | WIDE},
     [COL_MOMENTS] = {"moments", NULL, NULL, 1, NUMBER},
     [COL_WRONG] = {"wrong", NULL, NULL, 1, NUMBER},
     [COL_NS] = {"ns", "ns", NULL, 1, TIME},
     [COL_NS_LOW] = {"ns_low", NULL, NULL, 1, NUMBER},
     [COL_NS_HIGH] = {"ns_high", NULL, NULL, 1, NUMBER},
-    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER, WIDE},
+    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER | WIDE},
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
-    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME, WIDE},
-    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER, WIDE},
+    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME | WIDE},
+    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER | WIDE},
     [COL_TO_BARE] = {"to_bare_ns", "to bare", "%+.1f", 1, NUMBER},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
     [COL_TV_THETA] = {"tv_theta", NULL, NULL, 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
     [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER},
-    [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER, WIDE},
-    [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER, WIDE},
-    [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER, WIDE},
-    [COL_BIAS_60] = {"bias_60", "bias 60", "%+.2g%%", 100, NUMBER, WIDE},
-    [COL_BIAS_85] = {"bias_85", "bias 85", "%+.2g%%", 100, NUMBER, WIDE},
-    [COL_MEAN] = {"mean", "mean", "%.4f", 1, NUMBER, WIDE},
+    [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER | WIDE},
+    [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER | WIDE},
+    [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER | WIDE},
+    [COL_BIAS_60] = {"bias_60", "bias 60", "%+.2g%%", 100, NUMBER | WIDE},
+    [COL_BIAS_85] = {"bias_85", "bias 85", "%+.2g%%", 100, NUMBER | WIDE},
+    [COL_MEAN] = {"mean", "mean", "%.4f", 1, NUMBER | WIDE},
     [COL_NOISE] = {"noise", NULL, NULL, 1, NUMBER},
-    [COL_LOST] = {"lost", "lost", "%.2f%%", 100, NUMBER, WIDE},
+    [COL_LOST] = {"lost", "lost", "%.2f%%", 100, NUMBER | WIDE},
     [COL_VARIANCE] = {"variance", "variance", "%.2e", 1, NUMBER},
     [COL_EFF_VISIBLE] = {"efficiency", "eff", "%.3g", 1, NUMBER},
 };
@@ -81,9 +78,9 @@ static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
     const char *heading = columns[c].heading;
     if (c == COL_NS && r->number[COL_WRONG] > 0)
         table_figure(t, heading, "wrong");
-    else if (columns[c].style == TIME)
+    else if ((columns[c].style & ~WIDE) == TIME)
         table_time(t, heading, x);
-    else if (columns[c].style == BYTES)
+    else if ((columns[c].style & ~WIDE) == BYTES)
         table_number(t, heading, x >= 10240 ? "%.0f KiB" : "%.0f", x >= 10240 ? x / 1024 : x);
     else
         table_number(t, heading, fabs(x) < 1e-9 ? "%.0f" : columns[c].format, x);
@@ -91,7 +88,7 @@ static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
 
 static int is_filled(const evidence_rows *all, evidence_column c, int is_wide)
 {
-    int takes_room = columns[c].is_wide || (c == COL_SHARED && all->row[0].kind == ROW_EFFECT);
+    int takes_room = (columns[c].style & WIDE) || (c == COL_SHARED && all->row[0].kind == ROW_EFFECT);
     for (size_t i = 0; i < all->count; i++)
         if (!isnan(all->row[i].number[c]))
             return columns[c].heading && (is_wide || !takes_room);
