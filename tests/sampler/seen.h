@@ -126,7 +126,7 @@ static inline int subjects_test(int arguments, char **argument, void (*test)(con
         if (!oracle_wanted(arguments, argument, i, s.name))
             continue;
         if (i >= 2)
-            s.d = s.owned = oracle_build(&s.shape, 0, NULL);
+            s.d = s.owned = oracle_build(s.shape.name, 0, NULL, NULL);
         if (TEST(s.d != NULL))
             test(&s, i);
         vndf_free(s.owned);
