@@ -36,8 +36,8 @@ enum {
 
 oracle oracle_get(size_t index);
 
-/* A family or a formula of slopes, and its table of at most max_bytes (0: the default). NULL, and `error` says why; of a
- * table a line is printed where that is NULL. Free with vndf_source_free and vndf_free. */
+/* A family or a formula of slopes, and its table of at most max_bytes (0: the default). NULL, and `error` says why;
+ * of a table a line is printed where that is NULL. Free with vndf_source_free and vndf_free. */
 vndf_source *oracle_source(const char *text, vndf_error *error);
 vndf_distribution *oracle_build(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error);
 

@@ -25,8 +25,9 @@ void grid_quantiles(double *border, size_t parts, double *pilot, size_t count);
 size_t grid_bin(const grid *g, double x, double y);
 size_t grid_elsewhere(const grid *g);
 
-/* The integral over a rectangle, which is halved, the way that changes more, until that changes less than `allowed`, or a
- * hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an edge. */
+/* The integral over a rectangle, which is halved, the way that changes more, until that changes less than `allowed`,
+ * or a hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an
+ * edge. */
 typedef double grid_density(double x, double y, const void *of);
 double grid_integral(grid_density *density, const void *of, const double x[2], const double y[2], double allowed);
 
