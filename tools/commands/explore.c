@@ -130,7 +130,7 @@ static int put_kernel(FILE *to, const export_document *document)
     return good;
 }
 
-static int put_file(FILE *to, const export_document *document, const char *name, const char *letter);
+static int put_file(FILE *to, const export_document *document, const char *file, const char *letter);
 
 static void put_shaders(FILE *to, const export_document *document)
 {
@@ -143,27 +143,27 @@ static void put_shaders(FILE *to, const export_document *document)
 }
 
 /* What stands for {{name letter}}. */
-static int put_part(FILE *to, const export_document *document, const char *name, const char *letter)
+static int put_part(FILE *to, const export_document *document, const char *part, const char *letter)
 {
-    if (strcmp(name, "kernel") == 0)
+    if (strcmp(part, "kernel") == 0)
         return put_kernel(to, document);
-    if (strcmp(name, "choices") == 0)
+    if (strcmp(part, "choices") == 0)
         put_choices(to, document);
-    else if (strcmp(name, "certificates") == 0)
+    else if (strcmp(part, "certificates") == 0)
         put_certificates(to, document);
-    else if (strcmp(name, "numbers") == 0)
+    else if (strcmp(part, "numbers") == 0)
         put_numbers(to, document);
-    else if (strcmp(name, "shaders") == 0)
+    else if (strcmp(part, "shaders") == 0)
         put_shaders(to, document);
     else
-        return put_file(to, document, name, letter);
+        return put_file(to, document, part, letter);
     return 1;
 }
 
-static int put_file(FILE *to, const export_document *document, const char *name, const char *letter)
+static int put_file(FILE *to, const export_document *document, const char *file, const char *letter)
 {
     const embedded_text *text = page_texts;
-    while (text->name && strcmp(text->name, name) != 0)
+    while (text->name && strcmp(text->name, file) != 0)
         text++;
     for (const char *const *line = text->name ? text->lines : NULL; line && *line; line++) {
         char inner[32], its_letter[16] = "";
