@@ -47,7 +47,8 @@ static int hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_a
     b->surface = *surface;
     b->view.kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
     take_side(b, material, wi, wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y);
-    vndf_view_make(&b->view.of.one, &b->surface, b->wi);
+    int aligned = b->view.kind == VNDF_HIT_LEVEL && surface->xy == 0.0f && surface->yx == 0.0f;
+    vndf_view_make(&b->view.of.one, &b->surface, b->wi, aligned && surface->xx > 0.0f && surface->yy > 0.0f);
     b->rise = vndf_hit_cosine(&b->view, b->wi);
     b->area = vndf_view_own_area(&b->view.of.one);
     return complete(b, material);

@@ -90,16 +90,15 @@ static double miss_below(const view *v, size_t edge)
     return sum / 2 / all;
 }
 
-/* By how much the spline errs in the middle of the cell, where x = c/(c + s): of the area above the horizon, or of what
- * is left of it below, while that is not much smaller; and below by how much the drawn area does, between shares that
- * make it exact at the knots. */
-static double area_miss(const view *v)
+/* By how much the spline errs at an edge in the cell, where x = c/(c + s): of the area above the horizon, or of what is
+ * left of it below, while that is not much smaller; and below by how much the drawn area does, between shares that make
+ * it exact at the knots. */
+static double area_miss_at(const view *v, size_t middle)
 {
     const double smaller = 0.02;
     vndf_knots *k = v->knots;
     int tail = v->cell.power > 0;
-    size_t middle = v->from + (v->end - v->from) / 2;
-    if (middle == v->from || middle > k->last)
+    if (middle <= v->from || middle >= v->end || middle > k->last)
         return 0;
     vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
     if (!tail)
@@ -118,6 +117,19 @@ static double area_miss(const view *v)
         miss = fmax(miss, DRAWN * fmin(fabs(drawn * r->z / m.below - 1), 10));
     }
     return miss;
+}
+
+/* In the middle of its edges, and of its width: before a needle edges lie close to that. */
+static double area_miss(const view *v)
+{
+    const vndf_knots *k = v->knots;
+    double z = v->cell.z - 0.5 * (v->cell.power > 0 ? v->cell.z : v->cell.h);
+    size_t low = v->from, high = v->end;
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        *(k->rim[middle].z > z ? &low : &high) = middle;
+    }
+    return fmax(area_miss_at(v, v->from + (v->end - v->from) / 2), area_miss_at(v, low > v->from ? low : high));
 }
 
 /* The error of the cell between two edges, or some of it that is more than enough. */

@@ -203,8 +203,9 @@ static vndf_drawn partial_cell(const vndf_law *law)
     const vndf_laws *laws = law->laws;
     const vndf_cell *c = &laws->cell[law->first];
     double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, near = estimate(c, c->r, 0, law->b0, law->b1);
-    return (vndf_drawn){fmin(all / near, 1e3) * estimate(c, law->rho, law->xi, law->b0, law->b1), 0,
-                        (1 - law->xi) * c->g1 * below_flat(c, law->rho, law->b0, law->b1)};
+    double mass = fmin(all / near, 1e3) * estimate(c, law->rho, law->xi, law->b0, law->b1);
+    return (vndf_drawn){mass, 0,
+                        fmin((1 - law->xi) * c->g1 * below_flat(c, law->rho, law->b0, law->b1), 1e4 * mass)};
 }
 
 vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)

@@ -214,7 +214,8 @@ HERE real law_weight_below(weights w, real x, real beyond)
 }
 
 /* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
- * both ends; the factor makes the mass exact where rho is the knot. `part` of the cell is seen. */
+ * both ends; the factor makes the mass exact where rho is the knot, and the end is held to 1e4 times the mean, so that a place in
+ * the piece stays of moderate size. `part` of the cell is seen. */
 HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, quad l, real m2, real part)
 {
     real x1 = pick(last, set(1.0f), after.a * after.b), one = set(1.0f);
@@ -225,7 +226,7 @@ HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, qua
     real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a),
          factor = all / most(near, 1e-3f * all + 1e-36f);
     w.wq = most(end * here * factor, set(1e-34f));
-    w.w4 = end * l.b;
+    w.w4 = least(end * l.b, 1e4f * w.wq);
     return w;
 }
 

@@ -5,8 +5,9 @@
 
 #include "vndf.h"
 
-/* vndf_affine_view_from in place: a view that is copied after it was written costs the time of the stores. */
-void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi);
+/* vndf_affine_view_from in place: a view that is copied after it was written costs the time of the stores. `plain`: the
+ * surface has roughness alone, and gets the bits of vndf_view_from. */
+void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi, int plain);
 
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the
  * view. */

@@ -88,9 +88,11 @@ VNDF_INLINE void view_into(vndf_view *view, vndf_mapped surface, vndf_vec3 wi)
         see_table(s, surface.distribution, f.ux, f.uy, f.uz);
 }
 
-void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi)
+void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi, int plain)
 {
-    view_into(view, affine_mapped(affine), wi);
+    vndf_mapped surface = affine_mapped(affine);
+    surface.m.plain = plain;
+    view_into(view, surface, wi);
 }
 
 vndf_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)

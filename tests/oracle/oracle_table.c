@@ -329,7 +329,8 @@ double oracle_law_radius(const oracle_law *l, double r)
         return l->s / PI * rational(mass_below(l, i), end_below(l, i, 0), end_below(l, i, 1), p.xi, p.eta) /
                p.width / l->drawn;
     double part = 1 - l->part, eta = p.eta / part, xi = (p.xi - l->part) / part;
-    return l->s / PI * rational(l->part_mass, 0, part * end_below(l, i, 1), xi, eta) / (p.width * part) / l->drawn;
+    return l->s / PI * rational(l->part_mass, 0, fmin(part * end_below(l, i, 1), 1e4 * l->part_mass), xi, eta) /
+           (p.width * part) / l->drawn;
 }
 
 double oracle_law_density(const oracle_law *l, double r, double azimuth)

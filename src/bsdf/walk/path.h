@@ -45,7 +45,7 @@ VNDF_INLINE int vndf_walk_travel(const vndf_walk *walk, vndf_walk_path *path, vn
     if (back.z < 0.0f && !(path->depth > 0.0))
         return 0;
     path->from = back;
-    vndf_view_make(&path->view, walk->surface, back);
+    vndf_view_make(&path->view, walk->surface, back, 0);
     return 1;
 }
 
