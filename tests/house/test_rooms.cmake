@@ -42,7 +42,6 @@ set(below_commands cli draw evidence render export measured manual)
 
 set(subs_evidence measure methods page)
 set(subs_commands parts)
-set(subs_export page)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)
