@@ -1,5 +1,5 @@
-// A program of somebody else in C++17, by vndf.hpp, which includes the headers of C: the checks of consumer.c, and a shipped table of the
-// folder in the argument.
+// A program of somebody else in C++17, by vndf.hpp, which includes the headers of C: the checks of consumer.c, and a
+// shipped table of the folder in the argument.
 #include <cmath>
 #include <cstdio>
 #include <string>
