@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "fit/draft.h"
-#include "table/table.h"
+#include "table/file.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
 
@@ -28,17 +28,6 @@ typedef struct builder {
 
 /* ---- tables ---- */
 
-/* Of a table with so few cells, 2 or 3, that its numbers are here. */
-static size_t bytes_for(const builder *b, unsigned cells)
-{
-    float zero[CELLS_LEAST + 2] = {0};
-    vndf_table_draft empty = {
-        .cells = cells, .moments = b->moments, .source = b->profile->description, .tool = TOOL};
-    empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.cubes = zero;
-    empty.b0 = empty.b1 = empty.area = empty.slope = zero;
-    return vndf_table_encode(&empty, NULL, 0);
-}
-
 /* The total variations over those asked for, the larger of both. */
 static double excess_of(const vndf_certificate *c, double tv)
 {
@@ -50,15 +39,11 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
 {
     draft->table.source = b->profile->description;
     draft->table.tool = TOOL;
-    size_t size = vndf_table_encode(&draft->table, NULL, 0);
-    unsigned char *bytes = malloc(size);
+    vndf_writer file = {NULL, 0, 0, 0};
     vndf_error inner = {VNDF_ERROR_MEMORY, ""};
-    vndf_distribution *table = NULL;
-    if (bytes) {
-        vndf_table_encode(&draft->table, bytes, size);
-        table = vndf_load_memory(bytes, size, &inner);
-    }
-    free(bytes);
+    vndf_table_write(&draft->table, &file);
+    vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
+    free(file.bytes);
     if (!table && inner.status == VNDF_ERROR_MEMORY)
         b->profile->guard->starved = 1;
     else if (!table)
@@ -107,8 +92,7 @@ static void search(const builder *b, unsigned least, unsigned most, vndf_draft *
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    size_t two = bytes_for(b, CELLS_LEAST), each = bytes_for(b, CELLS_LEAST + 1) - two;
-    return two + each * knots - each * (CELLS_LEAST + 1);
+    return vndf_table_size(knots, b->moments, b->profile->description, TOOL);
 }
 
 /* The largest number of knots that fits into bytes. */

@@ -103,7 +103,7 @@ static vndf_status check_words(const char *text, vndf_error *error)
 
 vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error)
 {
-    vndf_text text = {NULL, 0, 0, 0};
+    vndf_writer text = {NULL, 0, 0, 0};
     if (!source || !words)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the %s is NULL", source ? "description" : "source");
     if (source->rebuildable)

@@ -26,7 +26,7 @@ vndf_status vndf_resolution_check(const vndf_resolution *r, vndf_error *error)
 
 char *vndf_resolution_describe(const vndf_resolution *r, const char *description, vndf_error *error)
 {
-    vndf_text text = {NULL, 0, 0, 0};
+    vndf_writer text = {NULL, 0, 0, 0};
     vndf_text_add(&text, description);
     for (size_t i = 0; i < r->break_count; i++) {
         vndf_text_add(&text, " --break ");

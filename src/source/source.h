@@ -1,5 +1,5 @@
 /* A source as the builder sees it, whatever its kind: an unnormalised P22(r), the slopes where it is not smooth,
- * and the words that made it. Each kind (formula/formula.c, csv/curve.c, source.c)
+ * and the words that made it. Each kind (formula/formula.c, csv.c, source.c)
  * embeds vndf_source as its first member and fills it. */
 #ifndef VNDF_SOURCE_SOURCE_H
 #define VNDF_SOURCE_SOURCE_H

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/ascending.h"
 
@@ -107,7 +108,7 @@ static estimate estimate_of(const vndf_profile *profile, double r0, double r1)
     return sum;
 }
 
-/* Makes room for one more panel, its points and the outer end; 0, and a note to the guard, if there is no memory. */
+/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
 static int grow(vndf_profile *profile)
 {
     if (profile->count + 1 < profile->capacity)
@@ -115,11 +116,9 @@ static int grow(vndf_profile *profile)
     size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
     vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
     profile->panel = panel ? panel : profile->panel;
-    vndf_profile_point *point = panel ? realloc(profile->point, capacity * VNDF_GAUSS * sizeof *point) : NULL;
-    profile->point = point ? point : profile->point;
-    profile->capacity = point ? capacity : profile->capacity;
-    profile->guard->starved |= !point;
-    return point != NULL;
+    profile->capacity = panel ? capacity : profile->capacity;
+    profile->guard->starved |= !panel;
+    return panel != NULL;
 }
 
 static void push(vndf_profile *profile, double r, double m0, double m1, const vndf_profile_point *point)
@@ -128,9 +127,9 @@ static void push(vndf_profile *profile, double r, double m0, double m1, const vn
         profile->rough = 1;
     if (profile->rough || !grow(profile))
         return;
-    for (int i = 0; point && i < VNDF_GAUSS; i++)
-        profile->point[profile->count * VNDF_GAUSS + (size_t)i] = point[i];
-    profile->panel[profile->count++] = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
+    vndf_panel *panel = &profile->panel[profile->count++];
+    *panel = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
+    memcpy(panel->point, point, sizeof panel->point);
 }
 
 /* The bounds of P22 between two slopes, if the source has bounds and the guard has time. */
@@ -283,11 +282,10 @@ void vndf_panels_sum(vndf_profile *profile)
         p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
         p[i].less = p[i + 1].less;
         p[i].least = p[i + 1].least;
-        for (const vndf_profile_point *at = profile->point + i * VNDF_GAUSS, *end = at + VNDF_GAUSS; at < end;
-             at++) {
-            double less = at->weight / at->r;
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            double r = p[i].point[k].r, less = p[i].point[k].weight / r;
             p[i].less += less;
-            p[i].least += less / (at->r * at->r);
+            p[i].least += less / (r * r);
         }
     }
     profile->f0 = p[n].f0 + profile->tail_m0;

@@ -176,14 +176,14 @@ static vndf_status make_canonical(vndf_profile *profile, vndf_error *error)
                          "the median slope is %g; from 1e-17 to 1e17 can be tabulated", scale);
     profile->scale = scale;
     profile->normalization /= mass;
-    for (size_t i = 0; i <= profile->count; i++) {
-        profile->panel[i].r /= scale;
-        profile->panel[i].m0 /= mass;
-        profile->panel[i].m1 /= mass * scale;
-    }
-    for (size_t i = 0; i < profile->count * VNDF_GAUSS; i++) {
-        profile->point[i].r /= scale;
-        profile->point[i].weight /= mass;
+    for (vndf_panel *p = profile->panel; p <= profile->panel + profile->count; p++) {
+        p->r /= scale;
+        p->m0 /= mass;
+        p->m1 /= mass * scale;
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            p->point[k].r /= scale;
+            p->point[k].weight /= mass;
+        }
     }
     vndf_panels_sum(profile);
     return vndf_guard_status(profile->guard, error);
@@ -241,7 +241,6 @@ void vndf_profile_free(vndf_profile *profile)
     if (!profile)
         return;
     free(profile->panel);
-    free(profile->point);
     free(profile->edge);
     free(profile->description);
     free(profile);
