@@ -47,20 +47,22 @@ static double p22_of(const vndf_profile *profile, double r, double given)
 
 double vndf_profile_p22(const vndf_profile *profile, double r)
 {
-    int going = vndf_guard_spend(profile->guard, profile->source->operations);
-    return p22_of(profile, r, going ? vndf_source_p22(profile->source, r * profile->scale) : 0.0);
+    double p22;
+    vndf_profile_p22_many(profile, &r, 1, &p22);
+    return p22;
 }
 
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22)
 {
     const vndf_source *source = profile->source;
-    double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY] = {0.0};
+    double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY];
+    int going = vndf_guard_spend(profile->guard, (double)count * source->operations);
     for (size_t i = 0; i < count; i++)
         at[i] = r[i] * profile->scale;
-    if (vndf_guard_spend(profile->guard, (double)count * source->operations))
+    if (going)
         source->p22(source, at, count, given);
     for (size_t i = 0; i < count; i++)
-        p22[i] = p22_of(profile, r[i], given[i]);
+        p22[i] = going ? p22_of(profile, r[i], given[i]) : 0.0;
 }
 
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS])

@@ -11,7 +11,6 @@
 #include <math.h>
 
 #include "fit/guard.h"
-#include "source/resolution.h"
 #include "source/source.h"
 
 /* The Gauss-Legendre rule on [0, 1]. */
@@ -33,7 +32,8 @@ typedef struct vndf_panel {
     vndf_profile_point point[VNDF_GAUSS];
 } vndf_panel;
 
-typedef struct vndf_profile {
+/* The public oracle (vndf_build.h) is a profile without a guard. */
+typedef struct vndf_reference {
     const vndf_source *source;
     char *description; /* the source, and how closely the build looks at it; owned */
     double sampled;    /* the given `finest`; 0: none */
