@@ -1,4 +1,5 @@
-/* Where the knots of a table stand; and from knots to a table: numbers of all cells, shares below the horizon, areas. */
+/* Where the knots of a table stand, and from knots to a table: numbers of all cells, shares below the horizon,
+ * areas. */
 #ifndef VNDF_FIT_DRAFT_H
 #define VNDF_FIT_DRAFT_H
 
