@@ -27,7 +27,7 @@ set(written exported_kernel.h)
 set(subs_table family)
 set(subs_sampler batch)
 set(subs_bsdf walk)
-set(subs_source interval csv formula family)
+set(subs_source interval formula family)
 set(subs_fit profile)
 
 set(rooms_tools cli draw evidence render export measured manual commands)
