@@ -243,11 +243,11 @@ static double turn(const oracle_table *t, size_t j)
     return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
 }
 
-/* Rho in the middle of its eighth of an octave, from 2^-13 on; infinite from the last one below 2^15. */
+/* Rho in the middle of its eighth of an octave, from 2^-13 to 2^15. */
 static double rounded(double rho)
 {
-    double octave = floor(log2(fmax(rho, 0x1p-13))), part = floor(8 * (fmax(rho, 0x1p-13) / exp2(octave) - 1));
-    return octave + part / 8 >= 14.875 ? HUGE_VAL : exp2(octave) * (1 + (part + 0.5) / 8);
+    double within = fmin(fmax(rho, 0x1p-13), 0x1.ep14), octave = floor(log2(within));
+    return exp2(octave) * (1 + (floor(8 * (within / exp2(octave) - 1)) + 0.5) / 8);
 }
 
 static void look_above(oracle_law *l)
@@ -271,7 +271,7 @@ static void look_above(oracle_law *l)
 /* The polynomial of cell i. */
 static void weights_above(const oracle_law *l, size_t i, double w[4])
 {
-    int flat = i < l->first || i == 0 || l->first == l->t->cells;
+    int flat = i < l->first || i == 0 || l->first == l->t->cells || l->rho >= 0x1.ep14;
     w[0] = i < l->first ? 0 : l->w1;
     w[1] = flat ? l->c : l->w0;
     w[2] = flat ? 0 : l->wq;
