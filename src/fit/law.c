@@ -149,18 +149,18 @@ static double turn_of(const vndf_laws *laws, unsigned i)
     return i == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
 }
 
-/* Rho as the run time rounds it to find the switch (table.h). */
-static double rounded(double rho)
+/* The part of rho by which the run time finds the switch (table.h). */
+static int part_of(double rho)
 {
     int exponent;
     double part = frexp(rho, &exponent), eighth = 8 * (exponent - 1 + 13) + floor(16 * part) - 8;
-    return vndf_rounded_rho((int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1));
+    return (int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1);
 }
 
-static unsigned first_above(const vndf_laws *laws, double rho)
+static unsigned first_above(const vndf_laws *laws, double rounded)
 {
-    unsigned i = vndf_laws_cell(laws, rounded(rho));
-    return i < laws->cells && turn_of(laws, i + 1) <= rounded(rho) ? i + 1 : i;
+    unsigned i = vndf_laws_cell(laws, rounded);
+    return i < laws->cells && turn_of(laws, i + 1) <= rounded ? i + 1 : i;
 }
 
 vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
@@ -180,11 +180,13 @@ vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
         law.b1 = d->b1[i] + law.xi * ((double)d->b1[next] - d->b1[i]);
         return law;
     }
-    law.first = first_above(laws, rho);
+    law.first = first_above(laws, vndf_rounded_rho(part_of(rho)));
     law.near = (vndf_weight){0, c, 0, 0};
     law.far = (vndf_weight){s * k[0] / PI, c * k[1] / PI, c * rho * k[2] / PI,
                             rho < 1e-3 ? 0 : c * pow(rho, 4) * k[3] / PI};
     law.end = (vndf_weight){law.far.w1, c, 0, 0};
+    if (law.first == laws->cells || part_of(rho) == VNDF_RHO_PARTS - 1)
+        law.far = law.end;
     return law;
 }
 
@@ -209,10 +211,8 @@ vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)
 {
     const vndf_laws *laws = law->laws;
     const vndf_cell *c = &laws->cell[i];
-    if (!law->below) {
-        const vndf_weight *far = i == 0 || law->first == laws->cells ? &law->end : &law->far;
-        return vndf_drawn_by(c, i < law->first ? &law->near : far);
-    }
+    if (!law->below)
+        return vndf_drawn_by(c, i < law->first ? &law->near : i == 0 ? &law->end : &law->far);
     vndf_drawn drawn = i == law->first ? partial_cell(law) : vndf_drawn_below(c, law->rho, law->b0, law->b1);
     double by = law->s / PI;
     return (vndf_drawn){by * drawn.mass, by * drawn.d0, by * drawn.d1};

@@ -71,7 +71,8 @@ HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
 
 /* ---- above the horizon ---- */
 
-/* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there. */
+/* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there; so it is for all
+ * rho beyond the parts, where it begins far before rho. */
 HERE weights law_weights_at(weights w, real c, mask end)
 {
     weights at = {w.w1, pick(end, c, w.w0), pick(end, set(0.0f), w.wq), pick(end, set(0.0f), w.w4)};
@@ -98,14 +99,15 @@ HERE seen law_see_above(table t, real s, real c, real rho)
     v.s = s;
     v.c = c;
     v.rho = rho;
-    v.first = look_first(t, law_eighth(rho));
+    whole eighth = law_eighth(rho);
+    v.first = look_first(t, eighth);
     quad tail = look(t, VNDF_TAIL, v.first);
     real reach = least(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
     mask low = less(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  pick(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
-    v.w = law_weights_at(w, c, same(v.first, t.cells));
+    v.w = law_weights_at(w, c, either(same(v.first, t.cells), same(eighth, VNDF_RHO_PARTS - 1)));
     real near = c * most(1.0f - tail.b, set(0.0f));
     v.total = near + law_sum(v.w, tail);
     v.near = pick(same(v.first, 0), set(0.0f), near);

@@ -28,14 +28,14 @@ enum {
  * Eighth i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
 enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = (127 - 13) * 8 };
 
-/* The rounded rho of a part; more than all turns in the last. */
+/* The rounded rho of a part; the last has all that are larger. */
 VNDF_INLINE float vndf_rounded_rho(int i)
 {
     union {
         int32_t bits;
         float rho;
     } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
-    return i < VNDF_RHO_PARTS - 1 ? middle.rho : 3e38f;
+    return middle.rho;
 }
 
 /* The rows of a knot, 0 to N. */

@@ -73,7 +73,7 @@ static double mass_of(const vndf_surface *surface, const view_case *at)
 
 static void test_mass(const view_case *at)
 {
-    vndf_distribution *table = oracle_build_of(at->slope, 0, NULL, NULL);
+    vndf_distribution *table = oracle_build(at->slope, 0, NULL, NULL);
     vndf_surface surface = {table, at->alpha_x, at->alpha_y};
     /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
     double beyond = strcmp(at->slope, "(1+r*r)^-1.55") == 0 ? 3e-3 : 2e-6;

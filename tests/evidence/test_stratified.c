@@ -33,22 +33,27 @@ static void test_uniform_points(void)
     TEST_NEAR(sum[3] / 20000, 0.25, 0.01);
 }
 
-int main(void)
+static void test_caps(void)
 {
-    test_net(0);
-    test_net(12345);
-    test_uniform_points();
     const vndf_surface caps = {vndf_ggx(), 0.3f, 0.3f};
     const vndf_vec3 wi = {0.6f, 0, 0.8f};
     double one = stratified_error(&caps, wi, STRATIFIED_BROAD, 1, 2000, 1);
     TEST(stratified_error(&caps, wi, STRATIFIED_BROAD, 64, 500, 1) < 0.5 * one / 8);
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject s = subject_open(i);
-        stratified found = stratified_measure(s.d, 0.3f, test_amount(100, 300, 4000), 5);
-        if (!TEST(found.all <= 1.6) || test_long())
-            fprintf(stderr, "  %s: broad %.2f, small %.2f, all %.2f of caps\n", s.name, found.mean[0],
-                    found.mean[1], found.all);
-        vndf_free(s.owned);
-    }
-    return test_done();
+}
+
+static void test_subject(const subject *of, size_t index)
+{
+    stratified found = stratified_measure(of->d, 0.3f, test_amount(100, 300, 4000), 5);
+    if (!TEST(found.all <= 1.6) || test_long())
+        fprintf(stderr, "  subject %lu, %s: broad %.2f, small %.2f, all %.2f of caps\n", (unsigned long)index,
+                of->name, found.mean[0], found.mean[1], found.all);
+}
+
+int main(int arguments, char **argument)
+{
+    test_net(0);
+    test_net(12345);
+    test_uniform_points();
+    test_caps();
+    return subjects_test(arguments, argument, test_subject);
 }

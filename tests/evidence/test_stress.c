@@ -75,7 +75,7 @@ static void test_pathological(void)
         vndf_distribution *table;
         if (!test_long() && i / 2 % 2 != i % 2)
             continue;
-        table = oracle_build_of(pathological[i / 2], i % 2 ? 2048 : 0, NULL, NULL);
+        table = oracle_build(pathological[i / 2], i % 2 ? 2048 : 0, NULL, NULL);
         test_distribution(table, pathological[i / 2], 5);
         vndf_free(table);
     }

@@ -21,7 +21,7 @@ static void test_sizes(void)
     double last = 1;
     for (int i = 0; i < (int)test_amount(2, 4, 6); i++) {
         vndf_certificate claim = {0};
-        vndf_distribution *table = oracle_build(&o, sizes[i], &claim);
+        vndf_distribution *table = oracle_build(o.name, sizes[i], &claim, NULL);
         vndf_certificate held = vndf_distribution_info(table).certificate;
         TEST(table && vndf_distribution_info(table).bytes <= sizes[i]);
         TEST(vndf_table_encode_loaded(table, NULL, 0) == vndf_distribution_info(table).bytes);
@@ -36,7 +36,7 @@ static void test_same_bytes(void)
 {
     for (size_t i = 0; i < ORACLE_COUNT; i += test_long() ? 3 : 5) {
         oracle o = oracle_get(i);
-        vndf_distribution *a = oracle_build(&o, 8192, NULL), *b = oracle_build(&o, 8192, NULL);
+        vndf_distribution *a = oracle_build(o.name, 8192, NULL, NULL), *b = oracle_build(o.name, 8192, NULL, NULL);
         TEST(a && b && checksum_of(a) == checksum_of(b));
         vndf_free(a);
         vndf_free(b);
@@ -46,7 +46,7 @@ static void test_same_bytes(void)
 static vndf_distribution *build(size_t max_bytes, double max_tv, vndf_certificate *claim, vndf_error *error)
 {
     oracle o = oracle_get(ORACLE_GGX);
-    vndf_source *source = oracle_source(&o);
+    vndf_source *source = oracle_source(o.name, NULL);
     vndf_build_options options = {.max_bytes = max_bytes, .max_tv = max_tv};
     vndf_distribution *table = vndf_build(source, &options, claim, error);
     vndf_source_free(source);
@@ -120,7 +120,7 @@ static int note(double done, const char *what, void *user)
 static void test_progress(void)
 {
     oracle o = oracle_get(ORACLE_GGX);
-    vndf_source *source = oracle_source(&o);
+    vndf_source *source = oracle_source(o.name, NULL);
     told all = {0, 0, 1 << 30, 1}, some = {0, 0, 2, 1};
     vndf_build_options options = {.progress = note, .progress_user = &all};
     vndf_error error = {VNDF_OK, ""};

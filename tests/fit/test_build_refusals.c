@@ -61,7 +61,7 @@ static void test_refusals(void)
 {
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         vndf_error error = {VNDF_OK, ""};
-        vndf_distribution *table = oracle_build_of(refusals[i].slope, 4096, NULL, &error);
+        vndf_distribution *table = oracle_build(refusals[i].slope, 4096, NULL, &error);
         if (!(TEST(!table) & TEST(error.status == VNDF_ERROR_DISTRIBUTION) &
               TEST_HAS(error.message, refusals[i].reason)))
             fprintf(stderr, "  %s: %s\n", refusals[i].slope, error.message);
@@ -72,7 +72,7 @@ static void test_refusals(void)
 static void test_accepted(const char *slope)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = oracle_build_of(slope, 4096, NULL, &error);
+    vndf_distribution *table = oracle_build(slope, 4096, NULL, &error);
     if (!(TEST(table != NULL) & TEST(error.status == VNDF_OK)))
         fprintf(stderr, "  %s: %s\n", slope, error.message);
     vndf_free(table);

@@ -60,7 +60,7 @@ static void test_claims(size_t index, size_t bytes)
 {
     oracle o = oracle_get(index);
     vndf_certificate claim = {0};
-    vndf_distribution *table = oracle_build(&o, bytes, &claim);
+    vndf_distribution *table = oracle_build(o.name, bytes, &claim, NULL);
     double above = table ? total_variation(&o, table, (double)claim.tv_above_theta) : 0, all = 0;
     int count = (int)test_amount(12, 24, 90);
     for (int i = 0; TEST(table != NULL) && i < count; i++) {
@@ -85,7 +85,7 @@ static void test_areas(size_t index)
 {
     oracle o = oracle_get(index);
     vndf_certificate claim = {0};
-    vndf_distribution *table = oracle_build(&o, 2048, &claim);
+    vndf_distribution *table = oracle_build(o.name, 2048, &claim, NULL);
     const vndf_surface surface = {table, 1, 1};
     for (double theta = 0.5; TEST(table != NULL) && theta < 170; theta += 7) {
         vndf_vec3 wi = oracle_direction(theta, 200);
@@ -120,7 +120,7 @@ static const struct subject {
 static void test_subject(const struct subject *s)
 {
     vndf_certificate claim = {.tv = 1, .tv_above = 1};
-    vndf_distribution *table = oracle_build_of(s->name, 0, &claim, NULL);
+    vndf_distribution *table = oracle_build(s->name, 0, &claim, NULL);
     if (!(TEST(table != NULL) & TEST((double)claim.tv_above <= s->above) & TEST((double)claim.tv <= s->all) &
           TEST(claim.consistency < 1e-5f)))
         fprintf(stderr, "  %s: TV %.3g above, %.3g in all\n", s->name, (double)claim.tv_above, (double)claim.tv);
@@ -131,7 +131,7 @@ static void test_subject(const struct subject *s)
 static void test_endless_waves(void)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = oracle_source_of("1/(1+r^2)^2*(1+0.5*cos(5*r))", NULL);
+    vndf_source *source = oracle_source("1/(1+r^2)^2*(1+0.5*cos(5*r))", NULL);
     vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
     TEST(source != NULL && table == NULL && error.status == VNDF_ERROR_DISTRIBUTION);
     TEST(strstr(error.message, "not resolved by 60000 panels") != NULL);
@@ -148,7 +148,7 @@ static void test_horizon(void)
     } cases[] = {{"student-t:1.7", -0.6}, {"ggx", 0}};
     for (int i = 0; i < 2; i++) {
         vndf_certificate claim = {0};
-        vndf_distribution *table = oracle_build_of(cases[i].name, 4096, &claim, NULL);
+        vndf_distribution *table = oracle_build(cases[i].name, 4096, &claim, NULL);
         TEST(table != NULL);
         TEST_NEAR(claim.horizon_power, cases[i].power, 1e-3);
         TEST(claim.weight_bounded == (float)(cases[i].power == 0));
@@ -161,7 +161,7 @@ static void test_horizon(void)
 static void test_certify(void)
 {
     vndf_certificate built, again = {0};
-    vndf_source *source = oracle_source_of("exp(-r)*(1+0.5*cos(4*r))", NULL);
+    vndf_source *source = oracle_source("exp(-r)*(1+0.5*cos(4*r))", NULL);
     vndf_distribution *table = vndf_build(source, NULL, &built, NULL);
     TEST(table && vndf_certify(table, source, &again, NULL) == VNDF_OK &&
          memcmp(&built, &again, sizeof built) == 0);

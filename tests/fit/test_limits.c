@@ -189,7 +189,7 @@ static void try_formula(const char *slope, size_t max_bytes)
 {
     vndf_error error = {VNDF_OK, ""};
     clock_t from = clock();
-    vndf_distribution *table = oracle_build_of(slope, max_bytes, NULL, &error);
+    vndf_distribution *table = oracle_build(slope, max_bytes, NULL, &error);
     TEST(table ||
          ((error.status == VNDF_ERROR_DISTRIBUTION || error.status == VNDF_ERROR_TARGET) && error.message[0]));
     fprintf(stderr, "%.1f s for %.60s, %lu bytes: %s\n", (double)(clock() - from) / CLOCKS_PER_SEC, slope,

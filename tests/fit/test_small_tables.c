@@ -27,7 +27,7 @@ static vndf_certificate claim_of(const char *name, size_t max_bytes, int moments
 {
     const vndf_build_options options = {.max_bytes = max_bytes, .moments = moments};
     vndf_certificate claim = {.tv = 1, .tv_above = 1};
-    vndf_source *source = oracle_source_of(name, NULL);
+    vndf_source *source = oracle_source(name, NULL);
     vndf_distribution *table = source ? vndf_build(source, &options, &claim, NULL) : NULL;
     TEST(table && vndf_distribution_info(table).bytes <= max_bytes);
     vndf_free(table);

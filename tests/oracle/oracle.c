@@ -1,3 +1,4 @@
+#include "cli/sort.h"
 #include "harness/constants.h"
 #include "oracle/oracle.h"
 #include "oracle/oracle_table.h"
@@ -65,10 +66,11 @@ static const oracle oracles[ORACLE_COUNT] = {
 
 /* ---- quadrature ---- */
 
+typedef double function(double x, const void *user);
+
 /* sum over the abscissae k h, k = first, first + step, ... of both signs; x = middle + half tanh(pi/2 sinh t). The
  * distance to the nearer end is formed without a difference, for integrands that begin like a root there. */
-static double tanh_sinh_sum(oracle_function *f, const void *user, double a, double b, double h, int first,
-                            int step)
+static double tanh_sinh_sum(function *f, const void *user, double a, double b, double h, int first, int step)
 {
     double half = (b - a) / 2, sum = first == 0 ? PI / 2 * f((a + b) / 2, user) : 0;
     for (int k = first == 0 ? step : first; k * h < 4.0; k += step) {
@@ -79,7 +81,8 @@ static double tanh_sinh_sum(oracle_function *f, const void *user, double a, doub
     return sum * half;
 }
 
-double oracle_integrate(oracle_function *f, const void *user, double a, double b)
+/* Over [a, b], smooth inside but for the ends; relative error about 1e-12. */
+static double integrate(function *f, const void *user, double a, double b)
 {
     double h = 0.5, sum = tanh_sinh_sum(f, user, a, b, h, 0, 1), last = sum * h;
     for (int level = 0; level < 6; level++) {
@@ -116,7 +119,7 @@ static double seen_between(const direction *d, double r0, double r1)
         double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0,
                next = u + 0.35 / (1 + 0.1 * steep);
         next = next < end ? next : end;
-        sum += oracle_integrate(seen_at, d, u, next);
+        sum += integrate(seen_at, d, u, next);
         u = next;
     }
     return sum;
@@ -125,20 +128,16 @@ static double seen_between(const direction *d, double r0, double r1)
 double oracle_area(const oracle *o, double s, double c)
 {
     direction d = {o, s, c};
-    double edge[5] = {o->peak, o->reach, 0, 0, 0}, sum = 0;
+    double edge[4] = {o->peak}, sum = 0;
     double cut = s > 0 ? fabs(c) / s : HUGE_VAL;
     int n = 1;
     if (o->breaks[0] > o->peak && o->breaks[0] < o->reach)
         edge[n++] = o->breaks[0];
     if (cut > o->peak && cut < o->reach)
         edge[n++] = cut;
-    if (n == 3 && edge[1] > edge[2]) {
-        double swap = edge[1];
-        edge[1] = edge[2];
-        edge[2] = swap;
-    }
+    sort_numbers(edge + 1, (size_t)n - 1);
     edge[n] = o->reach;
-    if (c < 0 && cut > edge[n]) /* a tail that is nothing beside the mass may be all that is seen */
+    if (c < 0 && cut > o->reach) /* a tail that is nothing beside the mass may be all that is seen */
         edge[0] = cut, edge[n = 1] = 1e3 * cut;
     for (int i = 0; i < n; i++)
         sum += edge[i] < edge[i + 1] ? seen_between(&d, edge[i], edge[i + 1]) : 0;
@@ -160,35 +159,22 @@ oracle oracle_get(size_t index)
     return o;
 }
 
-vndf_source *oracle_source(const oracle *o)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = oracle_source_of(o->name, &error);
-    if (!source)
-        fprintf(stderr, "%s: %s\n", o->name, error.message);
-    return source;
-}
-
-vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = oracle_build_of(o->name, max_bytes, certificate, &error);
-    if (!table)
-        fprintf(stderr, "%s: %s\n", o->name, error.message);
-    return table;
-}
-
-vndf_source *oracle_source_of(const char *text, vndf_error *error)
+vndf_source *oracle_source(const char *text, vndf_error *error)
 {
     vndf_source *family = vndf_source_family(text, NULL);
     return family ? family : vndf_source_slope_expression(text, NULL, 0, error);
 }
 
-vndf_distribution *oracle_build_of(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error)
+vndf_distribution *oracle_build(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error)
 {
     const vndf_build_options options = {.max_bytes = max_bytes};
-    vndf_source *source = oracle_source_of(text, error);
-    vndf_distribution *table = source ? vndf_build(source, &options, claim, error) : NULL;
+    vndf_error own = {VNDF_OK, ""};
+    vndf_source *source = oracle_source(text, &own);
+    vndf_distribution *table = source ? vndf_build(source, &options, claim, &own) : NULL;
+    if (!table && !error)
+        fprintf(stderr, "%s: %s\n", text, own.message);
+    if (error)
+        *error = own;
     vndf_source_free(source);
     return table;
 }

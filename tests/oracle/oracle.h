@@ -36,13 +36,10 @@ enum {
 
 oracle oracle_get(size_t index);
 
-/* The table of at most max_bytes (0: the default), or NULL after printing why. Free with vndf_free. */
-vndf_distribution *oracle_build(const oracle *o, size_t max_bytes, vndf_certificate *certificate);
-vndf_source *oracle_source(const oracle *o);
-
-/* The same of a family or a slope expression; claim and error may be NULL. */
-vndf_source *oracle_source_of(const char *text, vndf_error *error);
-vndf_distribution *oracle_build_of(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error);
+/* A family or a formula of slopes, and its table of at most max_bytes (0: the default). NULL, and `error` says why;
+ * of a table a line is printed where that is NULL. Free with vndf_source_free and vndf_free. */
+vndf_source *oracle_source(const char *text, vndf_error *error);
+vndf_distribution *oracle_build(const char *text, size_t max_bytes, vndf_certificate *claim, vndf_error *error);
 
 /* A table of tables/ by its name without .vndf, or NULL after printing why. Free with vndf_free. */
 vndf_distribution *oracle_shipped(const char *name);
@@ -58,9 +55,5 @@ vndf_vec3 oracle_direction(double theta, double phi);
 /* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
  * name is its first argument. test_mutants.cmake asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
-
-/* integral of f over [a, b], smooth inside but for the ends; relative error about 1e-12. */
-typedef double oracle_function(double x, const void *user);
-double oracle_integrate(oracle_function *f, const void *user, double a, double b);
 
 #endif

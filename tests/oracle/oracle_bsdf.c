@@ -2,6 +2,7 @@
  * from both sides. */
 #include "oracle/oracle_bsdf.h"
 
+#include <complex.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,7 +17,7 @@ int oracle_ndf_open(oracle_ndf *ndf, const char *name)
     ndf->distribution = ndf->slopes.kind == ORACLE_KIND_GGX ? vndf_ggx() : vndf_beckmann();
     if (ndf->slopes.kind == ORACLE_KIND_GGX || strcmp(name, "beckmann") == 0)
         return 1;
-    ndf->owned = strchr(name, ':') ? oracle_build_of(name, 0, NULL, NULL) : oracle_shipped(name);
+    ndf->owned = strchr(name, ':') ? oracle_build(name, 0, NULL, NULL) : oracle_shipped(name);
     ndf->distribution = ndf->owned;
     ndf->slopes = (oracle_slopes){ORACLE_KIND_TABLE, &ndf->table, NULL};
     if (ndf->owned && oracle_table_of(&ndf->table, ndf->owned))
@@ -170,6 +171,28 @@ static double g2_of(const oracle_bsdf *o, const double wi[3], const double wo[3]
 }
 
 /* ---- Fresnel ---- */
+
+static long double ratio_square(long double complex x, long double complex y)
+{
+    long double ratio = cabsl((x - y) / (x + y));
+    return ratio * ratio;
+}
+
+/* As it stands in the books, for m = n + ik: t = sqrt(1 - sin^2/m^2), r_s = (c - m t)/(c + m t),
+ * r_p = (m c - t)/(m c + t), F = (|r_s|^2 + |r_p|^2)/2, in long double, where their differences of nearly equal
+ * numbers cost what float does not show. */
+long double oracle_fresnel(long double c, long double n, long double k)
+{
+    const long double sin2 = (1 - c) * (1 + c);
+    const long double complex m = n + k * I, t = csqrtl(1 - sin2 / (m * m));
+    if (c <= 0)
+        return 1;
+    if (n == 1 && k <= 0)
+        return 0;
+    if (k <= 0 && n * n <= sin2)
+        return 1; /* in total reflection, exactly */
+    return (ratio_square(c, m * t) + ratio_square(m * c, t)) / 2;
+}
 
 static void fresnel_of(const oracle_bsdf *o, double cosine, double ratio, double f[VNDF_WAVELENGTHS])
 {

@@ -11,49 +11,28 @@
 
 /* ---- bytes ---- */
 
-typedef struct reader {
-    const unsigned char *at;
-    size_t left;
-    int short_of;
-} reader;
-
-static uint64_t take(reader *r, size_t bytes)
+static uint64_t word_at(const unsigned char *at, int bytes)
 {
     uint64_t word = 0;
-    if (r->left < bytes) {
-        r->short_of = 1;
-        return 0;
-    }
-    for (size_t i = 0; i < bytes; i++)
-        word |= (uint64_t)r->at[i] << 8 * i;
-    r->at += bytes;
-    r->left -= bytes;
+    for (int i = 0; i < bytes; i++)
+        word |= (uint64_t)at[i] << 8 * i;
     return word;
 }
 
-static double take_float(reader *r)
+static double float_at(const unsigned char *at)
 {
-    uint32_t word = (uint32_t)take(r, 4);
+    const uint32_t word = (uint32_t)word_at(at, 4);
     float value;
     memcpy(&value, &word, sizeof value);
     return (double)value;
 }
 
-static double take_double(reader *r)
+static double double_at(const unsigned char *at)
 {
-    uint64_t word = take(r, 8);
+    const uint64_t word = word_at(at, 8);
     double value;
     memcpy(&value, &word, sizeof value);
     return value;
-}
-
-static void skip_text(reader *r)
-{
-    size_t length = (size_t)take(r, 4);
-    r->short_of |= length > r->left;
-    length = length > r->left ? r->left : length;
-    r->at += length;
-    r->left -= length;
 }
 
 static uint32_t checksum(const unsigned char *bytes, size_t size)
@@ -67,61 +46,51 @@ static uint32_t checksum(const unsigned char *bytes, size_t size)
     return crc ^ 0xffffffffu;
 }
 
-static int take_arrays(oracle_table *t, reader *r)
+/* The numbers of cells, from byte `at` on. */
+static int take_arrays(oracle_table *t, const unsigned char *at)
 {
     double **array[] = {&t->knot, &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
                         &t->cube, &t->b0, &t->b1, &t->area, &t->slope};
-    size_t count = t->cells + 1;
+    const size_t count = t->cells + 1;
     t->numbers = calloc(11 * count, sizeof *t->numbers);
     if (!t->numbers)
         return 0;
     for (size_t i = 0; i < 11; i++) {
         *array[i] = t->numbers + i * count;
-        for (size_t j = 0; j < count && (i != 6 || t->moments == 4); j++)
-            (*array[i])[j] = take_float(r);
+        for (size_t j = 0; j < count && (i != 6 || t->moments == 4); j++, at += 4)
+            (*array[i])[j] = float_at(at);
     }
-    return !r->short_of;
+    return 1;
 }
 
-int oracle_table_read(oracle_table *t, const unsigned char *bytes, size_t size)
+/* Magic, format, size, the numbers of the head, two texts, those of the cells, checksum. */
+static int read_table(oracle_table *t, const unsigned char *bytes, size_t size)
 {
-    reader r = {bytes, size, 0};
-    memset(t, 0, sizeof *t);
-    if (size < 64 || memcmp(bytes, "VNDFtab\n", 8) != 0) {
-        fprintf(stderr, "oracle: no table\n");
+    size_t at = 92;
+    if (size < 104 || memcmp(bytes, "VNDFtab\n", 8) != 0 || word_at(bytes + 8, 4) != 4 ||
+        word_at(bytes + 12, 4) != size || word_at(bytes + size - 4, 4) != checksum(bytes, size - 4))
         return 0;
-    }
-    r.at += 8;
-    r.left -= 8;
-    size_t version = (size_t)take(&r, 4), whole = (size_t)take(&r, 4);
-    t->normalization = take_double(&r);
-    t->scale = take_double(&r);
-    t->cells = (size_t)take(&r, 4);
-    t->moments = (size_t)take(&r, 4);
-    t->squarings = (size_t)take(&r, 4);
+    t->normalization = double_at(bytes + 16);
+    t->scale = double_at(bytes + 24);
+    t->cells = (size_t)word_at(bytes + 32, 4);
+    t->moments = (size_t)word_at(bytes + 36, 4);
+    t->squarings = (size_t)word_at(bytes + 40, 4);
     for (int i = 0; i < 12; i++)
-        t->certificate[i] = take_float(&r);
-    skip_text(&r);
-    skip_text(&r);
-    int good = version == 4 && whole == size && t->cells >= 2 && t->cells < 4096 && t->moments >= 2 &&
-               t->moments <= 4 && t->squarings <= 5 && take_arrays(t, &r) && r.left == 4 &&
-               take(&r, 4) == checksum(bytes, size - 4);
-    if (!good) {
-        fprintf(stderr,
-                "oracle: format %lu, %lu cells, %lu moments, %lu squarings, %lu bytes left: not as it should be\n",
-                (unsigned long)version, (unsigned long)t->cells, (unsigned long)t->moments,
-                (unsigned long)t->squarings, (unsigned long)r.left);
-        oracle_table_free(t);
-    }
-    return good;
+        t->certificate[i] = float_at(bytes + 44 + 4 * i);
+    for (int i = 0; i < 2 && at + 4 <= size; i++)
+        at += 4 + (size_t)word_at(bytes + at, 4);
+    return t->cells >= 2 && t->cells < 4096 && t->moments >= 2 && t->moments <= 4 && t->squarings <= 5 &&
+           at + 4 * (t->cells + 1) * (t->moments == 4 ? 11 : 10) + 4 == size && take_arrays(t, bytes + at);
 }
 
 int oracle_table_of(oracle_table *t, const vndf_distribution *distribution)
 {
     size_t size = vndf_distribution_info(distribution).bytes;
     unsigned char *bytes = malloc(size + 1);
-    int good =
-        bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && oracle_table_read(t, bytes, size);
+    memset(t, 0, sizeof *t);
+    int good = bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && read_table(t, bytes, size);
+    if (!good)
+        fprintf(stderr, "oracle: this is no table of format 4\n");
     free(bytes);
     return good;
 }
@@ -243,11 +212,11 @@ static double turn(const oracle_table *t, size_t j)
     return j == 0 ? 0 : j == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
 }
 
-/* Rho in the middle of its eighth of an octave, from 2^-13 on; infinite from the last one below 2^15. */
+/* Rho in the middle of its eighth of an octave, from 2^-13 to 2^15. */
 static double rounded(double rho)
 {
-    double octave = floor(log2(fmax(rho, 0x1p-13))), part = floor(8 * (fmax(rho, 0x1p-13) / exp2(octave) - 1));
-    return octave + part / 8 >= 14.875 ? HUGE_VAL : exp2(octave) * (1 + (part + 0.5) / 8);
+    double within = fmin(fmax(rho, 0x1p-13), 0x1.ep14), octave = floor(log2(within));
+    return exp2(octave) * (1 + (floor(8 * (within / exp2(octave) - 1)) + 0.5) / 8);
 }
 
 static void look_above(oracle_law *l)
@@ -271,7 +240,7 @@ static void look_above(oracle_law *l)
 /* The polynomial of cell i. */
 static void weights_above(const oracle_law *l, size_t i, double w[4])
 {
-    int flat = i < l->first || i == 0 || l->first == l->t->cells;
+    int flat = i < l->first || i == 0 || l->first == l->t->cells || l->rho >= 0x1.ep14;
     w[0] = i < l->first ? 0 : l->w1;
     w[1] = flat ? l->c : l->w0;
     w[2] = flat ? 0 : l->wq;

@@ -20,10 +20,7 @@ typedef struct oracle_table {
     double *numbers; /* where all of them are */
 } oracle_table;
 
-/* Reads the bytes of a file; 0 after a message if they are no table of format 4. */
-int oracle_table_read(oracle_table *t, const unsigned char *bytes, size_t size);
-
-/* The same of a loaded or built table, through vndf_save_memory. */
+/* Of a loaded or built table, from the bytes of its file; 0 after a message if they are none of format 4. */
 int oracle_table_of(oracle_table *t, const vndf_distribution *distribution);
 void oracle_table_free(oracle_table *t);
 

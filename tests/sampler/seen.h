@@ -13,6 +13,7 @@ typedef enum seen_kind { SEEN_SURFACE, SEEN_AFFINE, SEEN_MIXTURE } seen_kind;
 typedef struct seen {
     seen_kind kind;
     vndf_mixture of; /* of the first two kinds one lobe */
+    vndf_surface surface;
     vndf_vec3 wi;
     vndf_view view;
     vndf_mixture_view mixture;
@@ -20,21 +21,15 @@ typedef struct seen {
 
 static inline vndf_affine seen_straight(const vndf_distribution *d, float alpha_x, float alpha_y)
 {
-    vndf_affine a = {d, alpha_x, 0, 0, alpha_y, 0, 0};
-    return a;
+    return (vndf_affine){d, alpha_x, 0, 0, alpha_y, 0, 0};
 }
 
 static inline seen seen_from(seen_kind kind, const vndf_mixture *of, vndf_vec3 wi)
 {
     const vndf_affine *first = &of->lobe[0].surface;
-    const vndf_surface surface = {first->distribution, first->xx, first->yy};
-    seen s;
-    memset(&s, 0, sizeof s);
-    s.kind = kind;
-    s.of = *of;
-    s.wi = wi;
+    seen s = {.kind = kind, .of = *of, .surface = {first->distribution, first->xx, first->yy}, .wi = wi};
     if (kind == SEEN_SURFACE)
-        s.view = vndf_view_from(&surface, wi);
+        s.view = vndf_view_from(&s.surface, wi);
     else if (kind == SEEN_AFFINE)
         s.view = vndf_affine_view_from(first, wi);
     else
@@ -60,54 +55,43 @@ static inline float seen_pdf(const seen *s, vndf_vec3 wm)
     return s->kind == SEEN_MIXTURE ? vndf_mixture_pdf(&s->mixture, wm) : vndf_pdf(&s->view, wm);
 }
 
-static inline float seen_visible(const seen *s, vndf_vec3 wm)
-{
-    return s->kind == SEEN_MIXTURE ? vndf_mixture_visible(&s->mixture, wm) : vndf_visible(&s->view, wm);
-}
+typedef enum quantity { DENSITY, VISIBLE, NDF, AREA, LAMBDA, G1, QUANTITIES } quantity;
+static const char *const quantity_names[QUANTITIES] = {"pdf", "visible", "ndf", "area", "lambda", "g1"};
 
-static inline float seen_area(const seen *s, vndf_vec3 w)
+/* The first three at w, the others from w. */
+static inline float seen_quantity(const seen *s, quantity which, vndf_vec3 w)
 {
-    const vndf_affine *first = &s->of.lobe[0].surface;
-    const vndf_surface surface = {first->distribution, first->xx, first->yy};
-    return s->kind == SEEN_SURFACE  ? vndf_projected_area(&surface, w)
-           : s->kind == SEEN_AFFINE ? vndf_affine_projected_area(first, w)
-                                    : vndf_mixture_projected_area(&s->of, w);
-}
-
-typedef enum seen_value { SEEN_NDF, SEEN_LAMBDA, SEEN_G1 } seen_value;
-
-/* D at w, or Lambda or G1 from w. */
-static inline float seen_shape(const seen *s, seen_value which, vndf_vec3 w)
-{
-    const vndf_affine *first = &s->of.lobe[0].surface;
-    const vndf_surface surface = {first->distribution, first->xx, first->yy};
-    int one = s->kind == SEEN_SURFACE, affine = s->kind == SEEN_AFFINE;
+    const vndf_affine *a = s->kind == SEEN_AFFINE ? &s->of.lobe[0].surface : NULL;
+    const vndf_surface *one = s->kind == SEEN_SURFACE ? &s->surface : NULL;
     switch (which) {
-    case SEEN_NDF:
-        return one ? vndf_ndf(&surface, w) : affine ? vndf_affine_ndf(first, w) : vndf_mixture_ndf(&s->of, w);
-    case SEEN_LAMBDA:
-        return one      ? vndf_lambda(&surface, w)
-               : affine ? vndf_affine_lambda(first, w)
-                        : vndf_mixture_lambda(&s->of, w);
-    default: return one ? vndf_g1(&surface, w) : affine ? vndf_affine_g1(first, w) : vndf_mixture_g1(&s->of, w);
+    case DENSITY: return seen_pdf(s, w);
+    case VISIBLE: return one || a ? vndf_visible(&s->view, w) : vndf_mixture_visible(&s->mixture, w);
+    case NDF: return one ? vndf_ndf(one, w) : a ? vndf_affine_ndf(a, w) : vndf_mixture_ndf(&s->of, w);
+    case LAMBDA: return one ? vndf_lambda(one, w) : a ? vndf_affine_lambda(a, w) : vndf_mixture_lambda(&s->of, w);
+    case G1: return one ? vndf_g1(one, w) : a ? vndf_affine_g1(a, w) : vndf_mixture_g1(&s->of, w);
+    default: break;
     }
+    return one ? vndf_projected_area(one, w)
+           : a ? vndf_affine_projected_area(a, w)
+               : vndf_mixture_projected_area(&s->of, w);
+}
+
+/* Whether more than this part is seen of what is seen at grazing incidence. */
+static inline int seen_at_all(const seen *s, float part)
+{
+    const vndf_vec3 level = {s->wi.x, s->wi.y, 0};
+    return s->wi.z >= 0 || seen_quantity(s, AREA, s->wi) > part * seen_quantity(s, AREA, level);
 }
 
 static inline vndf_vec3 vec3_of(const double w[3])
 {
-    vndf_vec3 v = {(float)w[0], (float)w[1], (float)w[2]};
-    return v;
+    return (vndf_vec3){(float)w[0], (float)w[1], (float)w[2]};
 }
 
 /* For slopes.h. */
 static inline double seen_density(const double wm[3], const void *of)
 {
     return (double)seen_pdf(of, vec3_of(wm));
-}
-
-static inline slope_frame seen_frame(const seen *s)
-{
-    return slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
 }
 
 static inline void seen_print(const seen *s, const char *name)
@@ -132,16 +116,22 @@ typedef struct subject {
     oracle shape; /* its D as a formula */
 } subject;
 
-static inline subject subject_open(size_t index)
+/* Runs a test of all subjects, or of the one that the program's first argument names; what main returns. */
+static inline int subjects_test(int arguments, char **argument, void (*test)(const subject *of, size_t index))
 {
-    subject s = {index ? "closed beckmann" : "closed ggx", index ? vndf_beckmann() : vndf_ggx(), NULL,
-                 oracle_get(index < 2 ? index : index - 2)};
-    if (index < 2)
-        return s;
-    s.name = s.shape.name;
-    s.d = s.owned = oracle_build(&s.shape, 0, NULL);
-    TEST(s.d != NULL);
-    return s;
+    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
+        subject s = {i ? "closed beckmann" : "closed ggx", i ? vndf_beckmann() : vndf_ggx(), NULL,
+                     oracle_get(i < 2 ? i : i - 2)};
+        s.name = i < 2 ? s.name : s.shape.name;
+        if (!oracle_wanted(arguments, argument, i, s.name))
+            continue;
+        if (i >= 2)
+            s.d = s.owned = oracle_build(s.shape.name, 0, NULL, NULL);
+        if (TEST(s.d != NULL))
+            test(&s, i);
+        vndf_free(s.owned);
+    }
+    return test_done();
 }
 
 static inline double random_between(unsigned long long *state, double from, double to)

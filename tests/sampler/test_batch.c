@@ -11,9 +11,9 @@ enum { MOST = 300 };
 enum { XX, XY, YX, YY, MEAN_X, MEAN_Y, WI_X, WI_Y, WI_Z, U1, U2, NX, NY, NZ, W0, W1, INPUTS };
 enum { OUTPUTS = 5 };
 
-typedef enum call { SAMPLE, WEIGHT, PDF, VISIBLE, INVERT, NDF, AREA, LAMBDA, G1, CALLS } call;
-static const char *const call_names[CALLS] = {"sample", "sample_weight", "pdf",    "visible", "invert",
-                                              "ndf",    "area",          "lambda", "g1"};
+/* After the quantities of seen.h. */
+enum { SAMPLE = QUANTITIES, WEIGHT, INVERT, CALLS };
+static const char *const call_names[] = {"sample", "sample_weight", "invert"};
 
 /* One batch; `flat`: xy, yx and the mean slopes are NULL. */
 typedef struct batch_case {
@@ -26,19 +26,14 @@ typedef struct batch_case {
     float *in[INPUTS]; /* each begins at the second number of its block */
 } batch_case;
 
-static size_t place_in(const batch_case *b, int input, size_t i)
-{
-    unsigned bit = input <= MEAN_Y ? VNDF_SHARED_ALPHA
-                   : input <= WI_Z ? VNDF_SHARED_WI
-                   : input >= W0   ? VNDF_SHARED_WEIGHT
-                                   : 0;
-    return b->shared & bit ? 0 : i;
-}
-
 static float value_in(const batch_case *b, int input, size_t i)
 {
-    int absent = b->flat && (input == XY || input == YX || input == MEAN_X || input == MEAN_Y);
-    return absent ? 0 : b->in[input][place_in(b, input, i)];
+    const unsigned bit = input <= MEAN_Y ? VNDF_SHARED_ALPHA
+                         : input <= WI_Z ? VNDF_SHARED_WI
+                         : input >= W0   ? VNDF_SHARED_WEIGHT
+                                         : 0;
+    const int absent = b->flat && (input == XY || input == YX || input == MEAN_X || input == MEAN_Y);
+    return absent ? 0 : b->in[input][b->shared & bit ? 0 : i];
 }
 
 /* ---- one element ---- */
@@ -46,65 +41,45 @@ static float value_in(const batch_case *b, int input, size_t i)
 /* The second lobe of mixtures is GGX, with the matrix transposed. */
 static seen element(const batch_case *b, size_t i)
 {
-    const vndf_affine a = {b->d,
-                           value_in(b, XX, i),
-                           value_in(b, XY, i),
-                           value_in(b, YX, i),
-                           value_in(b, YY, i),
-                           value_in(b, MEAN_X, i),
-                           value_in(b, MEAN_Y, i)};
-    const vndf_affine c = {vndf_ggx(), a.xx, a.yx, a.xy, a.yy, a.mean_x, a.mean_y};
-    const vndf_mixture of = {b->kind == SEEN_MIXTURE ? 2 : 1, {{a, value_in(b, W0, i)}, {c, value_in(b, W1, i)}}};
-    return seen_from(b->kind, &of, (vndf_vec3){value_in(b, WI_X, i), value_in(b, WI_Y, i), value_in(b, WI_Z, i)});
+    float v[INPUTS];
+    for (int j = 0; j < INPUTS; j++)
+        v[j] = value_in(b, j, i);
+    const vndf_affine one = {b->d, v[XX], v[XY], v[YX], v[YY], v[MEAN_X], v[MEAN_Y]};
+    const vndf_affine two = {vndf_ggx(), v[XX], v[YX], v[XY], v[YY], v[MEAN_X], v[MEAN_Y]};
+    const vndf_mixture of = {b->kind == SEEN_MIXTURE ? 2 : 1, {{one, v[W0]}, {two, v[W1]}}};
+    return seen_from(b->kind, &of, (vndf_vec3){v[WI_X], v[WI_Y], v[WI_Z]});
 }
 
-/* The lobe goes as a float. */
-static void expect_drawn(const batch_case *b, const seen *s, call which, size_t i, float out[OUTPUTS])
+/* The lobe goes as a float. Returns how many numbers there are. */
+static size_t expect(const batch_case *b, int which, size_t i, float out[OUTPUTS])
 {
-    float u1 = b->in[U1][i], u2 = b->in[U2][i];
-    int lobe = 0;
+    const seen s = element(b, i);
+    const int mixed = b->kind == SEEN_MIXTURE;
+    const float u1 = b->in[U1][i], u2 = b->in[U2][i];
     vndf_vec3 wm = {b->in[NX][i], b->in[NY][i], b->in[NZ][i]};
-    if (which == INVERT && b->kind == SEEN_MIXTURE) {
-        out[2] = (float)vndf_mixture_invert(&s->mixture, wm, -1, &out[0], &out[1]);
-        return;
+    int lobe = 0;
+    if (which < QUANTITIES) {
+        out[0] = seen_quantity(&s, (quantity)which, which < AREA ? wm : s.wi);
+        return 1;
     }
     if (which == INVERT) {
-        vndf_invert(&s->view, wm, &out[0], &out[1]);
-        return;
+        if (mixed)
+            out[2] = (float)vndf_mixture_invert(&s.mixture, wm, -1, &out[0], &out[1]);
+        else
+            vndf_invert(&s.view, wm, &out[0], &out[1]);
+        return mixed ? 3 : 2;
     }
-    wm = which == WEIGHT           ? vndf_sample_weight(&s->view, u1, u2, &out[3], &out[4])
-         : b->kind == SEEN_MIXTURE ? vndf_mixture_sample(&s->mixture, u1, u2, &out[3], &lobe)
-                                   : seen_draw(s, u1, u2, &out[3]);
+    wm = which == WEIGHT ? vndf_sample_weight(&s.view, u1, u2, &out[3], &out[4])
+         : mixed         ? vndf_mixture_sample(&s.mixture, u1, u2, &out[3], &lobe)
+                         : vndf_sample(&s.view, u1, u2, &out[3]);
     out[0] = wm.x, out[1] = wm.y, out[2] = wm.z;
-    if (b->kind == SEEN_MIXTURE)
-        out[4] = (float)lobe;
-}
-
-static float expect_value(const seen *s, call which, vndf_vec3 wm)
-{
-    switch (which) {
-    case PDF: return seen_pdf(s, wm);
-    case VISIBLE: return seen_visible(s, wm);
-    case AREA: return seen_area(s, s->wi);
-    case NDF: return seen_shape(s, SEEN_NDF, wm);
-    case LAMBDA: return seen_shape(s, SEEN_LAMBDA, s->wi);
-    default: return seen_shape(s, SEEN_G1, s->wi);
-    }
-}
-
-static void expect(const batch_case *b, call which, size_t i, float out[OUTPUTS])
-{
-    seen s = element(b, i);
-    memset(out, 0, OUTPUTS * sizeof *out);
-    if (which <= WEIGHT || which == INVERT)
-        expect_drawn(b, &s, which, i, out);
-    else
-        out[0] = expect_value(&s, which, (vndf_vec3){b->in[NX][i], b->in[NY][i], b->in[NZ][i]});
+    out[4] = mixed ? (float)lobe : out[4];
+    return which == WEIGHT || mixed ? 5 : 4;
 }
 
 /* ---- all of them ---- */
 
-static void run_surface(const batch_case *b, call which, float *const out[OUTPUTS])
+static void run_surface(const batch_case *b, int which, float *const out[OUTPUTS])
 {
     const vndf_batch of = {b->d,      b->count,    b->shared & 3, b->limit,   b->in[XX],
                            b->in[YY], b->in[WI_X], b->in[WI_Y],   b->in[WI_Z]};
@@ -112,7 +87,7 @@ static void run_surface(const batch_case *b, call which, float *const out[OUTPUT
     switch (which) {
     case SAMPLE: vndf_sample_n(&of, b->in[U1], b->in[U2], to, out[3]); break;
     case WEIGHT: vndf_sample_weight_n(&of, b->in[U1], b->in[U2], to, out[3], out[4]); break;
-    case PDF: vndf_pdf_n(&of, wm, out[0]); break;
+    case DENSITY: vndf_pdf_n(&of, wm, out[0]); break;
     case VISIBLE: vndf_visible_n(&of, wm, out[0]); break;
     case INVERT: vndf_invert_n(&of, wm, out[0], out[1]); break;
     case NDF: vndf_ndf_n(&of, wm, out[0]); break;
@@ -122,31 +97,34 @@ static void run_surface(const batch_case *b, call which, float *const out[OUTPUT
     }
 }
 
+/* Of what may be absent. */
 static const float *matrix_of(const batch_case *b, int input)
 {
     return b->flat ? NULL : b->in[input];
 }
 
-static void run_affine(const batch_case *b, call which, float *const out[OUTPUTS])
+static void run_affine(const batch_case *b, int which, float *const out[OUTPUTS])
 {
-    const vndf_affine_batch of = {b->d,
-                                  b->count,
-                                  b->shared & 3,
-                                  b->limit,
-                                  b->in[XX],
-                                  matrix_of(b, XY),
-                                  matrix_of(b, YX),
-                                  b->in[YY],
-                                  matrix_of(b, MEAN_X),
-                                  matrix_of(b, MEAN_Y),
-                                  b->in[WI_X],
-                                  b->in[WI_Y],
-                                  b->in[WI_Z]};
+    const vndf_affine_batch of = {
+        .distribution = b->d,
+        .count = b->count,
+        .shared = b->shared & 3,
+        .limit = b->limit,
+        .xx = b->in[XX],
+        .xy = matrix_of(b, XY),
+        .yx = matrix_of(b, YX),
+        .yy = b->in[YY],
+        .mean_x = matrix_of(b, MEAN_X),
+        .mean_y = matrix_of(b, MEAN_Y),
+        .wi_x = b->in[WI_X],
+        .wi_y = b->in[WI_Y],
+        .wi_z = b->in[WI_Z],
+    };
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
     switch (which) {
     case SAMPLE: vndf_affine_sample_n(&of, b->in[U1], b->in[U2], to, out[3]); break;
     case WEIGHT: vndf_affine_sample_weight_n(&of, b->in[U1], b->in[U2], to, out[3], out[4]); break;
-    case PDF: vndf_affine_pdf_n(&of, wm, out[0]); break;
+    case DENSITY: vndf_affine_pdf_n(&of, wm, out[0]); break;
     case VISIBLE: vndf_affine_visible_n(&of, wm, out[0]); break;
     case INVERT: vndf_affine_invert_n(&of, wm, out[0], out[1]); break;
     case NDF: vndf_affine_ndf_n(&of, wm, out[0]); break;
@@ -156,7 +134,7 @@ static void run_affine(const batch_case *b, call which, float *const out[OUTPUTS
     }
 }
 
-static void run_mixture(const batch_case *b, call which, float *const out[OUTPUTS])
+static void run_mixture(const batch_case *b, int which, float *const out[OUTPUTS])
 {
     static int lobe[MOST];
     const float *x = matrix_of(b, MEAN_X), *y = matrix_of(b, MEAN_Y);
@@ -173,7 +151,7 @@ static void run_mixture(const batch_case *b, call which, float *const out[OUTPUT
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
     switch (which) {
     case SAMPLE: vndf_mixture_sample_n(&of, b->in[U1], b->in[U2], to, out[3], lobe); break;
-    case PDF: vndf_mixture_pdf_n(&of, wm, out[0]); break;
+    case DENSITY: vndf_mixture_pdf_n(&of, wm, out[0]); break;
     case VISIBLE: vndf_mixture_visible_n(&of, wm, out[0]); break;
     case INVERT: vndf_mixture_invert_n(&of, wm, NULL, out[0], out[1], lobe); break;
     case NDF: vndf_mixture_ndf_n(&of, wm, out[0]); break;
@@ -187,23 +165,16 @@ static void run_mixture(const batch_case *b, call which, float *const out[OUTPUT
 
 /* ---- comparison ---- */
 
-static size_t outputs_of(const batch_case *b, call which)
-{
-    return which == SAMPLE   ? 4 + (b->kind == SEEN_MIXTURE)
-           : which == WEIGHT ? 5
-           : which == INVERT ? 2 + (b->kind == SEEN_MIXTURE)
-                             : 1;
-}
-
 /* With `in_place`, results go where the normals, or the numbers and the density's input, stood. */
-static void test_call(batch_case *b, call which, int in_place, const char *name)
+static void test_call(batch_case *b, int which, int in_place, const char *name)
 {
     static float want[MOST][OUTPUTS], room[OUTPUTS][MOST + 2], kept[INPUTS][MOST + 2];
     static const int places[OUTPUTS] = {NX, U1, NZ, NY, U2};
-    float *out[OUTPUTS];
-    size_t outputs = outputs_of(b, which), wrong = b->count;
+    float *out[OUTPUTS], got[OUTPUTS] = {0};
+    size_t outputs = 0, wrong = b->count;
+    int whole = 1;
     for (size_t i = 0; i < b->count; i++)
-        expect(b, which, i, want[i]);
+        outputs = expect(b, which, i, want[i]);
     for (int i = 0; i < INPUTS; i++)
         memcpy(kept[i], b->in[i] - 1, sizeof kept[i]);
     for (int i = 0; i < OUTPUTS; i++) {
@@ -211,30 +182,27 @@ static void test_call(batch_case *b, call which, int in_place, const char *name)
         out[i][b->count] = 12345;
     }
     (b->kind == SEEN_SURFACE ? run_surface : b->kind == SEEN_AFFINE ? run_affine : run_mixture)(b, which, out);
-    for (size_t i = 0; i < b->count; i++)
-        for (size_t j = 0; j < outputs; j++)
-            if (memcmp(&out[j][i], &want[i][j], sizeof(float)) != 0 && wrong == b->count)
+    for (size_t j = 0; j < outputs; j++) {
+        for (size_t i = 0; i < b->count && wrong == b->count; i++)
+            if (memcmp(&out[j][i], &want[i][j], sizeof(float)) != 0)
                 wrong = i;
-    int whole = 1;
-    for (size_t j = 0; j < outputs; j++)
         whole &= out[j][b->count] == 12345;
-    float got[OUTPUTS];
-    for (size_t j = 0; j < outputs && wrong < b->count; j++)
+    }
+    for (size_t j = 0; j < outputs; j++)
         got[j] = out[j][wrong];
     for (int i = 0; i < INPUTS; i++)
         memcpy(b->in[i] - 1, kept[i], sizeof kept[i]);
     if (TEST(wrong == b->count) & TEST(whole))
         return;
-    fprintf(stderr, "  %s, %s, set %d, %lu elements, shared %u, %s, %s\n", name, call_names[which], (int)b->limit,
+    fprintf(stderr, "  %s, %s, set %d, %lu elements, shared %u, %s, %s\n", name,
+            which < QUANTITIES ? quantity_names[which] : call_names[which - QUANTITIES], (int)b->limit,
             (unsigned long)b->count, b->shared, b->flat ? "flat" : "whole", in_place ? "in place" : "apart");
-    if (wrong < b->count) {
-        seen s = element(b, wrong);
-        seen_print(&s, "element");
-        fprintf(stderr, "    u %.9g %.9g wm %.9g %.9g %.9g\n", (double)b->in[U1][wrong], (double)b->in[U2][wrong],
-                (double)b->in[NX][wrong], (double)b->in[NY][wrong], (double)b->in[NZ][wrong]);
-        for (size_t j = 0; j < outputs; j++)
-            fprintf(stderr, "    %.9g, alone %.9g\n", (double)got[j], (double)want[wrong][j]);
-    }
+    if (wrong == b->count)
+        return;
+    seen s = element(b, wrong);
+    seen_print(&s, "element");
+    for (size_t j = 0; j < outputs; j++)
+        fprintf(stderr, "    %.9g, alone %.9g\n", (double)got[j], (double)want[wrong][j]);
 }
 
 /* ---- inputs ---- */
@@ -273,7 +241,7 @@ static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, unsigne
     }
 }
 
-static void test_subject(const subject *of, vndf_instructions limit)
+static void test_limit(const subject *of, vndf_instructions limit)
 {
     static const size_t counts[] = {MOST, 1, 0, 3, 8, 17, 33, 129};
     static float in[INPUTS][MOST + 2];
@@ -288,29 +256,28 @@ static void test_subject(const subject *of, vndf_instructions limit)
             for (int kind = SEEN_SURFACE; kind <= SEEN_MIXTURE; kind++) {
                 b.kind = (seen_kind)kind;
                 if (which != WEIGHT || kind != SEEN_MIXTURE)
-                    test_call(&b, (call)which, round % 4 == 3, of->name);
+                    test_call(&b, which, round % 4 == 3, of->name);
             }
     }
 }
 
-static void test_sets(const subject *of, int only)
+/* The one asked for, or the best and each that this machine has. */
+static int only;
+
+static void test_subject(const subject *of, size_t index)
 {
     for (int limit = VNDF_INSTRUCTIONS_BEST; limit <= VNDF_INSTRUCTIONS_AVX512; limit++)
         if ((!only || limit == only) && (!limit || (int)vndf_instructions_used((vndf_instructions)limit) == limit))
-            test_subject(of, (vndf_instructions)limit);
+            test_limit(of, (vndf_instructions)limit);
+    (void)index;
 }
 
 int main(int arguments, char **argument)
 {
-    int only = arguments < 2                        ? 0
-               : strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512
-                                                    : VNDF_INSTRUCTIONS_AVX2;
     const subject none = {"none", NULL, NULL, {0}};
-    test_sets(&none, only);
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject s = subject_open(i);
-        test_sets(&s, only);
-        vndf_free(s.owned);
-    }
-    return test_done();
+    only = arguments < 2                        ? 0
+           : strcmp(argument[1], "avx512") == 0 ? VNDF_INSTRUCTIONS_AVX512
+                                                : VNDF_INSTRUCTIONS_AVX2;
+    test_subject(&none, 0);
+    return subjects_test(1, argument, test_subject);
 }

@@ -83,14 +83,12 @@ static void test_samples(const drawn *d, const vndf_surface *surface, vndf_vec3 
         if (d->which == BOUNDED && 2 * dot_of(wi, n.wm) * n.wm.z <= wi.z) /* at the bound, or lost: see below */
             error = 0;
         apart[0] += i >= 64 && !(error <= 1e-5), apart[1] += i >= 64 && !(error <= 1e-3); /* not at the border */
-        if (!is_good(d, surface, wi, n,
-                     surface->alpha_x == surface->alpha_y && !vndf_is_exact(surface->distribution), i < 64) &&
-            test_failures < 20)
-            fprintf(stderr,
-                    "  %s, %s, wi %.9g %.9g %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
-                    name, law_names[d->which], (double)wi.x, (double)wi.y, (double)wi.z, (double)surface->alpha_x,
-                    (double)surface->alpha_y, (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y,
-                    (double)n.wm.z, (double)n.density, (double)n.weight);
+        int round = surface->alpha_x == surface->alpha_y && !vndf_is_exact(surface->distribution);
+        if (!is_good(d, surface, wi, n, round, i < 64) && test_failures < 20)
+            fprintf(stderr, "  %s, %s, wi.z %.9g, alpha %g %g, u %.9g %.9g: %.9g %.9g %.9g, %.9g, weight %.9g\n",
+                    name, law_names[d->which], (double)wi.z, (double)surface->alpha_x, (double)surface->alpha_y,
+                    (double)u1, (double)u2, (double)n.wm.x, (double)n.wm.y, (double)n.wm.z, (double)n.density,
+                    (double)n.weight);
     }
     if (!(TEST(apart[0] <= samples / 100) & TEST(apart[1] <= samples / 5000)))
         fprintf(stderr, "  %s, %s: %lu densities are apart by 1e-5, %lu by 1e-3\n", name, law_names[d->which],
@@ -118,43 +116,41 @@ static void test_means(const drawn *d, vndf_vec3 wi, const char *name, size_t sa
     }
     for (int k = 0; k < MEANS; k++)
         if (!TEST(fabs(sums[k]) <= 5 * sqrt(squares[k]) + 1e-6 * (double)samples))
-            fprintf(stderr, "  %s, wi %.9g %.9g %.9g: mean %d is off by %.3g, sigma %.3g\n", name, (double)wi.x,
-                    (double)wi.y, (double)wi.z, k, sums[k] / (double)samples, sqrt(squares[k]) / (double)samples);
+            fprintf(stderr, "  %s, wi.z %.9g: mean %d is off by %.3g, sigma %.3g\n", name, (double)wi.z, k,
+                    sums[k] / (double)samples, sqrt(squares[k]) / (double)samples);
 }
 
 /* ---- all of them together ---- */
 
-static void test_setting(const subject *of, law which, float alpha_x, float alpha_y, vndf_vec3 wi, double level)
+static void test_setting(const subject *of, law which, const float alpha[2], vndf_vec3 wi)
 {
-    const vndf_surface surface = {of->d, alpha_x, alpha_y};
-    const vndf_affine shape = seen_straight(of->d, alpha_x, alpha_y);
+    const vndf_surface surface = {of->d, alpha[0], alpha[1]};
+    const vndf_affine shape = seen_straight(of->d, alpha[0], alpha[1]);
     const drawn d = {which, vndf_view_from(&surface, wi)};
     const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
+    const size_t samples = test_amount(20000, 100000, 1000000);
     test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
-    if (which == BOUNDED && (!of->owned || alpha_x != alpha_y)) { /* what is lost has no density */
-        test_means(&d, wi, of->name, test_amount(20000, 100000, 1000000));
+    if (which == BOUNDED && (!of->owned || alpha[0] != alpha[1])) { /* what is lost has no density */
+        test_means(&d, wi, of->name, samples);
         return;
     }
-    slope_test found =
-        slope_chi_square(&frame, draw_slope, density_at, &d, test_amount(20000, 100000, 1000000), 5);
-    if (!(TEST(found.p > level) & TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 5e-4))))
+    slope_test found = slope_chi_square(&frame, draw_slope, density_at, &d, samples, 5);
+    if (!(TEST(found.p > statistics_sidak(0.01, 4 * LAWS * SUBJECT_COUNT)) &
+          TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 5e-4))))
         fprintf(stderr, "  %s, %s, alpha %g %g, wi.z %.9g: p %.3g of %lu, integral %.7f\n", of->name,
-                law_names[which], (double)alpha_x, (double)alpha_y, (double)wi.z, found.p,
+                law_names[which], (double)alpha[0], (double)alpha[1], (double)wi.z, found.p,
                 (unsigned long)found.classes, found.mass);
+}
+
+static void test_subject(const subject *of, size_t index)
+{
+    static const double thetas[] = {0, 45, 80, 89.9};
+    static const float alphas[][2] = {{0.3f, 0.3f}, {0.05f, 0.05f}, {1, 1}, {0.2f, 0.6f}};
+    for (size_t j = 0; j < 4 * LAWS; j++)
+        test_setting(of, (law)(j / 4), alphas[(index + j) % 4], oracle_direction(thetas[j % 4], 40.0 * (double)j));
 }
 
 int main(int arguments, char **argument)
 {
-    static const double thetas[] = {0, 45, 80, 89.9};
-    static const float alphas[][2] = {{0.3f, 0.3f}, {0.05f, 0.05f}, {1, 1}, {0.2f, 0.6f}};
-    double level = statistics_sidak(0.01, 4 * LAWS * SUBJECT_COUNT);
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject of = subject_open(i);
-        for (size_t j = 0; of.d && j < 4 * LAWS; j++)
-            if (oracle_wanted(arguments, argument, i, of.name))
-                test_setting(&of, (law)(j / 4), alphas[(i + j) % 4][0], alphas[(i + j) % 4][1],
-                             oracle_direction(thetas[j % 4], 40.0 * (double)j), level);
-        vndf_free(of.owned);
-    }
-    return test_done();
+    return subjects_test(arguments, argument, test_subject);
 }

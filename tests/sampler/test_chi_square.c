@@ -32,16 +32,20 @@ static seen view_of(const vndf_distribution *d, const setting *v)
     return seen_from(v->kind, &of, oracle_direction(v->theta, v->phi));
 }
 
-static void test_view(const subject *of, size_t view, size_t samples, double level)
+static size_t samples, stride; /* of each subject every `stride`-th view, another one first for each */
+
+static void test_subject(const subject *of, size_t index)
 {
-    seen s = view_of(of->d, &views[view]);
-    slope_frame frame = seen_frame(&s);
-    if (seen_area(&s, s.wi) <= 1e-6f) /* next to nothing is seen */
-        return;
-    slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);
-    int good = TEST(found.p > level) & TEST(found.unseen == 0) &
-               TEST(fabs(found.mass - 1) < (of->shape.breaks[0] > 0 ? 2e-3 : 1e-4));
-    if (!good) {
+    const double level = statistics_sidak(0.01, SUBJECT_COUNT * VIEWS),
+                 off = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
+    for (size_t view = index % stride; view < VIEWS; view += stride) {
+        seen s = view_of(of->d, &views[view]);
+        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi, 0);
+        if (seen_quantity(&s, AREA, s.wi) <= 1e-6f) /* next to nothing is seen */
+            continue;
+        slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);
+        if (TEST(found.p > level) & TEST(found.unseen == 0) & TEST(fabs(found.mass - 1) < off))
+            continue;
         seen_print(&s, of->name);
         fprintf(stderr, "    view %lu: p %.3g of %lu classes, integral %.7f, %lu without a density\n",
                 (unsigned long)view, found.p, (unsigned long)found.classes, found.mass,
@@ -49,18 +53,9 @@ static void test_view(const subject *of, size_t view, size_t samples, double lev
     }
 }
 
-/* Of each subject every `stride`-th view, another one first for each. */
 int main(int arguments, char **argument)
 {
-    size_t samples = arguments > 2 ? strtoul(argument[2], NULL, 10) : test_amount(20000, 100000, 1000000);
-    size_t stride = arguments > 2 ? 1 : test_amount(2, 2, 1);
-    double level = statistics_sidak(0.01, SUBJECT_COUNT * VIEWS);
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject s = subject_open(i);
-        for (size_t view = i % stride; s.d && view < VIEWS; view += stride)
-            if (oracle_wanted(arguments, argument, i, s.name))
-                test_view(&s, view, samples, level);
-        vndf_free(s.owned);
-    }
-    return test_done();
+    samples = arguments > 2 ? strtoul(argument[2], NULL, 10) : test_amount(20000, 100000, 1000000);
+    stride = arguments > 2 ? 1 : test_amount(2, 2, 1);
+    return subjects_test(arguments, argument, test_subject);
 }

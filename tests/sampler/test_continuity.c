@@ -7,7 +7,7 @@
 /* The normal in the stretched frame, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */
 static void turned(const seen *s, vndf_vec3 wm, double n[3])
 {
-    slope_frame f = seen_frame(s);
+    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
     double u = wm.x / f.xx, v = wm.y / f.yy, length = sqrt(u * u + v * v + (double)wm.z * wm.z);
     n[0] = (f.x * u + f.y * v) / length, n[1] = (f.x * v - f.y * u) / length, n[2] = wm.z / length;
 }
@@ -15,7 +15,7 @@ static void turned(const seen *s, vndf_vec3 wm, double n[3])
 /* What u1 moves (which 0) and what u2 moves. */
 static double coordinate(const seen *s, int which, vndf_vec3 wm)
 {
-    slope_frame f = seen_frame(s);
+    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
     double n[3], length = hypot(f.s, f.c), facing;
     turned(s, wm, n);
     if (s->of.lobe[0].surface.distribution == vndf_beckmann())
@@ -85,19 +85,19 @@ static void test_view(const seen *s, const char *name, int pairs, unsigned long 
     }
 }
 
-int main(int arguments, char **argument)
+static void test_subject(const subject *of, size_t index)
 {
     static const double thetas[] = {1, 30, 60, 85, 89.99, 90, 90.01, 92, 100, 130};
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        unsigned long long state = 4;
-        subject of = subject_open(i);
-        for (size_t j = 0; of.d && j < 20; j++) {
-            seen s = seen_surface(of.d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1,
-                                  oracle_direction(thetas[j / 2], 17.0 * (double)j));
-            if (oracle_wanted(arguments, argument, i, of.name) && seen_area(&s, s.wi) > 1e-4f)
-                test_view(&s, of.name, (int)test_amount(100, 400, 20000), &state);
-        }
-        vndf_free(of.owned);
+    unsigned long long state = 4 + index;
+    for (size_t j = 0; j < 20; j++) {
+        seen s = seen_surface(of->d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1,
+                              oracle_direction(thetas[j / 2], 17.0 * (double)j));
+        if (seen_quantity(&s, AREA, s.wi) > 1e-4f)
+            test_view(&s, of->name, (int)test_amount(100, 400, 20000), &state);
     }
-    return test_done();
+}
+
+int main(int arguments, char **argument)
+{
+    return subjects_test(arguments, argument, test_subject);
 }

@@ -25,73 +25,73 @@ static int same_shape(const vndf_affine *a, const vndf_affine *b)
     return memcmp(&a->xx, &b->xx, 6 * sizeof(float)) == 0;
 }
 
-/* ---- between knots ---- */
+static vndf_family_place at(const vndf_family *family, float p, const vndf_affine *shape, vndf_mixture *m)
+{
+    memset(m, 0x5a, sizeof *m);
+    return vndf_family_at(family, p, shape, m);
+}
 
 static void test_between(const vndf_family *family, const vndf_distribution *const *all, unsigned long long *state)
 {
     size_t knot = test_random_bits(state) % (KNOTS - 1);
     double a = parameters[knot], b = parameters[knot + 1];
     float p = (float)random_between(state, a * 1.0001, b * 0.9999);
-    vndf_affine shape = random_shape(state);
+    const vndf_affine shape = random_shape(state);
     vndf_mixture m, untouched;
-    memset(&m, 0x5a, sizeof m);
-    untouched = m;
-    TEST(vndf_family_at(family, p, &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
+    memset(&untouched, 0x5a, sizeof untouched);
+    TEST(at(family, p, &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
     double t = family->reciprocal ? (1 / (double)p - 1 / a) / (1 / b - 1 / a) : (p - a) / (b - a);
     TEST_NEAR((double)m.lobe[1].weight, t, 1e-6);
     TEST_NEAR((double)m.lobe[0].weight + (double)m.lobe[1].weight, 1, 1e-7);
-    TEST(m.lobe[0].surface.distribution == all[knot] && m.lobe[1].surface.distribution == all[knot + 1]);
-    TEST(same_shape(&m.lobe[0].surface, &shape) && same_shape(&m.lobe[1].surface, &shape));
+    for (size_t i = 0; i < 2; i++)
+        TEST(m.lobe[i].surface.distribution == all[knot + i] && same_shape(&m.lobe[i].surface, &shape));
     TEST(memcmp(&m.lobe[2], &untouched.lobe[2], sizeof m.lobe[2]) == 0);
 }
 
-/* ---- one lobe ---- */
-
-static void test_one(const vndf_family *family, float p, vndf_family_place place, const vndf_distribution *of,
-                     unsigned long long *state)
+/* At a knot and beyond the ends there is one lobe, which is that distribution. */
+static void test_ends(const vndf_family *family, const vndf_distribution *const *all, unsigned long long *state)
 {
-    vndf_affine shape = random_shape(state), own = shape;
+    const struct end {
+        float p;
+        vndf_family_place place;
+        int knot;
+    } ends[] = {{parameters[0], VNDF_FAMILY_INSIDE, 0}, {parameters[1], VNDF_FAMILY_INSIDE, 1},
+                {parameters[2], VNDF_FAMILY_INSIDE, 2}, {0.49999f, VNDF_FAMILY_BELOW, 0},
+                {-HUGE_VALF, VNDF_FAMILY_BELOW, 0},     {40.001f, VNDF_FAMILY_ABOVE, 2},
+                {HUGE_VALF, VNDF_FAMILY_ABOVE, 2}};
+    const vndf_affine shape = random_shape(state);
     vndf_mixture m;
-    TEST(vndf_family_at(family, p, &shape, &m) == place);
-    if (!TEST(m.count == 1 && m.lobe[0].weight == 1.0f && m.lobe[0].surface.distribution == of))
-        return;
-    own.distribution = of;
-    vndf_vec3 wi = random_direction(state, -0.7);
-    vndf_mixture_view view = vndf_mixture_view_from(&m, wi);
-    vndf_view alone = vndf_affine_view_from(&own, wi);
-    float u1 = test_uniform(state), u2 = test_uniform(state), pdf, density;
-    vndf_vec3 a = vndf_mixture_sample(&view, u1, u2, &pdf, NULL), b = vndf_sample(&alone, u1, u2, &density);
-    TEST(memcmp(&a, &b, sizeof a) == 0 && pdf == density);
-    TEST(vndf_mixture_ndf(&m, a) == vndf_affine_ndf(&own, a));
-}
-
-static void test_knots_and_ends(const vndf_family *family, const vndf_distribution *const *all,
-                                unsigned long long *state)
-{
-    for (size_t i = 0; i < KNOTS; i++)
-        test_one(family, parameters[i], VNDF_FAMILY_INSIDE, all[i], state);
-    test_one(family, 0.49999f, VNDF_FAMILY_BELOW, all[0], state);
-    test_one(family, -HUGE_VALF, VNDF_FAMILY_BELOW, all[0], state);
-    test_one(family, 40.001f, VNDF_FAMILY_ABOVE, all[2], state);
-    test_one(family, HUGE_VALF, VNDF_FAMILY_ABOVE, all[2], state);
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        TEST(at(family, ends[i].p, &shape, &m) == ends[i].place && m.count == 1 && m.lobe[0].weight == 1);
+        TEST(m.lobe[0].surface.distribution == all[ends[i].knot] && same_shape(&m.lobe[0].surface, &shape));
+    }
     for (size_t i = 0; i < KNOTS; i++) { /* beside a knot the neighbour is next to nothing */
-        vndf_affine shape = random_shape(state);
-        vndf_mixture m;
-        vndf_family_place place = vndf_family_at(family, nextafterf(parameters[i], 1), &shape, &m);
-        TEST(place == VNDF_FAMILY_INSIDE && m.count == 2);
+        TEST(at(family, nextafterf(parameters[i], 1), &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
         TEST(fminf(m.lobe[0].weight, m.lobe[1].weight) < 2e-6f && m.lobe[0].weight >= 0 && m.lobe[1].weight >= 0);
     }
 }
 
+/* One lobe of a mixture has the bits of its surface. */
+static void test_bits(const vndf_family *family, unsigned long long *state)
+{
+    vndf_affine shape = random_shape(state);
+    vndf_mixture m;
+    at(family, parameters[2], &shape, &m);
+    const vndf_vec3 wi = random_direction(state, -0.7);
+    const seen one = seen_from(SEEN_AFFINE, &m, wi), mixed = seen_from(SEEN_MIXTURE, &m, wi);
+    float u1 = test_uniform(state), u2 = test_uniform(state), pdf, density;
+    vndf_vec3 a = seen_draw(&one, u1, u2, &pdf), b = seen_draw(&mixed, u1, u2, &density);
+    TEST(memcmp(&a, &b, sizeof a) == 0 && pdf == density);
+    TEST(seen_quantity(&one, NDF, a) == seen_quantity(&mixed, NDF, a));
+}
+
 static void test_invalid(const vndf_family *family)
 {
-    vndf_affine shape = {NULL, 1, 0, 0, 1, 0, 0};
-    vndf_mixture m = {1, {{shape, 1}}};
-    TEST(vndf_family_at(family, (float)NAN, &shape, &m) == VNDF_FAMILY_INVALID && m.count == 0);
-    m.count = 1;
-    TEST(vndf_family_at(NULL, 1, &shape, &m) == VNDF_FAMILY_INVALID && m.count == 0);
-    m.count = 1;
-    TEST(vndf_family_at(family, 1, NULL, &m) == VNDF_FAMILY_INVALID && m.count == 0);
+    const vndf_affine shape = {NULL, 1, 0, 0, 1, 0, 0};
+    vndf_mixture m;
+    TEST(at(family, (float)NAN, &shape, &m) == VNDF_FAMILY_INVALID && m.count == 0);
+    TEST(at(NULL, 1, &shape, &m) == VNDF_FAMILY_INVALID && m.count == 0);
+    TEST(at(family, 1, NULL, &m) == VNDF_FAMILY_INVALID && m.count == 0);
     TEST(vndf_mixture_view_from(&m, (vndf_vec3){0, 0, 1}).count == 0);
 }
 
@@ -153,7 +153,8 @@ int main(void)
     for (family->reciprocal = 0; family->reciprocal < 2; family->reciprocal++) {
         for (size_t i = 0; i < many; i++)
             test_between(family, all, &state);
-        test_knots_and_ends(family, all, &state);
+        test_ends(family, all, &state);
+        test_bits(family, &state);
     }
     test_invalid(family);
     test_refusals(all);

@@ -6,9 +6,6 @@
 #include "oracle/oracle_surface.h"
 #include "sampler/seen.h"
 
-typedef enum quantity { DENSITY, VISIBLE, NDF, AREA, LAMBDA, G1, QUANTITIES } quantity;
-static const char *const quantity_names[QUANTITIES] = {"density", "visible", "ndf", "area", "lambda", "g1"};
-
 typedef enum family { ROUGH, APART, SHEARED, LEANING, MIXED, FAMILIES } family;
 static const char *const family_names[FAMILIES] = {"roughness", "alphas apart", "matrix", "mean slope", "mixture"};
 
@@ -77,15 +74,7 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
 
 static double ask(const point *p, quantity q)
 {
-    vndf_vec3 wm = vec3_of(p->wm), wi = p->s.wi;
-    switch (q) {
-    case DENSITY: return (double)seen_pdf(&p->s, wm);
-    case VISIBLE: return (double)seen_visible(&p->s, wm);
-    case AREA: return (double)seen_area(&p->s, wi);
-    case NDF: return (double)seen_shape(&p->s, SEEN_NDF, wm);
-    case LAMBDA: return (double)seen_shape(&p->s, SEEN_LAMBDA, wi);
-    default: return (double)seen_shape(&p->s, SEEN_G1, wi);
-    }
+    return (double)seen_quantity(&p->s, q, q < AREA ? vec3_of(p->wm) : p->s.wi);
 }
 
 /* A/cos and its reciprocal, cos being the projection of the mean plane. */
@@ -172,21 +161,20 @@ static void test_family(const subject *of, const oracle_slopes *slopes, family f
         }
 }
 
+static void test_subject(const subject *of, size_t index)
+{
+    oracle_table table = {.numbers = NULL};
+    const oracle_slopes slopes = {index == 0   ? ORACLE_KIND_GGX
+                                  : index == 1 ? ORACLE_KIND_BECKMANN
+                                               : ORACLE_KIND_TABLE,
+                                  &table, NULL};
+    if (index < 2 || TEST(oracle_table_of(&table, of->d)))
+        for (int f = 0; f < FAMILIES; f++)
+            test_family(of, &slopes, (family)f, test_amount(1000, 5000, 200000));
+    oracle_table_free(&table);
+}
+
 int main(int arguments, char **argument)
 {
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject of = subject_open(i);
-        oracle_table table = {.numbers = NULL};
-        oracle_slopes slopes = {i == 0   ? ORACLE_KIND_GGX
-                                : i == 1 ? ORACLE_KIND_BECKMANN
-                                         : ORACLE_KIND_TABLE,
-                                &table, NULL};
-        if (oracle_wanted(arguments, argument, i, of.name) && of.d &&
-            (i < 2 || TEST(oracle_table_of(&table, of.d))))
-            for (int f = 0; f < FAMILIES; f++)
-                test_family(&of, &slopes, (family)f, test_amount(1000, 5000, 200000));
-        oracle_table_free(&table);
-        vndf_free(of.owned);
-    }
-    return test_done();
+    return subjects_test(arguments, argument, test_subject);
 }

@@ -23,7 +23,7 @@ if(status EQUAL 0 OR NOT output MATCHES "data race")
 endif()
 
 set(sources ${SOURCE}/tests/sampler/test_threads.c)
-foreach(room core math kernel table sampler)
+foreach(room core math kernel table sampler bsdf)
     file(GLOB_RECURSE room_sources ${SOURCE}/src/${room}/*.c)
     list(APPEND sources ${room_sources})
 endforeach()

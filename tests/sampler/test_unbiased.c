@@ -106,7 +106,7 @@ static void test_setting(const subject *of, const setting *at, size_t samples)
     const oracle_slopes slopes = {ORACLE_KIND_FORMULA, NULL, &of->shape};
     seen s = seen_surface(of->d, ax, ay, wi);
     truth t = {oracle_surface_from(slopes, &shape), {(double)wi.x, (double)wi.y, (double)wi.z}, 0, 0};
-    slope_frame frame = seen_frame(&s);
+    slope_frame frame = slope_frame_from(&shape, wi, 0);
     double expected[FUNCTIONS], error = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
     int failures = test_failures;
     t.area = oracle_surface_area(&t.surface, t.wi);
@@ -122,14 +122,13 @@ static void test_setting(const subject *of, const setting *at, size_t samples)
         seen_print(&s, of->name);
 }
 
+static void test_subject(const subject *of, size_t index)
+{
+    for (size_t j = index % 2; j < SETTINGS; j += test_long() ? 1 : 2)
+        test_setting(of, &settings[j], test_amount(10000, 50000, 1000000));
+}
+
 int main(int arguments, char **argument)
 {
-    for (size_t i = 0; i < SUBJECT_COUNT; i++) {
-        subject s = subject_open(i);
-        for (size_t j = i % 2; s.d && j < SETTINGS; j += test_long() ? 1 : 2)
-            if (oracle_wanted(arguments, argument, i, s.name))
-                test_setting(&s, &settings[j], test_amount(10000, 50000, 1000000));
-        vndf_free(s.owned);
-    }
-    return test_done();
+    return subjects_test(arguments, argument, test_subject);
 }

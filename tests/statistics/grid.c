@@ -5,19 +5,15 @@
 
 #include "cli/sort.h"
 
-static void place_evenly(double *border, size_t parts, double low, double high)
-{
-    for (size_t i = 0; i <= parts; i++)
-        border[i] = low + (high - low) * (double)i / (double)parts;
-}
-
 void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1)
 {
     memset(g, 0, sizeof *g);
     g->rows = rows;
     g->columns = columns;
-    place_evenly(g->x, rows, x0, x1);
-    place_evenly(g->y, columns, y0, y1);
+    for (size_t i = 0; i <= rows; i++)
+        g->x[i] = x0 + (x1 - x0) * (double)i / (double)rows;
+    for (size_t i = 0; i <= columns; i++)
+        g->y[i] = y0 + (y1 - y0) * (double)i / (double)columns;
 }
 
 /* From the least to the largest: beyond them a quadrature that looks at few places may find nothing. */
@@ -42,119 +38,88 @@ size_t grid_elsewhere(const grid *g)
 
 /* ---- integrals ---- */
 
-typedef struct integrand {
-    grid_density *density;
-    const void *of;
-} integrand;
-
-/* Gauss-Legendre with three points in both. */
-static double rule(const integrand *f, const double x[2], const double y[2])
+/* Gauss-Legendre with five points in both. */
+static double rule(grid_density *f, const void *of, const double x[2], const double y[2])
 {
-    static const double node[3] = {-0.7745966692414834, 0, 0.7745966692414834}, weight[3] = {5, 8, 5};
-    double sum = 0, mx = (x[0] + x[1]) / 2, hx = (x[1] - x[0]) / 2, my = (y[0] + y[1]) / 2, hy = (y[1] - y[0]) / 2;
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            sum += weight[i] * weight[j] * f->density(mx + hx * node[i], my + hy * node[j], f->of);
-    return sum * hx * hy / 81;
+    static const double node[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
+                                   0.906179845938664};
+    static const double weight[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366,
+                                     0.236926885056189};
+    double sum = 0, h = (x[1] - x[0]) / 2, k = (y[1] - y[0]) / 2;
+    for (int i = 0; i < 25; i++)
+        sum += weight[i / 5] * weight[i % 5] * f(x[0] + h * (1 + node[i / 5]), y[0] + k * (1 + node[i % 5]), of);
+    return sum * h * k;
 }
 
-enum { DEPTH = 8 };
-
-static double adaptive(const integrand *f, const double x[2], const double y[2], double whole, double allowed,
-                       int depth)
+static double halve(grid_density *f, const void *of, const double x[2], const double y[2], double whole,
+                    double allowed, int halvings)
 {
-    double mx = (x[0] + x[1]) / 2, my = (y[0] + y[1]) / 2, part[4], sum = 0;
+    const double mx = (x[0] + x[1]) / 2, my = (y[0] + y[1]) / 2;
     const double xs[2][2] = {{x[0], mx}, {mx, x[1]}}, ys[2][2] = {{y[0], my}, {my, y[1]}};
-    for (int i = 0; i < 4; i++)
-        sum += part[i] = rule(f, xs[i / 2], ys[i % 2]);
-    if (depth == 0 || (depth < DEPTH && fabs(sum - whole) <= allowed))
-        return sum;
-    sum = 0;
-    for (int i = 0; i < 4; i++)
-        sum += adaptive(f, xs[i / 2], ys[i % 2], part[i], allowed / 2, depth - 1);
-    return sum;
+    double a[2], b[2];
+    for (int i = 0; i < 2; i++)
+        a[i] = rule(f, of, xs[i], y), b[i] = rule(f, of, x, ys[i]);
+    double by_x = fabs(a[0] + a[1] - whole), by_y = fabs(b[0] + b[1] - whole);
+    if (halvings == 0 || fmax(by_x, by_y) <= fmax(1e-5 * whole, allowed))
+        return a[0] + a[1] + b[0] + b[1] - whole;
+    if (by_x > by_y)
+        return halve(f, of, xs[0], y, a[0], allowed, halvings - 1) +
+               halve(f, of, xs[1], y, a[1], allowed, halvings - 1);
+    return halve(f, of, x, ys[0], b[0], allowed, halvings - 1) +
+           halve(f, of, x, ys[1], b[1], allowed, halvings - 1);
 }
 
-/* Where a bin is cut first: towards neighbours that are much narrower, and where nothing was found in it towards those
- * that hold something, more finely. What is there may reach into it by less than the points of a rule are apart.
- * Returns how many parts there are. */
+double grid_integral(grid_density *f, const void *of, const double x[2], const double y[2], double allowed)
+{
+    return halve(f, of, x, y, rule(f, of, x, y), allowed, 24);
+}
+
+/* Where interval i is cut first: towards neighbours that are much narrower (before, after), and again, more finely,
+ * where nothing was found in it, towards those that hold something. What is there may reach into it by less than the
+ * points of a rule are apart. Returns how many parts there are. */
 enum { CUTS = 7, WIDE = 8 };
 
-static size_t cut_bin(double cut[CUTS + 1], const double *border, size_t i, int before, int after, int finely)
+static size_t cut(double at[CUTS + 1], const double *border, size_t i, size_t count, const int held[2], int again)
 {
-    double from = border[i], to = border[i + 1], width = to - from;
+    static const double part[3] = {1.0 / 8192, 1.0 / 512, 1.0 / 32};
+    const double from = border[i], to = border[i + 1], width = to - from;
+    const int before = again ? held[0] : i > 0 && width > WIDE * (from - border[i - 1]);
+    const int after = again ? held[1] : i + 1 < count && width > WIDE * (border[i + 2] - to);
     size_t parts = 0;
-    cut[parts++] = from;
-    if (before) {
-        if (finely)
-            cut[parts++] = from + width / 8192;
-        cut[parts++] = from + width / 512;
-        cut[parts++] = from + width / 32;
-    }
-    if (after) {
-        cut[parts++] = to - width / 32;
-        cut[parts++] = to - width / 512;
-        if (finely)
-            cut[parts++] = to - width / 8192;
-    }
-    cut[parts] = to;
+    at[parts++] = from;
+    for (int k = !again; before && k < 3; k++)
+        at[parts++] = from + width * part[k];
+    for (int k = 2; after && k >= !again; k--)
+        at[parts++] = to - width * part[k];
+    at[parts] = to;
     return parts;
 }
 
-/* The sides of a bin that it is cut towards. */
-typedef struct sides {
-    int below, above, left, right;
-} sides;
-
-static int is_wide_before(const double *border, size_t i)
+/* Of bin i; 0 where there is nothing to be looked for again. */
+static double expect(const grid *g, grid_density *density, const void *of, size_t i, int again, double allowed)
 {
-    return i > 0 && border[i + 1] - border[i] > WIDE * (border[i] - border[i - 1]);
-}
-
-static int is_wide_after(const double *border, size_t i, size_t count)
-{
-    return i + 1 < count && border[i + 1] - border[i] > WIDE * (border[i + 2] - border[i + 1]);
-}
-
-static sides narrow_sides(const grid *g, size_t row, size_t column)
-{
-    return (sides){is_wide_before(g->x, row), is_wide_after(g->x, row, g->rows), is_wide_before(g->y, column),
-                   is_wide_after(g->y, column, g->columns)};
-}
-
-static sides held_sides(const grid *g, size_t row, size_t column)
-{
-    const double *here = g->expected + row * g->columns + column;
-    return (sides){row > 0 && here[-(ptrdiff_t)g->columns] > 0, row + 1 < g->rows && here[g->columns] > 0,
-                   column > 0 && here[-1] > 0, column + 1 < g->columns && here[1] > 0};
-}
-
-static double expect_bin(const grid *g, const integrand *f, size_t i, sides towards, int finely, double allowed)
-{
+    const size_t row = i / g->columns, column = i % g->columns;
+    const double *here = g->expected + i;
+    const int rows[2] = {row > 0 && here[-(ptrdiff_t)g->columns] > 0, row + 1 < g->rows && here[g->columns] > 0},
+              columns[2] = {column > 0 && here[-1] > 0, column + 1 < g->columns && here[1] > 0};
     double x[CUTS + 1], y[CUTS + 1], sum = 0;
-    size_t row = i / g->columns, column = i % g->columns;
-    size_t rows = cut_bin(x, g->x, row, towards.below, towards.above, finely),
-           columns = cut_bin(y, g->y, column, towards.left, towards.right, finely);
-    for (size_t part = 0; part < rows * columns; part++) {
-        const double *at = x + part / columns, *along = y + part % columns;
-        sum += adaptive(f, at, along, rule(f, at, along), allowed, DEPTH);
-    }
+    if (!(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]) ||
+        (again && !(rows[0] || rows[1] || columns[0] || columns[1])))
+        return 0;
+    size_t across = cut(x, g->x, row, g->rows, rows, again),
+           along = cut(y, g->y, column, g->columns, columns, again);
+    for (size_t part = 0; part < across * along; part++)
+        sum += grid_integral(density, of, x + part / along, y + part % along, allowed);
     return sum;
 }
 
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed)
 {
-    const integrand f = {density, of};
     double mass = 0;
     for (int again = 0; again < 2; again++)
-        for (size_t i = 0; i < grid_elsewhere(g); i++) {
-            size_t row = i / g->columns, column = i % g->columns;
-            sides towards = again ? held_sides(g, row, column) : narrow_sides(g, row, column);
-            int is_empty = !(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]);
-            int is_missed = again && (towards.below || towards.above || towards.left || towards.right);
-            if (!is_empty && (!again || (g->expected[i] <= 0 && is_missed)))
-                g->expected[i] = samples * expect_bin(g, &f, i, towards, again, allowed);
-        }
+        for (size_t i = 0; i < grid_elsewhere(g); i++)
+            if (!again || g->expected[i] <= 0)
+                g->expected[i] = samples * expect(g, density, of, i, again, allowed);
     for (size_t i = 0; i < grid_elsewhere(g); i++)
         mass += g->expected[i] / samples;
     g->expected[grid_elsewhere(g)] = fmax(1 - mass, 0) * samples;

@@ -25,10 +25,14 @@ void grid_quantiles(double *border, size_t parts, double *pilot, size_t count);
 size_t grid_bin(const grid *g, double x, double y);
 size_t grid_elsewhere(const grid *g);
 
-/* Writes the integral of the density over every bin, times `samples`, to `expected`, and what they leave of 1 to the
- * last; returns the integral. Bins are halved both ways until that changes less than `allowed`, of 1, at least
- * once, since a bin may hold a narrow peak, and eight times at most, where the density has an edge. */
+/* The integral over a rectangle, which is halved, the way that changes more, until that changes less than `allowed`,
+ * or a hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an
+ * edge. */
 typedef double grid_density(double x, double y, const void *of);
+double grid_integral(grid_density *density, const void *of, const double x[2], const double y[2], double allowed);
+
+/* Writes the integral over every bin, times `samples`, to `expected`, and what they leave of 1 to the last; returns the
+ * integral of all. */
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed);
 
 /* Of all bins together; those that expect less than 5 are pooled with their neighbours. */

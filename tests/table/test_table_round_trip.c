@@ -51,7 +51,7 @@ static void test_round_trip(size_t kind)
     const char *path = "test_table_round_trip.vndf";
     oracle o = oracle_get(kind);
     vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = oracle_build(&o, 4096, NULL);
+    vndf_distribution *table = oracle_build(o.name, 4096, NULL, NULL);
     TEST(table && vndf_save(table, path, &error) == VNDF_OK);
     vndf_distribution *loaded = vndf_load(path, &error);
     if (TEST(loaded != NULL))

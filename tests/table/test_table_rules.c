@@ -27,7 +27,7 @@ static float get_f32(const unsigned char *bytes)
 static int make_table(table_bytes *t)
 {
     oracle o = oracle_get(ORACLE_LAPLACE);
-    vndf_distribution *table = oracle_build(&o, 8192, NULL);
+    vndf_distribution *table = oracle_build(o.name, 8192, NULL, NULL);
     t->size = vndf_distribution_info(table).bytes;
     int made = TEST(table && t->size <= ROOM && vndf_save_memory(table, t->bytes, t->size, NULL) == VNDF_OK);
     vndf_free(table);

@@ -65,8 +65,7 @@ enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 }; /* of table/table.h */
 /* Where the law begins for an eighth of an octave of rho: the last knot with a turn below the middle of it. */
 HERE whole look_first(table t, whole eighth)
 {
-    whole last = set_whole(VNDF_RHO_PARTS - 1);
-    real rho = pick(same(eighth, last), set(3e38f), of_bits(((eighth + VNDF_RHO_FIRST) << 20) + 524288));
+    real rho = of_bits(((eighth + VNDF_RHO_FIRST) << 20) + 524288);
     whole first = set_whole(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
