@@ -14,25 +14,26 @@
 typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
     int plain;
+    real determinant; /* of M */
 } affine_map;
 
-/* |det M|. Only matrices that turn or shear need all the digits of their products. */
-HERE real affine_determinant(affine_map m)
+/* The same with its determinant. Only matrices that turn or shear need all the digits of their products. */
+HERE affine_map affine_measured(affine_map m)
 {
-    real determinant = size(m.xx * m.yy);
-    if (m.plain > 0)
-        return determinant;
-    mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
-    if (any(sheared))
-        determinant = pick(sheared, size(difference_of_products(m.xx, m.yy, m.xy, m.yx)), determinant);
-    return determinant;
+    m.determinant = m.xx * m.yy;
+    if (m.plain == 0) {
+        mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
+        if (any(sheared))
+            m.determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), m.determinant);
+    }
+    return m;
 }
 
 /* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold;
  * mean slopes up to 1e6. NaN fails all comparisons. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = affine_determinant(m), means = set(0.0f), entries = m.xx + m.yy;
+    real determinant = size(m.determinant), means = set(0.0f), entries = m.xx + m.yy;
     if (m.plain == 0) {
         means = size(m.mean_x) + size(m.mean_y);
         entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
@@ -101,7 +102,7 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
 {
     stretched w = affine_stretched(m, x, y, z);
     real one = set(1.0f), near = 6e-7f * ((size(x) + size(y)) + size(z)) + 2e-12f;
-    frame f = {m, x, y, z, w.x, w.y, w.z, one, one, affine_determinant(m), set(3.4028234e38f), near};
+    frame f = {m, x, y, z, w.x, w.y, w.z, one, one, size(m.determinant), set(3.4028234e38f), near};
     real under = w.x * w.x + w.y * w.y, square = under + w.z * w.z;
     mask odd = either(less(square, set(1e-4f)), less(set(1e4f), square));
     if (any(odd))
@@ -172,19 +173,18 @@ typedef struct unit_normal {
 HERE unit_normal frame_normal(frame f, real x, real y, real z)
 {
     affine_map m = f.m;
-    real determinant = m.xx * m.yy, along = m.yy * x, aside = m.xx * y;
+    real along = m.yy * x, aside = m.xx * y;
     if (m.plain == 0) {
         real a = x + m.mean_x * z, b = y + m.mean_y * z;
         along = m.yy * a;
         aside = m.xx * b;
         mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
         if (any(sheared)) { /* which takes all the digits of products */
-            determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), determinant);
             along = pick(sheared, difference_of_products(m.yy, a, m.xy, b), along);
             aside = pick(sheared, difference_of_products(m.xx, b, m.yx, a), aside);
         }
     }
-    real per = 1.0f / determinant;
+    real per = 1.0f / m.determinant;
     unit_normal n = {along * per, aside * per, z, ((f.wx * x + f.wy * y) + f.wz * z) * f.scale};
     return n;
 }

@@ -12,7 +12,8 @@ typedef struct vndf_mapped {
 
 VNDF_INLINE vndf_mapped mapped(const vndf_distribution *d, affine_map m)
 {
-    vndf_mapped s = {any(affine_is_valid(m)) ? d : NULL, m};
+    vndf_mapped s = {d, affine_measured(m)};
+    s.distribution = any(affine_is_valid(s.m)) ? d : NULL;
     return s;
 }
 
@@ -22,7 +23,7 @@ VNDF_INLINE vndf_mapped affine_mapped(const vndf_affine *a)
     if (!a || !a->distribution)
         return none;
     float unit = a->distribution->unit;
-    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, 0};
+    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, 0, 0.0f};
     return mapped(a->distribution, m);
 }
 
@@ -32,7 +33,7 @@ VNDF_INLINE vndf_mapped surface_mapped(const vndf_surface *s)
     if (!s || !s->distribution || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
         return none;
     float unit = s->distribution->unit;
-    affine_map m = {s->alpha_x * unit, 0.0f, 0.0f, s->alpha_y * unit, 0.0f, 0.0f, 1};
+    affine_map m = {s->alpha_x * unit, 0.0f, 0.0f, s->alpha_y * unit, 0.0f, 0.0f, 1, 0.0f};
     return mapped(s->distribution, m);
 }
 

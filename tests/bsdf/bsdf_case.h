@@ -84,6 +84,44 @@ static inline void bsdf_numbers(unsigned long long *state, float u[3])
         u[i] = test_uniform(state);
 }
 
+/* Beside total reflection F hangs on the last digits of wi and wo, whose lengths are not quite 1. */
+static inline int bsdf_is_beside_total(float eta, vndf_vec3 wi, vndf_vec3 wo)
+{
+    double square = 0.5 * (1 + (double)wi.x * wo.x + (double)wi.y * wo.y + (double)wi.z * wo.z);
+    double index = wi.z > 0 ? (double)eta : 1 / (double)eta;
+    return (wi.z > 0) == (wo.z > 0) && eta > 0 && fabs(1 - (1 - square) / (index * index)) < 0.01;
+}
+
+/* f |cos_o| over the density, and that density. */
+typedef struct bsdf_look {
+    double pdf, weight[VNDF_WAVELENGTHS];
+} bsdf_look;
+
+static inline bsdf_look bsdf_look_at(const vndf_bsdf *bsdf, vndf_vec3 wo)
+{
+    float f[VNDF_WAVELENGTHS], pdf;
+    vndf_bsdf_eval_pdf(bsdf, wo, 0, f, &pdf);
+    bsdf_look at = {(double)pdf, {0}};
+    for (int i = 0; i < bsdf->material->is.wavelengths && pdf > 0; i++)
+        at.weight[i] = (double)f[i] * fabs((double)vndf_bsdf_cosine(bsdf, wo)) / (double)pdf;
+    return at;
+}
+
+/* How far one rounding of wo moves both. */
+static inline bsdf_look bsdf_spread(const vndf_bsdf *bsdf, vndf_vec3 wo, const bsdf_look *at)
+{
+    bsdf_look sum = {0, {0}};
+    for (int i = 0; i < 6; i++) {
+        float by = i % 2 ? 0x1p-23f : -0x1p-23f;
+        vndf_vec3 near = {wo.x + (i / 2 == 0) * by, wo.y + (i / 2 == 1) * by, wo.z + (i / 2 == 2) * by};
+        bsdf_look other = bsdf_look_at(bsdf, near);
+        sum.pdf += fabs(other.pdf - at->pdf);
+        for (int k = 0; k < VNDF_WAVELENGTHS; k++)
+            sum.weight[k] += other.pdf > 0 ? fabs(other.weight[k] - at->weight[k]) : 0;
+    }
+    return sum;
+}
+
 static inline void bsdf_describe(const vndf_description *is, const char *ndf, vndf_vec3 wi, vndf_vec3 wo)
 {
     char text[ORACLE_EFFECTS_TEXT];

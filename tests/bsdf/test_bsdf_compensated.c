@@ -123,20 +123,13 @@ static double f_of(const vndf_description *is, vndf_vec3 wi, vndf_vec3 wo)
     return (double)f[0];
 }
 
-static int is_beside_total(const subject *s, vndf_vec3 wi, vndf_vec3 wo)
-{
-    double square = 0.5 * (1 + (double)wi.x * wo.x + (double)wi.y * wo.y + (double)wi.z * wo.z);
-    double index = wi.z > 0 ? (double)s->eta : 1 / (double)s->eta;
-    return (wi.z > 0) == (wo.z > 0) && s->eta > 0 && fabs(1 - (1 - square) / (index * index)) < 0.01;
-}
-
 static void check_pair(const subject *s, float alpha, vndf_vec3 wi, vndf_vec3 wo)
 {
     vndf_description is = describe(s, VNDF_SCATTERING_KULLA_CONTY, alpha), turquin = describe(s, WAYS[0], alpha),
                      single = describe(s, VNDF_SCATTERING_SINGLE, alpha);
     double index = s->eta > 0 ? (double)s->eta : 1, eta_i = wi.z > 0 ? 1 : index, eta_o = wo.z > 0 ? 1 : index;
     double there = f_of(&is, wi, wo) / (eta_o * eta_o), back = f_of(&is, wo, wi) / (eta_i * eta_i);
-    if (there > 1e-12 && there < 1e20 && !is_beside_total(s, wi, wo))
+    if (there > 1e-12 && there < 1e20 && !bsdf_is_beside_total(s->eta, wi, wo))
         TEST_NEAR(there / back, 1, 4e-5);
     double f = f_of(&single, wi, wo), scaled = f_of(&turquin, wi, wo);
     float e = vndf_albedo_directional(s->albedo, wi.z, alpha);
@@ -146,30 +139,16 @@ static void check_pair(const subject *s, float alpha, vndf_vec3 wi, vndf_vec3 wo
     TEST(f_of(&is, wi, wo) >= f * (1 - 1e-6));
 }
 
-/* How far one rounding of wo moves the density of samples. */
-static double spread_of(const vndf_bsdf *bsdf, vndf_vec3 wo, double pdf)
-{
-    double sum = 0;
-    for (int i = 0; i < 6; i++) {
-        float by = i % 2 ? 0x1p-23f : -0x1p-23f;
-        vndf_vec3 near = {wo.x + (i / 2 == 0) * by, wo.y + (i / 2 == 1) * by, wo.z + (i / 2 == 2) * by};
-        sum += fabs((double)vndf_bsdf_pdf(bsdf, near) - pdf);
-    }
-    return sum;
-}
-
 static void check_sample(const vndf_bsdf *b, const float u[3])
 {
     vndf_scattered s;
-    float f[VNDF_WAVELENGTHS], pdf;
     vndf_bsdf_sample(b, u, &s);
     if (s.lobe == VNDF_LOBE_NONE || !(s.density > 1e-20f) || !(s.density < 1e20f))
         return;
-    vndf_bsdf_eval_pdf(b, s.wo, 0, f, &pdf);
-    double want = (double)f[0] * fabs((double)s.wo.z) / (double)pdf;
-    TEST_NEAR((double)pdf, (double)s.density, 1e-5 * (double)pdf + spread_of(b, s.wo, (double)pdf));
-    TEST_NEAR((double)s.weight[0], want, 2e-4 * fmax(want, 1e-2));
-    TEST(pdf == vndf_bsdf_pdf(b, s.wo));
+    bsdf_look at = bsdf_look_at(b, s.wo), spread = bsdf_spread(b, s.wo, &at);
+    TEST_NEAR(at.pdf, (double)s.density, 1e-5 * at.pdf + spread.pdf);
+    TEST_NEAR((double)s.weight[0], at.weight[0], 2e-4 * fmax(at.weight[0], 1e-2));
+    TEST(vndf_bsdf_pdf(b, s.wo) == (float)at.pdf);
 }
 
 static void test_values(const subject *s)

@@ -1,7 +1,7 @@
 /* No NaN and nothing infinite or negative comes out of the BSDF layer, whatever bits go in; directions that are
  * NaN, infinite or zero, at either end, and roughness that is not above 0, scatter nothing. Random bits of all
  * numbers at a hit, for every set of effects that makes sense, walks and all shapes among them, roughness from 1e-15
- * to 1e15; then one invalid number at a time; uniform numbers outside [0, 1] are as good as any. */
+ * to 1e15; uniform numbers outside [0, 1] are as good as any. */
 #include <float.h>
 
 #include "bsdf/bsdf_case.h"
@@ -25,7 +25,7 @@ static vndf_vec3 some_direction(unsigned long long *state)
     w.x = some_number(state);
     w.y = some_number(state);
     w.z = some_number(state);
-    return w;
+    return test_uniform(state) < 0.1f ? (vndf_vec3){0, 0, 0} : w;
 }
 
 static int sound(float x)
@@ -71,36 +71,13 @@ static void test_any(const vndf_description *is, const vndf_material *material, 
     vndf_roughness r = {is->alpha_x, is->alpha_y, cosf(turn), sinf(turn)};
     int is_rough = is->effects.shape <= VNDF_SHAPE_ROTATED;
     if (test_uniform(state) < 0.3f)
-        r.alpha_x = fabsf(some_number(state));
+        *(test_uniform(state) < 0.5f ? &r.alpha_x : &r.alpha_y) = some_number(state);
     if (test_uniform(state) < 0.1f)
         r.cos_rotation = some_number(state);
     int seen = is_rough ? vndf_bsdf_rough(&bsdf, material, &r, wi) : vndf_bsdf_at(&bsdf, material, wi);
-    TEST(!seen || (is_direction(wi) && (!is_rough || (r.alpha_x > 0 && isfinite(r.alpha_x)))));
+    TEST(!seen || (is_direction(wi) &&
+                   (!is_rough || (r.alpha_x > 0 && r.alpha_y > 0 && isfinite(r.alpha_x) && isfinite(r.alpha_y)))));
     check_hit(is, &bsdf, seen, wi, wo, u);
-}
-
-/* One number at a time, of wi, wo and the roughness. */
-static void test_one(const vndf_description *is, const vndf_material *material, unsigned long long *state)
-{
-    static const float bad[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e-30f, 1e30f};
-    const float u[3] = {test_uniform(state), test_uniform(state), test_uniform(state)};
-    vndf_vec3 w[2] = {bsdf_direction(state), bsdf_direction(state)}, zero = {0, 0, 0};
-    vndf_bsdf bsdf;
-    w[0].z = fabsf(w[0].z);
-    for (int i = 0; i < 18; i++) {
-        vndf_vec3 given[2] = {w[0], w[1]};
-        float *const at[] = {&given[i / 9].x, &given[i / 9].y, &given[i / 9].z};
-        *at[i % 3] = bad[i / 3 % 3];
-        int seen = vndf_bsdf_at(&bsdf, material, given[0]);
-        TEST(!seen || i >= 9);
-        check_hit(is, &bsdf, seen, given[0], given[1], u);
-    }
-    check_hit(is, &bsdf, vndf_bsdf_at(&bsdf, material, zero), zero, w[1], u);
-    for (int i = 0; i < 14; i++) {
-        vndf_roughness r = {i % 2 ? 0.3f : bad[i / 2], i % 2 ? bad[i / 2] : 0.3f, 1, 0};
-        TEST(!vndf_bsdf_rough(&bsdf, material, &r, w[0]));
-        check_hit(is, &bsdf, 0, w[0], w[1], u);
-    }
 }
 
 static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigned long long seed)
@@ -118,8 +95,6 @@ static void test_set(const oracle_ndf *ndf, const vndf_effects *effects, unsigne
             continue;
         for (int i = 0; i < 30; i++)
             test_any(&s.is, &material, &state);
-        if (k == 1)
-            test_one(&s.is, &material, &state);
     }
 }
 

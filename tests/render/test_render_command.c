@@ -1,6 +1,8 @@
 /* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2
- * before it writes anything, and ends with 1 where pictures differ. Notices options that are not read, a picture
- * that is half written, text mixed into JSON, and a comparison that alarms about one sample a pixel. */
+ * before it writes anything, and ends with 1 where pictures differ. A picture is the same to the bit for any
+ * number of threads; another seed gives another. Notices options that are not read, sums in the order of
+ * arrival, a picture that is half written, text mixed into JSON, and a comparison that alarms about one sample a
+ * pixel. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  include "harness/run_program.h"
@@ -58,7 +60,9 @@ int main(void)
     TEST_HAS(RUN(0, "ball.scene", "-o", "a.pfm", "--spp", "64", "--threads", "1")->text,
              "8 x 8 pixels, 64 samples each");
     RUN(0, "ball.scene", "-o", "b.pfm", "--spp", "64", "--threads", "3");
-    TEST(run_same("a.pfm", "b.pfm"));
+    RUN(0, "ball.scene", "-o", "c.pfm", "--spp", "64", "--threads", "16");
+    RUN(0, "ball.scene", "-o", "e.pfm", "--spp", "64", "--seed", "1");
+    TEST(run_same("a.pfm", "b.pfm") && run_same("a.pfm", "c.pfm") && !run_same("a.pfm", "e.pfm"));
     RUN(0, "ball.scene", "-o", "other.pfm", "--spp", "4", "--width", "4");
     test_refusals();
     TEST_HAS(RUN(0, "ball.scene", "-o", "c.png", "--spp", "64", "--seed", "5", "--against", "a.pfm")->text,

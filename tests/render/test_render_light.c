@@ -1,14 +1,15 @@
 /* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
  * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
  * rectangles on a matte floor is that of closed forms: R^2/d^2 cos for a sphere, the form factor of a parallel
- * rectangle above its corner; and what stands before a light bars it. A rough metal shows the integral of f cos
- * over lights, from narrow lobes and small lights to wide ones, for all samplers: a sum over points of the light
- * with vndf_bsdf_eval, which shares no code with paths. All samplers show the same of metals and glass, also
- * through refraction and walks; perfect sampling has no more variance than visible normals, which have less than
- * all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their own surface, by
- * roulette, by weights of drawn light, at shading normals; wrong densities, areas, powers and cosines, lights
- * that shine backwards, shadow rays that end too early or too late, candidates that are not kept in proportion
- * to their weight, and a sampler that is not used. */
+ * rectangle above its corner; and what stands before a light bars it. A wall shows the integral over a sky. A
+ * rough metal shows the integral of f cos over lights, from narrow lobes and small lights to wide ones, for all
+ * samplers: a sum over points of the light with vndf_bsdf_eval, which shares no code with paths. All samplers
+ * show the same of metals and glass, also through refraction and walks; perfect sampling has no more variance
+ * than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose or
+ * gain: by rays that meet their own surface, by roulette, by weights of drawn light, at shading normals; rows
+ * and pixels of a sky that are off by one or turned in the other sense, choices that forget a light; wrong
+ * densities, areas, powers and cosines, lights that shine backwards, shadow rays that end too early or too late,
+ * candidates that are not kept in proportion to their weight, and a sampler that is not used. */
 #include "render_case.h"
 
 /* ---- the furnace ---- */
@@ -67,6 +68,8 @@ static double corner_factor(double a, double b)
     return (a / x * atan(b / x) + b / y * atan(a / y)) / (2 * PI);
 }
 
+#define LAMP "material lamp light radiance 8 8 8\n"
+
 static void test_floor(const char *lights, double want)
 {
     char text[2048];
@@ -74,6 +77,34 @@ static void test_floor(const char *lights, double want)
     scene *s = case_point(text);
     if (s && !case_agrees(case_light(s, SAMPLER_VISIBLE, test_amount(64, 512, 512)), want, 1e-4))
         fprintf(stderr, "    %s", lights);
+    scene_free(s);
+}
+
+/* ---- the sky ---- */
+
+/* A wall that faces +x, lit by an image that is turned, and by a lamp too small to hide much of it: the integral
+ * over the image by its own pixels and angles, and the closed form of a sphere. */
+static void test_sky(void)
+{
+    enum { WIDTH = 24, HEIGHT = 14, FINER = 8 };
+    scene *s =
+        case_point("camera from 3 0 0 to 0 0 0\nintegrator depth 1\nmaterial wall matte colour 0.5 0.5 0.5\n"
+                   "rectangle corner 0 -9 9 edge-u 0 0 -18 edge-v 0 18 0 material wall\n"
+                   "image sky pattern studio width 24 height 14\nenvironment image sky turn 40\n" LAMP
+                   "sphere centre 2 1.5 0 radius 0.05 material lamp\n");
+    double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
+    if (!s || !TEST(s->environment.rows != NULL))
+        return;
+    for (int i = 0; i < WIDTH * HEIGHT * FINER * FINER; i++) {
+        const double u = (i % (WIDTH * FINER) + 0.5) / (WIDTH * FINER),
+                     longitude = 2 * PI * (u - 0.5 - 40.0 / 360);
+        const double v = ((double)(i / (WIDTH * FINER)) + 0.5) / (HEIGHT * FINER), across = sin(PI * v);
+        float rgb[3];
+        image_bilinear(s->environment.map, u, fmin(fmax(v, low), 1 - low), rgb);
+        want += 0.5 / PI * luminance(rgb) * fmax(across * sin(longitude), 0) * across * 2 * PI * PI /
+                (WIDTH * HEIGHT * FINER * FINER);
+    }
+    case_agrees(case_light(s, SAMPLER_VISIBLE, test_amount(256, 512, 512)), want, 1e-3);
     scene_free(s);
 }
 
@@ -158,7 +189,6 @@ static void test_all_floors(void)
 {
     const double above = 0.5 * 8 * 0.25 * 0.25 / (2 * 2), aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0);
     const double panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
-#define LAMP "material lamp light radiance 8 8 8\n"
 #define PANEL "rectangle corner -1 2 -0.5 edge-u 2 0 0 edge-v 0 0 1 material lamp\n"
     test_floor(LAMP "sphere centre 0 2 0 radius 0.25 material lamp\n", above);
     test_floor(LAMP "sphere centre 4 3 0 radius 0.25 material lamp\n", aside);
@@ -193,5 +223,6 @@ int main(void)
          variance[SAMPLER_VISIBLE] < variance[SAMPLER_ALL]);
     test_all_furnaces();
     test_all_floors();
+    test_sky();
     return test_done();
 }

@@ -35,8 +35,8 @@ HERE affine_map matrix_of(vndf_surface m)
     float scale = 1.0f;
     if (m.distribution >= 0)               /* only table */
         scale = fetch(m.distribution + 3); /* only table */
-    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0};
-    return s;
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0, 0.0f};
+    return affine_measured(s);
 }
 
 /* A view without what the distribution makes of it. */

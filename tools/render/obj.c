@@ -82,9 +82,14 @@ static int is_word(const reader *r, const char *word)
 
 /* ---- items ---- */
 
-/* Reads the numbers up to the end of the line, `least` at least, and keeps the first three; 0 after a complaint. */
-static int read_numbers(reader *r, const char *what, int least, double values[3])
+/* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
+static int read_item(reader *r, int which)
 {
+    static const char *const names[TABLES] = {"v", "vt", "vn"};
+    const double reach = which == V ? 1e7 : 1e6; /* beyond it float has no digits for the place in a texture */
+    const int least = which == VT ? 1 : 3;
+    table *t = &r->of[which];
+    double p[3] = {0, 0, 0};
     int count = 0;
     for (; next_word(r); count++) {
         char *end;
@@ -93,16 +98,24 @@ static int read_numbers(reader *r, const char *what, int least, double values[3]
             return complain_at(r, "'%.*s' should be a number", quoted(r), r->word);
         if (!(fabs(value) <= 1e30))
             return complain_at(r, "'%.*s' is too large a number", quoted(r), r->word);
-        if (count < 3)
-            values[count] = value;
+        p[count < 3 ? count : 2] = count < 3 ? value : p[2];
     }
-    return count >= least ||
-           complain_at(r, "%s has %d number%s, it should have %d", what, count, count == 1 ? "" : "s", least);
-}
-
-static int append(reader *r, int which, vec3 v)
-{
-    table *t = &r->of[which];
+    if (count < least)
+        return complain_at(r, "%s has %d number%s, it should have %d", names[which], count, count == 1 ? "" : "s",
+                           least);
+    vec3 at = which == VT ? vec(p[0], p[1], 0) : placement_turn(r->where, vec(p[0], p[1], p[2]));
+    if (which == V)
+        at = along(r->where->move, r->where->scale, at);
+    const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
+    if (which != VN && !(largest <= reach))
+        return complain_at(r,
+                           which == V ? "this corner lies farther than %g from the origin"
+                                      : "a texture coordinate is beyond %g",
+                           reach);
+    if (which == VT)
+        at.y = 1 - at.y;
+    if (which == VN && largest > 0)
+        at = unit(scale(at, 1 / largest));
     if (t->count == ITEMS_MAX)
         return complain_at(r, "there are more than %d %s", ITEMS_MAX, table_names[which]);
     if (t->count == t->room) {
@@ -113,41 +126,8 @@ static int append(reader *r, int which, vec3 v)
         t->row = larger;
         t->room = room;
     }
-    t->row[t->count++] = v;
+    t->row[t->count++] = at;
     return 1;
-}
-
-static int read_v(reader *r)
-{
-    const double reach = 1e7;
-    double p[3];
-    if (!read_numbers(r, "v", 3, p))
-        return 0;
-    const vec3 at = along(r->where->move, r->where->scale, placement_turn(r->where, vec(p[0], p[1], p[2])));
-    if (!(fabs(at.x) <= reach && fabs(at.y) <= reach && fabs(at.z) <= reach))
-        return complain_at(r, "this corner lies farther than %g from the origin", reach);
-    return append(r, V, at);
-}
-
-static int read_vt(reader *r)
-{
-    const double reach = 1e6; /* beyond it, float has no digits for the place in a texture */
-    double p[3] = {0, 0, 0};
-    if (!read_numbers(r, "vt", 1, p))
-        return 0;
-    if (!(fabs(p[0]) <= reach && fabs(p[1]) <= reach))
-        return complain_at(r, "a texture coordinate is beyond %g", reach);
-    return append(r, VT, vec(p[0], 1 - p[1], 0));
-}
-
-static int read_vn(reader *r)
-{
-    double p[3];
-    if (!read_numbers(r, "vn", 3, p))
-        return 0;
-    const double largest = fmax(fabs(p[0]), fmax(fabs(p[1]), fabs(p[2])));
-    const vec3 n = placement_turn(r->where, vec(p[0], p[1], p[2]));
-    return append(r, VN, largest > 0 ? unit(scale(n, 1 / largest)) : n);
 }
 
 /* ---- faces ---- */
@@ -239,15 +219,16 @@ static int read_f(reader *r)
 
 /* ---- files ---- */
 
+/* Other lines are ignored. */
 static int read_line(reader *r)
 {
     if (!next_word(r))
         return 1;
-    return is_word(r, "v")    ? read_v(r)
-           : is_word(r, "f")  ? read_f(r)
-           : is_word(r, "vt") ? read_vt(r)
-           : is_word(r, "vn") ? read_vn(r)
-                              : 1;
+    if (is_word(r, "f"))
+        return read_f(r);
+    return is_word(r, "v")    ? read_item(r, V)
+           : is_word(r, "vt") ? read_item(r, VT)
+                              : !is_word(r, "vn") || read_item(r, VN);
 }
 
 static int read_all(reader *r, size_t length)

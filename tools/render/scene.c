@@ -27,7 +27,8 @@ typedef struct reader {
     clause c[CLAUSES_MAX]; /* its clauses */
     size_t folder;         /* the length of the folder in the name of the file, with its slash */
     unsigned seen;         /* a bit for each statement */
-    size_t pixels;         /* of all images so far */
+    const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
+    size_t pixels;                                                   /* of all images so far */
     struct made_table {
         size_t form;
         unsigned bytes;
@@ -64,7 +65,7 @@ static char *path_of(reader *r, const word *at)
         return refuse_word(&r->words, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
     memcpy(path, r->words.name, folder);
     memcpy(path + folder, at->text, letters + 1);
-    const char *role = files_note_input(path);
+    const char *role = files_note(path, 0);
     if (!role)
         return path;
     refuse_word(&r->words, at, "this file is %s as well", role);
@@ -72,17 +73,26 @@ static char *path_of(reader *r, const word *at)
     return NULL;
 }
 
-/* The second word of a statement, a new name. */
-static int new_name(reader *r, const word **name)
+/* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
+static int new_name(reader *r, const char **names, size_t count, size_t most)
 {
+    const char *what = r->list[0].text;
+    const int is_image = strcmp(what, "image") == 0;
     if (r->count < 3)
-        return refuse_word(&r->words, &r->list[0], "'%s' needs a name and what it is, as in '%s'", r->list[0].text,
-                           strcmp(r->list[0].text, "image") == 0 ? "image sky file sky.pfm"
-                                                                 : "material wall matte colour 0.5 0.5 0.5");
-    *name = &r->list[1];
-    size_t letters = strlen((*name)->text);
-    return (letters > 0 && letters < SCENE_NAME) ||
-           refuse_word(&r->words, *name, "a name has 1 to %d letters", SCENE_NAME - 1);
+        return refuse_word(&r->words, &r->list[0], "'%s' needs a name and what it is, as in '%s'", what,
+                           is_image ? "image sky file sky.pfm" : "material wall matte colour 0.5 0.5 0.5");
+    const word *name = &r->list[1];
+    const size_t letters = strlen(name->text);
+    if (!letters || letters >= SCENE_NAME)
+        return refuse_word(&r->words, name, "a name has 1 to %d letters", SCENE_NAME - 1);
+    for (size_t i = 0; i < count; i++)
+        if (strcmp(names[i], name->text) == 0)
+            return refuse_word(&r->words, name, "there is %s '%s' already", is_image ? "an image" : "a material",
+                               name->text);
+    if (count == most)
+        return refuse_word(&r->words, name, "these are more than %zu %ss", most, what);
+    names[count] = name->text;
+    return 1;
 }
 
 /* ---- once in a scene ---- */
@@ -140,13 +150,10 @@ static int read_integrator(reader *r)
 
 static int find_image(reader *r, const clause *c, const image **found)
 {
-    const char *names[SCENE_IMAGES_MAX];
     size_t i;
-    for (i = 0; i < r->made->image_count; i++)
-        names[i] = r->made->image_names[i];
     if (!c->at)
         return 1;
-    if (!read_choice(&r->words, c, "image that is defined before this", names, r->made->image_count, &i))
+    if (!read_choice(&r->words, c, "image that is defined before this", r->images, r->made->image_count, &i))
         return 0;
     *found = &r->made->images[i];
     return 1;
@@ -214,27 +221,20 @@ static int read_image(reader *r)
                                         {"width", "PIXELS", CLAUSE_WHOLE, 1, 1, 0, 1, IMAGE_SIDE_MAX},
                                         {"height", "PIXELS", CLAUSE_WHOLE, 1, 1, 0, 1, IMAGE_SIDE_MAX}};
     scene *s = r->made;
-    const word *name;
-    if (!new_name(r, &name) || !clauses(r, 2, FORMS(forms)))
+    if (!new_name(r, r->images, s->image_count, SCENE_IMAGES_MAX) || !clauses(r, 2, FORMS(forms)))
         return 0;
-    for (size_t i = 0; i < s->image_count; i++)
-        if (strcmp(s->image_names[i], name->text) == 0)
-            return refuse_word(&r->words, name, "there is an image '%s' already", name->text);
-    if (s->image_count == SCENE_IMAGES_MAX)
-        return refuse_word(&r->words, name, "these are more than %d images", SCENE_IMAGES_MAX);
     if (!r->c[0].at == !r->c[1].at)
         return refuse_word(&r->words, &r->list[0], "'image' needs one of 'file PATH' and 'pattern NAME'");
     for (int i = 2; i < 4; i++)
         if (r->c[0].at && r->c[i].at)
             return refuse_word(&r->words, r->c[i].at, "'%s' is of a pattern; a file has its own",
                                r->c[i].at->text);
-    image *made = &s->images[s->image_count];
-    strcpy(s->image_names[s->image_count++], name->text);
+    image *made = &s->images[s->image_count++];
     if (!make_image(r, made))
         return 0;
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX ||
-           refuse_word(&r->words, name, "all images together have more than %d pixels", PIXELS_MAX);
+           refuse_word(&r->words, &r->list[1], "all images together have more than %d pixels", PIXELS_MAX);
 }
 
 /* ---- distributions ---- */
@@ -423,15 +423,9 @@ static int read_material(reader *r)
     static const material_kind made_of[KINDS] = {MATERIAL_ROUGH, MATERIAL_ROUGH, MATERIAL_ROUGH, MATERIAL_MATTE,
                                                  MATERIAL_LIGHT};
     scene *s = r->made;
-    const word *name;
     size_t kind;
-    if (!new_name(r, &name))
+    if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX))
         return 0;
-    for (size_t i = 0; i < s->material_count; i++)
-        if (strcmp(s->materials[i].name, name->text) == 0)
-            return refuse_word(&r->words, name, "there is a material '%s' already", name->text);
-    if (s->material_count == MATERIALS_MAX)
-        return refuse_word(&r->words, name, "these are more than %d materials", MATERIALS_MAX);
     const clause what = {.value = &r->list[2]};
     if (!read_choice(&r->words, &what, "kind of material", kinds, KINDS, &kind) ||
         !clauses(r, 3, material_forms, CLAUSES) || !check_clauses(r, kind))
@@ -443,7 +437,7 @@ static int read_material(reader *r)
         !check_map(r, &r->c[COLOUR_MAP], made.colour_map, "colour", 3, 0, 1) ||
         (made.kind == MATERIAL_ROUGH && !read_rough(r, kind, &made)))
         return 0;
-    strcpy(made.name, name->text);
+    strcpy(made.name, r->list[1].text);
     s->materials[s->material_count++] = made;
     return 1;
 }
@@ -452,15 +446,11 @@ static int read_material(reader *r)
 
 static int find_material(reader *r, const clause *c, int *found)
 {
-    const char *names[MATERIALS_MAX];
     size_t chosen;
-    for (size_t i = 0; i < r->made->material_count; i++)
-        names[i] = r->made->materials[i].name;
-    if (!read_choice(&r->words, c, "material that is defined before this", names, r->made->material_count,
-                     &chosen))
-        return 0;
+    const int is_known = read_choice(&r->words, c, "material that is defined before this", r->materials,
+                                     r->made->material_count, &chosen);
     *found = (int)chosen;
-    return 1;
+    return is_known;
 }
 
 static int add_shape(reader *r, const shape *made)

@@ -55,7 +55,6 @@ typedef struct scene {
     material *materials; /* owned, as are all below */
     size_t material_count;
     image images[SCENE_IMAGES_MAX];
-    char image_names[SCENE_IMAGES_MAX][SCENE_NAME];
     size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
     size_t table_count;

@@ -35,53 +35,35 @@ int refuse_unknown(scene_words *w, const word *at, const char *what, const char 
 
 /* ---- words ---- */
 
-static word *add_word(scene_words *w)
-{
-    if (w->count == w->room) {
-        size_t room = 256 + 2 * w->room;
-        word *larger = realloc(w->list, room * sizeof *larger);
-        if (!larger)
-            return NULL;
-        w->list = larger;
-        w->room = room;
-    }
-    return &w->list[w->count++];
-}
-
-/* The end of a word that begins at `from`; NULL after a refusal. */
-static char *end_of(scene_words *w, const word *at, char *from)
-{
-    char *end = from;
-    if (!at->is_quoted) {
-        while ((unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
-            end++;
-        return end;
-    }
-    end += strcspn(end, "\"\n");
-    if (*end != '"')
-        return refuse_word(w, at, "the quote that begins here does not end on its line"), NULL;
-    return end;
-}
-
 /* Takes the word at *at, which moves behind it. */
 static int take_word(scene_words *w, char **at, const char *line_start, unsigned line)
 {
     const word taken = {*at + (**at == '"'), line, (unsigned)(*at - line_start) + 1, **at == '"',
                         *at == line_start};
-    char *end = end_of(w, &taken, taken.text);
-    word *kept = end ? add_word(w) : NULL;
-    if (!end)
-        return 0;
-    if (!kept)
-        return refuse_word(w, &taken, "there is no memory for the words of this file");
-    *kept = taken;
-    char *behind = end + taken.is_quoted;
+    char *end = taken.text;
+    if (taken.is_quoted)
+        end += strcspn(end, "\"\n");
+    else
+        while ((unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
+            end++;
+    if (taken.is_quoted && *end != '"')
+        return refuse_word(w, &taken, "the quote that begins here does not end on its line");
     if (end == taken.text && !taken.is_quoted)
         return refuse_word(w, &taken, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
+    char *behind = end + taken.is_quoted;
     if (*behind && !strchr(" \t\r\n#", *behind)) {
         const word here = {NULL, line, (unsigned)(behind - line_start) + 1, 0, 0};
         return refuse_word(w, &here, "a blank is missing before this");
     }
+    if (w->count == w->room) {
+        const size_t room = 256 + 2 * w->room;
+        word *larger = realloc(w->list, room * sizeof *larger);
+        if (!larger)
+            return refuse_word(w, &taken, "there is no memory for the words of this file");
+        w->list = larger;
+        w->room = room;
+    }
+    w->list[w->count++] = taken;
     *at = behind;
     return 1;
 }

@@ -70,15 +70,21 @@ HERE affine_map map_at(const block *b, int g)
 {
     const float unit = b->call->distribution->unit;
     const real zero = set(0.0f);
-    affine_map m = {
-        input(b, VNDF_READ_XX, g) * unit, zero, zero, input(b, VNDF_READ_YY, g) * unit, zero, zero, b->plain};
+    affine_map m = {input(b, VNDF_READ_XX, g) * unit,
+                    zero,
+                    zero,
+                    input(b, VNDF_READ_YY, g) * unit,
+                    zero,
+                    zero,
+                    b->plain,
+                    zero};
     if (!m.plain) {
         m.xy = input(b, VNDF_READ_XY, g) * unit;
         m.yx = input(b, VNDF_READ_YX, g) * unit;
         m.mean_x = input(b, VNDF_READ_MEAN_X, g);
         m.mean_y = input(b, VNDF_READ_MEAN_Y, g);
     }
-    return m;
+    return affine_measured(m);
 }
 
 HERE frame frame_at(const block *b, int g)

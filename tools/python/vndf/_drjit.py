@@ -35,7 +35,9 @@ class Law:
 
     def _frame(self, alpha_x: Any, alpha_y: Any, wi: Any) -> Any:
         x, y = alpha_x * self.scale, alpha_y * self.scale
-        return kernel.vndf_frame_of(kernel.vndf_affine_map(x, 0.0, 0.0, y, 0.0, 0.0, 1), wi.x, wi.y, dr.maximum(wi.z, 0.0))
+        return kernel.vndf_frame_of(
+            kernel.vndf_affine_map(x, 0.0, 0.0, y, 0.0, 0.0, 1, x * y), wi.x, wi.y, dr.maximum(wi.z, 0.0)
+        )
 
     def view(self, alpha_x: Any, alpha_y: Any, wi: Any) -> View:
         """A surface seen from wi."""
