@@ -5,7 +5,6 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "cli/files.h"
 #include "cli/output.h"
 #include "vndf.h"
 
@@ -25,8 +24,7 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    if (!files_begin())
-        return STATUS_USE;
+    output_begin();
     int status = dispatch(argc, argv);
     int delivered = output_finish_stdout("vndf");
     return delivered == STATUS_GOOD ? status : delivered;

@@ -23,18 +23,16 @@
 #include <string.h>
 
 #include "cli/random.h"
+#include "cli/sort.h"
 #include "export/document.h"
 
 enum { SUBJECTS_MAX = 64, NUMBERS = 16 };
 
-/* A question as ask.h has it. */
+/* Questions and answers, as ask.h has them: the places of a question. */
 enum { OF, XX, XY, YX, YY, MEAN_X, MEAN_Y, WI, U = 10, WO = 13 };
-typedef struct question {
+typedef struct record {
     float n[NUMBERS];
-} question;
-typedef struct answer {
-    float n[NUMBERS];
-} answer;
+} record;
 
 typedef struct subjects {
     const vndf_distribution *is[SUBJECTS_MAX];
@@ -57,7 +55,7 @@ static void put(float *to, vndf_vec3 v)
     to[2] = v.z;
 }
 
-static vndf_affine surface_of(const subjects *s, const question *q)
+static vndf_affine surface_of(const subjects *s, const record *q)
 {
     int i = 0;
     while (i + 1 < s->count && s->base[i] != q->n[OF])
@@ -76,7 +74,7 @@ static void put_direction(random_stream *stream, size_t index, float *wi)
     wi[2] = (float)z;
 }
 
-static void turn(random_stream *stream, question *q)
+static void turn(random_stream *stream, record *q)
 {
     double a = 6.283185307179586 * random_double(stream), x = (double)q->n[XX], y = (double)q->n[YY];
     q->n[XX] = (float)(cos(a) * x);
@@ -88,7 +86,7 @@ static void turn(random_stream *stream, question *q)
 }
 
 /* The library's material of a question; without a mean slope where its effects have none. Optics are those of ask.h. */
-static vndf_material material_of(const subjects *s, const export_effects *effects, question *q)
+static vndf_material material_of(const subjects *s, const export_effects *effects, record *q)
 {
     vndf_description is = {.affine = surface_of(s, q),
                            .effects = effects_of(effects),
@@ -108,11 +106,11 @@ static vndf_material material_of(const subjects *s, const export_effects *effect
     return material;
 }
 
-static question question_of(const subjects *s, size_t index, const export_effects *effects)
+static record question_of(const subjects *s, size_t index, const export_effects *effects)
 {
     static const float edges[] = {0.0f, 0x1p-24f, 1 - 0x1p-24f, 1.0f};
     random_stream stream = random_from((effects->wanted ? 2000003u : 1000003u) + index);
-    question q = {{s->base[index % (size_t)s->count]}};
+    record q = {{s->base[index % (size_t)s->count]}};
     float least = effects->wanted ? 0.05f : 0.02f;
     q.n[XX] = least * powf(1 / least, random_float(&stream));
     q.n[YY] = least * powf(1 / least, random_float(&stream));
@@ -137,7 +135,7 @@ static int make(const subjects *s, const export_effects *effects, size_t count, 
 {
     FILE *to = fopen(file, "wb");
     for (size_t i = 0; to && i < count; i++) {
-        const question q = question_of(s, i, effects);
+        const record q = question_of(s, i, effects);
         if (fwrite(&q, sizeof q, 1, to) != 1)
             return 2;
     }
@@ -197,30 +195,7 @@ static double difference(const limit *l, const float *a, const float *b)
     return most;
 }
 
-/* The library's; densities are of the normals that the kernel drew. */
-static answer own_answer(const subjects *s, const question *q, const answer *given)
-{
-    const vndf_affine m = surface_of(s, q);
-    const vndf_vec3 wi = vector(q->n + WI), wm = vector(given->n);
-    const float u1 = q->n[U], u2 = q->n[U + 1];
-    answer a;
-    vndf_view view = vndf_affine_view_from(&m, wi);
-    put(a.n, vndf_sample(&view, u1, u2, &a.n[3]));
-    a.n[4] = vndf_pdf(&view, wm);
-    a.n[5] = vndf_visible(&view, wm);
-    a.n[6] = vndf_affine_ndf(&m, wm);
-    a.n[7] = vndf_affine_lambda(&m, wi);
-    a.n[8] = vndf_affine_g1(&m, wi);
-    a.n[9] = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
-    a.n[10] = vndf_affine_projected_area(&m, wi);
-    vndf_mixture mixture = {.count = 2, .lobe = {{m, 0.6f}, {{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.4f}}};
-    vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, wi);
-    put(a.n + 11, vndf_mixture_sample(&lobes, u1, u2, &a.n[14], NULL));
-    a.n[15] = vndf_mixture_pdf(&lobes, vector(given->n + 11));
-    return a;
-}
-
-static int is_refused(const question *q, const float *wm, float pdf)
+static int is_refused(const record *q, const float *wm, float pdf)
 {
     const float *wi = q->n + WI;
     double square = 0, facing = 0;
@@ -232,76 +207,75 @@ static int is_refused(const question *q, const float *wm, float pdf)
     return !(fabs(square - 1) < 1e-6 && wm[2] >= 0 && (blind || (facing > -1.5e-7 && pdf > 0 && pdf <= FLT_MAX)));
 }
 
-/* What an answer differs by in each limit (-1, from edges of the unit square on: not judged); whether it is refused.
- * *marked: it has other bits than the library's, or is scattered. */
-static int compare_normal(const subjects *s, const question *q, const answer *a, double *off, int *marked)
+/* What an answer differs by from the library's in each limit (-1 from edges of the unit square on: not judged), where
+ * densities are of the normals that the kernel drew; whether it is refused. *marked: it has other bits. */
+static int compare_normal(const subjects *s, const record *q, const record *a, double *off, int *marked)
 {
-    const answer own = own_answer(s, q, a);
-    const float *u = q->n + U;
-    int at_edge = u[0] < 1e-6f || u[0] > 1 - 1e-6f || u[1] < 1e-6f || u[1] > 1 - 1e-6f;
+    const vndf_affine m = surface_of(s, q);
+    const vndf_vec3 wi = vector(q->n + WI), wm = vector(a->n);
+    const float u1 = q->n[U], u2 = q->n[U + 1];
+    const int at_edge = u1 < 1e-6f || u1 > 1 - 1e-6f || u2 < 1e-6f || u2 > 1 - 1e-6f;
+    record own;
+    vndf_view view = vndf_affine_view_from(&m, wi);
+    put(own.n, vndf_sample(&view, u1, u2, &own.n[3]));
+    own.n[4] = vndf_pdf(&view, wm);
+    own.n[5] = vndf_visible(&view, wm);
+    own.n[6] = vndf_affine_ndf(&m, wm);
+    own.n[7] = vndf_affine_lambda(&m, wi);
+    own.n[8] = vndf_affine_g1(&m, wi);
+    own.n[9] = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
+    own.n[10] = vndf_affine_projected_area(&m, wi);
+    vndf_mixture mixture = {.count = 2, .lobe = {{m, 0.6f}, {{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.4f}}};
+    vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, wi);
+    put(own.n + 11, vndf_mixture_sample(&lobes, u1, u2, &own.n[14], NULL));
+    own.n[15] = vndf_mixture_pdf(&lobes, vector(a->n + 11));
     for (int i = 0; i < LIMITS_MAX; i++)
         off[i] = at_edge ? -1 : difference(&NORMALS[i], a->n, own.n);
     *marked = memcmp(a, &own, sizeof own) != 0;
     return is_refused(q, a->n, a->n[3]) || is_refused(q, a->n + 11, a->n[14]);
 }
 
-/* The library's; of the direction that the kernel drew f and density. */
-static answer own_scattered(const vndf_bsdf *b, const question *q, const answer *given)
-{
-    answer a;
-    vndf_scattered s;
-    float f[VNDF_WAVELENGTHS];
-    vndf_bsdf_sample(b, q->n + U, &s);
-    put(a.n, s.wo);
-    memcpy(a.n + 3, s.weight, 3 * sizeof *f);
-    a.n[6] = s.density;
-    a.n[LOBE] = (float)s.lobe;
-    vndf_bsdf_eval_pdf(b, vector(q->n + WO), 0, f, &a.n[11]);
-    memcpy(a.n + 8, f, 3 * sizeof *f);
-    vndf_bsdf_eval_pdf(b, vector(given->n), 0, f, &a.n[15]);
-    memcpy(a.n + 12, f, 3 * sizeof *f);
-    return a;
-}
-
-/* f cos over weight times density, less 1, of the kernel's own numbers. */
-static double inconsistency(const vndf_bsdf *b, const answer *a)
-{
-    double most = 0, cosine = fabs((double)vndf_bsdf_cosine(b, vector(a->n)));
-    for (int i = 0; i < 3; i++) {
-        double there = (double)a->n[12 + i] * cosine, here = (double)a->n[3 + i] * (double)a->n[6];
-        most = fmax(most, fmax(there, here) > 1e-20 ? fabs(there - here) / fmax(there, here) : 0);
-    }
-    return most;
-}
-
-static int compare_hit(const subjects *s, const export_effects *effects, question *q, const answer *a, double *off,
+/* The same of a BSDF; f and density are of the direction that the kernel drew, too, and the last limit is of the
+ * kernel's own numbers: f cos over weight times density, less 1. *marked: it is scattered. */
+static int compare_hit(const subjects *s, const export_effects *effects, record *q, const record *a, double *off,
                        int *marked)
 {
     vndf_material material = material_of(s, effects, q);
     vndf_bsdf b;
-    int there = vndf_bsdf_at(&b, &material, vector(q->n + WI)), last = SCATTERED_LIMITS - 1, bad = 0;
-    const answer own = own_scattered(&b, q, a);
-    double square = 0;
+    vndf_scattered drawn;
+    float f[VNDF_WAVELENGTHS];
+    record own;
+    const int there = vndf_bsdf_at(&b, &material, vector(q->n + WI)), last = SCATTERED_LIMITS - 1;
+    vndf_bsdf_sample(&b, q->n + U, &drawn);
+    put(own.n, drawn.wo);
+    memcpy(own.n + 3, drawn.weight, 3 * sizeof *f);
+    own.n[6] = drawn.density;
+    own.n[LOBE] = (float)drawn.lobe;
+    vndf_bsdf_eval_pdf(&b, vector(q->n + WO), 0, f, &own.n[11]);
+    memcpy(own.n + 8, f, 3 * sizeof *f);
+    vndf_bsdf_eval_pdf(&b, vector(a->n), 0, f, &own.n[15]);
+    memcpy(own.n + 12, f, 3 * sizeof *f);
     for (int i = 0; i < last; i++)
         off[i] = own.n[LOBE] != a->n[LOBE] && i > 0 && i < 4 ? 0 : difference(&SCATTERED[i], a->n, own.n);
-    off[last] = a->n[LOBE] > 0 && a->n[LOBE] < 3 ? inconsistency(&b, a) : 0;
-    *marked = there && a->n[LOBE] > 0;
-    for (int i = 0; i < NUMBERS; i++)
-        bad |= i > 2 && !(a->n[i] >= 0 && a->n[i] <= FLT_MAX);
-    for (int i = 0; i < 3; i++)
+    double square = 0, cosine = fabs((double)vndf_bsdf_cosine(&b, vector(a->n)));
+    off[last] = 0;
+    for (int i = 0; i < 3; i++) {
+        double f_cos = (double)a->n[12 + i] * cosine, drawn_at = (double)a->n[3 + i] * (double)a->n[6],
+               larger = fmax(f_cos, drawn_at);
+        if (a->n[LOBE] > 0 && a->n[LOBE] < 3 && larger > 1e-20)
+            off[last] = fmax(off[last], fabs(f_cos - drawn_at) / larger);
         square += (double)a->n[i] * (double)a->n[i];
+    }
+    int bad = 0;
+    for (int i = 3; i < NUMBERS; i++)
+        bad |= !(a->n[i] >= 0 && a->n[i] <= FLT_MAX);
+    *marked = there && a->n[LOBE] > 0;
     return bad || !(fabs(square - 1) < 3e-6) || (a->n[LOBE] > 0) != (a->n[6] > 0);
-}
-
-static int ascending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
 }
 
 static int judge(const limit *l, double *off, size_t count, double slack)
 {
-    qsort(off, count, sizeof *off, ascending);
+    sort_numbers(off, count);
     double most_of = off[count * 99 / 100], nearly_all = off[count * 999 / 1000];
     int bad = !(most_of <= slack * l->most_of && nearly_all <= slack * l->nearly_all);
     printf("%s %-12s %.1e of 99%%, %.1e of 99.9%%, %.1e of all\n", bad ? "!" : " ", l->name, most_of, nearly_all,
@@ -315,8 +289,7 @@ static int check(const subjects *s, const export_effects *effects, const char *h
     static double off[LIMITS_MAX][MOST];
     const limit *limits = effects->wanted ? SCATTERED : NORMALS;
     int limit_count = effects->wanted ? SCATTERED_LIMITS : LIMITS_MAX, bad = 0, mark;
-    question q;
-    answer a;
+    record q, a;
     size_t count = 0, judged = 0, refused = 0, marked = 0;
     while (asked && said && judged < MOST && fread(&q, sizeof q, 1, asked) == 1 &&
            fread(&a, sizeof a, 1, said) == 1) {

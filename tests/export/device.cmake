@@ -1,4 +1,4 @@
-# The kernel that is exported to LANGUAGE, run by tools/export/run_kernel.py on what runs the language here, answers as
+# The kernel that is exported to LANGUAGE, run by run_kernel.py on what runs the language here, answers as
 # the library does, with numbers embedded or read from a buffer that two tables share: FORMS says how they get there.
 # Other words of FORMS are BSDFs, whose numbers are read. What is absent is skipped.
 cmake_minimum_required(VERSION 3.16)
@@ -48,7 +48,7 @@ foreach(form IN LISTS FORMS)
     run("ask.h" ${AGREEMENT} ask "${what}" ${LANGUAGE} vndf ${numbers} INPUT_FILE ${SOURCE}/tests/export/ask.h
         OUTPUT_FILE ${OUT}/asked)
     run("questions" ${AGREEMENT} make "${what}" ${QUESTIONS} questions ${tables})
-    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tools/export/run_kernel.py ${LANGUAGE} kernel.${form} asked
+    run("${form} ${LANGUAGE}" ${PYTHON} ${SOURCE}/tests/export/run_kernel.py ${LANGUAGE} kernel.${form} asked
         questions answers ${how})
     string(REGEX MATCH "${LANGUAGE} on [^\n]*" device "${errors}")
     run("agreement of ${form} ${LANGUAGE} with the library" ${AGREEMENT} check "${what}" ROUNDED questions answers

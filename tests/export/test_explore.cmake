@@ -2,7 +2,7 @@
 # are; it refuses wrong use; and in a headless Chromium, which compiles its shaders, what the page draws and measures is
 # right: the density integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have
 # light on them. Without WebGL2 it says so. Chromium takes a quarter of a minute for a setting where it has no GPU:
-# LONG=ON (more_explore) has three of them and a screenshot, else there is one.
+# LONG=ON (more_explore) has three of them, else there is one.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -151,16 +151,6 @@ foreach(settings IN LISTS all_settings)
         between(0.8196 b_kept 0.8236)
     endif()
 endforeach()
-
-# Pictures take far more bytes than the text that stands there without them.
-if(LONG)
-    browse(output --disable-3d-apis --screenshot=${OUT}/without.png file://${OUT}/one.html)
-    browse(output ${software} --screenshot=${OUT}/page.png "file://${OUT}/one.html#a=hazy&light=studio&frames=2")
-    file(SIZE ${OUT}/without.png least)
-    math(EXPR least "${least} + 50000")
-    file(SIZE ${OUT}/page.png bytes)
-    expect("the screenshot has only ${bytes} bytes" bytes GREATER ${least})
-endif()
 
 if(failures)
     message(FATAL_ERROR "${failures} failed")

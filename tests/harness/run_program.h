@@ -1,5 +1,5 @@
-/* Runs the program as a shell would: words, descriptors that are closed, files for stdin and stdout, limits and
- * signals. For tests whose property is about processes and files; POSIX. */
+/* Runs the program as a shell would: words, files for stdin and stdout, limits and signals. For tests whose property is
+ * about processes and files; POSIX. */
 #ifndef TESTS_HARNESS_RUN_PROGRAM_H
 #define TESTS_HARNESS_RUN_PROGRAM_H
 
@@ -22,7 +22,6 @@
 enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16, RUN_NOBODY = 65534 };
 
 typedef struct run_setting {
-    unsigned closed;    /* a bit for each of the descriptors 0 to 2 */
     const char *in;     /* what stdin is opened from; NULL: /dev/null */
     const char *append; /* what stdout is appended to; NULL: `out` */
     int left;           /* a temporary of the same process number is there already */
@@ -33,7 +32,7 @@ typedef struct run_setting {
     int ignores_pipe;
 } run_setting;
 
-static const run_setting run_plain = {.closed = 0};
+static const run_setting run_plain = {.left = 0};
 
 typedef struct run_outcome {
     int status;          /* of exit; -1: another end */
@@ -74,9 +73,6 @@ static inline void run_become(const run_setting *s, int said)
         _exit(RUN_NOT_RUN);
     for (int i = 3; i < 64; i++)
         close(i);
-    for (int i = 0; i < 3; i++)
-        if (s->closed >> i & 1u)
-            close(i);
     if (!run_limit(s))
         _exit(RUN_NOT_RUN);
 }

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/files.h"
 #include "cli/output.h"
 #include "command.h"
 
@@ -145,14 +144,18 @@ void figures_end(figures *f)
 
 static const char *const forms[] = {"text", "csv", "md", "json", NULL}; /* as figures_form has them */
 
-/* Of stdout; -1 after a complaint. */
+/* NULL: -o - is said by form_of_stdout. */
+static const char *file_of(const figure_words *given)
+{
+    const char *path = only_word(&given->file);
+    return path && !output_is_stdout(path) ? path : NULL;
+}
+
+/* -1 after a complaint. */
 static int form_of_stdout(const char *command, const figure_words *given)
 {
     const char *format = only_word(&given->format);
-    int form = FIGURES_TEXT;
-    for (size_t i = 0; i < given->files.count; i++)
-        if (output_is_stdout(given->files.item[i]))
-            form = FIGURES_CSV;
+    int form = given->file.count && !file_of(given) ? FIGURES_CSV : FIGURES_TEXT;
     if (format)
         form = output_form(command, "-", format, forms);
     else if (given->json.count)
@@ -160,58 +163,37 @@ static int form_of_stdout(const char *command, const figure_words *given)
     return given->quiet.count && form >= 0 ? FIGURES_NONE : form;
 }
 
-/* -o - is said by form_of_stdout. */
-static const char *file_of(const figure_words *given, size_t i)
-{
-    return output_is_stdout(given->files.item[i]) ? NULL : given->files.item[i];
-}
-
 int rows_check(const char *command, const figure_words *given)
 {
+    const char *path = file_of(given);
+    output_file output;
     if (form_of_stdout(command, given) < 0)
         return 0;
-    if (given->json.count && given->format.count) {
-        complain(command, "--json and --format are given; --json is --format json");
+    if (given->json.count && given->format.count)
+        return complain(command, "--json and --format are given; --json is --format json"), 0;
+    if (!path)
+        return 1;
+    if (output_form(command, path, NULL, forms + 1) < 0 || !output_open(&output, command, path))
         return 0;
-    }
-    for (size_t i = 0; i < given->files.count; i++) {
-        output_file output;
-        const char *path = file_of(given, i);
-        if (!path)
-            continue;
-        if (output_form(command, path, NULL, forms + 1) < 0 || !output_open(&output, command, path))
-            return 0;
-        output_discard(&output);
-        for (size_t k = 0; k < i; k++)
-            if (file_of(given, k) && files_same(path, file_of(given, k))) {
-                complain(command, "-o names '%s' twice", path);
-                return 0;
-            }
-    }
+    output_discard(&output);
     return 1;
 }
 
-static int print_to(const char *command, const char *path, rows_printer *print, const void *rows,
-                    figures_form form)
+static int print_to(const char *command, const char *path, rows_printer *print, const void *rows, int form)
 {
     output_file output;
     if (!output_open(&output, command, path))
         return STATUS_USE;
-    return print(output.file, rows, form) ? output_commit(&output)
-                                          : output_give_up(&output, "no memory for the table");
+    return print(output.file, rows, (figures_form)form) ? output_commit(&output)
+                                                        : output_give_up(&output, "no memory for the table");
 }
 
 int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows)
 {
-    int form = form_of_stdout(command, given);
-    int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, (figures_form)form);
-    for (size_t i = 0; i < given->files.count; i++) {
-        const char *path = file_of(given, i);
-        if (!path)
-            continue;
-        form = 1 + output_form(command, path, NULL, forms + 1);
-        int its = print_to(command, path, print, rows, (figures_form)form);
-        status = status == STATUS_GOOD ? its : status;
-    }
-    return status;
+    const char *path = file_of(given);
+    int form = form_of_stdout(command, given), to_file = STATUS_GOOD;
+    int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, form);
+    if (path)
+        to_file = print_to(command, path, print, rows, 1 + output_form(command, path, NULL, forms + 1));
+    return status == STATUS_GOOD ? to_file : status;
 }

@@ -11,8 +11,8 @@ typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES
 
 /* The words of the options, which every command with figures has under these names. */
 typedef struct figure_words {
-    words json, quiet;   /* all */
-    words files, format; /* rows */
+    words json, quiet;  /* all */
+    words file, format; /* rows */
 } figure_words;
 
 #define FIGURES_OPTIONS(given)     \
@@ -64,27 +64,25 @@ void figures_json_text(FILE *file, const char *text);
 
 /* ---- rows ---- */
 
-enum { ROWS_FILES_MAX = 4 };
-
-#define ROWS_OPTIONS(given)                                          \
-  FIGURES_OPTIONS(given), {"-o", 1, ROWS_FILES_MAX, &(given).files}, \
-  {                                                                  \
-    "--format", 1, 1, &(given).format                                \
+#define ROWS_OPTIONS(given)                            \
+  FIGURES_OPTIONS(given), {"-o", 1, 1, &(given).file}, \
+  {                                                    \
+    "--format", 1, 1, &(given).format                  \
   }
-#define ROWS_HELP                                                                                     \
-  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md; up to 4 times\n" \
-  "  --format NAME    of stdout: text, csv, md or json (default text; with -o - csv)\n"               \
-  "  --json           the same as --format json\n"                                                    \
+#define ROWS_HELP                                                                       \
+  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n"  \
+  "  --format NAME    of stdout: text, csv, md or json (default text; with -o - csv)\n" \
+  "  --json           the same as --format json\n"                                      \
   "  -q               prints neither rows nor progress\n"
 
 /* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
 typedef int rows_printer(FILE *file, const void *rows, figures_form form);
 
-/* Whether the words go together and every file can be written, before what they will hold is measured. 1, or 0 after a
+/* Whether the words go together and the file can be written, before what they will hold is measured. 1, or 0 after a
  * complaint. */
 int rows_check(const char *command, const figure_words *given);
 
-/* Prints to stdout and to every file of -o; an exit status. */
+/* Prints to stdout and to the file of -o; an exit status. */
 int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows);
 
 #endif

@@ -2,86 +2,39 @@
 #include "cli/files.h"
 
 #include <errno.h>
-#include <fcntl.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/arguments.h"
 #include "core/replace_file.h"
 
-/* ---- the standard descriptors -------------------------------------------------------------------- */
-
-/* The wrong way round, so that a read or a write still fails: stdin can be written alone, the others read. The
- * root folder stands in where there is no /dev/null. */
-static int open_in_place(int descriptor)
-{
-    int opened = open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-    if (opened < 0)
-        opened = open("/", O_RDONLY);
-    return opened == descriptor; /* the lowest that is free */
-}
-
 /* ---- the list ------------------------------------------------------------------------------------ */
-
-enum { IS_INPUT, IS_OUTPUT, IS_STDOUT, ROLES };
-
-static const char *const role_names[ROLES] = {"an input of this command", "an output of this command",
-                                              "the standard output of this command"};
-
-typedef struct noted_file {
-    dev_t device;
-    ino_t inode;
-    int role;
-} noted_file;
 
 enum { NOTED_MAX = 4096 };
 
-static noted_file noted[NOTED_MAX];
+static struct {
+    dev_t device;
+    ino_t inode;
+    int is_output;
+} noted[NOTED_MAX];
 static size_t noted_count;
 
-static const char *note(const struct stat *file, int role)
+const char *files_note(const char *path, int is_output)
 {
-    if (!S_ISREG(file->st_mode))
+    struct stat file;
+    if (stat(path, &file) != 0 || !S_ISREG(file.st_mode))
         return NULL;
     for (size_t i = 0; i < noted_count; i++)
-        if (noted[i].device == file->st_dev && noted[i].inode == file->st_ino)
-            return noted[i].role == role ? NULL : role_names[noted[i].role];
+        if (noted[i].device == file.st_dev && noted[i].inode == file.st_ino && noted[i].is_output != is_output)
+            return is_output ? "an input of this command" : "an output of this command";
     if (noted_count == NOTED_MAX)
         return "one file more than this program reads";
-    noted[noted_count++] = (noted_file){file->st_dev, file->st_ino, role};
+    noted[noted_count].device = file.st_dev;
+    noted[noted_count].inode = file.st_ino;
+    noted[noted_count++].is_output = is_output;
     return NULL;
-}
-
-static const char *note_path(const char *path, int role)
-{
-    struct stat file;
-    return stat(path, &file) == 0 ? note(&file, role) : NULL;
-}
-
-const char *files_note_input(const char *path)
-{
-    return note_path(path, IS_INPUT);
-}
-
-const char *files_note_output(const char *path)
-{
-    return note_path(path, IS_OUTPUT);
-}
-
-int files_begin(void)
-{
-    struct stat file;
-#ifdef SIGXFSZ /* a file that outgrows a limit of the shell fails to be written, as on a full disk */
-    signal(SIGXFSZ, SIG_IGN);
-#endif
-    for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; descriptor++)
-        if (fcntl(descriptor, F_GETFD) < 0 && !open_in_place(descriptor))
-            return 0;
-    return fstat(STDOUT_FILENO, &file) != 0 || !note(&file, IS_STDOUT);
 }
 
 static int same_inode(const char *a, const char *b)
@@ -110,19 +63,11 @@ int files_same(const char *a, const char *b)
 
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-/* NULL, or why stdin cannot be read; what is read once is gone. */
+/* NULL, or why stdin cannot be read: what is read once is gone. */
 static const char *take_stdin(void)
 {
     static int is_taken;
-    struct stat file;
-    const char *role = fstat(STDIN_FILENO, &file) == 0 ? note(&file, IS_INPUT) : NULL;
-    if (role)
-        return role == role_names[IS_STDOUT] ? "it is the standard output of this command as well"
-                                             : "it is an output of this command as well";
-    if (is_taken)
-        return "this command reads it twice";
-    is_taken = 1;
-    return NULL;
+    return is_taken++ ? "this command reads it twice" : NULL;
 }
 
 /* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
@@ -158,7 +103,7 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
     const int is_stdin = strcmp(path, "-") == 0;
-    const char *role = is_stdin ? take_stdin() : files_note_input(path);
+    const char *role = is_stdin ? take_stdin() : files_note(path, 0);
     errno = 0;
     FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
     if (!file) {

@@ -7,14 +7,8 @@
 
 #include <stddef.h>
 
-/* Opens something for each of the descriptors 0 to 2 that is closed, so that no file gets its number and is
- * taken for stdin, stdout or stderr: reading and writing there fails as before. Notes what stdout is. To be
- * called before anything is opened; 0 if it cannot be done. */
-int files_begin(void);
-
 /* NULL, or what forbids that: "an output of this command". What is no file, or not there, is not noted. */
-const char *files_note_input(const char *path);
-const char *files_note_output(const char *path);
+const char *files_note(const char *path, int is_output);
 
 /* Whether two paths lead to one file, be it there already or not. */
 int files_same(const char *a, const char *b);

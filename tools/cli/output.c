@@ -1,4 +1,4 @@
-#define _POSIX_C_SOURCE 200809L
+#define _XOPEN_SOURCE 700 /* SIGXFSZ */
 #include "cli/output.h"
 
 #include <errno.h>
@@ -11,6 +11,13 @@
 #include "cli/files.h"
 
 /* ---- signals ------------------------------------------------------------------------------------- */
+
+void output_begin(void)
+{
+#ifdef SIGXFSZ
+    signal(SIGXFSZ, SIG_IGN);
+#endif
+}
 
 enum { STOPPING_COUNT = 3 };
 
@@ -79,7 +86,7 @@ int output_replaceable(const char *command, const char *path)
         return complain(command, "'%s' is a %s; the output has to be a file", path,
                         S_ISDIR(status.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
                0;
-    const char *role = files_note_output(path);
+    const char *role = files_note(path, 1);
     if (role)
         complain(command, "'%s' is not replaced: it is %s", path, role);
     return !role;

@@ -39,6 +39,9 @@ int output_is_stdout(const char *path);
  * is free or another file, which is noted as an output, or "-". */
 int output_replaceable(const char *command, const char *path);
 
+/* A file that outgrows a limit of the shell fails to be written, as on a full disk, and ends nothing. */
+void output_begin(void);
+
 /* Makes the stopping signals wait, for a library call that writes a file. The result tells
  * output_release_signals which ones it stopped, and is of no other use. */
 unsigned output_hold_signals(void);

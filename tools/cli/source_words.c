@@ -126,19 +126,3 @@ void source_text_name(const source_words *given, char *text, size_t size)
         add(text, size, given->set.item[i]);
     }
 }
-
-/* ---- as a table ---- */
-
-vndf_distribution *table_from_words(const char *command, const source_words *given, char *name, size_t size)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = source_from_words(command, given);
-    if (!source)
-        return NULL;
-    vndf_distribution *table = vndf_build(source, NULL, NULL, &error);
-    vndf_source_free(source);
-    if (!table)
-        complain(command, "%s", error.message);
-    source_text_name(given, name, size);
-    return table;
-}

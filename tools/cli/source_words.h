@@ -22,10 +22,6 @@ vndf_source *source_from_words(const char *command, const source_words *given);
 /* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
 vndf_source *source_from_csv(const char *command, const char *path);
 
-/* A table of that source of the default size, to be freed, and its name for people (source_text_name); NULL
- * after a complaint. */
-vndf_distribution *table_from_words(const char *command, const source_words *given, char *name, size_t size);
-
 /* Adds " OPTION VALUE" for each of the values to what stands in text, with quotes where a shell needs them;
  * " OPTION" for a flag. Cut where `size` ends. */
 void source_text_add(const char *option, const words *values, char *text, size_t size);

@@ -4,7 +4,6 @@
 #include "cli/arguments.h"
 #include "cli/figures.h"
 #include "cli/files.h"
-#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "draw/table.h"
@@ -13,8 +12,7 @@
 static const char name[] = "vndf albedo";
 
 static const char help[] =
-    "usage: vndf albedo (FILE|ggx|beckmann | --csv FILE | --family NAME[:PARAM,...] | --ndf EXPR | --slope EXPR)\n"
-    "                   [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
+    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
     "\n"
     "The directional albedo E: the part of the light that one scattering event with height-correlated Smith masking\n"
     "sends on, and its average 2 integral E mu dmu. 1 - E is what energy compensation has to give back (Kulla &\n"
@@ -24,9 +22,7 @@ static const char help[] =
     "  --eta X          a dielectric of this ratio of indices, 0.01 to 100 and not 1: what is reflected and\n"
     "                   transmitted together, from either side; without it a mirror, F = 1\n"
     "  --alpha LIST     roughness to print, 0 to 4, between commas (default 0.05,0.1,0.2,0.3,0.5,0.7,1)\n"
-    "  --theta LIST     angles of incidence, 0 to 90 (default 0,15,30,45,60,75,80,85,88,89,90)\n"
-    "  --csv FILE, --family NAME, --ndf EXPR, --slope EXPR, --set NAME=X\n"
-    "                   your own D, as `vndf build --help` describes them, by a table of 8 KiB\n" ROWS_HELP "\n"
+    "  --theta LIST     angles of incidence, 0 to 90 (default 0,15,30,45,60,75,80,85,88,89,90)\n" ROWS_HELP "\n"
     "exit status: 0 good, 2 wrong use\n"
     "\n"
     "example: vndf albedo ggx --alpha 0.1,0.5,1\n"
@@ -103,18 +99,6 @@ static int print(FILE *file, const void *of, figures_form form)
     return good;
 }
 
-static int run(report *r, const vndf_distribution *d, const figure_words *asked)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_albedo *albedo = vndf_albedo_build(d, (float)r->eta, &error);
-    if (!albedo)
-        return complain(name, "%s", error.message);
-    r->albedo = albedo;
-    int status = rows_print(name, asked, print, r);
-    vndf_albedo_free(albedo);
-    return status;
-}
-
 static int read_list(const char *what, const words *given, const char *otherwise, double most, list *to)
 {
     const char *text = only_word(given);
@@ -125,46 +109,26 @@ static int read_list(const char *what, const words *given, const char *otherwise
 int command_albedo(int argc, char **argv)
 {
     figure_words asked = {0};
-    source_words source = {0};
     words subject = {{NULL}, 0}, eta = subject, alpha = subject, theta = subject;
     const option_form options[] = {
-        {"--ndf", 1, 1, &source.ndf},
-        {"--slope", 1, 1, &source.slope},
-        {"--csv", 1, 1, &source.csv},
-        {"--family", 1, 1, &source.family},
-        {"--set", 1, WORDS_MAX, &source.set},
-        {"--eta", 1, 1, &eta},
-        {"--alpha", 1, 1, &alpha},
-        {"--theta", 1, 1, &theta},
-        ROWS_OPTIONS(asked),
-    };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 0, 1};
-    char title[256];
-    report r = {.subject = title};
-    int parsed = parse_arguments(&form, argc, argv, &subject);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    size_t subjects = subject.count + source_words_count(&source);
-    if (subjects != 1)
-        return complain(name, "%s of FILE|ggx|beckmann, --ndf, --slope, --csv and --family; exactly one is needed",
-                        subjects ? "more than one" : "none");
-    if ((parsed = source_words_check_set(name, &source)) != PARSE_GO_ON)
-        return parsed;
+        {"--eta", 1, 1, &eta}, {"--alpha", 1, 1, &alpha}, {"--theta", 1, 1, &theta}, ROWS_OPTIONS(asked)};
+    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    vndf_error error = {VNDF_OK, ""};
+    chosen_distribution chosen;
+    report r = {.eta = 0};
+    int status = parse_arguments(&form, argc, argv, &subject);
+    if (status != PARSE_GO_ON)
+        return status;
     if (!rows_check(name, &asked) || !option_number(name, "--eta", &eta, 0.01, 100, &r.eta) ||
         !read_list("--alpha", &alpha, "0.05,0.1,0.2,0.3,0.5,0.7,1", (double)VNDF_ALBEDO_ALPHA_MAX, &r.alpha) ||
-        !read_list("--theta", &theta, "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta))
+        !read_list("--theta", &theta, "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta) ||
+        !distribution_open(&chosen, name, only_word(&subject)))
         return STATUS_USE;
-    if (!subject.count) { /* a table of the source that was given stands for it */
-        vndf_distribution *table = table_from_words(name, &source, title, sizeof title);
-        int status = table ? run(&r, table, &asked) : STATUS_USE;
-        vndf_free(table);
-        return status;
-    }
-    chosen_distribution chosen;
+    vndf_albedo *albedo = vndf_albedo_build(chosen.distribution, (float)r.eta, &error);
+    r.albedo = albedo;
     r.subject = input_name(only_word(&subject));
-    if (!distribution_open(&chosen, name, only_word(&subject)))
-        return STATUS_USE;
-    int status = run(&r, chosen.distribution, &asked);
+    status = albedo ? rows_print(name, &asked, print, &r) : complain(name, "%s", error.message);
+    vndf_albedo_free(albedo);
     distribution_close(&chosen);
     return status;
 }

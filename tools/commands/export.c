@@ -24,10 +24,10 @@ static const char help[] =
     "\n"
     "  --language NAME  the language of OUT\n"
     "  -o OUT           the file; - for stdout\n"
-    "  --embed          the numbers of the tables stand in OUT (the default); refused where there are too many for\n"
-    "                   the language: opencl and msl 16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
-    "  --buffer RAW     OUT reads them from a buffer that you bind, or through a pointer; RAW gets them, as 4 bytes,\n"
-    "                   little-endian (at run time vndf_numbers writes the same)\n"
+    "  --buffer RAW     OUT reads the numbers of the tables from a buffer that you bind, or through a pointer; RAW\n"
+    "                   gets them, as 4 bytes, little-endian (at run time vndf_numbers writes the same). Without\n"
+    "                   it they stand in OUT; refused where there are too many for the language: opencl and msl\n"
+    "                   16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
     "  --distribution KIND  only table, ggx or beckmann (repeat for two); a kernel has all three by default\n"
     "  --only CALLS     only these calls and what they need: view,sample,pdf,visible,ndf,lambda,g1,g2,\n"
@@ -38,7 +38,6 @@ static const char help[] =
     "                   reflection=specular|retro'; the first of each is the default. --only has bsdf_sample,\n"
     "                   bsdf_eval and bsdf_pdf too\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
-    "  --notice TEXT    a notice for the head of OUT, such as your licence; --notice @FILE takes it from a file\n"
     "\n"
     "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
     "shows what to call from which host.\n"
@@ -52,7 +51,7 @@ static const char help_end[] = "\n"
                                "exit status: 0 good, 2 wrong use\n";
 
 typedef struct export_words {
-    words tables, language, output, embed, buffer, prefix, lobes, notice, only, distribution, bsdf;
+    words tables, language, output, buffer, prefix, lobes, only, distribution, bsdf;
 } export_words;
 
 /* ---- words --------------------------------------------------------------------------------------- */
@@ -69,26 +68,6 @@ static int read_language(const export_words *given, export_document *document)
     if (hint)
         return complain(name, "--language '%s': there is none; did you mean '%s'?", wanted, hint), 0;
     return complain(name, "--language '%s': c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl are known", wanted), 0;
-}
-
-/* *owned is to be freed. */
-static int read_notice(const export_words *given, export_document *document, char **owned)
-{
-    enum { NOTICE_MAX = 1 << 16 };
-    size_t size = 0;
-    document->notice = only_word(&given->notice);
-    if (document->notice && document->notice[0] == '@') {
-        const char *path = document->notice + 1;
-        document->notice = *owned = input_read(name, path, NOTICE_MAX, &size);
-        if (!*owned)
-            return 0;
-        if (strlen(*owned) != size)
-            return complain(name, "--notice '@%s': it is no text, a byte of it is 0", path), 0;
-    }
-    for (const char *at = document->notice; at && *at; at++)
-        if ((unsigned char)*at < ' ' && *at != '\n' && *at != '\t')
-            return complain(name, "--notice: it has a control character"), 0;
-    return 1;
 }
 
 /* A list with commas, cut in `text`. */
@@ -151,8 +130,6 @@ static int read_settings(const export_words *given, export_document *document)
     document->lobes = (long)lobes;
     document->embeds = given->buffer.count == 0;
     document->as.by_pointer = !document->embeds && document->as.to->pointer;
-    if (given->embed.count && given->buffer.count)
-        return complain(name, "--embed and --buffer exclude each other"), 0;
     if (effects && !effects_read(&document->effects, effects, why))
         return complain(name, "--bsdf %s", why), 0;
     if (!given->output.count)
@@ -216,14 +193,12 @@ static int write_all(const export_words *given, const export_document *document)
 static int run(const export_words *given)
 {
     export_document document = {0};
-    char *notice = NULL, only[200];
+    char only[200];
     int status = STATUS_USE;
     if (read_settings(given, &document) && read_only(given, &document, only, sizeof only) &&
-        read_notice(given, &document, &notice) && named_tables_open(name, &given->tables, 1, &document) &&
-        fits(&document))
+        named_tables_open(name, &given->tables, 1, &document) && fits(&document))
         status = write_all(given, &document);
     named_tables_close(&document);
-    free(notice);
     return status;
 }
 
@@ -231,14 +206,12 @@ int command_export(int argc, char **argv)
 {
     export_words given = {0};
     brdf_words brdf = {0};
-    enum { OF_KERNELS = 9, OF_FILES = 12 }; /* options before these are for one of the two alone */
+    enum { OF_KERNELS = 7, OF_FILES = 10 }; /* options before these are for one of the two alone */
     const option_form options[] = {
         {"--language", 1, 1, &given.language},
-        {"--embed", 0, 1, &given.embed},
         {"--buffer", 1, 1, &given.buffer},
         {"--prefix", 1, 1, &given.prefix},
         {"--lobes", 1, 1, &given.lobes},
-        {"--notice", 1, 1, &given.notice},
         {"--only", 1, 1, &given.only},
         {"--distribution", 1, 3, &given.distribution},
         {"--bsdf", 1, 1, &given.bsdf},

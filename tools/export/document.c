@@ -148,12 +148,6 @@ static void put_head(FILE *to, const export_document *document)
         fprintf(to, "//\n// BSDF: %s.\n", effects);
         put_all(to, document, bsdf_head);
     }
-    fputs(document->notice ? "//\n" : "", to);
-    for (const char *line = document->notice; line && *line;) {
-        size_t length = strcspn(line, "\n");
-        fprintf(to, length ? "// %.*s\n" : "//\n", (int)length, line);
-        line += length + (line[length] == '\n');
-    }
     fputs("\n", to);
 }
 

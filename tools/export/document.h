@@ -28,7 +28,6 @@ typedef struct export_document {
     exported_table table[EXPORT_TABLES_MAX];
     size_t tables, count; /* of tables; of all numbers */
     float *numbers;
-    const char *notice; /* NULL or text */
     long lobes;
     int embeds;
     unsigned kinds;

@@ -126,84 +126,27 @@ void manual_write_man(FILE *to, const char *head)
 
 /* ---- completion ---------------------------------------------------------------------------------- */
 
-/* What may stand for "FILE|ggx|beckmann": its words in lower case, and whether a file may. Returns the latter. */
-static int put_words(FILE *to, const char *text, size_t length)
-{
-    static const char *const places[] = {"FILE", "OUT", "DIR", "SCENE", "PAGE", "RAW"};
-    int files = length == 1 && *text == 'F';
-    for (const char *end = text + length; text < end;) {
-        size_t word = 0, plain = 0;
-        while (text + word < end && text[word] != '|')
-            plain += islower((unsigned char)text[word]) || isdigit((unsigned char)text[word]), word++;
-        if (plain == word && word > 0)
-            fprintf(to, "%.*s ", (int)word, text);
-        for (size_t i = 0; i < sizeof places / sizeof places[0]; i++)
-            files |= word >= strlen(places[i]) && memcmp(text, places[i], strlen(places[i])) == 0;
-        text += word + (text + word < end);
-    }
-    return files;
-}
-
-/* The first word behind an option where the help names it with one, "FILE" or "2|3|4", and its length. */
-static const char *value_of(const char *help, const char *option, size_t *length)
-{
-    size_t letters = strlen(option);
-    for (const char *at = help; (at = strstr(at, option)) != NULL; at += letters)
-        if (at > help && strchr(" [(|\n", at[-1]) && at[letters] == ' ' &&
-            isalnum((unsigned char)at[letters + 1])) {
-            *length = strcspn(at + letters + 1, " ]),\n");
-            return at + letters + 1;
-        }
-    *length = 0;
-    return "";
-}
-
 static void put_completion(const command_form *form, void *to)
 {
-    const char *name = form->command + strlen("vndf ");
-    fprintf(to, "    '%s ') words='", name);
-    if (strcmp(form->positional, "COMMAND") == 0)
-        for (size_t i = 0; i < subcommand_count; i++)
-            fprintf(to, "%s ", subcommands[i].name);
-    fputs(strcmp(name, "bench") == 0 ? "effects " : "", to);
-    int files = put_words(to, form->positional, strlen(form->positional));
-    fprintf(to, "' files=%d options='", files);
+    fprintf(to, "    '%s') words='", form->command + strlen("vndf "));
     for (size_t i = 0; i < form->option_count; i++)
         fprintf(to, "%s ", form->options[i].name);
     fputs("--help' ;;\n", to);
-    for (size_t i = 0; i < form->option_count; i++) {
-        size_t length;
-        const char *value = value_of(form->help, form->options[i].name, &length);
-        if (!form->options[i].takes_value)
-            continue;
-        fprintf(to, "    '%s %s') words='", name, form->options[i].name);
-        files = put_words(to, value, length);
-        fprintf(to, "' files=%d ;;\n", files);
-    }
 }
 
 void manual_write_bash(FILE *to)
 {
     fputs(
-        "# bash completion for vndf; made by `vndf help --completion bash`.\n"
-        "_vndf_of() # the words, options and files behind \"COMMAND OPTION\", an option with a value, or \"COMMAND \"\n"
-        "{\n    case $1 in\n    ' ') options='--help --version' words='",
+        "# bash completion for vndf; made by `vndf help --completion bash`: commands, their options, and files.\n"
+        "_vndf()\n{\n    local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words='' files=-f\n"
+        "    [[ $command == bench && ${COMP_WORDS[2]} == effects ]] && command='bench effects'\n"
+        "    if ((COMP_CWORD == 1)) || [[ $command == help ]]; then\n        files='' words='",
         to);
     for (size_t i = 0; i < subcommand_count; i++)
         fprintf(to, "%s ", subcommands[i].name);
-    fputs("' ;;\n", to);
+    fputs("--help --version'\n    fi\n    [[ $current == -* ]] && case $command in\n", to);
     take_all(put_completion, to);
-    fputs("    *) return 1 ;;\n    esac\n}\n"
-          "_vndf()\n{\n"
-          "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD-1]}\n"
-          "    local command=${COMP_WORDS[1]} options='' words='' files=0\n"
-          "    ((COMP_CWORD == 1)) && command=''\n"
-          "    if ((COMP_CWORD > 2)) && [[ $command == bench && ${COMP_WORDS[2]} == effects ]]; then\n"
-          "        command='bench effects'\n    fi\n"
-          "    _vndf_of \"$command $previous\" || _vndf_of \"$command \"\n"
-          "    [[ $current == -* ]] && words=$options\n"
-          "    ((files)) && files=-f || files=''\n"
-          "    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
+    fputs("    esac\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
           "complete -o filenames -F _vndf vndf\n",
           to);
 }

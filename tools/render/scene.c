@@ -65,7 +65,7 @@ static char *path_of(reader *r, const word *at)
         return refuse_word(&r->words, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
     memcpy(path, r->words.name, folder);
     memcpy(path + folder, at->text, letters + 1);
-    const char *role = files_note_input(path);
+    const char *role = files_note(path, 0);
     if (!role)
         return path;
     refuse_word(&r->words, at, "this file is %s as well", role);
