@@ -48,9 +48,17 @@ double vndf_read_f64(vndf_reader *reader)
 
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n)
 {
-    if (n > 0 && writer->at <= writer->capacity && n <= writer->capacity - writer->at)
-        memcpy(writer->bytes + writer->at, bytes, n);
-    writer->at += n;
+    if (!writer->failed && n > writer->capacity - writer->size) {
+        size_t capacity = 2 * (writer->size + n + 32);
+        unsigned char *grown = realloc(writer->bytes, capacity);
+        writer->failed = grown == NULL;
+        writer->bytes = grown ? grown : writer->bytes;
+        writer->capacity = grown ? capacity : writer->capacity;
+    }
+    if (writer->failed || n == 0)
+        return;
+    memcpy(writer->bytes + writer->size, bytes, n);
+    writer->size += n;
 }
 
 static void write_integer(vndf_writer *writer, uint64_t value, unsigned n)

@@ -1,5 +1,4 @@
-/* A bounded little-endian cursor over bytes. Reads past the end give zeros and set `failed`. Writes past the end
- * only count, so a first pass with capacity 0 measures how much a second pass writes. */
+/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`. And bytes that grow. */
 #ifndef VNDF_CORE_CURSOR_H
 #define VNDF_CORE_CURSOR_H
 
@@ -12,9 +11,11 @@ typedef struct vndf_reader {
     int failed;
 } vndf_reader;
 
+/* Bytes to be freed; a zeroed one is empty. It remembers a failed allocation, and then takes no more. */
 typedef struct vndf_writer {
     unsigned char *bytes;
-    size_t capacity, at;
+    size_t size, capacity;
+    int failed;
 } vndf_writer;
 
 /* The next n bytes, or NULL (and failed) if fewer are left. */

@@ -55,14 +55,25 @@ void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_deco
 
 /* ---- saving ---- */
 
-vndf_status vndf_frame_save(const void *what, vndf_frame_encode *encode, const char *path, vndf_error *error)
+void vndf_frame_begin(const vndf_frame *frame, vndf_writer *w)
 {
-    size_t size = encode(what, NULL, 0);
-    unsigned char *bytes = malloc(size);
-    if (bytes)
-        encode(what, bytes, size);
-    int good = bytes && vndf_replace_whole(path, bytes, size), reason = bytes ? errno : ENOMEM;
-    free(bytes);
+    vndf_write_bytes(w, frame->magic, MAGIC);
+    vndf_write_u32(w, frame->version);
+    vndf_write_u32(w, 0);
+}
+
+void vndf_frame_end(vndf_writer *w)
+{
+    uint32_t size = (uint32_t)w->size + 4;
+    for (int i = 0; !w->failed && i < 4; i++)
+        w->bytes[MAGIC + 4 + i] = (unsigned char)(size >> 8 * i);
+    vndf_write_u32(w, w->failed ? 0 : vndf_crc32(0, w->bytes, w->size));
+}
+
+vndf_status vndf_frame_save(vndf_writer *w, const char *path, vndf_error *error)
+{
+    int good = !w->failed && vndf_replace_whole(path, w->bytes, w->size), reason = w->failed ? ENOMEM : errno;
+    free(w->bytes);
     if (good)
         return VNDF_OK;
     if (reason == ENOMEM)
@@ -70,25 +81,16 @@ vndf_status vndf_frame_save(const void *what, vndf_frame_encode *encode, const c
     return vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
 }
 
-vndf_status vndf_frame_save_memory(const void *what, vndf_frame_encode *encode, void *bytes, size_t size,
-                                   vndf_error *error)
+vndf_status vndf_frame_save_memory(vndf_writer *w, void *bytes, size_t size, vndf_error *error)
 {
-    size_t needed = encode(what, NULL, 0);
-    if (size != needed)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the file %lu", (unsigned long)size,
-                         (unsigned long)needed);
-    encode(what, bytes, size);
-    return VNDF_OK;
-}
-
-void vndf_frame_begin(const vndf_frame *frame, vndf_writer *w, size_t size)
-{
-    vndf_write_bytes(w, frame->magic, MAGIC);
-    vndf_write_u32(w, frame->version);
-    vndf_write_u32(w, (uint32_t)size);
-}
-
-void vndf_frame_end(vndf_writer *w)
-{
-    vndf_write_u32(w, w->at <= w->capacity ? vndf_crc32(0, w->bytes, w->at) : 0);
+    vndf_status status = VNDF_OK;
+    if (w->failed)
+        status = vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %lu bytes", (unsigned long)size);
+    else if (size != w->size)
+        status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the file %lu",
+                           (unsigned long)size, (unsigned long)w->size);
+    else
+        memcpy(bytes, w->bytes, size);
+    free(w->bytes);
+    return status;
 }

@@ -24,16 +24,13 @@ vndf_status vndf_frame_check(const vndf_frame *frame, const unsigned char *bytes
 typedef void *vndf_frame_decode(const void *bytes, size_t size, vndf_error *error);
 void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_decode *decode, vndf_error *error);
 
-/* Writes all of `what` to bytes where `capacity` has room, else nothing; the size of all. */
-typedef size_t vndf_frame_encode(const void *what, unsigned char *bytes, size_t capacity);
-
-/* Saves a file whole or not at all (replace_file.h); and to memory, where `size` must be that of all. */
-vndf_status vndf_frame_save(const void *what, vndf_frame_encode *encode, const char *path, vndf_error *error);
-vndf_status vndf_frame_save_memory(const void *what, vndf_frame_encode *encode, void *bytes, size_t size,
-                                   vndf_error *error);
-
-/* The first bytes of a file that will have `size`, and the checksum at its end. */
-void vndf_frame_begin(const vndf_frame *frame, vndf_writer *writer, size_t size);
+/* The first bytes of a file; its size and the checksum at its end. */
+void vndf_frame_begin(const vndf_frame *frame, vndf_writer *writer);
 void vndf_frame_end(vndf_writer *writer);
+
+/* Saves to a file, whole or not at all (replace_file.h), or to memory, where `size` must be that of all; frees the
+ * bytes. */
+vndf_status vndf_frame_save(vndf_writer *writer, const char *path, vndf_error *error);
+vndf_status vndf_frame_save_memory(vndf_writer *writer, void *bytes, size_t size, vndf_error *error);
 
 #endif

@@ -5,29 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/cursor.h"
 #include "core/error.h"
-
-/* In steps, since a pipe does not tell its size. NULL if there is no memory. */
-static unsigned char *read_stream(FILE *file, size_t most, size_t *size)
-{
-    size_t capacity = 0, used = 0, got = 1;
-    unsigned char *bytes = NULL;
-    while (got > 0 && used <= most) {
-        if (used == capacity) {
-            capacity = 2 * capacity + 65536 < most + 1 ? 2 * capacity + 65536 : most + 1;
-            unsigned char *more = realloc(bytes, capacity);
-            if (!more) {
-                free(bytes);
-                return NULL;
-            }
-            bytes = more;
-        }
-        got = fread(bytes + used, 1, capacity - used, file);
-        used += got;
-    }
-    *size = used;
-    return bytes;
-}
 
 unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_error *error)
 {
@@ -37,17 +16,25 @@ unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_
                   path ? path : "the path is NULL", path ? strerror(errno) : "a file name is needed");
         return NULL;
     }
+    vndf_writer all = {NULL, 0, 0, 0};
+    unsigned char part[16384];
+    size_t got = 1;
     errno = 0;
-    unsigned char *bytes = read_stream(file, most, size);
+    while (got > 0 && all.size <= most && !all.failed) { /* in steps, since a pipe does not tell its size */
+        got = fread(part, 1, most + 1 - all.size < sizeof part ? most + 1 - all.size : sizeof part, file);
+        vndf_write_bytes(&all, part, got);
+    }
+    vndf_write_bytes(&all, "", 1); /* so that an empty file has bytes */
     int reason = errno, failed = ferror(file);
     fclose(file);
-    if (bytes && !failed)
-        return bytes;
-    if (bytes)
+    *size = all.size - 1;
+    if (!all.failed && !failed)
+        return all.bytes;
+    if (!all.failed)
         vndf_fail(error, VNDF_ERROR_IO, "%s: cannot be read: %s", path,
                   reason ? strerror(reason) : "unknown reason");
     else
         vndf_fail(error, VNDF_ERROR_MEMORY, "%s: no memory to read it", path);
-    free(bytes);
+    free(all.bytes);
     return NULL;
 }

@@ -2,11 +2,10 @@
  * measures the table. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/error.h"
 #include "fit/draft.h"
-#include "table/table.h"
+#include "table/file.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
 
@@ -20,24 +19,13 @@ static const char TOOL[] = "vndf " VNDF_VERSION;
 /* A build at work. */
 typedef struct builder {
     const vndf_profile *profile;
-    vndf_knots *knots;
+    vndf_knots knots;
     size_t least_bytes, max_bytes; /* a smaller table than the first is not looked for */
     double max_tv;                 /* 0: the best that fits */
     unsigned moments;
 } builder;
 
 /* ---- tables ---- */
-
-/* Of a table with so few cells, 2 or 3, that its numbers are here. */
-static size_t bytes_for(const builder *b, unsigned cells)
-{
-    float zero[CELLS_LEAST + 2] = {0};
-    vndf_table_draft empty = {
-        .cells = cells, .moments = b->moments, .source = b->profile->description, .tool = TOOL};
-    empty.knot = empty.g0 = empty.g1 = empty.m0 = empty.m1 = empty.m2 = empty.cubes = zero;
-    empty.b0 = empty.b1 = empty.area = empty.slope = zero;
-    return vndf_table_encode(&empty, NULL, 0);
-}
 
 /* The total variations over those asked for, the larger of both. */
 static double excess_of(const vndf_certificate *c, double tv)
@@ -50,15 +38,11 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
 {
     draft->table.source = b->profile->description;
     draft->table.tool = TOOL;
-    size_t size = vndf_table_encode(&draft->table, NULL, 0);
-    unsigned char *bytes = malloc(size);
+    vndf_writer file = {NULL, 0, 0, 0};
     vndf_error inner = {VNDF_ERROR_MEMORY, ""};
-    vndf_distribution *table = NULL;
-    if (bytes) {
-        vndf_table_encode(&draft->table, bytes, size);
-        table = vndf_load_memory(bytes, size, &inner);
-    }
-    free(bytes);
+    vndf_table_write(&draft->table, &file);
+    vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
+    free(file.bytes);
     if (!table && inner.status == VNDF_ERROR_MEMORY)
         b->profile->guard->starved = 1;
     else if (!table)
@@ -68,11 +52,11 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
 }
 
 /* Measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
-static double try_knots(const builder *b, unsigned knots, vndf_draft *draft)
+static double try_knots(builder *b, unsigned knots, vndf_draft *draft)
 {
     vndf_draft_free(draft);
-    vndf_knots_place(b->knots, knots);
-    int good = vndf_draft_from(draft, b->knots, b->moments) &&
+    vndf_knots_place(&b->knots, knots);
+    int good = vndf_draft_from(draft, &b->knots, b->moments) &&
                vndf_certificate_measure(&draft->table.certificate, draft, b->profile);
     b->profile->guard->starved |= !good;
     return good ? excess_of(&draft->table.certificate, b->max_tv) : 0;
@@ -81,13 +65,13 @@ static double try_knots(const builder *b, unsigned knots, vndf_draft *draft)
 /* About as few knots as reach the target, from `least` to `most`: the total variation falls as the square of their
  * number, or hardly at all where the moments limit it. Then the number is halved between what is enough and what is
  * not. */
-static void search(const builder *b, unsigned least, unsigned most, vndf_draft *draft)
+static void search(builder *b, unsigned least, unsigned most, vndf_draft *draft)
 {
     const double step_least = 1.1, step_most = 2.5, step_slow = 1.5, close = 0.7;
     unsigned few = least, enough = least, there = 0;
     double excess = try_knots(b, least, draft), before = HUGE_VAL;
-    while (excess > 1 && enough < most && b->knots->count > there) {
-        there = b->knots->count;
+    while (excess > 1 && enough < most && b->knots.count > there) {
+        there = b->knots.count;
         int slow = excess * enough > before * few;
         double next = enough * (slow ? step_slow : fmin(fmax(1.1 * sqrt(excess), step_least), step_most));
         few = enough;
@@ -107,8 +91,7 @@ static void search(const builder *b, unsigned least, unsigned most, vndf_draft *
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    size_t two = bytes_for(b, CELLS_LEAST), each = bytes_for(b, CELLS_LEAST + 1) - two;
-    return two + each * knots - each * (CELLS_LEAST + 1);
+    return vndf_table_size(knots, b->moments, b->profile->description, TOOL);
 }
 
 /* The largest number of knots that fits into bytes. */
@@ -119,22 +102,21 @@ static unsigned knots_in(const builder *b, size_t bytes)
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
-static vndf_distribution *make_table(const builder *b, vndf_error *error)
+static vndf_distribution *make_table(builder *b, vndf_error *error)
 {
     unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes), least = CELLS_LEAST + 1;
-    if (most >= least && !vndf_knots_from(b->knots, b->profile, most)) {
+    if (most >= least && !vndf_knots_from(&b->knots, b->profile, most)) {
         b->profile->guard->starved = 1;
         return NULL;
     }
-    least = b->knots->least > least ? b->knots->least : least;
+    least = b->knots.least > least ? b->knots.least : least;
     if (most < least) {
         vndf_fail(error, VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
         return NULL;
     }
-    vndf_draft draft;
-    memset(&draft, 0, sizeof draft);
+    vndf_draft draft = {.first = NULL};
     search(b, !(b->max_tv > 0) ? most : few > least ? few : least, most, &draft);
     vndf_distribution *table = vndf_guard_stopped(b->profile->guard) ? NULL : finish(b, &draft, error);
     vndf_draft_free(&draft);
@@ -188,15 +170,10 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
     if (!profile)
         return NULL;
-    vndf_distribution *table = NULL;
     vndf_status status = VNDF_OK;
     b.profile = profile;
-    b.knots = calloc(1, sizeof *b.knots);
     vndf_guard_stage(&guard, 0.5, "knots and certificate");
-    if (b.knots)
-        table = make_table(&b, error);
-    else
-        guard.starved = 1;
+    vndf_distribution *table = make_table(&b, error);
     if (vndf_guard_stopped(&guard))
         status = vndf_guard_status(&guard, error);
     else if (table && given.max_tv > 0.0 && excess_of(&table->certificate, given.max_tv) > 1)
@@ -207,9 +184,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     }
     if (table && certificate)
         *certificate = table->certificate;
-    if (b.knots)
-        vndf_knots_free(b.knots);
-    free(b.knots);
+    vndf_knots_free(&b.knots);
     vndf_profile_free(profile);
     return table;
 }
@@ -232,8 +207,7 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
     vndf_status status = VNDF_OK;
-    vndf_draft draft;
-    memset(&draft, 0, sizeof draft);
+    vndf_draft draft = {.first = NULL};
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))
         status =
             vndf_fail(error, VNDF_ERROR_DISTRIBUTION,

@@ -119,18 +119,6 @@ static void put_shares(vndf_draft *draft, const double *below, double *grazing, 
 
 /* ---- the whole ---- */
 
-/* Eleven arrays in one block. */
-static int allocate(vndf_table_draft *t)
-{
-    size_t n = t->cells + 1;
-    float *block = calloc(11 * n, sizeof *block),
-          **array[] = {&t->knot,  &t->g0, &t->g1, &t->m0,   &t->m1,   &t->m2,
-                       &t->cubes, &t->b0, &t->b1, &t->area, &t->slope};
-    for (int i = 0; block && i < 11; i++)
-        *array[i] = block + (size_t)i * n;
-    return block != NULL;
-}
-
 int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments)
 {
     const vndf_profile *profile = knots->profile;
@@ -144,7 +132,7 @@ int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments)
     vndf_table_draft *t = &draft->table;
     double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
     rays at = {NULL, NULL, NULL, 0};
-    if (room && allocate(t)) {
+    if (room && vndf_table_draft_allocate(t)) {
         for (unsigned i = 0; i < count; i++) {
             const vndf_area *area = vndf_knots_area(knots, knots->at[i]);
             double rho = t->knot[i] = vndf_knots_slope(knots, i);

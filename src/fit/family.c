@@ -88,33 +88,21 @@ static vndf_status check_pattern(const char *pattern, vndf_error *error)
     return check_form(pattern, strcspn(pattern, ":"), error);
 }
 
-/* The pattern with the number in its places. */
-static void add_filled(vndf_text *text, const char *pattern, const char *number)
-{
-    const char *place;
-    char piece[2] = "";
-    while ((place = strstr(pattern, PLACE)) != NULL) {
-        for (; pattern < place; pattern++) {
-            piece[0] = *pattern;
-            vndf_text_add(text, piece);
-        }
-        vndf_text_add(text, number);
-        pattern = place + strlen(PLACE);
-    }
-    vndf_text_add(text, pattern);
-}
-
-/* The source at p; NULL and an error. */
+/* The source at p, whose number takes the places in the pattern; NULL and an error. */
 static vndf_source *source_at(const char *pattern, double p, vndf_error *error)
 {
     char number[VNDF_NUMBER_TEXT];
-    vndf_text text = {NULL, 0, 0, 0};
+    const char *place;
+    int alone = !strchr(pattern, ':') && !strstr(pattern, PLACE);
+    vndf_writer text = {NULL, 0, 0, 0};
     vndf_number_print(number, p);
-    add_filled(&text, pattern, number);
-    if (!strchr(pattern, ':') && !strstr(pattern, PLACE)) {
-        vndf_text_add(&text, ":");
+    for (; (place = strstr(pattern, PLACE)) != NULL; pattern = place + strlen(PLACE)) {
+        vndf_write_bytes(&text, pattern, (size_t)(place - pattern));
         vndf_text_add(&text, number);
     }
+    vndf_text_add(&text, pattern);
+    vndf_text_add(&text, alone ? ":" : "");
+    vndf_text_add(&text, alone ? number : "");
     char *specification = vndf_text_finish(&text, error);
     vndf_source *source = specification ? vndf_source_family(specification, error) : NULL;
     free(specification);
@@ -125,7 +113,7 @@ static vndf_source *source_at(const char *pattern, double p, vndf_error *error)
 static char *describe(const char *pattern, double low, double high, vndf_error *error)
 {
     char number[VNDF_NUMBER_TEXT];
-    vndf_text text = {NULL, 0, 0, 0};
+    vndf_writer text = {NULL, 0, 0, 0};
     vndf_text_add_word(&text, "--family");
     vndf_text_add_word(&text, pattern);
     vndf_text_add_word(&text, "--parameter");
@@ -449,7 +437,7 @@ static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
         if (status != VNDF_OK)
             return status;
     }
-    family->bytes = vndf_family_encode(family, NULL, 0);
+    family->bytes = vndf_family_size(family);
     if (family->bytes > VNDF_LIMIT_FAMILY_BYTES)
         return vndf_fail(error, VNDF_ERROR_TARGET, "%lu tables take %lu bytes; at most %d are possible",
                          (unsigned long)b->count, (unsigned long)family->bytes, VNDF_LIMIT_FAMILY_BYTES);

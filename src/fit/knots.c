@@ -1,7 +1,7 @@
 /* A cell counts by what it adds to the total variation: of the directions above the horizon together with all other
  * cells, for whose laws f and R f stand; below it nearly alone, since those see little beyond rho, and rho cuts the
  * cell. Knots are as far apart as one error allows: from 0 on each cell is as long as it may be. */
-#include "fit/knots.h"
+#include "fit/draft.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "math/ascending.h"
+
 static const double PI = 3.14159265358979323846;
 
 /* ---- one cell ---- */
@@ -129,15 +131,7 @@ void vndf_laws_free(vndf_laws *laws)
 
 unsigned vndf_laws_cell(const vndf_laws *laws, double r)
 {
-    unsigned low = 0, high = laws->cells + 1;
-    while (high - low > 1) {
-        unsigned middle = (low + high) / 2;
-        if (laws->cell[middle].r <= r)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return (unsigned)vndf_last_before(&laws->cell->r, sizeof *laws->cell, laws->cells + 1, r);
 }
 
 /* ---- directions ---- */

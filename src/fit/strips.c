@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "math/ascending.h"
+
 static const double PI = 3.14159265358979323846;
 static const double SAME = 1.3e-7;   /* of a slope: a knot may be the end of a panel, rounded */
 static const double INSIDE = 1.5e-7; /* of a slope: a float beyond an edge, where P22 may jump beside it */
@@ -161,7 +163,7 @@ static double need_of(const vndf_profile *profile, size_t i)
 {
     const double few = 1e-10, few_grazing = 1e-14, below = 2.5e-3, floor = 1e-4, near = 1e-4;
     const vndf_panel *p = &profile->panel[i];
-    const vndf_profile_point *point = profile->point + i * VNDF_GAUSS;
+    const vndf_profile_point *point = p->point;
     double value[VNDF_GAUSS], most = 0, change = 2 * log(p[1].r / p->r);
     double f = p->m0 / profile->f0, along = p[1].r * p->m0, beyond = p->s + p->r * p->t0;
     if (f < few && along < few_grazing * profile->f1)
@@ -248,13 +250,5 @@ void vndf_strips_free(vndf_strips *strips)
 
 size_t vndf_strips_edge(const vndf_strips *strips, double r)
 {
-    size_t low = 0, high = strips->count;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (strips->edge[middle] <= r)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
+    return vndf_last_before(strips->edge, sizeof *strips->edge, strips->count, r);
 }

@@ -9,7 +9,6 @@
 #include <string.h>
 
 #include "core/inline.h"
-#include "table/columns.h"
 #include "table/table.h"
 
 #define HERE VNDF_INLINE
@@ -217,7 +216,7 @@ typedef struct table {
     const float *numbers, *columns;
     const uint16_t *first;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
-    int column, pivots;                            /* table/columns.h */
+    int column, pivots;                            /* table/table.h */
 } table;
 
 HERE table table_of(const vndf_distribution *d)

@@ -11,42 +11,22 @@
 
 #include "core/error.h"
 
-static void add_bytes(vndf_text *text, const char *bytes, size_t size)
+void vndf_text_add(vndf_writer *text, const char *string)
 {
-    if (text->failed || size >= (size_t)-1 / 4 - text->length)
-        text->failed = 1;
-    if (text->failed)
-        return;
-    if (text->length + size + 1 > text->capacity) {
-        size_t capacity = 2 * (text->length + size + 32);
-        char *grown = realloc(text->bytes, capacity);
-        text->failed = grown == NULL;
-        if (text->failed)
-            return;
-        text->bytes = grown;
-        text->capacity = capacity;
-    }
-    memcpy(text->bytes + text->length, bytes, size);
-    text->length += size;
-    text->bytes[text->length] = '\0';
+    vndf_write_bytes(text, string, strlen(string));
 }
 
-void vndf_text_add(vndf_text *text, const char *string)
-{
-    add_bytes(text, string, strlen(string));
-}
-
-void vndf_text_add_number(vndf_text *text, double value)
+void vndf_text_add_number(vndf_writer *text, double value)
 {
     char number[VNDF_NUMBER_TEXT];
     vndf_text_add(text, vndf_number_print(number, value));
 }
 
-void vndf_text_add_word(vndf_text *text, const char *word)
+void vndf_text_add_word(vndf_writer *text, const char *word)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
     int quote = word[0] == '\0' || word[strspn(word, plain)] != '\0';
-    if (text->length > 0)
+    if (text->size > 0)
         vndf_text_add(text, " ");
     if (quote)
         vndf_text_add(text, "'");
@@ -55,25 +35,25 @@ void vndf_text_add_word(vndf_text *text, const char *word)
         if (byte == '\'')
             vndf_text_add(text, "'\\''");
         else
-            add_bytes(text, byte < 32 || byte == 127 ? " " : c, 1);
+            vndf_write_bytes(text, byte < 32 || byte == 127 ? " " : c, 1);
     }
     if (quote)
         vndf_text_add(text, "'");
 }
 
-char *vndf_text_finish(vndf_text *text, vndf_error *error)
+char *vndf_text_finish(vndf_writer *text, vndf_error *error)
 {
-    add_bytes(text, "", 0); /* so that an empty text is "" and not NULL */
+    vndf_write_bytes(text, "", 1);
     if (!text->failed)
-        return text->bytes;
+        return (char *)text->bytes;
     free(text->bytes);
-    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a text of %zu bytes", text->length);
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a text of %zu bytes", text->size);
     return NULL;
 }
 
 char *vndf_text_pair(const char *option, const char *word, const char *tail, vndf_error *error)
 {
-    vndf_text text = {NULL, 0, 0, 0};
+    vndf_writer text = {NULL, 0, 0, 0};
     if (word && strlen(word) > VNDF_LIMIT_NAME_LENGTH) {
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "a name of %zu characters; at most %d are possible", strlen(word),
                   VNDF_LIMIT_NAME_LENGTH);

@@ -3,24 +3,19 @@
 #ifndef VNDF_SOURCE_WORDS_H
 #define VNDF_SOURCE_WORDS_H
 
+#include "core/cursor.h"
 #include "vndf_build.h"
 
-/* Text that grows; a zeroed one is empty. It remembers a failed allocation until vndf_text_finish. */
-typedef struct vndf_text {
-    char *bytes;
-    size_t length, capacity;
-    int failed;
-} vndf_text;
-
-void vndf_text_add(vndf_text *text, const char *string);
-void vndf_text_add_number(vndf_text *text, double value); /* vndf_number_print */
+/* Texts are bytes that grow, with their end once they are finished. */
+void vndf_text_add(vndf_writer *text, const char *string);
+void vndf_text_add_number(vndf_writer *text, double value); /* vndf_number_print */
 
 /* Adds a space unless the text is empty, then the word: as it is if a shell leaves it alone, otherwise
  * in single quotes. Control characters become spaces, so that the text stays one line. */
-void vndf_text_add_word(vndf_text *text, const char *word);
+void vndf_text_add_word(vndf_writer *text, const char *word);
 
 /* The text, which the caller frees; NULL and VNDF_ERROR_MEMORY if it could not grow. */
-char *vndf_text_finish(vndf_text *text, vndf_error *error);
+char *vndf_text_finish(vndf_writer *text, vndf_error *error);
 
 /* Two words, "OPTION WORD", then the tail as it is; "unnamed" for NULL. Of at most VNDF_LIMIT_NAME_LENGTH characters,
  * else VNDF_ERROR_ARGUMENT. The caller frees it. */

@@ -11,38 +11,37 @@
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
 
 /* Whether the file holds this array. */
-static int has_array(const vndf_table_draft *draft, int i)
+static int has_array(unsigned moments, int i)
 {
-    return i != VNDF_ARRAY_OF_CUBES || draft->moments == 4;
+    return i != VNDF_ARRAY_OF_CUBES || moments == 4;
 }
 
 /* ---- writing ---- */
 
-static size_t write_all(const vndf_table_draft *d, unsigned char *bytes, size_t capacity, size_t size)
+void vndf_table_write(const vndf_table_draft *d, vndf_writer *w)
 {
-    vndf_writer w = {bytes, capacity, 0};
     const float *claims = &d->certificate.tv;
-    vndf_frame_begin(&FRAME, &w, size);
-    vndf_write_f64(&w, d->normalization);
-    vndf_write_f64(&w, d->scale);
-    vndf_write_u32(&w, d->cells);
-    vndf_write_u32(&w, d->moments);
-    vndf_write_u32(&w, d->squarings);
+    vndf_frame_begin(&FRAME, w);
+    vndf_write_f64(w, d->normalization);
+    vndf_write_f64(w, d->scale);
+    vndf_write_u32(w, d->cells);
+    vndf_write_u32(w, d->moments);
+    vndf_write_u32(w, d->squarings);
     for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
-        vndf_write_f32(&w, claims[i]);
-    vndf_write_text(&w, d->source);
-    vndf_write_text(&w, d->tool);
+        vndf_write_f32(w, claims[i]);
+    vndf_write_text(w, d->source);
+    vndf_write_text(w, d->tool);
     for (int i = 0; i < VNDF_ARRAYS; i++)
-        for (size_t j = 0; has_array(d, i) && j <= d->cells; j++)
-            vndf_write_f32(&w, d->array[i][j * (d->stride ? d->stride : 1)]);
-    vndf_frame_end(&w);
-    return w.at;
+        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
+            vndf_write_f32(w, d->array[i][j * (d->stride ? d->stride : 1)]);
+    vndf_frame_end(w);
 }
 
-size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity)
+size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool)
 {
-    size_t size = write_all(draft, NULL, 0, 0);
-    return size > capacity ? size : write_all(draft, bytes, capacity, size);
+    size_t numbers = (size_t)(VNDF_ARRAYS - 1 + has_array(moments, VNDF_ARRAY_OF_CUBES)) * knots;
+    size_t counts = 3 + VNDF_CERTIFICATE_FLOATS + 2; /* of 4 bytes, with the lengths of both texts */
+    return VNDF_FRAME_HEAD + 2 * sizeof(double) + 4 * (counts + numbers + 1) + strlen(source) + strlen(tool);
 }
 
 /* ---- reading ---- */
@@ -64,7 +63,7 @@ static int read_body(vndf_reader *bytes, vndf_distribution *table, vndf_table_dr
     if (!table->source || !table->tool || !vndf_table_draft_allocate(d))
         return 0;
     for (int i = 0; i < VNDF_ARRAYS; i++)
-        for (size_t j = 0; has_array(d, i) && j <= d->cells; j++)
+        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
             d->array[i][j] = vndf_read_f32(bytes);
     if (d->moments < 4)
         d->cubes = NULL;

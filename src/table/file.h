@@ -13,9 +13,17 @@
 #ifndef VNDF_TABLE_FILE_H
 #define VNDF_TABLE_FILE_H
 
+#include "core/cursor.h"
 #include "table/table.h"
 
 enum { VNDF_CERTIFICATE_FLOATS = 12 };
+
+/* Writes the file of a table, from its draft or as it was loaded. */
+void vndf_table_write(const vndf_table_draft *draft, vndf_writer *writer);
+void vndf_table_write_loaded(const vndf_distribution *table, vndf_writer *writer);
+
+/* The bytes of such a file. */
+size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool);
 
 /* Fills the numbers of a table from its draft. 0 where there is no memory, or where *why becomes what is wrong with the
  * draft. */

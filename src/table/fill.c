@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "table/columns.h"
 #include "table/file.h"
 
 /* The law of k~ begins at knot i for the rounded rho of its cell if that is less than NEAR times R_i, or nearer to R_i
@@ -221,10 +220,10 @@ static vndf_table_draft draft_within(const vndf_distribution *t)
     return draft;
 }
 
-size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity)
+void vndf_table_write_loaded(const vndf_distribution *table, vndf_writer *writer)
 {
     vndf_table_draft draft = draft_within(table);
-    return vndf_table_encode(&draft, bytes, capacity);
+    vndf_table_write(&draft, writer);
 }
 
 int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)

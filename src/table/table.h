@@ -49,6 +49,22 @@ enum {
     VNDF_STRIDE = 4 * VNDF_GROUPS /* from knot to knot */
 };
 
+/* Knots and the sums beyond them, each in a column, for searches that compare four numbers at once: R, then the four
+ * sums of VNDF_TAIL. A search counts pivots, every eighth knot from the eighth on, then the knots of one block of
+ * eight. Padding fails every comparison of a search. */
+enum { VNDF_COLUMNS = 5, VNDF_COLUMN_STEP = 8 };
+
+/* Floats of a column: up to the end of the last block. Pivots of a column: a multiple of four. */
+VNDF_INLINE int vndf_column_size(int cells)
+{
+    return cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 1;
+}
+
+VNDF_INLINE int vndf_pivot_count(int cells)
+{
+    return (cells / VNDF_COLUMN_STEP + 3) / 4 * 4;
+}
+
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
 struct vndf_distribution {
@@ -58,7 +74,7 @@ struct vndf_distribution {
     float unit;                        /* scale, rounded: 1 for closed forms */
     float *numbers;
     size_t number_count;
-    float *columns;                 /* slopes and sums beyond them once more, each in a column (table/columns.h) */
+    float *columns;                 /* slopes and sums beyond them once more, each in a column (above) */
     int32_t column, pivots;         /* vndf_column_size, vndf_pivot_count */
     uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of rho */
     double normalization;           /* the source was multiplied by it */
@@ -99,12 +115,6 @@ typedef struct vndf_table_draft {
 
 /* Arrays of zeros in one block, draft->knot, to be freed; 0 if there is no memory. */
 int vndf_table_draft_allocate(vndf_table_draft *draft);
-
-/* Writes the file (table/file.h) into bytes[0..capacity) if it fits; returns the size of the whole. */
-size_t vndf_table_encode(const vndf_table_draft *draft, unsigned char *bytes, size_t capacity);
-
-/* The same of a table as it was loaded. */
-size_t vndf_table_encode_loaded(const vndf_distribution *table, unsigned char *bytes, size_t capacity);
 
 /* The draft that an encoded table was made of, its arrays allocated. The texts belong to the table. 0 if there is no
  * memory. */

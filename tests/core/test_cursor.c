@@ -1,5 +1,7 @@
-/* Reading and writing bytes stop at the end: the last byte is had, the one after it is not, and a reader that
- * failed gives zeros from then on. */
+/* Reading bytes stops at the end: the last byte is had, the one after it is not, and a reader that
+ * failed gives zeros from then on; what is written grows. */
+#include <stdlib.h>
+
 #include "core/cursor.h"
 #include "harness/test.h"
 
@@ -17,20 +19,17 @@ static void test_reader(void)
     TEST(vndf_read_bytes(&none, (size_t)-1) == NULL && none.failed);
 }
 
-/* What does not fit is counted, and nothing is written. */
+/* Bytes grow, and are little-endian. */
 static void test_writer(void)
 {
-    unsigned char bytes[9];
-    memset(bytes, 0xEE, sizeof bytes);
-    vndf_writer w = {bytes, 8, 0};
+    vndf_writer w = {NULL, 0, 0, 0};
     vndf_write_u32(&w, 0x12345678);
     vndf_write_f32(&w, 1.0f);
-    TEST(w.at == 8 && bytes[0] == 0x78 && bytes[3] == 0x12 && bytes[7] == 0x3f && bytes[8] == 0xEE);
-    vndf_write_bytes(&w, "x", 1);
-    TEST(w.at == 9 && bytes[8] == 0xEE);
-    vndf_writer part = {bytes, 8, 5};
-    vndf_write_u32(&part, 0);
-    TEST(part.at == 9 && bytes[5] == 0 && bytes[6] == 0x80 && bytes[8] == 0xEE);
+    TEST(w.size == 8 && w.bytes[0] == 0x78 && w.bytes[3] == 0x12 && w.bytes[7] == 0x3f);
+    for (int i = 0; i < 1000; i++)
+        vndf_write_bytes(&w, "xy", 2);
+    TEST(w.size == 2008 && w.bytes[4] == 0 && w.bytes[2006] == 'x' && w.bytes[2007] == 'y' && !w.failed);
+    free(w.bytes);
 }
 
 int main(void)

@@ -169,7 +169,7 @@ static int count_linked(const char *folder, const char *page)
 
 static void check_page(const char *folder)
 {
-    static const char *const sections[] = {"advice", "frontier", "bytes", "theta", "time", "normals"};
+    static const char *const sections[] = {"advice", "frontier", "theta", "time", "normals"};
     char *page = read_file(folder, "index.html"), *alone = read_file(folder, "frontier.svg");
     if (!TEST(page && alone))
         return;

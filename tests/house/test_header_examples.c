@@ -3,11 +3,10 @@
  * along the brush and `across` across it; two families in one mixture have the densities of their sum, 7 to 3. */
 #include <ctype.h>
 
+#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf.h"
 #include "vndf_bsdf.h"
-
-static const double PI = 3.14159265358979323846;
 
 /* ---- examples ---- */
 
@@ -55,56 +54,12 @@ static int example_glass(vndf_vec3 wi, const float u[3], vndf_scattered *scatter
     return 1;
 }
 
-typedef struct drawn {
-    vndf_vec3 wm;
-    float pdf;
-} drawn;
-
-static drawn example_brushed(const vndf_distribution *metal, float phi, float along, float across, vndf_vec3 n,
-                             vndf_vec3 wi, const float u[2], vndf_affine *surface)
-{
-    /* example: vndf.h */
-    const float c = cosf(phi), s = sinf(phi);
-    const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
-    const vndf_view view = vndf_affine_view_from(&brushed, wi);
-    float pdf;
-    const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
-    /* end */
-    const drawn sample = {wm, pdf};
-    *surface = brushed;
-    return sample;
-}
-
-static drawn example_families(const vndf_family *metals, float p, const vndf_affine *narrow,
-                              const vndf_family *tails, float q, const vndf_affine *wide, vndf_vec3 wi,
-                              const float u[2], vndf_mixture *whole_of)
-{
-    /* example: vndf.h */
-    vndf_mixture whole, haze;
-    vndf_family_at(metals, p, narrow, &whole);
-    vndf_family_at(tails, q, wide, &haze);
-    for (int i = 0; i < whole.count; i++)
-        whole.lobe[i].weight *= 0.7f;
-    for (int i = 0; i < haze.count; i++) {
-        haze.lobe[i].weight *= 0.3f;
-        whole.lobe[whole.count++] = haze.lobe[i];
-    }
-    const vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
-    float pdf;
-    const vndf_vec3 wm = vndf_mixture_sample(&view, u[0], u[1], &pdf, NULL);
-    /* end */
-    const drawn sample = {wm, pdf};
-    *whole_of = whole;
-    return sample;
-}
-
 /* ---- what they do ---- */
 
 static vndf_vec3 normal_of(double x, double y)
 {
-    double per = 1 / sqrt(1 + x * x + y * y);
-    vndf_vec3 n = {(float)(-x * per), (float)(-y * per), (float)per};
-    return n;
+    const double per = 1 / sqrt(1 + x * x + y * y);
+    return (vndf_vec3){(float)(-x * per), (float)(-y * per), (float)per};
 }
 
 static void test_glass(void)
@@ -123,47 +78,55 @@ static double p22_brushed(double along, double across, double x, double y)
     return 1 / (PI * along * across * q * q);
 }
 
-static void test_brushed(void)
+static void test_brushed(const vndf_distribution *metal, float phi, float along, float across, vndf_vec3 wi,
+                         const float u[2])
 {
-    const double phi = 0.4, along = 0.05, across = 0.3, mean[2] = {0.35, -0.2};
-    const vndf_vec3 n = normal_of(mean[0], mean[1]), wi = {0.48f, 0.64f, 0.6f};
-    const float u[2] = {0.3f, 0.7f};
-    vndf_affine surface;
-    drawn d = example_brushed(vndf_ggx(), (float)phi, (float)along, (float)across, n, wi, u, &surface);
-    vndf_view view = vndf_affine_view_from(&surface, wi);
-    TEST_RELATIVE((double)d.pdf, (double)vndf_pdf(&view, d.wm), 1e-5);
-    TEST_RELATIVE((double)vndf_affine_ndf(&surface, n), p22_brushed(along, across, 0, 0) / pow((double)n.z, 4),
-                  1e-4);
+    const double mean[2] = {0.35, -0.2};
+    const vndf_vec3 n = normal_of(mean[0], mean[1]);
+    /* example: vndf.h */
+    const float c = cosf(phi), s = sinf(phi);
+    const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
+    const vndf_view view = vndf_affine_view_from(&brushed, wi);
+    float pdf;
+    const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
+    /* end */
+    TEST_RELATIVE((double)pdf, (double)vndf_pdf(&view, wm), 1e-5);
     for (int i = -3; i <= 3; i++)
         for (int j = -3; j <= 3; j++) {
-            double x = 0.04 * i, y = 0.2 * j; /* along the brush and across it */
-            double at[2] = {mean[0] + cos(phi) * x - sin(phi) * y, mean[1] + sin(phi) * x + cos(phi) * y};
-            double p22 = p22_brushed(along, across, x, y);
-            vndf_vec3 wm = normal_of(at[0], at[1]);
-            TEST_RELATIVE((double)vndf_affine_p22(&surface, (float)at[0], (float)at[1]), p22, 1e-4);
-            TEST_RELATIVE((double)vndf_affine_ndf(&surface, wm), p22 / pow((double)wm.z, 4), 1e-4);
+            const double x = 0.04 * i, y = 0.2 * j; /* along the brush and across it */
+            const double at[2] = {mean[0] + (double)c * x - (double)s * y,
+                                  mean[1] + (double)s * x + (double)c * y};
+            const double p22 = p22_brushed((double)along, (double)across, x, y);
+            const vndf_vec3 m = normal_of(at[0], at[1]);
+            TEST_RELATIVE((double)vndf_affine_p22(&brushed, (float)at[0], (float)at[1]), p22, 1e-4);
+            TEST_RELATIVE((double)vndf_affine_ndf(&brushed, m), p22 / pow((double)m.z, 4), 1e-4);
         }
 }
 
-static void test_families(void)
+static void test_families(const vndf_family *metals, float p, const vndf_affine *narrow, const vndf_family *tails,
+                          float q, const vndf_affine *wide, vndf_vec3 wi, const float u[2])
 {
-    const vndf_distribution *const two[2] = {vndf_ggx(), vndf_beckmann()};
-    const float parameters[2] = {1, 2}, u[2] = {0.3f, 0.6f};
-    const vndf_affine narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
-    const vndf_vec3 wi = {0.6f, 0, 0.8f};
-    vndf_family *family = vndf_family_of(two, parameters, 2, NULL);
-    for (float p = 1.1f; p < 2; p += 0.1f) {
-        vndf_mixture whole, core, haze;
-        drawn d = example_families(family, p, &narrow, family, 2, &wide, wi, u, &whole);
-        vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
-        TEST(vndf_family_at(family, p, &narrow, &core) == VNDF_FAMILY_INSIDE);
-        TEST(vndf_family_at(family, 2, &wide, &haze) == VNDF_FAMILY_INSIDE && whole.count == 3);
-        TEST_RELATIVE((double)vndf_mixture_ndf(&whole, d.wm),
-                      0.7 * (double)vndf_mixture_ndf(&core, d.wm) + 0.3 * (double)vndf_mixture_ndf(&haze, d.wm),
-                      1e-5);
-        TEST_RELATIVE((double)d.pdf, (double)vndf_mixture_pdf(&view, d.wm), 1e-5);
+    vndf_mixture core, tail;
+    TEST(vndf_family_at(metals, p, narrow, &core) == VNDF_FAMILY_INSIDE);
+    TEST(vndf_family_at(tails, q, wide, &tail) == VNDF_FAMILY_INSIDE);
+    /* example: vndf.h */
+    vndf_mixture whole, haze;
+    vndf_family_at(metals, p, narrow, &whole);
+    vndf_family_at(tails, q, wide, &haze);
+    for (int i = 0; i < whole.count; i++)
+        whole.lobe[i].weight *= 0.7f;
+    for (int i = 0; i < haze.count; i++) {
+        haze.lobe[i].weight *= 0.3f;
+        whole.lobe[whole.count++] = haze.lobe[i];
     }
-    vndf_family_free(family);
+    const vndf_mixture_view view = vndf_mixture_view_from(&whole, wi);
+    float pdf;
+    const vndf_vec3 wm = vndf_mixture_sample(&view, u[0], u[1], &pdf, NULL);
+    /* end */
+    TEST(whole.count == 3);
+    TEST_RELATIVE((double)vndf_mixture_ndf(&whole, wm),
+                  0.7 * (double)vndf_mixture_ndf(&core, wm) + 0.3 * (double)vndf_mixture_ndf(&tail, wm), 1e-5);
+    TEST_RELATIVE((double)pdf, (double)vndf_mixture_pdf(&view, wm), 1e-5);
 }
 
 /* ---- to the letter ---- */
@@ -216,10 +179,16 @@ static void test_letters(void)
 
 int main(void)
 {
+    const vndf_distribution *const two[2] = {vndf_ggx(), vndf_beckmann()};
+    const float parameters[2] = {1, 2}, u[2] = {0.3f, 0.6f};
+    const vndf_affine narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
+    vndf_family *family = vndf_family_of(two, parameters, 2, NULL);
     TEST(example_first() == 0);
     test_glass();
-    test_brushed();
-    test_families();
+    test_brushed(vndf_ggx(), 0.4f, 0.05f, 0.3f, (vndf_vec3){0.48f, 0.64f, 0.6f}, u);
+    for (float p = 1.1f; p < 2; p += 0.1f)
+        test_families(family, p, &narrow, family, 2, &wide, (vndf_vec3){0.6f, 0, 0.8f}, u);
+    vndf_family_free(family);
     test_letters();
     return test_done();
 }

@@ -1,5 +1,5 @@
 # A .bsdf of `vndf export --rgl` in Mitsuba 3's plugin `measured`, unmodified: its values are those of GGX in closed
-# form, its samples follow its own density, and together they reflect what the closed form reflects; also in spectra.
+# form, its samples follow its own density, and their weights are value over density; also in spectra.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)

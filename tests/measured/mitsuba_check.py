@@ -1,8 +1,7 @@
 """GGX in closed form against .bsdf files in Mitsuba 3: rough.bsdf, smooth.bsdf and spectral.bsdf in this folder.
 
-Three numbers for each direction of incidence: the mean relative error of f cos, weighed by the light; the largest
-difference between the density of a sample and the density of its direction; and the reflected light by Mitsuba's own
-samples against the same by drawing the closed form's visible normals."""
+Two numbers for each direction of incidence: the mean relative error of f cos, weighed by the light, and the largest
+difference between the density of a sample and the density of its direction. A sample's weight is f cos over density."""
 import sys
 
 import mitsuba
@@ -33,24 +32,6 @@ def reflected(wi, wo, alpha):
     return numpy.where(wo[2] > 0, ndf * masked / (4 * a_i), 0), (1 - (wi[:, None] * m).sum(0)) ** 5
 
 
-def albedo(wi, alpha, f0, count=200):
-    """By a midpoint rule over the hemisphere of wo, in the frame of its half vectors' slopes: sum of f cos."""
-    x, v = [(numpy.arange(count) + 0.5) / count] * 2
-    x, v = numpy.meshgrid(x, v)
-    u = 1 - (1 - x) ** 4  # steep normals weigh most at grazing incidence
-    r, phi = alpha * numpy.sqrt(u / (1 - u)), 2 * numpy.pi * v
-    m = numpy.array([r * numpy.cos(phi), r * numpy.sin(phi), numpy.ones_like(r)]) / numpy.sqrt(1 + r * r)
-    facing = (wi[:, None, None] * m).sum(0)
-    wo = 2 * facing * m - wi[:, None, None]
-    a_i, a_o = area(wi, alpha), area(wo, alpha)
-    with numpy.errstate(all="ignore"):
-        masked = a_i * wo[2] / (a_i * wo[2] + a_o * wi[2] - wi[2] * wo[2])
-    seen = (facing > 0) & (wo[2] > 0)
-    rise = (1 - numpy.clip(facing, 0, 1)) ** 5
-    # m is drawn with D cos: the weight of a visible normal is facing/(A cos).
-    return numpy.where(seen, masked * (f0 + (1 - f0) * rise) * facing / a_i / m[2] * 4 * (1 - x) ** 3, 0).mean()
-
-
 def open_bsdf(name):
     return mitsuba.load_dict({"type": "measured", "filename": name})
 
@@ -61,7 +42,7 @@ def look(bsdf, degrees, alpha, f0, count, seed):
     wi = numpy.array([numpy.sin(theta) * numpy.cos(phi), numpy.sin(theta) * numpy.sin(phi), numpy.cos(theta)])
     hit, context = mitsuba.SurfaceInteraction3f(), mitsuba.BSDFContext()
     hit.wi = mitsuba.Vector3f(*wi.tolist())
-    worst = total = light = missed = 0
+    worst = light = missed = off = 0
     for _ in range(count):
         drawn, weight = bsdf.sample(context, hit, 0.5, mitsuba.Point2f(numbers.random(), numbers.random()))
         wo = numpy.array([float(x) for x in drawn.wo])
@@ -73,21 +54,18 @@ def look(bsdf, degrees, alpha, f0, count, seed):
         want = value * (f0 + (1 - f0) * rise)
         missed += abs(found - want).mean() / drawn.pdf
         light += want.mean() / drawn.pdf
-        total += numpy.array(weight)[0]
-    return missed / light, worst, total / count
+        off = max(off, abs(numpy.array(weight) * drawn.pdf / numpy.maximum(found, 1e-9) - 1).max())
+    return missed / light, worst, off
 
 
 def check(name, alpha, f0, count):
     bsdf = open_bsdf(name)
     for degrees in (2, 40, 65, 80, 87):
-        off, worst, light = look(bsdf, degrees, alpha, numpy.array(f0), count, 1)
-        theta = numpy.radians(degrees)
-        want = albedo(numpy.array([numpy.sin(theta), 0, numpy.cos(theta)]), alpha, f0[0])
-        print(f"{name} at {degrees} degrees: f cos off by {off:.4f}, densities by {worst:.1e}, "
-              f"reflected {light:.4f}, closed form {want:.4f}")
+        off, worst, weights = look(bsdf, degrees, alpha, numpy.array(f0), count, 1)
+        print(f"{name} at {degrees} degrees: f cos off by {off:.4f}, densities by {worst:.1e}, weights by {weights:.1e}")
         expect("f cos", off < 0.015)
         expect("densities", worst < 1e-3)
-        expect("what is reflected", abs(light - want) < 0.01)
+        expect("weights", weights < 2e-3)
 
 
 def check_spectral():

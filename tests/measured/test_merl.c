@@ -1,5 +1,5 @@
-/* A GGX surface goes out to a MERL file and comes in again as GGX within 1%, also where a diffuse part is under it,
- * which is told apart; the power iteration finds an eigenvector; what is no MERL file is refused. Noticed: a scale in
+/* A MERL file of a GGX surface, in closed form, is read as GGX within 1%, also where a diffuse part is under it, which
+ * is told apart; the power iteration finds an eigenvector; what is no MERL file is refused. Noticed: a scale in
  * another's place, masking left out. */
 #include "measured/measured_case.h"
 
@@ -26,6 +26,29 @@ static double ggx(double theta, double alpha)
     return 1 / (PI * alpha * alpha * c * c * c * c * q * q);
 }
 
+/* Twice the projected area of GGX along a direction with this cosine. */
+static double twice_area(double c, double alpha)
+{
+    return c + sqrt(c * c + alpha * alpha * (1 - c * c));
+}
+
+/* Single scattering of GGX at the middle of each bin: half vector (sin h, 0, cos h), both directions at d from it. */
+static void make(double alpha, const double f0[3])
+{
+    static const unsigned char head[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180};
+    memcpy(bytes, head, sizeof head);
+    for (size_t i = 0; i < PLANE; i++) {
+        double u = ((double)(i / 16200) + 0.5) / 90, h = PI / 2 * u * u,
+               phi = ((double)(i % 180) + 0.5) / 180 * PI;
+        double d = ((double)(i / 180 % 90) + 0.5) / 180 * PI, up = cos(h) * cos(d),
+               side = sin(h) * sin(d) * cos(phi);
+        double ci = up - side, co = up + side, a = twice_area(ci, alpha), b = twice_area(co, alpha);
+        double f = ci > 0 && co > 0 ? ggx(h, alpha) / (2 * (a * co + b * ci - 2 * ci * co)) : 0;
+        for (size_t k = 0; k < 3; k++)
+            put(k, i, f * (f0[k] + (1 - f0[k]) * pow(1 - cos(d), 5)) / scale[k]);
+    }
+}
+
 /* The largest difference of D from GGX up to 75 degrees, relative. */
 static double read_back(data_file *file, double alpha, merl_channel channel)
 {
@@ -41,18 +64,12 @@ static double read_back(data_file *file, double alpha, merl_channel channel)
     return worst;
 }
 
-static void test_round_trip(float alpha)
+static void test_ggx(double alpha)
 {
     static const double f0[3] = {0.9, 0.6, 0.3};
     data_file file;
-    FILE *written = tmpfile();
-    TEST(written && merl_write(written, vndf_ggx(), alpha, f0));
-    rewind(written);
-    TEST(fread(bytes, 1, SIZE, written) == SIZE && fgetc(written) == EOF);
-    fclose(written);
-    for (size_t channel = 1; channel < 3; channel++) /* at normal incidence colours are as f0 */
-        TEST_RELATIVE(get(channel, 90) * scale[channel] / (get(0, 90) * scale[0]), f0[channel] / f0[0], 1e-6);
-    TEST(read_back(&file, (double)alpha, MERL_LUMINANCE) < 0.01);
+    make(alpha, f0);
+    TEST(read_back(&file, alpha, MERL_LUMINANCE) < 0.01);
     TEST(case_number(&file, "diffuse ") == 0);
     TEST_RELATIVE(case_number(&file, "\nf0 "), 0.2126 * 0.9 + 0.7152 * 0.6 + 0.0722 * 0.3, 0.01);
     TEST_NEAR(case_number(&file, "\nf90 "), 1, 0.05);
@@ -91,7 +108,7 @@ static void test_eigenvector(void)
 {
     law *l = malloc(sizeof *l);
     double f[90], f0, whole = 0;
-    law_even(l, 90, 0.5);
+    law_even(l, 90);
     for (int i = 0; i < 90; i++)
         f[i] = exp(-3 * l->theta[i]) * (1 + 0.5 * sin(7 * l->theta[i]));
     TEST(merl_iterate(l, f, &f0) && f0 > 0);
@@ -145,8 +162,8 @@ int main(void)
     bytes = malloc(SIZE);
     test_eigenvector();
     if (!test_quick())
-        test_round_trip(0.1f);
-    test_round_trip(0.3f);
+        test_ggx(0.1);
+    test_ggx(0.3);
     test_diffuse();
     test_missing();
     test_refusals();

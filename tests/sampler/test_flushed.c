@@ -31,16 +31,13 @@ static void test_batches(const vndf_distribution *d)
     for (int i = 0; i < COUNT; i++) {
         double length = i % 2 ? 1 : random_decade(&state, -37, 38.4), reach = i % 5 ? 4 : 17.9;
         vndf_vec3 wi = random_direction(&state, -1);
-        double height = i % 4 ? (double)wi.z : random_decade(&state, -40, 0);
-        const float numbers[7] = {(float)random_decade(&state, -reach, reach),
-                                  (float)random_decade(&state, -reach, reach),
-                                  (float)(length * (double)wi.x),
-                                  (float)(length * (double)wi.y),
-                                  (float)(length * height),
-                                  hard_uniform(&state),
-                                  hard_uniform(&state)};
-        for (int j = 0; j < 7; j++)
-            in[j][i] = numbers[j];
+        in[0][i] = (float)random_decade(&state, -reach, reach);
+        in[1][i] = (float)random_decade(&state, -reach, reach);
+        in[2][i] = (float)(length * (double)wi.x);
+        in[3][i] = (float)(length * (double)wi.y);
+        in[4][i] = (float)(length * (i % 4 ? (double)wi.z : random_decade(&state, -40, 0)));
+        in[5][i] = hard_uniform(&state);
+        in[6][i] = hard_uniform(&state);
     }
     set_flushing(1);
     for (int limit = VNDF_INSTRUCTIONS_PORTABLE; limit <= VNDF_INSTRUCTIONS_AVX512; limit++) {

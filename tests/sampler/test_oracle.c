@@ -61,7 +61,8 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
         double x = a->xx * r * cos(t) + a->xy * r * sin(t) - a->mean_x,
                y = a->yx * r * cos(t) + a->yy * r * sin(t) - a->mean_y;
         double z = 1 / sqrt(1 + x * x + y * y);
-        wm.x = (float)(x * z), wm.y = (float)(y * z), wm.z = (float)z;
+        const double steep[3] = {x * z, y * z, z};
+        wm = vec3_of(steep);
     }
     p.lobe[0] = oracle_surface_from(*of, a);
     p.lobe[1] = oracle_surface_from(second, &m.lobe[1].surface);

@@ -60,33 +60,33 @@ endif()
 # run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty.
 function(run who count emulator parts)
     execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm
-        RESULT_VARIABLE status ERROR_VARIABLE errors)
-    if(NOT status EQUAL 0)
-        message(FATAL_ERROR "${who} cannot build the run time:\n${errors}")
+        RESULT_VARIABLE status ERROR_VARIABLE output)
+    if(status EQUAL 0)
+        execute_process(COMMAND ${emulator} ${OUT}/same_bits ${count} ${tables}
+            RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     endif()
-    execute_process(COMMAND ${emulator} ${OUT}/same_bits ${count} ${tables}
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(NOT status EQUAL 0)
-        message(FATAL_ERROR "built by ${who}, the program failed:\n${output}${errors}")
+        message(FATAL_ERROR "${who} cannot build or run the run time:\n${output}${errors}")
     endif()
     compare("${who}" "${output}")
     message("same bits: ${who}, ${count} samples of each distribution")
 endfunction()
 
-# Whether a compiler's programs run here.
-function(can_run result emulator)
+# run_here(NAME COUNT EMULATOR COMPILER FLAG...): the run time, if programs of this compiler run here; says `found`.
+macro(run_here who count emulator)
     file(WRITE ${OUT}/probe.c "#include <math.h>\n#include <stdio.h>\nint main(int n, char **a) { return a[0] && "
         "sqrt((double)n) == 1.0 ? 0 : 1; }\n")
     execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
     if(status EQUAL 0)
         execute_process(COMMAND ${emulator} ${OUT}/probe RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
     endif()
-    string(COMPARE EQUAL "${status}" "0" good)
-    set(${result} ${good} PARENT_SCOPE)
-    if(NOT good)
-        message("not here: ${ARGN}")
+    string(COMPARE EQUAL "${status}" "0" found)
+    if(found)
+        run("${who}" ${count} "${emulator}" "${sources}" ${ARGN})
+    else()
+        message("not here: ${who}")
     endif()
-endfunction()
+endmacro()
 
 # ---- this machine -------------------------------------------------------------------------------
 
@@ -107,31 +107,24 @@ if(NOT LONG)
 endif()
 foreach(compiler IN LISTS compilers)
     run("${compiler} -O0" ${few} "" "${sources}" ${compiler} -O0)
-    can_run(native "" ${compiler} -march=native)
-    if(native)
-        run("${compiler} -O3 -march=native" ${many} "" "${sources}" ${compiler} -O3 -march=native)
-    endif()
+    run_here("${compiler} -O3 -march=native" ${many} "" ${compiler} -O3 -march=native)
 endforeach()
 
 # ---- others -------------------------------------------------------------------------------------
 
 # Distributions that have compilers for other machines too keep the kernel's headers apart.
-set(small gcc -m32 -msse2 -mfpmath=sse -idirafter /usr/include/x86_64-linux-gnu)
 if(LONG)
-    can_run(found "" ${small})
-    if(found)
-        run("gcc -m32 -msse2 -mfpmath=sse -O2" ${few} "" "${sources}" ${small} -O2)
-    endif()
+    run_here("gcc -m32 -msse2 -mfpmath=sse -O2" ${few} "" gcc -m32 -msse2 -mfpmath=sse -O2
+        -idirafter /usr/include/x86_64-linux-gnu)
 endif()
 foreach(machine IN LISTS machines)
     string(REGEX MATCH "^[^-]+" processor ${machine})
     find_program(emulator_${processor} NAMES qemu-${processor} qemu-${processor}-static)
-    can_run(found "${emulator_${processor}}" ${machine}-gcc -static)
-    if(found AND emulator_${processor})
+    if(emulator_${processor})
         # In ISO mode gcc for s390x keeps floats as doubles, which the sources refuse, unless it is told not to.
-        run("${machine}-gcc -O2" ${few} ${emulator_${processor}} "${sources}" ${machine}-gcc -static -O2
+        run_here("${machine}-gcc -O2" ${few} ${emulator_${processor}} ${machine}-gcc -static -O2
             -fexcess-precision=fast)
-        if(NOT LONG)
+        if(found AND NOT LONG)
             break()
         endif()
     endif()

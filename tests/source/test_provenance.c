@@ -80,7 +80,7 @@ static void test_bad_descriptions(void)
 static void test_words(void)
 {
     static const char *const in[] = {"plain", "", "two words", "it's", "''", "back\\slash", "tab\there"};
-    vndf_text text = {NULL, 0, 0, 0};
+    vndf_writer text = {NULL, 0, 0, 0};
     vndf_words words;
     for (size_t i = 0; i < 7; i++)
         vndf_text_add_word(&text, in[i]);

@@ -19,7 +19,7 @@ static const char name[] = "vndf build";
 
 static const char help[] =
     "usage: vndf build (--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]) [options] -o FILE\n"
-    "       vndf build (--rgl | --merl | --gonio | --height | --normal-map) FILE [options] -o FILE\n"
+    "       vndf build (--rgl | --merl | --height | --normal-map) FILE [options] -o FILE\n"
     "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
@@ -315,9 +315,7 @@ int command_build(int argc, char **argv)
         {"--knots", 1, 1, &given.knots},
         {"--rgl", 1, 1, &given.measured.rgl},
         {"--merl", 1, 1, &given.measured.merl},
-        {"--gonio", 1, 1, &given.measured.gonio},
         {"--channel", 1, 1, &given.measured.channel},
-        {"--f0", 1, 1, &given.measured.f0},
         {"--matrix", 0, 1, &given.measured.matrix},
         {"--profile", 1, 1, &given.measured.profile},
         {"--height", 1, 1, &given.measured.height},

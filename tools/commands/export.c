@@ -15,7 +15,7 @@ static const char name[] = "vndf export";
 
 static const char help[] =
     "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
-    "       vndf export FILE|ggx|beckmann (--rgl | --brdf KIND) -o OUT [options]\n"
+    "       vndf export FILE|ggx|beckmann --rgl -o OUT [options]\n"
     "\n"
     "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
     "sample with density, density of a normal, D, Lambda, G1, G2, projected area; alpha, matrices with mean slopes,\n"
@@ -220,19 +220,17 @@ int command_export(int argc, char **argv)
         {"--wavelengths", 1, 1, &brdf.wavelengths},
         {"-o", 1, 1, &given.output},
         {"--rgl", 0, 1, &brdf.rgl},
-        {"--brdf", 1, 1, &brdf.brdf},
     };
     static char text[sizeof help + sizeof help_end + BRDF_HELP_MAX]; /* `vndf help` reads it later */
     snprintf(text, sizeof text, "%s%s%s", help, brdf_help, help_end);
     const command_form form = {name,   text, options,          sizeof options / sizeof options[0],
                                "FILE", 0,    EXPORT_TABLES_MAX};
-    int parsed = parse_arguments(&form, argc, argv, &given.tables), is_brdf = brdf_wanted(&brdf);
+    int parsed = parse_arguments(&form, argc, argv, &given.tables), is_brdf = brdf.rgl.count > 0;
     if (parsed != PARSE_GO_ON)
         return parsed;
     for (int i = is_brdf ? 0 : OF_KERNELS; i < (is_brdf ? OF_KERNELS : OF_FILES); i++)
         if (options[i].values->count)
-            return complain(name,
-                            is_brdf ? "%s is for kernels, not for --rgl and --brdf" : "%s is for --rgl and --brdf",
+            return complain(name, is_brdf ? "%s is for kernels, not for --rgl" : "%s is for --rgl",
                             options[i].name);
     if (!is_brdf)
         return run(&given);

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "cli/clock.h"
+#include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "command.h"
@@ -189,46 +189,38 @@ static void print_ways(const comparison *c, const noise *noises)
            path_sampler_names[c->way[0].sampler]);
 }
 
-/* JSON has no NaN. */
-static void print_json_number(const char *key, double x)
-{
-    if (isfinite(x))
-        printf(", \"%s\": %.9g", key, x);
-    else
-        printf(", \"%s\": null", key);
-}
-
-static void print_json_agreement(const agreement *a)
-{
-    printf(", \"verdict\": \"%s\"", verdict_names[a->is]);
-    print_json_number("light_ratio", a->ratio);
-    print_json_number("deviations", a->whole);
-    print_json_number("worst_block", a->worst);
-    print_json_number("mean_square", a->mean_square);
-}
-
 static void print_json(const comparison *c, const noise *noises, const agreement *agrees, int has_agreement,
                        int is_whole)
 {
     const film *first = &c->way[0].film;
-    printf("{\"width\": %d, \"height\": %d, \"interrupted\": %s, \"pictures\": [", first->width, first->height,
-           is_whole ? "false" : "true");
+    figures to = {.file = stdout, .form = FIGURES_JSON};
+    figures_number(&to, "width", 9, first->width, "pixels");
+    figures_number(&to, "height", 9, first->height, "pixels");
+    figures_truth(&to, "interrupted", !is_whole);
+    figures_list(&to, "pictures");
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
-        printf("%s\n  {\"sampler\": \"%s\"", i ? "," : "", path_sampler_names[c->way[i].sampler]);
-        print_json_number("samples", (double)f->samples);
-        print_json_number("seconds", f->seconds);
-        print_json_number("processor_seconds", f->processor);
-        print_json_number("lost", (double)f->counts.lost);
-        print_json_number("noise", sqrt(noises[i].all.value));
-        print_json_number("noise_trimmed", sqrt(noises[i].trimmed.value));
-        print_json_number("samples_needed", samples_ratio(noises[0].all, noises[i].all, first, f).value);
-        print_json_number("efficiency", efficiency(noises[0].all, noises[i].all, first, f).value);
-        if (has_agreement || i)
-            print_json_agreement(&agrees[i]);
-        printf("}");
+        const agreement *a = &agrees[i];
+        figures_record(&to);
+        figures_text(&to, "sampler", path_sampler_names[c->way[i].sampler]);
+        figures_number(&to, "samples", 9, (double)f->samples, "");
+        figures_number(&to, "seconds", 9, f->seconds, "s");
+        figures_number(&to, "processor_seconds", 9, f->processor, "s");
+        figures_number(&to, "lost", 9, (double)f->counts.lost, "");
+        figures_number(&to, "noise", 9, sqrt(noises[i].all.value), "");
+        figures_number(&to, "noise_trimmed", 9, sqrt(noises[i].trimmed.value), "");
+        figures_number(&to, "samples_needed", 9, samples_ratio(noises[0].all, noises[i].all, first, f).value, "");
+        figures_number(&to, "efficiency", 9, efficiency(noises[0].all, noises[i].all, first, f).value, "");
+        if (!has_agreement && !i)
+            continue;
+        figures_text(&to, "verdict", verdict_names[a->is]);
+        figures_number(&to, "light_ratio", 9, a->ratio, "");
+        figures_number(&to, "deviations", 9, a->whole, "");
+        figures_number(&to, "worst_block", 9, a->worst, "");
+        figures_number(&to, "mean_square", 9, a->mean_square, "");
     }
-    printf("\n]}\n");
+    figures_list_end(&to);
+    figures_end(&to);
 }
 
 /* What the films say; STATUS_NO if one shows something else. `against` may be NULL. */

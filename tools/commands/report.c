@@ -18,7 +18,7 @@ static const char help[] =
     "usage: vndf report [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options] DIR\n"
     "\n"
     "Writes DIR/index.html, one page that needs nothing else: which table to ship and with how many moments, error\n"
-    "against time, bytes and angle, what a sample costs beside other methods and distributions, density and samples;\n"
+    "against time and angle, what a sample costs beside other methods and distributions, density and samples;\n"
     "beside it the data behind the plots as CSV, and DIR/frontier.svg. Takes about a minute.\n"
     "\n"
     "  --ndf EXPR, --slope EXPR, --csv FILE, --family NAME\n"
@@ -127,11 +127,11 @@ static int write_page(html_page *page, const report *r)
     fprintf(
         page->html,
         "</code>. Batches ran on %s.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and "
-        "time</a> <a href=\"#bytes\">Error and bytes</a> <a href=\"#theta\">Error and angle</a> <a "
+        "time</a> <a href=\"#theta\">Error and angle</a> <a "
         "href=\"#time\">What a sample costs</a> <a href=\"#normals\">Density and samples</a></nav>\n",
         r->batch);
-    return report_advice(page, r) && report_frontier(page, r) && report_bytes(page, r) && report_angles(page, r) &&
-           report_times(page, r) && report_normals(page, r) && page_end(page);
+    return report_advice(page, r) && report_frontier(page, r) && report_angles(page, r) && report_times(page, r) &&
+           report_normals(page, r) && page_end(page);
 }
 
 static int write_report(const report *r, const char *path, page_place place, unsigned held, int is_quiet)

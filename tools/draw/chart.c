@@ -4,7 +4,6 @@
 #include <stdlib.h>
 
 #include "draw/svg.h"
-#include "draw/table.h"
 
 static const double radius = 4, text_height = 12, glyph_width = 5.9, line_step = 15;
 
@@ -58,16 +57,14 @@ double chart_place(const chart_axis *axis, double value)
     return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : (double)NAN;
 }
 
-void chart_fit(chart_axis *axis, double low, double high)
+/* Whole decades that hold what lies from low to high. */
+static void fit(chart_axis *axis, double low, double high)
 {
-    int is_bytes = axis->scale == CHART_BYTES;
-    double base = is_bytes ? 2 : 10, room = is_bytes ? 1.15 : 1;
-    double loose = is_bytes ? 0.06 : 1e-3; /* files stay a little below what they may have */
-    double first = floor(log(low) / log(base) + loose), last = ceil(log(high) / log(base) - loose);
+    double first = floor(log10(low) + 1e-3), last = ceil(log10(high) - 1e-3);
     if (!(low > 0 && low <= high && high < HUGE_VAL)) /* nothing is known */
         first = -1, last = 0;
-    axis->low = pow(base, first) / room;
-    axis->high = pow(base, last > first ? last : first + 1) * room;
+    axis->low = pow(10, first);
+    axis->high = pow(10, last > first ? last : first + 1);
 }
 
 void chart_fit_series(chart *c, double least)
@@ -83,9 +80,9 @@ void chart_fit_series(chart *c, double least)
                 }
         }
     if (!(c->x.high > c->x.low))
-        chart_fit(&c->x, low[0], high[0]);
+        fit(&c->x, low[0], high[0]);
     if (!(c->y.high > c->y.low))
-        chart_fit(&c->y, fmax(low[1], least), high[1]);
+        fit(&c->y, fmax(low[1], least), high[1]);
 }
 
 /* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
@@ -145,9 +142,7 @@ static void draw_tick(picture *p, int is_y, double value, int is_named)
     char name[16] = "";
     if (!(place > -1e-9 && place < 1 + 1e-9))
         return;
-    if (is_named && axis->scale == CHART_BYTES)
-        table_bytes_text(name, value);
-    else if (is_named && axis->scale == CHART_LOG)
+    if (is_named && axis->scale == CHART_LOG)
         name_number(axis, name, value);
     else if (is_named)
         snprintf(name, sizeof name, "%.4g", value);
@@ -160,24 +155,22 @@ static void draw_tick(picture *p, int is_y, double value, int is_named)
     }
 }
 
-/* Linear axes have a tick every step. Logarithmic ones have decades with names, and small ticks at 2 to 9
- * between; where fewer than three decades are shown, 2 and 5 have names too. Bytes have powers of two, every
- * second of them named where there are many. */
+/* Linear axes have a tick every step. Logarithmic ones have decades, where there are many every second of them with
+ * a name, and small ticks at 2 to 9 between; where fewer than three decades are shown, 2 and 5 have names too. */
 static void draw_ticks(picture *p, int is_y)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    if (axis->scale == CHART_LINEAR)
+    if (axis->scale == CHART_LINEAR) {
         for (double i = ceil(axis->low / axis->step); i * axis->step <= axis->high * (1 + 1e-9); i++)
             draw_tick(p, is_y, i * axis->step, 1);
-    if (axis->scale == CHART_LINEAR)
         return;
-    double base = axis->scale == CHART_BYTES ? 2 : 10, many = log(axis->high / axis->low) / log(base);
-    int first = (int)floor(log(axis->low) / log(base)), last = (int)ceil(log(axis->high) / log(base));
+    }
+    double many = log10(axis->high / axis->low);
+    int first = (int)floor(log10(axis->low)), last = (int)ceil(log10(axis->high));
     for (int power = first; power <= last; power++) {
-        int every = many > (base < 3 ? 7 : 9) ? 2 : 1;
-        draw_tick(p, is_y, pow(base, power), (power - (base < 3 ? 11 : 0)) % every == 0);
-        for (int digit = 2; digit < base; digit++)
-            draw_tick(p, is_y, digit * pow(base, power), many < 2.5 && (digit == 2 || digit == 5));
+        draw_tick(p, is_y, pow(10, power), power % (many > 9 ? 2 : 1) == 0);
+        for (int digit = 2; digit < 10; digit++)
+            draw_tick(p, is_y, digit * pow(10, power), many < 2.5 && (digit == 2 || digit == 5));
     }
 }
 
@@ -235,16 +228,15 @@ static void draw_line(picture *p, const chart_series *s)
 
 static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, double y)
 {
-    static const char *const outlines[] = {
-        "", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L4.7 3.4H-4.7z", "M-4-4L4 4M-4 4L4-4"};
+    static const char *const outlines[] = {"", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L4.7 3.4H-4.7z"};
     if (mark == CHART_DOT)
         fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y, radius);
     else if (mark == CHART_RING)
         fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
                 radius + 4);
     else
-        fprintf(file, "<path class=\"%s%u\" transform=\"translate(%.1f %.1f)\" d=\"%s\"/>\n",
-                mark == CHART_CROSS ? "mark l" : "f", colour, x, y, outlines[mark]);
+        fprintf(file, "<path class=\"f%u\" transform=\"translate(%.1f %.1f)\" d=\"%s\"/>\n", colour, x, y,
+                outlines[mark]);
 }
 
 static double text_width(const char *text)

@@ -10,8 +10,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-/* CHART_BYTES is logarithmic, in powers of two. */
-typedef enum chart_scale { CHART_LINEAR, CHART_LOG, CHART_BYTES } chart_scale;
+typedef enum chart_scale { CHART_LINEAR, CHART_LOG } chart_scale;
 
 typedef struct chart_axis {
     chart_scale scale;
@@ -20,14 +19,7 @@ typedef struct chart_axis {
     const char *label; /* with its unit */
 } chart_axis;
 
-typedef enum chart_mark {
-    CHART_NO_MARK,
-    CHART_DOT,
-    CHART_RING,
-    CHART_SQUARE,
-    CHART_TRIANGLE,
-    CHART_CROSS
-} chart_mark;
+typedef enum chart_mark { CHART_NO_MARK, CHART_DOT, CHART_RING, CHART_SQUARE, CHART_TRIANGLE } chart_mark;
 
 typedef enum chart_line { CHART_NO_LINE, CHART_SOLID, CHART_DASHED, CHART_DOTTED } chart_line;
 
@@ -77,11 +69,8 @@ void chart_style(FILE *file);
 /* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */
 double chart_place(const chart_axis *axis, double value);
 
-/* Ends of a logarithmic axis that holds what lies from low to high: whole decades, or powers of two. */
-void chart_fit(chart_axis *axis, double low, double high);
-
-/* Fits logarithmic axes to all series; an axis whose high end is set stays. `least`: the lowest y that is
- * shown. */
+/* Fits logarithmic axes to all series, by whole decades; an axis whose high end is set stays. `least`: the lowest y
+ * that is shown. */
 void chart_fit_series(chart *c, double least);
 
 #endif

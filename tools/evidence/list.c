@@ -18,7 +18,7 @@ static const char closed_name[] = "closed form", student[] = "student-t:2.5", va
 static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
                                          VNDF_INSTRUCTIONS_AVX2, VNDF_INSTRUCTIONS_AVX512};
 
-enum { SETS = sizeof sets / sizeof *sets, ENTRIES_MAX = 512 };
+enum { SETS = sizeof sets / sizeof *sets };
 
 /* ---- subjects ------------------------------------------------------------------------------------ */
 
@@ -69,12 +69,26 @@ static int is_in(const char *text, const char *only)
     return !only || strstr(text, only) != NULL;
 }
 
-/* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
+/* Room for one more; 0 and an error if there is none. */
+static int make_room(evidence_list *list, vndf_error *error)
+{
+    enum { STEP = 64 };
+    entry *room = list->entry;
+    if (list->count % STEP == 0)
+        room = realloc(list->entry, (list->count + STEP) * sizeof *room);
+    if (room)
+        list->entry = room;
+    else
+        *error = (vndf_error){VNDF_ERROR_MEMORY, "no memory"};
+    return room != NULL;
+}
+
+/* Takes the method, or releases it if it cannot run here, is neither wanted nor a yardstick, or there is no room. */
 static entry *add(const maker *to, method m, const char *distribution, int is_yardstick)
 {
     const char *only = to->plan->only;
     int is_shown = is_in(m.name, only) || is_in(distribution, only) || is_in(m.instructions, only);
-    if (!m.each || !(is_shown || is_yardstick) || to->list->count == ENTRIES_MAX) {
+    if (!m.each || !(is_shown || is_yardstick) || !make_room(to->list, to->error)) {
         method_release(&m);
         return NULL;
     }
@@ -129,7 +143,6 @@ static void add_closed(const maker *to)
     add_normals(to, OF_GGX, method_ggx_caps(), 1);
     for (size_t i = 1; i < SETS; i++)
         add_normals(to, OF_GGX, method_ggx_caps_batch(sets[i]), 0);
-    add_normals(to, OF_GGX, method_ggx_2018(), 0);
     add_normals(to, OF_GGX, method_ggx_all_normals(), 1);
     add_ours(to, OF_GGX, vndf_ggx(), closed_name, METHOD_SAMPLE, METHOD_SAMPLE);
     add_normals(to, OF_GGX, method_exported(vndf_ggx(), closed_name), 0);
@@ -143,11 +156,8 @@ static void add_closed(const maker *to)
 }
 
 /* The published ways for any D. */
-static const struct {
-    method (*make)(const method_reference *reference, size_t side);
-    size_t side;
-} any_methods[] = {{method_any_all_normals, 0},   {method_inverse_tables, 64}, {method_inverse_tables, 256},
-                   {method_inverse_tables, 1024}, {method_warp, 32},           {method_warp, 128}};
+static method (*const any_methods[])(const method_reference *) = {method_any_all_normals, method_inverse_tables,
+                                                                  method_warp};
 
 enum { ANY_METHODS = sizeof any_methods / sizeof *any_methods };
 
@@ -166,7 +176,7 @@ static int any_wanted(const evidence_plan *plan)
     for (size_t i = 0; i < SIZES; i++)
         is_wanted |= table_wanted(plan->only, plan->at_hand->name, i, i == SIZE_DEFAULT);
     for (size_t i = 0; i < ANY_METHODS; i++)
-        is_wanted |= is_in(any_methods[i].make(NULL, any_methods[i].side).name, plan->only);
+        is_wanted |= is_in(any_methods[i](NULL).name, plan->only);
     return is_wanted;
 }
 
@@ -188,7 +198,7 @@ static vndf_status add_at_hand(const maker *to)
     method_reference *reference = &to->list->reference[AT_HAND];
     *reference = method_reference_of(s->table[SIZE_FINE]);
     for (size_t i = 0; i < ANY_METHODS; i++)
-        add_normals(to, AT_HAND, any_methods[i].make(reference, any_methods[i].side), i == 0);
+        add_normals(to, AT_HAND, any_methods[i](reference), i == 0);
     return VNDF_OK;
 }
 
@@ -322,15 +332,12 @@ static vndf_status make_materials(const maker *to)
 
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error)
 {
-    *list = (evidence_list){.entry = calloc(ENTRIES_MAX, sizeof *list->entry)};
+    *list = (evidence_list){.count = 0};
+    *error = (vndf_error){VNDF_OK, ""};
     const maker to = {list, plan, error};
-    if (!list->entry) {
-        *error = (vndf_error){VNDF_ERROR_MEMORY, "no memory"};
-        return error->status;
-    }
     vndf_status status = plan->at_hand ? make_normals(&to) : make_materials(&to);
-    if (status != VNDF_OK)
-        return status;
+    if (status != VNDF_OK || error->status != VNDF_OK) /* the error is that of an entry without room */
+        return error->status;
     for (size_t i = 0; i < list->count; i++)
         if (list->entry[i].is_shown)
             return VNDF_OK;

@@ -110,17 +110,16 @@ void method_release(method *m);
 /* GGX and Beckmann, from the publications; the batch by one of the three instruction sets, and moving its
  * bytes. */
 method method_ggx_caps(void);
-method method_ggx_2018(void);
 method method_ggx_all_normals(void);
 method method_beckmann_newton(void);
 method method_beckmann_all_normals(void);
 method method_ggx_caps_batch(vndf_instructions set);
 method method_move(vndf_instructions set);
 
-/* Any D, from the publications. Without a reference the method has only a name. `side`: of the tables. */
-method method_any_all_normals(const method_reference *reference, size_t side);
-method method_inverse_tables(const method_reference *reference, size_t side);
-method method_warp(const method_reference *reference, size_t side);
+/* Any D, from the publications. Without a reference the method has only a name. */
+method method_any_all_normals(const method_reference *reference);
+method method_inverse_tables(const method_reference *reference);
+method method_warp(const method_reference *reference);
 
 /* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. A diagonal matrix has no batch of its own. */
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit);

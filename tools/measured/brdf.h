@@ -1,4 +1,4 @@
-/* Files of reflectances in and out, by the model of measured/model.h: each reader makes rows of D over theta. */
+/* Files of reflectances, by the model of measured/model.h: each reader makes rows of D over theta. */
 #ifndef TOOLS_MEASURED_BRDF_H
 #define TOOLS_MEASURED_BRDF_H
 
@@ -78,28 +78,5 @@ int merl_read(data_file *file, merl_channel channel, profile *rows);
 /* The fixed point for f[] at the bins of *l, from any D there, and its F0; negative where nothing is known: D is that
  * of the bin before. 0 if there is no light. */
 int merl_iterate(law *l, const double *f, double *f0);
-
-/* Writes single scattering with Schlick's F to an open file, 33 MiB; 0 if that fails. */
-int merl_write(FILE *file, const vndf_distribution *distribution, float alpha, const double f0[3]);
-
-/* ---- goniometers --------------------------------------------------------------------------------- */
-
-/* Goniometer tables: reflectances in the plane of incidence, as CSV.
- *
- * A header line names three columns in any order: theta_i, theta_o (degrees) and brdf (f per steradian) or intensity
- * (f cos theta_o); then a row for each measurement, at any scale. theta_o is counted from z towards the side where a
- * mirror would send the light: the mirror direction is theta_o = theta_i, the way back theta_o = -theta_i. Blank
- * lines and what follows # are skipped.
- *
- * The half vector is at theta_h = |theta_o - theta_i|/2, and the model (measured/model.h) solved for D is
- *
- *     D(theta_h) = 4 f (A_i cos_o + A_o cos_i - cos_i cos_o) / F.
- *
- * A follows from D, so this is iterated from A = cos. The scale of D, which has the integral 1, gives F0. Where it is
- * above 1 the data have another scale, and F is taken as constant. */
-
-/* D over theta_h. f0: that of Schlick's F; below 0: found from the scale. Directions beyond 85 degrees are left out.
- * Noted are F0, and the part of the light that the model has elsewhere. */
-int gonio_read(data_file *file, double f0, profile *rows);
 
 #endif

@@ -62,16 +62,16 @@ void put_little(FILE *file, uint64_t value, size_t bytes)
         fputc((int)(value >> 8 * i & 255), file);
 }
 
-scan scan_from(const data_file *file, char separator)
+scan scan_from(const data_file *file)
 {
     int is_marked = file->size >= 3 && memcmp(file->bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (scan){file->bytes, file->size, is_marked ? 3 : 0, 1, separator};
+    return (scan){file->bytes, file->size, is_marked ? 3 : 0, 1};
 }
 
 static int is_blank(const scan *from)
 {
     unsigned char c = from->bytes[from->at];
-    return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n') || c == (unsigned char)from->separator;
+    return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
 int scan_word(scan *from, char word[WORD_MAX])
@@ -120,7 +120,7 @@ int word_number(const char *word, double *value)
 
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count, data_file *file)
 {
-    *made = (profile){over, of, count, calloc(count, sizeof(double)), calloc(count, sizeof(double)), NULL};
+    *made = (profile){over, of, count, calloc(count, sizeof(double)), calloc(count, sizeof(double))};
     if (made->x && made->value)
         return 1;
     profile_free(made);
@@ -131,8 +131,7 @@ void profile_free(profile *freed)
 {
     free(freed->x);
     free(freed->value);
-    free(freed->error);
-    *freed = (profile){freed->over, freed->of, 0, NULL, NULL, NULL};
+    *freed = (profile){freed->over, freed->of, 0, NULL, NULL};
 }
 
 vndf_source *profile_source(const profile *from, data_file *file)
@@ -147,15 +146,10 @@ vndf_source *profile_source(const profile *from, data_file *file)
 int profile_write(FILE *file, const profile *from, const char *title)
 {
     fprintf(file, "# %s\n", title);
-    if (from->error)
-        fputs("# +- after a row: one standard deviation of its value, relative\n", file);
     fprintf(file, "%s,%s\n", from->over == VNDF_ROWS_OVER_SLOPE ? "slope" : "theta",
             from->of == VNDF_ROWS_OF_P22 ? "p22" : "ndf");
-    for (size_t i = 0; i < from->count; i++) {
+    for (size_t i = 0; i < from->count; i++)
         fprintf(file, "%.17g,%.17g\n", from->x[i], from->value[i]);
-        if (from->error)
-            fprintf(file, "# +- %.3g\n", from->error[i]);
-    }
     return fflush(file) == 0 && !ferror(file);
 }
 

@@ -41,15 +41,14 @@ void put_little(FILE *file, uint64_t value, size_t bytes);
 
 enum { WORD_MAX = 64 };
 
-/* Words of a text between blanks, and between separators where there is one. From # on, a line is a comment. */
+/* Words of a text between blanks. From # on, a line is a comment. */
 typedef struct scan {
     const unsigned char *bytes;
     size_t size, at, line; /* the line of the next byte, from 1 */
-    char separator;        /* ' ' for none */
 } scan;
 
 /* At the beginning, past the mark of UTF-8 that spreadsheets write. */
-scan scan_from(const data_file *file, char separator);
+scan scan_from(const data_file *file);
 
 /* The next word of the line; 0 at its end. It is cut after WORD_MAX - 1 characters; what is no ASCII becomes '?'. */
 int scan_word(scan *from, char word[WORD_MAX]);
@@ -69,7 +68,7 @@ typedef struct profile {
     vndf_rows_over over;
     vndf_rows_of of;
     size_t count;
-    double *x, *value, *error; /* owned; error: of the values, relative, one standard deviation, or NULL */
+    double *x, *value; /* owned */
 } profile;
 
 /* Room for `count` rows of zeros. 0 and the reason if there is no memory. */
@@ -83,7 +82,7 @@ vndf_source *profile_source(const profile *from, data_file *file);
  * them within that noise. */
 int profile_smooth(profile *changed, data_file *file);
 
-/* Writes the rows as a CSV that `vndf build --csv` reads, with `title` and the errors as comments; 0 if that fails. */
+/* Writes the rows as a CSV that `vndf build --csv` reads, with `title` as a comment; 0 if that fails. */
 int profile_write(FILE *file, const profile *from, const char *title);
 
 #endif

@@ -63,7 +63,7 @@ static double value_at(const search *s, int half, int difference, int azimuth)
 /* The mean over azimuths at theta_d = 0. */
 static void read_back(search *s)
 {
-    law_even(&s->law, HALVES, 0.5);
+    law_even(&s->law, HALVES);
     s->missing = 0;
     for (int half = 0; half < HALVES; half++) {
         double sum = 0, count = 0;
@@ -246,47 +246,4 @@ int merl_read(data_file *file, merl_channel channel, profile *rows)
     }
     free(s);
     return good;
-}
-
-/* ---- out ----------------------------------------------------------------------------------------- */
-
-/* f with F = 1 at every bin; 0 where a direction is below the horizon. */
-static void fill(float *values, const vndf_surface *surface)
-{
-    for (int half = 0; half < HALVES; half++) {
-        double u = (half + 0.5) / HALVES, theta_h = pi / 2 * u * u, ndf = model_ndf(surface, theta_h);
-        for (int i = 0; i < DIFFERENCES; i++)
-            for (int k = 0; k < HALF_TURN; k++) {
-                direction wi, wo;
-                directions_of(theta_h, (i + 0.5) / DIFFERENCES * pi / 2, (k + 0.5) / HALF_TURN * pi, &wi, &wo);
-                *values = 0;
-                if (wi.z > 0 && wo.z > 0)
-                    *values = (float)masked_ndf(ndf, model_area(surface, acos(wi.z)), wi.z,
-                                                model_area(surface, acos(wo.z)), wo.z);
-                values++;
-            }
-    }
-}
-
-int merl_write(FILE *file, const vndf_distribution *distribution, float alpha, const double f0[3])
-{
-    const vndf_surface surface = {distribution, alpha, alpha};
-    const size_t count = (size_t)HALVES * DIFFERENCES * HALF_TURN;
-    float *values = malloc(count * sizeof *values);
-    if (!values)
-        return 0;
-    fill(values, &surface);
-    put_little(file, HALVES, 4);
-    put_little(file, DIFFERENCES, 4);
-    put_little(file, HALF_TURN, 4);
-    for (int channel = 0; channel < 3; channel++)
-        for (size_t i = 0; i < count; i++) {
-            double rise = model_schlick(cos(((double)(i / HALF_TURN % DIFFERENCES) + 0.5) / DIFFERENCES * pi / 2));
-            double value = (double)values[i] * (f0[channel] + (1 - f0[channel]) * rise) / scale[channel];
-            uint64_t bits;
-            memcpy(&bits, &value, sizeof bits);
-            put_little(file, bits, 8);
-        }
-    free(values);
-    return fflush(file) == 0 && !ferror(file);
 }

@@ -50,14 +50,12 @@ static double around(double a, double b)
     return fabs(a) >= b ? 2 * pi * fabs(a) : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
 }
 
-/* A bin reaches half way to its neighbours, and the last one to 90 degrees. */
-void law_even(law *made, int count, double place)
+void law_even(law *made, int count)
 {
     memset(made, 0, sizeof *made);
     made->count = count;
     for (int i = 0; i < count; i++) {
-        double at = i + place, from = fmax(at - 0.5, 0) / count, to = i + 1 < count ? (at + 0.5) / count : 1;
-        double bin = pi / 2 * at * at / count / count;
+        double at = (i + 0.5) / count, from = (double)i / count, to = (i + 1.0) / count, bin = pi / 2 * at * at;
         made->theta[i] = bin;
         made->share[i] = cos(pi / 2 * from * from) - cos(pi / 2 * to * to);
         for (int k = 0; k < LAW_AREAS; k++) {
@@ -85,7 +83,7 @@ double law_normalise(law *l)
 
 double law_of_source(law *made, const vndf_source *source)
 {
-    law_even(made, LAW_ANGLES, 0.5);
+    law_even(made, LAW_ANGLES);
     for (int i = 0; i < made->count; i++)
         made->ndf[i] = vndf_source_p22(source, tan(made->theta[i])) / pow(cos(made->theta[i]), 4);
     return law_normalise(made);

@@ -45,9 +45,8 @@ typedef struct law {
     double both_sides[LAW_AREAS][LAW_ANGLES]; /* what a bin with D = 1 adds to the integral of |w.m| D(m) dm */
 } law;
 
-/* Bins that are even in sqrt(theta), as MERL files have them; theta stands `place` of the way through its bin: 1/2 in
- * the middle, 0 at the lower end. */
-void law_even(law *made, int count, double place);
+/* Bins that are even in sqrt(theta), as MERL files have them. */
+void law_even(law *made, int count);
 
 /* Scales D to the integral 1 over the projected hemisphere and finds its areas; returns what the integral was. */
 double law_normalise(law *changed);

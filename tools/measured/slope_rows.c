@@ -3,7 +3,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/random.h"
 #include "cli/sort.h"
 #include "measured/slopes.h"
 
@@ -62,27 +61,19 @@ static void find_masses(slope_bins *b, const slope_set *slopes, const double *r,
     b->middle[b->count - 1] = exp(logarithm / fmax(number[b->count - 1], 1));
 }
 
-/* Over surfaces made of parts drawn again. */
+/* Relative, of each mass, from the spread between parts: its variance over surfaces made of parts drawn again. */
 static void find_errors(slope_bins *b, double of_part[SLOPE_PARTS][BINS_MOST])
 {
-    random_stream stream = random_from(1);
-    double sum[BINS_MOST] = {0}, square[BINS_MOST] = {0};
-    for (int draw = 0; draw < SLOPE_DRAWS; draw++) {
-        double found[BINS_MOST] = {0}, whole = 0;
-        for (int i = 0; i < SLOPE_PARTS; i++) {
-            const double *part = of_part[random_bits(&stream) % SLOPE_PARTS];
-            for (size_t bin = 0; bin < b->count; bin++) {
-                found[bin] += part[bin];
-                whole += part[bin];
-            }
-        }
-        for (size_t bin = 0; bin < b->count && whole > 0; bin++) {
-            sum[bin] += found[bin] / whole / SLOPE_DRAWS;
-            square[bin] += found[bin] / whole * found[bin] / whole / SLOPE_DRAWS;
-        }
+    double square[BINS_MOST] = {0};
+    for (int i = 0; i < SLOPE_PARTS; i++) {
+        double whole = 0;
+        for (size_t bin = 0; bin < b->count; bin++)
+            whole += of_part[i][bin];
+        for (size_t bin = 0; bin < b->count; bin++)
+            square[bin] += pow(of_part[i][bin] - b->mass[bin] * whole, 2);
     }
     for (size_t bin = 0; bin < b->count; bin++)
-        b->error[bin] = sum[bin] > 0 ? sqrt(fmax(square[bin] - sum[bin] * sum[bin], 0)) / sum[bin] : 0;
+        b->error[bin] = b->mass[bin] > 0 ? sqrt(square[bin]) / (b->mass[bin] * (double)b->samples) : 0;
 }
 
 static void note_errors(const slope_bins *b, data_file *file)
@@ -194,13 +185,9 @@ static int make_rows(const slope_bins *b, data_file *file, profile *rows)
     size_t last = b->count - 1;
     if (!profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count + (has_end ? 2 : 0), file))
         return 0;
-    rows->error = calloc(rows->count, sizeof *rows->error);
-    if (!rows->error)
-        return refuse(file, "there is no memory for %zu rows", rows->count);
     for (size_t i = 0; i < b->count; i++) {
         double next = isfinite(b->edge[i + 1]) ? b->edge[i + 1] : 2 * b->middle[i] - b->edge[i];
         rows->x[i] = b->middle[i];
-        rows->error[i] = b->error[i];
         rows->value[i] = b->mass[i] / (next * next - b->edge[i] * b->edge[i]);
     }
     if (has_end) { /* the curve is even to the longest slope, and 0 after a step with the mass of half a slope */
@@ -208,7 +195,6 @@ static int make_rows(const slope_bins *b, data_file *file, profile *rows)
         rows->x[last + 1] = b->longest;
         rows->x[last + 2] = b->longest + fmax(step, 1e-9 * b->longest);
         rows->value[last + 1] = rows->value[last];
-        rows->error[last + 1] = rows->error[last];
     }
     return 1;
 }

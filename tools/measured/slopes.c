@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/random.h"
-
 enum { RINGS = 8, SECTORS = 12, STEPS = 60 };
 
 static const double pi = 3.14159265358979323846;
@@ -111,28 +109,22 @@ static void sum_parts(const slope_set *slopes, symmetric v, symmetric part[SLOPE
     }
 }
 
-/* Relative, of the ratio. One step from the solution moves about half as far as the solution itself does when parts are
- * drawn again (the derivative of Tyler's map in two dimensions), so the spread counts twice. */
+/* Relative, of the ratio: from the spread between parts, as they were drawn again. One step from the solution moves
+ * about half as far as the solution does (the derivative of Tyler's map in two dimensions), so the spread counts twice.
+ * In the frame where V is 1 the sum of all parts is 1 but for a factor; for isotropic slopes the two components of the
+ * distortion spread alike, and each is a deviation of the ratio. */
 static double shape_error(const symmetric part[SLOPE_PARTS], symmetric v)
 {
-    random_stream stream = random_from(2);
     symmetric s = inverse(root(v));
-    double square = 0;
-    for (int draw = 0; draw < SLOPE_DRAWS; draw++) {
-        symmetric sum = {0, 0, 0};
-        for (int i = 0; i < SLOPE_PARTS; i++)
-            add(&sum, part[random_bits(&stream) % SLOPE_PARTS]);
-        if (!(determinant(sum) > 0))
-            continue;
-        sum = scaled(sum, 1 / sqrt(determinant(sum)));
-        /* In the frame where V is 1 the sum, s sum s, is 1 but for chance. For isotropic slopes the two components of
-         * the distortion spread alike; each is a deviation of the ratio. */
-        double a = s.xx * sum.xx + s.xy * sum.xy, b = s.xx * sum.xy + s.xy * sum.yy;
-        double c = s.xy * sum.xx + s.yy * sum.xy, d = s.xy * sum.xy + s.yy * sum.yy;
+    double square = 0, whole = 0;
+    for (int i = 0; i < SLOPE_PARTS; i++) {
+        double a = s.xx * part[i].xx + s.xy * part[i].xy, b = s.xx * part[i].xy + s.xy * part[i].yy;
+        double c = s.xy * part[i].xx + s.yy * part[i].xy, d = s.xy * part[i].xy + s.yy * part[i].yy;
         double stretch = (a * s.xx + b * s.xy - c * s.xy - d * s.yy) / 2, shear = a * s.xy + b * s.yy;
-        square += (stretch * stretch + shear * shear) / 2 / SLOPE_DRAWS;
+        square += (stretch * stretch + shear * shear) / 2;
+        whole += (a * s.xx + b * s.xy + c * s.xy + d * s.yy) / 2;
     }
-    return 2 * sqrt(square);
+    return 2 * sqrt(square) / whole;
 }
 
 /* V^-1/2, and the identity where that is within its error; V^1/2 is noted. */
@@ -171,42 +163,27 @@ static int find_shape(const slope_set *slopes, data_file *file, symmetric *unstr
 
 /* ---- isotropy ------------------------------------------------------------------------------------ */
 
-typedef struct sectors {
-    double number[RINGS][SECTORS];
-} sectors;
-
 /* The part of all slopes u = (x, y), whose lengths the bins hold, that would have to turn about z: half the sum of
- * |part - its mean over the ring|. And the same that chance alone makes of so many independent parts, each told by the
- * spread between SLOPE_PARTS of them; the mean of |x| is sqrt(2/pi) deviations. */
+ * |sector - its mean over the ring|. */
 static void note_isotropy(const slope_set *slopes, symmetric unstretch, const slope_bins *b, data_file *file)
 {
-    double below[BINS_MOST], before = 0, off = 0, chance = 0, n = (double)slopes->count;
-    sectors all = {{{0}}}, part[SLOPE_PARTS];
-    memset(part, 0, sizeof part);
+    double below[BINS_MOST], before = 0, off = 0, number[RINGS][SECTORS] = {{0}};
     for (size_t i = 0; i < b->count; before += b->mass[i++])
         below[i] = before;
     for (size_t i = 0; i < slopes->count; i++) {
         double x = (double)slopes->x[i], y = (double)slopes->y[i];
         double u = unstretch.xx * x + unstretch.xy * y, v = unstretch.xy * x + unstretch.yy * y;
         int sector = (int)((atan2(v, u) / (2 * pi) + 0.5) * SECTORS) % SECTORS;
-        int ring = (int)fmin(below[slope_bin_of(b, hypot(u, v))] * RINGS, RINGS - 1);
-        all.number[ring][sector]++;
-        part[slopes->part[i]].number[ring][sector]++;
+        number[(int)fmin(below[slope_bin_of(b, hypot(u, v))] * RINGS, RINGS - 1)][sector]++;
     }
     for (int ring = 0; ring < RINGS; ring++) {
         double sum = 0;
         for (int i = 0; i < SECTORS; i++)
-            sum += all.number[ring][i];
-        for (int i = 0; i < SECTORS; i++) {
-            double square = 0, mean = all.number[ring][i] / SLOPE_PARTS;
-            for (int p = 0; p < SLOPE_PARTS; p++)
-                square += (part[p].number[ring][i] - mean) * (part[p].number[ring][i] - mean);
-            off += fabs(all.number[ring][i] - sum / SECTORS) / 2 / n;
-            chance += sqrt(square * 2 / pi) / 2 / n;
-        }
+            sum += number[ring][i];
+        for (int i = 0; i < SECTORS; i++)
+            off += fabs(number[ring][i] - sum / SECTORS) / 2;
     }
-    note(file, "residual_isotropy %.3g", off);
-    note(file, "residual_isotropy_by_chance %.3g", chance);
+    note(file, "residual_isotropy %.3g", off / (double)slopes->count);
 }
 
 /* ---- the whole ----------------------------------------------------------------------------------- */

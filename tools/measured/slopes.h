@@ -8,14 +8,14 @@
  *
  * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
  * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
- * longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from 64 parts of the surface,
- * drawn again 200 times (bootstrap): neighbouring slopes are not independent, parts nearly are. */
+ * longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from the spread between 64
+ * parts of the surface: neighbouring slopes are not independent, parts nearly are. */
 #ifndef TOOLS_MEASURED_SLOPES_H
 #define TOOLS_MEASURED_SLOPES_H
 
 #include "measured/data.h"
 
-enum { SLOPE_PARTS = 64, SLOPE_DRAWS = 200, SLOPES_LEAST = 1000 };
+enum { SLOPE_PARTS = 64, SLOPES_LEAST = 1000 };
 
 /* Slopes of points of a surface, and the part of it, 0 to SLOPE_PARTS - 1, where each lies. */
 typedef struct slope_set {

@@ -6,13 +6,20 @@
 
 #include "render/image.h"
 
+static int heights_fit(const height_field *made, data_file *file)
+{
+    int width = made->width, height = made->height;
+    if (width < 3 || height < 3 || width > SURFACE_SIDE_MAX || height > SURFACE_SIDE_MAX)
+        return refuse(file, "%d x %d heights; both sides must be from 3 to %d", width, height, SURFACE_SIDE_MAX);
+    return (size_t)width * (size_t)height <= SURFACE_MAX ||
+           refuse(file, "%d x %d heights are more than %d", width, height, SURFACE_MAX);
+}
+
 int heights_make(height_field *made, int width, int height, data_file *file)
 {
     *made = (height_field){width, height, 1, 1, 0, NULL};
-    if (width < 3 || height < 3 || width > SURFACE_SIDE_MAX || height > SURFACE_SIDE_MAX)
-        return refuse(file, "%d x %d heights; both sides must be from 3 to %d", width, height, SURFACE_SIDE_MAX);
-    if ((size_t)width * (size_t)height > SURFACE_MAX)
-        return refuse(file, "%d x %d heights are more than %d", width, height, SURFACE_MAX);
+    if (!heights_fit(made, file))
+        return 0;
     made->z = malloc((size_t)width * (size_t)height * sizeof *made->z);
     return made->z != NULL || refuse(file, "there is no memory for %d x %d heights", width, height);
 }
@@ -25,95 +32,25 @@ void heights_free(height_field *freed)
 
 /* ---- texts --------------------------------------------------------------------------------------- */
 
-/* The head of an .sdf, ISO 25178-71: 0 where a line is missing. */
-typedef struct sdf_head {
-    double points, profiles, step_x, step_y, scale, compression;
-} sdf_head;
-
-/* "Key = value" with blanks or without. */
-static void read_setting(sdf_head *head, scan *text, char word[WORD_MAX])
-{
-    const struct {
-        const char *key;
-        double *value;
-    } known[] = {{"NumPoints", &head->points}, {"NumProfiles", &head->profiles},
-                 {"Xscale", &head->step_x},    {"Yscale", &head->step_y},
-                 {"Zscale", &head->scale},     {"Compression", &head->compression}};
-    double value;
-    char after[WORD_MAX];
-    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)
-        if (strcmp(word, known[i].key) == 0 && scan_word(text, after) && word_number(after, &value))
-            *known[i].value = value;
-}
-
-static int is_side(double value)
-{
-    return value >= 1 && value <= SURFACE_SIDE_MAX && value == floor(value);
-}
-
-static int read_head(data_file *file, scan *text, sdf_head *head)
-{
-    char word[WORD_MAX] = "";
-    if (file->bytes[0] == 'b')
-        return refuse(file, "this is a binary .sdf; the ASCII one, which begins with a, is read");
-    text->separator = '=';
-    while (strcmp(word, "*") != 0) {
-        if (!scan_line(text))
-            return refuse(file, "line %zu: the head of the .sdf does not end; a line * is missing", text->line);
-        if (scan_word(text, word))
-            read_setting(head, text, word);
-    }
-    text->separator = ' ';
-    if (!is_side(head->points) || !is_side(head->profiles))
-        return refuse(file, "NumPoints %.10g and NumProfiles %.10g: both must be whole numbers up to %d",
-                      head->points, head->profiles, SURFACE_SIDE_MAX);
-    if (!(head->step_x > 0) || !(head->step_y > 0) || !(head->scale > 0))
-        return refuse(file, "Xscale %.10g, Yscale %.10g, Zscale %.10g: all must be positive", head->step_x,
-                      head->step_y, head->scale);
-    return head->compression == 0 || refuse(file, "Compression %.10g: only 0 is read", head->compression);
-}
-
-static int read_sdf(data_file *file, scan *text, height_field *made)
-{
-    sdf_head head = {0};
-    char word[WORD_MAX];
-    if (!read_head(file, text, &head) || !heights_make(made, (int)head.points, (int)head.profiles, file))
-        return 0;
-    made->step_x = head.step_x;
-    made->step_y = head.step_y;
-    size_t count = (size_t)made->width * (size_t)made->height;
-    for (size_t i = 0; i < count; i++) {
-        double z = NAN;
-        if (!scan_word_anywhere(text, word) || strcmp(word, "*") == 0)
-            return refuse(file, "line %zu: the heights end after %zu of %d x %d", text->line, i, made->width,
-                          made->height);
-        if (strcmp(word, "BAD") != 0 && (!word_number(word, &z) || fabs(z * head.scale) > 1e30))
-            return refuse(file, "line %zu: '%.40s' is no height", text->line, word);
-        made->z[i] = (float)(z * head.scale);
-    }
-    if (scan_word_anywhere(text, word) && strcmp(word, "*") != 0)
-        return refuse(file, "line %zu: more than %d x %d heights", text->line, made->width, made->height);
-    return 1;
-}
-
 /* Numbers between blanks, a line for each row. */
-static int read_rows(data_file *file, scan *text, height_field *made)
+static int read_rows(data_file *file, height_field *made)
 {
+    scan text = scan_from(file);
     char word[WORD_MAX];
     size_t count = 0, room = 0;
     int width = 0, height = 0;
     do {
         int here = 0;
-        for (; scan_word(text, word); here++, count++) {
+        for (; scan_word(&text, word); here++, count++) {
             double z;
             if (!word_number(word, &z) || fabs(z) > 1e30)
                 return refuse(
                     file,
                     "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there is "
                     "none",
-                    text->line, word);
+                    text.line, word);
             if (count == SURFACE_MAX)
-                return refuse(file, "line %zu: more than %d heights", text->line, SURFACE_MAX);
+                return refuse(file, "line %zu: more than %d heights", text.line, SURFACE_MAX);
             if (count == room) {
                 room = 2 * room + 4096;
                 float *larger = realloc(made->z, room * sizeof *larger);
@@ -125,16 +62,11 @@ static int read_rows(data_file *file, scan *text, height_field *made)
         }
         if (here > 0 && height++ > 0 && here != width)
             return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many",
-                          text->line, here, width);
+                          text.line, here, width);
         width = here > 0 ? here : width;
-    } while (scan_line(text));
-    height_field checked;
-    if (!heights_make(&checked, width, height, file))
-        return 0;
-    memcpy(checked.z, made->z, count * sizeof *checked.z);
-    free(made->z);
-    *made = checked;
-    return 1;
+    } while (scan_line(&text));
+    *made = (height_field){width, height, 1, 1, 0, made->z};
+    return heights_fit(made, file);
 }
 
 /* ---- images -------------------------------------------------------------------------------------- */
@@ -174,7 +106,7 @@ static int read_side(scan *head, int most)
 
 static int read_grey(data_file *file, raster *made)
 {
-    scan head = scan_from(file, ' ');
+    scan head = scan_from(file);
     head.at = 2;
     *made = (raster){read_side(&head, SURFACE_SIDE_MAX), read_side(&head, SURFACE_SIDE_MAX), 0, 0, 0, NULL};
     int most = read_side(&head, 65535);
@@ -232,11 +164,8 @@ static int read_image(data_file *file, height_field *made)
 int heights_read(data_file *file, height_field *made)
 {
     const unsigned char *b = file->bytes;
-    scan text = scan_from(file, ' ');
     *made = (height_field){0};
-    int is_image = file->size >= 2 && b[0] == 'P';
-    int is_sdf = file->size >= 5 && (memcmp(b + 1, "BCR-", 4) == 0 || memcmp(b + 1, "ISO-", 4) == 0);
-    if (is_image ? read_image(file, made) : is_sdf ? read_sdf(file, &text, made) : read_rows(file, &text, made))
+    if (file->size >= 2 && b[0] == 'P' ? read_image(file, made) : read_rows(file, made))
         return 1;
     heights_free(made);
     return 0;

@@ -18,8 +18,7 @@ typedef struct height_field {
 int heights_make(height_field *made, int width, int height, data_file *file);
 void heights_free(height_field *freed);
 
-/* Reads PFM (its first channel), PGM of 8 or 16 bits (0 to 1), ASCII .sdf (ISO 25178-71), or numbers between blanks, a
- * line for each row. */
+/* Reads PFM (its first channel), PGM of 8 or 16 bits (0 to 1), or numbers between blanks, a line for each row. */
 int heights_read(data_file *file, height_field *made);
 
 /* Takes away what is shorter than `cutoff` samples, 2 to CUTOFF_MAX: the Gaussian filter of ISO 16610-21, which halves

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "fit/profile/profile.h"
+#include "math/ascending.h"
 
 static const double HALF_PI = 1.57079632679489661923;
 
@@ -12,20 +13,6 @@ static const double HALF_PI = 1.57079632679489661923;
 static const double FAR = 16;
 
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
-
-/* The panel of a slope: r_i <= R < r_(i+1), the ends extended. */
-static size_t panel_of(const vndf_profile *profile, double r)
-{
-    size_t low = 0, high = profile->count;
-    while (high - low > 1) {
-        size_t middle = (low + high) / 2;
-        if (profile->panel[middle].r <= r)
-            low = middle;
-        else
-            high = middle;
-    }
-    return low;
-}
 
 /* Less than this part of a sum changes no bit of it. */
 static const double LOST = 0x1p-55;
@@ -77,7 +64,7 @@ static void add_panel(vndf_area *sum, const vndf_profile *profile, size_t i, dou
 {
     const double slim = 0.01;
     const vndf_panel *p = &profile->panel[i];
-    const vndf_profile_point *point = profile->point + i * VNDF_GAUSS;
+    const vndf_profile_point *point = p->point;
     if (is_near(p, rho))
         add_near(sum, profile, rho, fmax(p->r, rho), p[1].r);
     else if (p[1].r - p->r < slim * (p->r - rho)) {
@@ -92,8 +79,8 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
 {
     vndf_area sum = {0.0, 0.0, 0.0};
     double rho = c / s;
-    size_t count = profile->count, i = panel_of(profile, rho), first = i;
     const vndf_panel *p = profile->panel;
+    size_t count = profile->count, i = vndf_last_before(&p->r, sizeof *p, count, rho), first = i;
     if (!(s > 0.0) || rho >= p[count].r)
         return sum;
     for (; i < count && p[i].r < FAR * rho && !(2 * (p[i].s + p[i].r * p[i].t0) < LOST * sum.below); i++)

@@ -6,6 +6,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "math/ascending.h"
 
@@ -46,20 +47,22 @@ static double p22_of(const vndf_profile *profile, double r, double given)
 
 double vndf_profile_p22(const vndf_profile *profile, double r)
 {
-    int going = vndf_guard_spend(profile->guard, profile->source->operations);
-    return p22_of(profile, r, going ? vndf_source_p22(profile->source, r * profile->scale) : 0.0);
+    double p22;
+    vndf_profile_p22_many(profile, &r, 1, &p22);
+    return p22;
 }
 
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22)
 {
     const vndf_source *source = profile->source;
-    double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY] = {0.0};
+    double at[VNDF_SOURCE_MANY], given[VNDF_SOURCE_MANY];
+    int going = vndf_guard_spend(profile->guard, (double)count * source->operations);
     for (size_t i = 0; i < count; i++)
         at[i] = r[i] * profile->scale;
-    if (vndf_guard_spend(profile->guard, (double)count * source->operations))
+    if (going)
         source->p22(source, at, count, given);
     for (size_t i = 0; i < count; i++)
-        p22[i] = p22_of(profile, r[i], given[i]);
+        p22[i] = going ? p22_of(profile, r[i], given[i]) : 0.0;
 }
 
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS])
@@ -107,7 +110,7 @@ static estimate estimate_of(const vndf_profile *profile, double r0, double r1)
     return sum;
 }
 
-/* Makes room for one more panel, its points and the outer end; 0, and a note to the guard, if there is no memory. */
+/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
 static int grow(vndf_profile *profile)
 {
     if (profile->count + 1 < profile->capacity)
@@ -115,11 +118,9 @@ static int grow(vndf_profile *profile)
     size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
     vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
     profile->panel = panel ? panel : profile->panel;
-    vndf_profile_point *point = panel ? realloc(profile->point, capacity * VNDF_GAUSS * sizeof *point) : NULL;
-    profile->point = point ? point : profile->point;
-    profile->capacity = point ? capacity : profile->capacity;
-    profile->guard->starved |= !point;
-    return point != NULL;
+    profile->capacity = panel ? capacity : profile->capacity;
+    profile->guard->starved |= !panel;
+    return panel != NULL;
 }
 
 static void push(vndf_profile *profile, double r, double m0, double m1, const vndf_profile_point *point)
@@ -128,9 +129,9 @@ static void push(vndf_profile *profile, double r, double m0, double m1, const vn
         profile->rough = 1;
     if (profile->rough || !grow(profile))
         return;
-    for (int i = 0; point && i < VNDF_GAUSS; i++)
-        profile->point[profile->count * VNDF_GAUSS + (size_t)i] = point[i];
-    profile->panel[profile->count++] = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
+    vndf_panel *panel = &profile->panel[profile->count++];
+    *panel = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
+    memcpy(panel->point, point, sizeof panel->point);
 }
 
 /* The bounds of P22 between two slopes, if the source has bounds and the guard has time. */
@@ -283,11 +284,10 @@ void vndf_panels_sum(vndf_profile *profile)
         p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
         p[i].less = p[i + 1].less;
         p[i].least = p[i + 1].least;
-        for (const vndf_profile_point *at = profile->point + i * VNDF_GAUSS, *end = at + VNDF_GAUSS; at < end;
-             at++) {
-            double less = at->weight / at->r;
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            double r = p[i].point[k].r, less = p[i].point[k].weight / r;
             p[i].less += less;
-            p[i].least += less / (at->r * at->r);
+            p[i].least += less / (r * r);
         }
     }
     profile->f0 = p[n].f0 + profile->tail_m0;

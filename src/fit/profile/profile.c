@@ -176,14 +176,14 @@ static vndf_status make_canonical(vndf_profile *profile, vndf_error *error)
                          "the median slope is %g; from 1e-17 to 1e17 can be tabulated", scale);
     profile->scale = scale;
     profile->normalization /= mass;
-    for (size_t i = 0; i <= profile->count; i++) {
-        profile->panel[i].r /= scale;
-        profile->panel[i].m0 /= mass;
-        profile->panel[i].m1 /= mass * scale;
-    }
-    for (size_t i = 0; i < profile->count * VNDF_GAUSS; i++) {
-        profile->point[i].r /= scale;
-        profile->point[i].weight /= mass;
+    for (vndf_panel *p = profile->panel; p <= profile->panel + profile->count; p++) {
+        p->r /= scale;
+        p->m0 /= mass;
+        p->m1 /= mass * scale;
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            p->point[k].r /= scale;
+            p->point[k].weight /= mass;
+        }
     }
     vndf_panels_sum(profile);
     return vndf_guard_status(profile->guard, error);
@@ -241,7 +241,6 @@ void vndf_profile_free(vndf_profile *profile)
     if (!profile)
         return;
     free(profile->panel);
-    free(profile->point);
     free(profile->edge);
     free(profile->description);
     free(profile);
@@ -249,47 +248,31 @@ void vndf_profile_free(vndf_profile *profile)
 
 /* ---- the public oracle ---- */
 
-struct vndf_reference {
-    vndf_profile *profile;
-};
-
 vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error)
 {
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    if (!source) {
+    if (!source)
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "a source is needed");
-        return NULL;
-    }
-    vndf_profile *profile = vndf_profile_from(source, NULL, &guard, error);
-    if (!profile)
-        return NULL;
-    profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
-    vndf_reference *reference = malloc(sizeof *reference);
-    if (reference)
-        reference->profile = profile;
-    else {
-        vndf_profile_free(profile);
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for the reference of a distribution");
-    }
-    return reference;
+    vndf_profile *profile = source ? vndf_profile_from(source, NULL, &guard, error) : NULL;
+    if (profile)
+        profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
+    return profile;
 }
 
 double vndf_reference_p22(const vndf_reference *reference, double r)
 {
-    return reference ? reference->profile->normalization * vndf_source_p22(reference->profile->source, r) : 0.0;
+    return reference ? reference->normalization * vndf_source_p22(reference->source, r) : 0.0;
 }
 
 double vndf_reference_area(const vndf_reference *reference, double theta)
 {
     if (!reference)
         return 0.0;
-    double s = sin(theta) * reference->profile->scale, c = cos(theta);
-    return vndf_profile_below(reference->profile, s, fabs(c)).below + fmax(c, 0.0);
+    double s = sin(theta) * reference->scale, c = cos(theta);
+    return vndf_profile_below(reference, s, fabs(c)).below + fmax(c, 0.0);
 }
 
 void vndf_reference_free(vndf_reference *reference)
 {
-    if (reference)
-        vndf_profile_free(reference->profile);
-    free(reference);
+    vndf_profile_free(reference);
 }

@@ -11,12 +11,16 @@
 #include <math.h>
 
 #include "fit/guard.h"
-#include "source/resolution.h"
 #include "source/source.h"
 
 /* The Gauss-Legendre rule on [0, 1]. */
 enum { VNDF_GAUSS = 10 };
 extern const double vndf_gauss_node[VNDF_GAUSS], vndf_gauss_weight[VNDF_GAUSS];
+
+/* A Gauss point: P r dr = weight. */
+typedef struct vndf_profile_point {
+    double r, weight;
+} vndf_profile_point;
 
 /* Integrals of P r^n dr: inside the panel, before its inner edge, and beyond it. */
 typedef struct vndf_panel {
@@ -25,14 +29,11 @@ typedef struct vndf_panel {
     double f0;          /* of P r before the inner edge */
     double t0, s;       /* of P r and of P r (r - inner edge) beyond it */
     double less, least; /* of P and of P/r^2 beyond it, by the points */
+    vndf_profile_point point[VNDF_GAUSS];
 } vndf_panel;
 
-/* A Gauss point: P r dr = weight. */
-typedef struct vndf_profile_point {
-    double r, weight;
-} vndf_profile_point;
-
-typedef struct vndf_profile {
+/* The public oracle (vndf_build.h) is a profile without a guard. */
+typedef struct vndf_reference {
     const vndf_source *source;
     char *description; /* the source, and how closely the build looks at it; owned */
     double sampled;    /* the given `finest`; 0: none */
@@ -40,11 +41,10 @@ typedef struct vndf_profile {
     double normalization, scale;
     size_t count, capacity; /* panels; panel[count] is the outer end */
     vndf_panel *panel;
-    vndf_profile_point *point; /* VNDF_GAUSS per panel */
-    double f0, f1;             /* totals: integrals of P r dr and P r^2 dr */
-    double tail_m0, tail_m1;   /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
-    int rough;                 /* needs more panels than the limit */
-    double *edge;              /* slopes in the source's unit where panels end, beside its own breaks */
+    double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
+    double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
+    int rough;               /* needs more panels than the limit */
+    double *edge;            /* slopes in the source's unit where panels end, beside its own breaks */
     size_t edge_count;
     double hidden; /* a bound of the missed part of the mass, or of the area at grazing incidence; 1 if */
     double finest; /* this is not 0: then the relative width down to which the source was sampled */

@@ -81,7 +81,7 @@ static vndf_jet combine_jets(const vndf_instruction *at, vndf_jet x, vndf_jet y)
     case VNDF_MULTIPLY: return vndf_jet_product(x, y);
     case VNDF_DIVIDE: return vndf_jet_quotient(x, y);
     case VNDF_POWER: return vndf_jet_pow(x, y);
-    default: return at->function->jet_two(x, y);
+    default: return vndf_function_jet(at->function, x, y);
     }
 }
 
@@ -97,7 +97,7 @@ vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *
         else if (at->operation == VNDF_NEGATE)
             stack[top - 1] = vndf_jet_negative(stack[top - 1]);
         else if (at->operation == VNDF_CALL && at->function->one)
-            stack[top - 1] = at->function->jet_one(stack[top - 1]);
+            stack[top - 1] = vndf_function_jet(at->function, stack[top - 1], stack[top - 1]);
         else {
             top--;
             stack[top - 1] = combine_jets(at, stack[top - 1], stack[top]);

@@ -13,7 +13,7 @@
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
-#include "source/interval/jet.h"
+#include "source/interval/interval.h"
 #include "source/source.h"
 #include "vndf_build.h"
 
@@ -26,14 +26,12 @@ enum {
  * two arguments are equal. */
 typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
 
-/* A function of one argument or of two, its values and its bounds; the other pointers are NULL. */
+/* A function of one argument or of two; the other pointer is NULL. */
 typedef struct vndf_function {
     const char *name;
     double (*one)(double);
     double (*two)(double, double);
     vndf_kink kink;
-    vndf_jet (*jet_one)(vndf_jet);
-    vndf_jet (*jet_two)(vndf_jet, vndf_jet);
 } vndf_function;
 
 typedef enum vndf_operation {
@@ -92,6 +90,9 @@ vndf_reach vndf_reach_from(vndf_jet p22, vndf_jet r, double low, double high);
 /* The function of this name, NULL if there is none; the i-th, NULL past the last. */
 const vndf_function *vndf_function_find(const char *name, size_t size);
 const vndf_function *vndf_function_at(size_t index);
+
+/* Its bounds; y is of no matter where it has one argument. */
+vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y);
 
 /* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
  * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between

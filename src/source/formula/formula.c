@@ -50,7 +50,7 @@ static vndf_jet bounds(vndf_formula_of of, const vndf_expression *formula, vndf_
     if (of == VNDF_FORMULA_OF_P22)
         return vndf_expression_jet(formula, &r);
     vndf_jet q = vndf_jet_sum(vndf_jet_number(1), vndf_jet_product(r, r));
-    vndf_jet theta = vndf_function_find("atan", 4)->jet_one(r);
+    vndf_jet theta = vndf_function_jet(vndf_function_find("atan", 4), r, r);
     vndf_jet variables[VNDF_VARIABLES] = {vndf_jet_power(q, -0.5), theta, r};
     return vndf_jet_quotient(vndf_expression_jet(formula, variables), vndf_jet_product(q, q));
 }
@@ -166,7 +166,7 @@ static vndf_source *read_formula(vndf_formula_of of, const char *text, const vnd
 {
     int is_ndf = of == VNDF_FORMULA_OF_NDF;
     vndf_names names = {is_ndf ? names_of_ndf : names_of_p22, is_ndf ? VNDF_VARIABLES : 1, parameters, count};
-    vndf_text words = {NULL, 0, 0, 0};
+    vndf_writer words = {NULL, 0, 0, 0};
     vndf_lobe lobe = {{NULL, 0}, 1, 1};
     if (vndf_expression_parse(text, &names, &lobe.formula, error) != VNDF_OK)
         return NULL;

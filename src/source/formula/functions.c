@@ -5,6 +5,11 @@
 #include "source/formula/expression.h"
 #include "source/words.h"
 
+enum { EXP, LOG, LOG1P, SQRT, SIN, COS, TAN, ASIN, ACOS, ATAN, SINH, COSH, TANH, ERF, ERFC, LGAMMA, GAMMA };
+enum { ABS = GAMMA + 1, MIN, MAX, POW, STEP };
+
+static vndf_jet bounds(int function, vndf_jet x, vndf_jet y);
+
 static const double PI = 3.14159265358979323846;
 static const double FAR = 25; /* cosh is half an exponential in doubles; erfc is near its smallest value */
 
@@ -32,12 +37,7 @@ static vndf_interval rising_in_library(double (*f)(double), vndf_jet x, double l
     return vndf_interval_of_library(f(fmax(low, least)), f(fmin(high, most)));
 }
 
-static vndf_jet reciprocal(vndf_jet x)
-{
-    return vndf_jet_quotient(vndf_jet_number(1), x);
-}
-
-/* ---- logarithm and root ---- */
+/* ---- logarithm ---- */
 
 static vndf_interval log1p_at(vndf_interval x)
 {
@@ -51,12 +51,8 @@ static vndf_jet log1p_of(vndf_jet x)
 {
     vndf_jet sum = vndf_jet_sum(vndf_jet_number(1), x);
     vndf_interval y = high_of(x) < -1 ? vndf_interval_all() : rising(log1p_at, x.at[0]);
-    return sum.at[0].low.m > 0 ? vndf_jet_integral(y, x, reciprocal(sum)) : vndf_jet_value(y, x);
-}
-
-static vndf_jet sqrt_of(vndf_jet x)
-{
-    return vndf_jet_power(x, 0.5);
+    return sum.at[0].low.m > 0 ? vndf_jet_integral(y, x, vndf_jet_quotient(vndf_jet_number(1), sum))
+                               : vndf_jet_value(y, x);
 }
 
 /* ---- circular and hyperbolic functions ---- */
@@ -81,22 +77,12 @@ static vndf_interval wave(double (*f)(double), vndf_jet x, double top)
                               meets(low, high, top, 2 * PI) ? 1 : fmin(most, 1));
 }
 
-static vndf_jet sin_of(vndf_jet x)
-{
-    return vndf_jet_wave(x, wave(sin, x, PI / 2), wave(cos, x, 0), -1);
-}
-
-static vndf_jet cos_of(vndf_jet x)
-{
-    return vndf_jet_wave(x, wave(cos, x, 0), vndf_interval_negative(wave(sin, x, PI / 2)), -1);
-}
-
 static vndf_jet tan_of(vndf_jet x)
 {
     double low = low_of(x), high = high_of(x);
     int pole = !(high - low < PI) || fabs(low) > 1e9 || fabs(high) > 1e9 || meets(low, high, PI / 2, PI);
     vndf_interval y = pole ? vndf_interval_all() : vndf_interval_of_library(tan(low), tan(high));
-    return vndf_jet_integral(y, x, vndf_jet_power(cos_of(x), -2));
+    return vndf_jet_integral(y, x, vndf_jet_power(bounds(COS, x, x), -2));
 }
 
 /* (1 + sign x^2)^p. */
@@ -106,25 +92,9 @@ static vndf_jet one_and_square(vndf_jet x, int sign, double p)
     return vndf_jet_power(sign > 0 ? vndf_jet_sum(one, square) : vndf_jet_difference(one, square), p);
 }
 
-static vndf_jet asin_of(vndf_jet x)
-{
-    return vndf_jet_integral(rising_in_library(asin, x, -1, 1), x, one_and_square(x, -1, -0.5));
-}
-
 static double acos_of_negative(double x)
 {
     return acos(-x);
-}
-
-static vndf_jet acos_of(vndf_jet x)
-{
-    vndf_interval y = rising_in_library(acos_of_negative, vndf_jet_negative(x), -1, 1);
-    return vndf_jet_integral(y, x, vndf_jet_negative(one_and_square(x, -1, -0.5)));
-}
-
-static vndf_jet atan_of(vndf_jet x)
-{
-    return vndf_jet_integral(rising_in_library(atan, x, -HUGE_VAL, HUGE_VAL), x, one_and_square(x, 1, -1));
 }
 
 /* Half of exp(x) + sign exp(-x). */
@@ -146,16 +116,6 @@ static vndf_interval cosh_at(vndf_interval x)
     return fabs(d) < FAR ? vndf_interval_of_library(cosh(d), cosh(d)) : half_exps(x, 1);
 }
 
-static vndf_jet sinh_of(vndf_jet x)
-{
-    return vndf_jet_wave(x, rising(sinh_at, x.at[0]), rising(cosh_at, vndf_interval_size(x.at[0])), 1);
-}
-
-static vndf_jet cosh_of(vndf_jet x)
-{
-    return vndf_jet_wave(x, rising(cosh_at, vndf_interval_size(x.at[0])), rising(sinh_at, x.at[0]), 1);
-}
-
 /* A function that rises from -1 to 1, and is 1 in doubles from x = full on. There the interval has no width, so
  * that the difference of two such functions vanishes. */
 static vndf_interval saturating(double (*f)(double), vndf_jet x, double full)
@@ -169,12 +129,6 @@ static vndf_interval saturating(double (*f)(double), vndf_jet x, double full)
     return y;
 }
 
-/* 1 - tanh^2 would lose its digits. */
-static vndf_jet tanh_of(vndf_jet x)
-{
-    return vndf_jet_integral(saturating(tanh, x, 20), x, vndf_jet_power(cosh_of(x), -2));
-}
-
 /* ---- the error function ---- */
 
 /* factor exp(-x^2), factor = 2/sqrt(pi) but for its sign. */
@@ -182,11 +136,6 @@ static vndf_jet bell(vndf_jet x, double sign)
 {
     vndf_interval factor = vndf_interval_scaled(vndf_interval_from(1.1283791670955125, 1.1283791670955127), sign);
     return vndf_jet_product(vndf_jet_exp(vndf_jet_negative(vndf_jet_power(x, 2))), vndf_jet_constant(factor));
-}
-
-static vndf_jet erf_of(vndf_jet x)
-{
-    return vndf_jet_integral(saturating(erf, x, 6), x, bell(x, 1));
 }
 
 /* erfc(-x), which rises: exp(-x^2)/(2 |x|) < erfc |x| < 0.6 exp(-x^2)/|x| for |x| >= 25. */
@@ -198,11 +147,6 @@ static vndf_interval erfc_of_negative(vndf_interval x)
     vndf_interval bell = vndf_interval_exp(vndf_interval_negative(vndf_interval_product(x, x)));
     vndf_interval part = vndf_interval_quotient(vndf_interval_from(0.5, 0.6), vndf_interval_negative(x));
     return vndf_interval_product(bell, part);
-}
-
-static vndf_jet erfc_of(vndf_jet x)
-{
-    return vndf_jet_integral(rising(erfc_of_negative, vndf_interval_negative(x.at[0])), x, bell(x, -1));
 }
 
 /* ---- gamma ---- */
@@ -265,49 +209,63 @@ static double larger(double x, double y)
     return isnan(x) || x > y ? x : y;
 }
 
-static vndf_jet step_of(vndf_jet x)
-{
-    if (x.at[0].low.m >= 0 || x.at[0].high.m < 0)
-        return vndf_jet_number(x.at[0].low.m >= 0);
-    return vndf_jet_value(vndf_interval_from(0, 1), x);
-}
-
-static vndf_jet smaller_of(vndf_jet x, vndf_jet y)
-{
-    return vndf_jet_negative(vndf_jet_max(vndf_jet_negative(x), vndf_jet_negative(y)));
-}
-
-static vndf_jet size_of(vndf_jet x)
-{
-    return vndf_jet_max(x, vndf_jet_negative(x));
-}
-
 /* ---- the list ---- */
 
 static const vndf_function functions[] = {
-    {"exp", exp, NULL, VNDF_KINK_NONE, vndf_jet_exp, NULL},
-    {"log", log, NULL, VNDF_KINK_NONE, vndf_jet_log, NULL},
-    {"log1p", log1p, NULL, VNDF_KINK_NONE, log1p_of, NULL},
-    {"sqrt", sqrt, NULL, VNDF_KINK_NONE, sqrt_of, NULL},
-    {"sin", sin, NULL, VNDF_KINK_NONE, sin_of, NULL},
-    {"cos", cos, NULL, VNDF_KINK_NONE, cos_of, NULL},
-    {"tan", tan, NULL, VNDF_KINK_NONE, tan_of, NULL},
-    {"asin", asin, NULL, VNDF_KINK_NONE, asin_of, NULL},
-    {"acos", acos, NULL, VNDF_KINK_NONE, acos_of, NULL},
-    {"atan", atan, NULL, VNDF_KINK_NONE, atan_of, NULL},
-    {"sinh", sinh, NULL, VNDF_KINK_NONE, sinh_of, NULL},
-    {"cosh", cosh, NULL, VNDF_KINK_NONE, cosh_of, NULL},
-    {"tanh", tanh, NULL, VNDF_KINK_NONE, tanh_of, NULL},
-    {"erf", erf, NULL, VNDF_KINK_NONE, erf_of, NULL},
-    {"erfc", erfc, NULL, VNDF_KINK_NONE, erfc_of, NULL},
-    {"lgamma", lgamma, NULL, VNDF_KINK_NONE, lgamma_of, NULL},
-    {"gamma", tgamma, NULL, VNDF_KINK_NONE, gamma_of, NULL},
-    {"abs", fabs, NULL, VNDF_KINK_ZERO, size_of, NULL},
-    {"min", NULL, smaller, VNDF_KINK_EQUAL, NULL, smaller_of},
-    {"max", NULL, larger, VNDF_KINK_EQUAL, NULL, vndf_jet_max},
-    {"pow", NULL, pow, VNDF_KINK_NONE, NULL, vndf_jet_pow},
-    {"step", step, NULL, VNDF_KINK_ZERO, step_of, NULL},
+    [EXP] = {"exp", exp, NULL, VNDF_KINK_NONE},        [LOG] = {"log", log, NULL, VNDF_KINK_NONE},
+    [LOG1P] = {"log1p", log1p, NULL, VNDF_KINK_NONE},  [SQRT] = {"sqrt", sqrt, NULL, VNDF_KINK_NONE},
+    [SIN] = {"sin", sin, NULL, VNDF_KINK_NONE},        [COS] = {"cos", cos, NULL, VNDF_KINK_NONE},
+    [TAN] = {"tan", tan, NULL, VNDF_KINK_NONE},        [ASIN] = {"asin", asin, NULL, VNDF_KINK_NONE},
+    [ACOS] = {"acos", acos, NULL, VNDF_KINK_NONE},     [ATAN] = {"atan", atan, NULL, VNDF_KINK_NONE},
+    [SINH] = {"sinh", sinh, NULL, VNDF_KINK_NONE},     [COSH] = {"cosh", cosh, NULL, VNDF_KINK_NONE},
+    [TANH] = {"tanh", tanh, NULL, VNDF_KINK_NONE},     [ERF] = {"erf", erf, NULL, VNDF_KINK_NONE},
+    [ERFC] = {"erfc", erfc, NULL, VNDF_KINK_NONE},     [LGAMMA] = {"lgamma", lgamma, NULL, VNDF_KINK_NONE},
+    [GAMMA] = {"gamma", tgamma, NULL, VNDF_KINK_NONE}, [ABS] = {"abs", fabs, NULL, VNDF_KINK_ZERO},
+    [MIN] = {"min", NULL, smaller, VNDF_KINK_EQUAL},   [MAX] = {"max", NULL, larger, VNDF_KINK_EQUAL},
+    [POW] = {"pow", NULL, pow, VNDF_KINK_NONE},        [STEP] = {"step", step, NULL, VNDF_KINK_ZERO},
 };
+
+static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
+{
+    vndf_interval value = x.at[0], size = vndf_interval_size(value);
+    vndf_jet negative = vndf_jet_negative(x);
+    switch (function) {
+    case EXP: return vndf_jet_exp(x);
+    case LOG: return vndf_jet_log(x);
+    case LOG1P: return log1p_of(x);
+    case SQRT: return vndf_jet_power(x, 0.5);
+    case SIN: return vndf_jet_wave(x, wave(sin, x, PI / 2), wave(cos, x, 0), -1);
+    case COS: return vndf_jet_wave(x, wave(cos, x, 0), vndf_interval_negative(wave(sin, x, PI / 2)), -1);
+    case TAN: return tan_of(x);
+    case ASIN: return vndf_jet_integral(rising_in_library(asin, x, -1, 1), x, one_and_square(x, -1, -0.5));
+    case ACOS:
+        return vndf_jet_integral(rising_in_library(acos_of_negative, negative, -1, 1), x,
+                                 vndf_jet_negative(one_and_square(x, -1, -0.5)));
+    case ATAN:
+        return vndf_jet_integral(rising_in_library(atan, x, -HUGE_VAL, HUGE_VAL), x, one_and_square(x, 1, -1));
+    case SINH: return vndf_jet_wave(x, rising(sinh_at, value), rising(cosh_at, size), 1);
+    case COSH: return vndf_jet_wave(x, rising(cosh_at, size), rising(sinh_at, value), 1);
+    case TANH: /* 1 - tanh^2 would lose its digits */
+        return vndf_jet_integral(saturating(tanh, x, 20), x, vndf_jet_power(bounds(COSH, x, x), -2));
+    case ERF: return vndf_jet_integral(saturating(erf, x, 6), x, bell(x, 1));
+    case ERFC: return vndf_jet_integral(rising(erfc_of_negative, negative.at[0]), x, bell(x, -1));
+    case LGAMMA: return lgamma_of(x);
+    case GAMMA: return gamma_of(x);
+    case ABS: return vndf_jet_max(x, negative);
+    case MIN: return vndf_jet_negative(vndf_jet_max(negative, vndf_jet_negative(y)));
+    case MAX: return vndf_jet_max(x, y);
+    case POW: return vndf_jet_pow(x, y);
+    default: /* STEP */
+        if (value.low.m >= 0 || value.high.m < 0)
+            return vndf_jet_number(value.low.m >= 0);
+        return vndf_jet_value(vndf_interval_from(0, 1), x);
+    }
+}
+
+vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y)
+{
+    return bounds((int)(function - functions), x, y);
+}
 
 const vndf_function *vndf_function_at(size_t index)
 {

@@ -1,7 +1,7 @@
 /* Taylor coefficients of composed functions by the recurrences of automatic differentiation (Moore, Interval
  * Analysis, 1966; Griewank & Walther, Evaluating Derivatives, 2008, ch. 13): y' = d x' is
  * k y_k = sum of j x_j d_(k-j), j from 1 to k. */
-#include "source/interval/jet.h"
+#include "source/interval/interval.h"
 
 static const vndf_interval zero = {{0, 0}, {0, 0}};
 

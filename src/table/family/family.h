@@ -9,6 +9,7 @@
 #ifndef VNDF_TABLE_FAMILY_FAMILY_H
 #define VNDF_TABLE_FAMILY_FAMILY_H
 
+#include "core/cursor.h"
 #include "core/inline.h"
 #include "table/table.h"
 
@@ -38,8 +39,8 @@ vndf_family *vndf_family_allocate(size_t count);
 /* Why the numbers are none of a family; NULL if they are. */
 const char *vndf_family_invalid(const vndf_family *family);
 
-/* Writes the family, of tables with texts, into bytes[0..capacity); returns the size that the whole takes, whether it
- * fitted. */
-size_t vndf_family_encode(const vndf_family *family, unsigned char *bytes, size_t capacity);
+/* Writes the file of a family that owns its tables; its bytes. */
+void vndf_family_write(const vndf_family *family, vndf_writer *writer);
+size_t vndf_family_size(const vndf_family *family);
 
 #endif

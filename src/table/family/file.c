@@ -10,41 +10,36 @@
 
 static const vndf_frame FRAME = {"VNDFfam\n", "family", 1, VNDF_LIMIT_FAMILY_BYTES};
 
-/* ---- writing ---- */
-
-/* Into the room that is left; where there is none, it counts. */
-static void write_table(vndf_writer *w, const vndf_distribution *table)
+void vndf_family_write(const vndf_family *family, vndf_writer *w)
 {
-    size_t size = vndf_table_encode_loaded(table, NULL, 0);
-    vndf_write_u32(w, (uint32_t)size);
-    if (w->at <= w->capacity && size <= w->capacity - w->at)
-        vndf_table_encode_loaded(table, w->bytes + w->at, size);
-    w->at += size;
-}
-
-static size_t write_all(const vndf_family *family, unsigned char *bytes, size_t capacity, size_t size)
-{
-    vndf_writer w = {bytes, capacity, 0};
-    vndf_frame_begin(&FRAME, &w, size);
-    vndf_write_u32(&w, (uint32_t)family->count);
-    vndf_write_u32(&w, family->reciprocal != 0);
-    vndf_write_f32(&w, family->grazing);
-    vndf_write_text(&w, family->source);
-    vndf_write_text(&w, family->tool);
+    vndf_frame_begin(&FRAME, w);
+    vndf_write_u32(w, (uint32_t)family->count);
+    vndf_write_u32(w, family->reciprocal != 0);
+    vndf_write_f32(w, family->grazing);
+    vndf_write_text(w, family->source);
+    vndf_write_text(w, family->tool);
     for (size_t i = 0; i < family->count; i++)
-        vndf_write_f32(&w, family->parameter[i]);
+        vndf_write_f32(w, family->parameter[i]);
     for (size_t i = 0; i + 1 < family->count; i++)
-        vndf_write_f32(&w, family->distance[i]);
-    for (size_t i = 0; i < family->count; i++)
-        write_table(&w, family->distribution[i]);
-    vndf_frame_end(&w);
-    return w.at;
+        vndf_write_f32(w, family->distance[i]);
+    for (size_t i = 0; i < family->count; i++) {
+        vndf_writer table = {NULL, 0, 0, 0};
+        vndf_table_write_loaded(family->distribution[i], &table);
+        vndf_write_u32(w, (uint32_t)table.size);
+        vndf_write_bytes(w, table.bytes, table.size);
+        w->failed |= table.failed;
+        free(table.bytes);
+    }
+    vndf_frame_end(w);
 }
 
-size_t vndf_family_encode(const vndf_family *family, unsigned char *bytes, size_t capacity)
+size_t vndf_family_size(const vndf_family *family)
 {
-    size_t size = write_all(family, NULL, 0, 0);
-    return size > capacity ? size : write_all(family, bytes, capacity, size);
+    size_t size =
+        VNDF_FRAME_HEAD + 4 * (5 + 2 * family->count - 1 + 1) + strlen(family->source) + strlen(family->tool);
+    for (size_t i = 0; i < family->count; i++)
+        size += 4 + family->distribution[i]->bytes;
+    return size;
 }
 
 /* ---- reading ---- */

@@ -23,14 +23,11 @@ const char measured_help[] =
     "    --matrix      an anisotropic one as the matrix of an isotropic D, which is printed\n"
     "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
     "    --channel red|green|blue|luminance    (default luminance)\n"
-    "  --gonio FILE    a CSV with the columns theta_i,theta_o (degrees; the mirror direction is theta_o = theta_i)\n"
-    "                  and brdf (f) or intensity (f cos theta_o), in the plane of incidence\n"
-    "    --f0 X        reflectance at normal incidence (without it, from the scale of the data)\n"
-    "  --height FILE   heights of a surface: PFM, PGM, ASCII .sdf, or numbers between blanks\n"
-    "    --step X[,Y]  how far samples are apart, in the unit of the heights (default 1, or what the .sdf says)\n"
+    "  --height FILE   heights of a surface: PFM, PGM, or numbers between blanks\n"
+    "    --step X[,Y]  how far samples are apart, in the unit of the heights (default 1)\n"
     "    --cutoff N    takes waves shorter than N samples away first, 2 to 256 (Gaussian, ISO 16610-21)\n"
     "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
-    "  --profile OUT   the curve that was found, as a CSV for --csv, with its errors where they are known\n"
+    "  --profile OUT   the curve that was found, as a CSV for --csv\n"
     "\n"
     "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
     "         vndf build --merl gold-paint.binary --channel red -o gold-paint.vndf\n"
@@ -41,7 +38,7 @@ const char measured_help[] =
 /* Makes rows of a file; 0 after a complaint, or with the reason in the file. */
 typedef int reader(const char *command, const measured_words *given, data_file *file, profile *rows);
 
-static reader read_merl, read_gonio, read_rgl, read_height, read_normal_map;
+static reader read_merl, read_rgl, read_height, read_normal_map;
 
 static const struct {
     const char *option;
@@ -49,7 +46,6 @@ static const struct {
     reader *read;
 } kinds[] = {
     {"--merl", offsetof(measured_words, merl), read_merl},
-    {"--gonio", offsetof(measured_words, gonio), read_gonio},
     {"--rgl", offsetof(measured_words, rgl), read_rgl},
     {"--height", offsetof(measured_words, height), read_height},
     {"--normal-map", offsetof(measured_words, normal_map), read_normal_map},
@@ -65,7 +61,6 @@ static const struct {
     {"--cutoff", offsetof(measured_words, cutoff), "--height"},
     {"--matrix", offsetof(measured_words, matrix), "--rgl"},
     {"--channel", offsetof(measured_words, channel), "--merl"},
-    {"--f0", offsetof(measured_words, f0), "--gonio"},
 };
 
 enum { KINDS = sizeof kinds / sizeof kinds[0], RIDERS = sizeof riders / sizeof riders[0] };
@@ -166,12 +161,6 @@ static int read_merl(const char *command, const measured_words *given, data_file
             return merl_read(file, (merl_channel)i, rows);
     complain(command, "--channel '%s' is none of red, green, blue and luminance", wanted);
     return 0;
-}
-
-static int read_gonio(const char *command, const measured_words *given, data_file *file, profile *rows)
-{
-    double f0 = -1;
-    return option_number(command, "--f0", &given->f0, 0, 1, &f0) && gonio_read(file, f0, rows);
 }
 
 /* ---- the source ---------------------------------------------------------------------------------- */

@@ -6,12 +6,11 @@
 #include "vndf_build.h"
 
 typedef struct measured_words {
-    words rgl, merl, height, normal_map, gonio; /* files */
-    words step, cutoff;                         /* of heights */
-    words matrix;                               /* of .bsdf */
-    words channel;                              /* of MERL */
-    words f0;                                   /* of goniometers */
-    words profile;                              /* what is written beside the table */
+    words rgl, merl, height, normal_map; /* files */
+    words step, cutoff;                  /* of heights */
+    words matrix;                        /* of .bsdf */
+    words channel;                       /* of MERL */
+    words profile;                       /* what is written beside the table */
 } measured_words;
 
 /* What --help says of them. A string literal may have 4095 characters, so it is no part of the other. */

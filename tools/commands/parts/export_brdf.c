@@ -1,7 +1,6 @@
 #include "commands/parts/export_brdf.h"
 
 #include <stdio.h>
-#include <string.h>
 
 #include "cli/output.h"
 #include "cli/subject.h"
@@ -12,20 +11,13 @@ const char brdf_help[] =
     "As reflectances, for hosts that read measured ones: what a surface of this D mirrors once, F by Schlick, masked\n"
     "by Smith with heights correlated. FILE is one table, ggx or beckmann.\n"
     "\n"
-    "  --rgl            the same as --brdf rgl: a .bsdf that Mitsuba 3 (plugin measured) renders as it is; with\n"
-    "                   --wavelengths, its spectral variants and pbrt-v4\n"
-    "  --brdf merl      a .binary of MERL, 33 MiB\n"
+    "  --rgl            a .bsdf that Mitsuba 3 (plugin measured) renders as it is; with --wavelengths, its spectral\n"
+    "                   variants and pbrt-v4\n"
     "  --alpha A        roughness (default 1, D as the table holds it)\n"
     "  --f0 R[,G,B]     reflectance at normal incidence, 0 to 1 (default 1: all light is reflected)\n"
     "  --wavelengths L,...   nanometres, ascending, up to 16; --f0 then has one number, or one for each\n"
     "\n"
-    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n"
-    "         vndf export beckmann --brdf merl --alpha 0.2 -o beckmann.binary\n";
-
-int brdf_wanted(const brdf_words *given)
-{
-    return given->rgl.count || given->brdf.count;
-}
+    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n";
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
@@ -57,27 +49,6 @@ static int read_form(const char *command, const brdf_words *given, rgl_form *for
     return channels > 0 && count > 0;
 }
 
-static int is_merl(const brdf_words *given)
-{
-    return given->brdf.count && strcmp(only_word(&given->brdf), "merl") == 0;
-}
-
-static int check_words(const char *command, const brdf_words *given)
-{
-    const char *kind = given->rgl.count ? "rgl" : only_word(&given->brdf);
-    if (given->rgl.count && given->brdf.count)
-        return complain(command, "--rgl and --brdf are given; --rgl is --brdf rgl");
-    if (strcmp(kind, "rgl") != 0 && !is_merl(given))
-        return complain(command, "--brdf '%s': rgl and merl are known", kind);
-    if (is_merl(given) && given->wavelengths.count)
-        return complain(command, "--wavelengths is for --brdf rgl");
-    if (given->tables.count != 1)
-        return complain(command, "%zu distributions are given; --brdf takes one", given->tables.count);
-    if (!given->output.count)
-        return complain(command, "-o is missing");
-    return STATUS_GOOD;
-}
-
 /* ---- work ---------------------------------------------------------------------------------------- */
 
 int export_brdf(const char *command, const brdf_words *given)
@@ -86,15 +57,17 @@ int export_brdf(const char *command, const brdf_words *given)
     chosen_distribution chosen;
     char description[600];
     output_file output;
-    if (check_words(command, given) != STATUS_GOOD || !read_form(command, given, &form) ||
-        !distribution_open(&chosen, command, given->tables.item[0]))
+    if (given->tables.count != 1)
+        return complain(command, "%zu distributions are given; --rgl takes one", given->tables.count);
+    if (!given->output.count)
+        return complain(command, "-o is missing");
+    if (!read_form(command, given, &form) || !distribution_open(&chosen, command, given->tables.item[0]))
         return STATUS_USE;
     snprintf(description, sizeof description, "vndf %.500s, alpha %g", given->tables.item[0], (double)form.alpha);
     form.description = description;
     int status = STATUS_USE;
     if (output_open(&output, command, only_word(&given->output))) {
-        int written = is_merl(given) ? merl_write(output.file, chosen.distribution, form.alpha, form.f0)
-                                     : rgl_write(output.file, chosen.distribution, &form);
+        int written = rgl_write(output.file, chosen.distribution, &form);
         status = written ? output_commit(&output) : output_give_up(&output, "no memory, or no place on the disk");
     }
     distribution_close(&chosen);

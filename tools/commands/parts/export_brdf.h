@@ -1,15 +1,12 @@
-/* `vndf export --brdf`: single scattering of one distribution as a file of reflectances. */
+/* `vndf export --rgl`: single scattering of one distribution as a file of reflectances. */
 #ifndef TOOLS_COMMANDS_PARTS_EXPORT_BRDF_H
 #define TOOLS_COMMANDS_PARTS_EXPORT_BRDF_H
 
 #include "cli/arguments.h"
 
 typedef struct brdf_words {
-    words tables, rgl, brdf, alpha, f0, wavelengths, output;
+    words tables, rgl, alpha, f0, wavelengths, output;
 } brdf_words;
-
-/* Whether the user asked for that: --rgl or --brdf. */
-int brdf_wanted(const brdf_words *given);
 
 /* An exit status. */
 int export_brdf(const char *command, const brdf_words *given);

@@ -1,18 +1,12 @@
-/* Visible normals of GGX as published: by spherical caps (J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals
- * with Spherical Caps", HPG 2023), and by the squeezed disc before them (E. Heitz, "Sampling the GGX
- * Distribution of Visible Normals", JCGT 7(4), 2018). Both stretch wi to the unit problem w, find a half vector
- * or a point of the hemisphere, and stretch it back. The density is Dv = wi.wm D/A with A = (wi.z + |stretched
- * wi|)/2.
- *
- * Caps: mirrored directions are uniform on the cap z > -w.z; the normal is half way between. The published code
- * guards nothing: at normal incidence u2 = 1 is a NaN. It is the yardstick: other times are multiples of its
- * time. Disc: wi sees the hemisphere as a disc with one half squeezed by (1 + w.z)/2; a point of the disc is
- * squeezed, then lifted. Departure: the tangent frame comes from the azimuth, with a guard for a wi without
- * one. */
+/* Visible normals of GGX by spherical caps, as published: J. Dupuy, A. Benyoub, "Sampling Visible GGX Normals with
+ * Spherical Caps", HPG 2023. wi is stretched to the unit problem w, where mirrored directions are uniform on the cap
+ * z > -w.z; the normal is half way between, and stretched back. The density is Dv = wi.wm D/A with A = (wi.z +
+ * |stretched wi|)/2. The published code guards nothing: at normal incidence u2 = 1 is a NaN. It is the yardstick:
+ * other times are multiples of its time. */
 #include "evidence/methods/vector.h"
 
 typedef struct ggx_view {
-    vndf_vec3 wi, w, t1, t2; /* t1, t2: across w, of the disc */
+    vndf_vec3 wi, w;
     float alpha, per_area;
 } ggx_view;
 
@@ -31,9 +25,7 @@ static inline float density(const ggx_view *v, vndf_vec3 m)
     return fmaxf(0.0f, method_dot(v->wi, m)) * v->per_area / (method_pi * a2 * across * across);
 }
 
-/* ---- spherical caps ------------------------------------------------------------------------------ */
-
-static inline vndf_vec3 draw_cap(const void *view, float u1, float u2, float *pdf)
+static inline vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
 {
     const ggx_view *v = view;
     float phi = 2 * method_pi * u1, z = (1.0f - u2) * (1.0f + v->w.z) - v->w.z, a = v->alpha;
@@ -43,23 +35,23 @@ static inline vndf_vec3 draw_cap(const void *view, float u1, float u2, float *pd
     return m;
 }
 
-static inline vndf_vec3 one_cap(const method *m, const method_input *in, float *pdf)
+static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 {
     (void)m;
     ggx_view v = view_from(in->wi, in->alpha);
-    return draw_cap(&v, in->u[0], in->u[1], pdf);
+    return draw(&v, in->u[0], in->u[1], pdf);
 }
 
-static void each_cap(const method *m, block *b, size_t first, size_t count)
+static void each(const method *m, block *b, size_t first, size_t count)
 {
-    method_loop(one_cap, m, b, first, count);
+    method_loop(one, m, b, first, count);
 }
 
-static void shared_caps(const method *m, block *b, size_t first, size_t count)
+static void shared(const method *m, block *b, size_t first, size_t count)
 {
     (void)m;
     ggx_view v = view_from(b->in[first].wi, b->in[first].alpha);
-    method_shared_loop(draw_cap, &v, b, first, count);
+    method_shared_loop(draw, &v, b, first, count);
 }
 
 method method_ggx_caps(void)
@@ -67,66 +59,7 @@ method method_ggx_caps(void)
     return (method){.name = "spherical caps (2023)",
                     .instructions = "scalar",
                     .kind = ROW_PUBLISHED,
-                    .one = one_cap,
-                    .each = each_cap,
-                    .shared = shared_caps};
-}
-
-/* ---- disc ---------------------------------------------------------------------------------------- */
-
-static inline ggx_view disc_from(vndf_vec3 wi, float alpha)
-{
-    ggx_view v = view_from(wi, alpha);
-    float across = v.w.x * v.w.x + v.w.y * v.w.y;
-    v.t1 = (vndf_vec3){1, 0, 0};
-    v.t2 = (vndf_vec3){0, 1, 0};
-    if (across > 0) {
-        float per_across = 1.0f / sqrtf(across);
-        v.t1 = (vndf_vec3){-v.w.y * per_across, v.w.x * per_across, 0};
-        v.t2 = (vndf_vec3){-v.w.z * v.t1.y, v.w.z * v.t1.x, v.w.x * v.t1.y - v.w.y * v.t1.x};
-    }
-    return v;
-}
-
-static inline vndf_vec3 draw_disc(const void *view, float u1, float u2, float *pdf)
-{
-    const ggx_view *v = view;
-    float r = sqrtf(u1), phi = 2 * method_pi * u2, a = v->alpha, squeeze = 0.5f * (1.0f + v->w.z);
-    float p = r * cosf(phi), rest = 1.0f - p * p;
-    float q = (1.0f - squeeze) * sqrtf(rest) + squeeze * r * sinf(phi);
-    float up = sqrtf(fmaxf(0.0f, rest - q * q));
-    vndf_vec3 h = {p * v->t1.x + q * v->t2.x + up * v->w.x, p * v->t1.y + q * v->t2.y + up * v->w.y,
-                   q * v->t2.z + up * v->w.z};
-    vndf_vec3 m = method_unit(a * h.x, a * h.y, fmaxf(0.0f, h.z));
-    *pdf = density(v, m);
-    return m;
-}
-
-static inline vndf_vec3 one_disc(const method *m, const method_input *in, float *pdf)
-{
-    (void)m;
-    ggx_view v = disc_from(in->wi, in->alpha);
-    return draw_disc(&v, in->u[0], in->u[1], pdf);
-}
-
-static void each_disc(const method *m, block *b, size_t first, size_t count)
-{
-    method_loop(one_disc, m, b, first, count);
-}
-
-static void shared_disc(const method *m, block *b, size_t first, size_t count)
-{
-    (void)m;
-    ggx_view v = disc_from(b->in[first].wi, b->in[first].alpha);
-    method_shared_loop(draw_disc, &v, b, first, count);
-}
-
-method method_ggx_2018(void)
-{
-    return (method){.name = "GGX disc (2018)",
-                    .instructions = "scalar",
-                    .kind = ROW_PUBLISHED,
-                    .one = one_disc,
-                    .each = each_disc,
-                    .shared = shared_disc};
+                    .one = one,
+                    .each = each,
+                    .shared = shared};
 }

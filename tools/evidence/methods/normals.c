@@ -131,10 +131,9 @@ method method_beckmann_all_normals(void)
     return all_normals(draw_beckmann, each_beckmann);
 }
 
-method method_any_all_normals(const method_reference *reference, size_t side)
+method method_any_all_normals(const method_reference *reference)
 {
     method m = all_normals(draw_any, NULL);
-    (void)side; /* makers of methods for any D are called alike */
     memcpy(m.name, "all normals (2007), radial CDF", 31);
     m.memory = sizeof(radial_cdf);
     m.release = free;

@@ -1,7 +1,7 @@
 /* A bilinear warp of the unit square per incident direction, as renderers use for measured materials: J. Dupuy,
  * W. Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and Rendering", TOG 37(6), 2018.
  * For each of SLICES directions a table holds the density of visible normals over (p, q), with theta_m = p^2
- * pi/2 and the azimuth (2 q - 1) pi from wi: side x side nodes on the square, and a bilinear interpolant between
+ * pi/2 and the azimuth (2 q - 1) pi from wi: SIDE x SIDE nodes on the square, and a bilinear interpolant between
  * them. The marginal of p and the conditional of q at any p are then piecewise linear; a binary search of the
  * CDF and a quadratic draw from each. Between two directions the densities mix linearly, and so do all CDFs.
  *
@@ -12,20 +12,17 @@
  * Departures: there are nodes on the horizon. Renderers have a table per material, and neither roughness nor
  * stretch; here the table is of the unit problem at median slope 1, and roughness stretches. Its directions are
  * even, from 0 to 90 degrees. */
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "evidence/methods/vector.h"
 
-enum { SLICES = 8 };
+enum { SLICES = 8, SIDE = 128 };
 
-/* Slice after slice: the density of (p, q) at the nodes, its integral over q up to a node, and the integral of the
- * whole rows over p. */
+/* Of each slice: the density of (p, q) at the nodes, its integral over q up to a node, and the integral of the whole
+ * rows over p. */
 typedef struct warp {
-    size_t side;
     float scale;
-    float *density, *conditional; /* side*side */
-    float *marginal;              /* side */
+    float density[SLICES][SIDE * SIDE], conditional[SLICES][SIDE * SIDE], marginal[SLICES][SIDE];
 } warp;
 
 /* ---- preparing --------------------------------------------------------------------------------- */
@@ -46,51 +43,43 @@ static double node_at(const vndf_view *view, double p, double q, double cell)
     return p + 0.5 * cell < 1 ? density : fmin(density, 2 * density_at(view, p - 0.5 * cell, q));
 }
 
-/* Integrals of a row's interpolant, with nodes 1/(side - 1) apart. */
-static void accumulate(const float *value, float *sum, size_t side)
+/* Integrals of a row's interpolant, with nodes 1/(SIDE - 1) apart. */
+static void accumulate(const float value[SIDE], float sum[SIDE])
 {
-    double total = 0, step = 1 / (double)(side - 1);
+    double total = 0, step = 1.0 / (SIDE - 1);
     sum[0] = 0;
-    for (size_t i = 1; i < side; i++) {
+    for (size_t i = 1; i < SIDE; i++) {
         total += 0.5 * step * ((double)value[i - 1] + (double)value[i]);
         sum[i] = (float)total;
     }
 }
 
-static void scale_by(float *value, size_t count, float factor)
+static void fill_slice(warp *w, const method_reference *reference, size_t slice)
 {
-    for (size_t i = 0; i < count; i++)
-        value[i] *= factor;
-}
-
-static int fill_slice(warp *w, const method_reference *reference, size_t slice)
-{
-    size_t n = w->side, last = n - 1;
-    double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1), cell = 1 / (double)last;
-    float *density = w->density + slice * n * n, *conditional = w->conditional + slice * n * n;
-    float *marginal = w->marginal + slice * n, *rows = malloc(n * sizeof *rows);
+    const double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1), cell = 1.0 / (SIDE - 1);
+    float *density = w->density[slice], *conditional = w->conditional[slice], *marginal = w->marginal[slice];
+    float rows[SIDE];
     vndf_vec3 wi = {(float)sin(theta), 0, slice == SLICES - 1 ? 0 : (float)cos(theta)};
     vndf_view view = vndf_view_from(&reference->canonical, wi);
-    if (!rows)
-        return 0;
-    for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++)
-            density[i * n + j] = (float)node_at(&view, (double)i * cell, (double)j * cell, cell);
-        accumulate(density + i * n, conditional + i * n, n);
-        rows[i] = conditional[i * n + last];
+    for (size_t i = 0; i < SIDE; i++) {
+        for (size_t j = 0; j < SIDE; j++)
+            density[i * SIDE + j] = (float)node_at(&view, (double)i * cell, (double)j * cell, cell);
+        accumulate(density + i * SIDE, conditional + i * SIDE);
+        rows[i] = conditional[i * SIDE + SIDE - 1];
     }
-    accumulate(rows, marginal, n);
-    float per_total = 1.0f / marginal[last];
-    scale_by(density, n * n, per_total);
-    scale_by(conditional, n * n, per_total);
-    scale_by(marginal, n, per_total);
-    free(rows);
-    return 1;
+    accumulate(rows, marginal);
+    float per_total = 1.0f / marginal[SIDE - 1];
+    for (size_t i = 0; i < SIDE * SIDE; i++) {
+        density[i] *= per_total;
+        conditional[i] *= per_total;
+    }
+    for (size_t i = 0; i < SIDE; i++)
+        marginal[i] *= per_total;
 }
 
 /* ---- drawing ----------------------------------------------------------------------------------- */
 
-/* Up to four evidence_rows of numbers that are mixed. */
+/* Up to four rows of numbers that are mixed. */
 typedef struct mix {
     const float *row[4];
     float weight[4];
@@ -105,10 +94,10 @@ static inline float mixed(const mix *x, size_t i)
     return sum;
 }
 
-/* The cell of an ascending row where `value` falls: 0 to side - 2. */
-static inline size_t cell_of(const mix *x, size_t side, float value)
+/* The cell of an ascending row where `value` falls: 0 to SIDE - 2. */
+static inline size_t cell_of(const mix *x, float value)
 {
-    size_t low = 0, high = side - 1;
+    size_t low = 0, high = SIDE - 1;
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
         if (mixed(x, middle) <= value)
@@ -126,33 +115,29 @@ static inline float part_of(float a, float b, float rest)
     return a + root > 0 ? fminf(2.0f * rest / (a + root), 1.0f) : 0.5f;
 }
 
-static inline mix rows_of(const float *table, size_t stride, size_t at, size_t slice, float t)
+/* Of rows i and i + 1 of two slices. */
+static inline mix four_rows(const float table[SLICES][SIDE * SIDE], size_t slice, float t, size_t i, float v)
 {
-    return (mix){{table + slice * stride + at, table + (slice + 1) * stride + at}, {1.0f - t, t}, 2};
-}
-
-static inline mix four_rows(const float *table, size_t n, size_t slice, float t, size_t i, float v)
-{
-    const float *low = table + slice * n * n + i * n, *high = low + n * n;
-    return (mix){{low, low + n, high, high + n}, {(1 - t) * (1 - v), (1 - t) * v, t * (1 - v), t * v}, 4};
+    const float *low = table[slice] + i * SIDE, *high = table[slice + 1] + i * SIDE;
+    return (mix){{low, low + SIDE, high, high + SIDE}, {(1 - t) * (1 - v), (1 - t) * v, t * (1 - v), t * v}, 4};
 }
 
 /* A place on the square and its density there. */
 static inline float square(const warp *w, float theta, float u1, float u2, float *p, float *q)
 {
-    size_t n = w->side;
-    float cells = (float)(n - 1), place = theta * (2 / method_pi) * (SLICES - 1);
+    const float cells = SIDE - 1;
+    float place = theta * (2 / method_pi) * (SLICES - 1);
     size_t slice = (size_t)fminf(place, SLICES - 2);
     float t = fminf(place - (float)slice, 1.0f);
-    mix marginal = rows_of(w->marginal, n, 0, slice, t);
-    size_t i = cell_of(&marginal, n, u1);
-    mix totals = rows_of(w->conditional, n * n, i * n + n - 1, slice, t);
-    float a = mixed(&totals, 0), b = mixed(&totals, n);
+    mix marginal = {{w->marginal[slice], w->marginal[slice + 1]}, {1.0f - t, t}, 2};
+    size_t i = cell_of(&marginal, u1);
+    mix lower = four_rows(w->conditional, slice, t, i, 0), upper = four_rows(w->conditional, slice, t, i, 1);
+    float a = mixed(&lower, SIDE - 1), b = mixed(&upper, SIDE - 1);
     float v = part_of(a, b, (u1 - mixed(&marginal, i)) * cells);
-    mix conditional = four_rows(w->conditional, n, slice, t, i, v);
+    mix conditional = four_rows(w->conditional, slice, t, i, v);
     float wanted = u2 * (a + v * (b - a));
-    size_t j = cell_of(&conditional, n, wanted);
-    mix density = four_rows(w->density, n, slice, t, i, v);
+    size_t j = cell_of(&conditional, wanted);
+    mix density = four_rows(w->density, slice, t, i, v);
     float c = mixed(&density, j), d = mixed(&density, j + 1);
     float u = part_of(c, d, (wanted - mixed(&conditional, j)) * cells);
     *p = ((float)i + v) / cells;
@@ -180,42 +165,20 @@ static void each(const method *m, block *b, size_t first, size_t count)
     method_loop(draw, m, b, first, count);
 }
 
-/* ---- the method -------------------------------------------------------------------------------- */
-
-static void release(void *state)
+method method_warp(const method_reference *reference)
 {
-    warp *w = state;
-    free(w->density);
-    free(w->conditional);
-    free(w->marginal);
-    free(w);
-}
-
-static warp *warp_of(const method_reference *reference, size_t side)
-{
-    warp *w = calloc(1, sizeof *w);
-    if (!w)
-        return NULL;
-    w->side = side;
-    w->scale = reference->scale;
-    w->density = malloc(SLICES * side * side * sizeof *w->density);
-    w->conditional = malloc(SLICES * side * side * sizeof *w->conditional);
-    w->marginal = malloc(SLICES * side * sizeof *w->marginal);
-    int good = w->density && w->conditional && w->marginal;
-    for (size_t slice = 0; good && slice < SLICES; slice++)
-        good = fill_slice(w, reference, slice);
-    if (good)
-        return w;
-    release(w);
-    return NULL;
-}
-
-method method_warp(const method_reference *reference, size_t side)
-{
-    method m = {.instructions = "scalar", .kind = ROW_PUBLISHED, .release = release, .one = draw, .turned = 1};
-    m.state = reference ? warp_of(reference, side) : NULL;
-    m.memory = SLICES * (2 * side * side + side) * sizeof(float);
-    m.each = m.state ? each : NULL;
-    snprintf(m.name, sizeof m.name, "bilinear warps, %d x %zu^2", SLICES, side);
-    return m;
+    warp *w = reference ? malloc(sizeof *w) : NULL;
+    if (w)
+        w->scale = reference->scale;
+    for (size_t slice = 0; w && slice < SLICES; slice++)
+        fill_slice(w, reference, slice);
+    return (method){.name = "bilinear warps, 8 x 128^2",
+                    .instructions = "scalar",
+                    .kind = ROW_PUBLISHED,
+                    .memory = sizeof *w,
+                    .state = w,
+                    .release = free,
+                    .one = draw,
+                    .each = w ? each : NULL,
+                    .turned = 1};
 }

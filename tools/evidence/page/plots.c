@@ -1,4 +1,4 @@
-/* Error against time, against bytes and against the angle of incidence. */
+/* Error against time and against the angle of incidence. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -147,47 +147,6 @@ int report_frontier(html_page *page, const report *r)
     fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
     page_section_end(page);
     return good;
-}
-
-/* ---- error against bytes ------------------------------------------------------------------------- */
-
-int report_bytes(html_page *page, const report *r)
-{
-    static const char *const moments_names[] = {"2 moments", "3 moments", "4 moments"};
-    plot *p = calloc(1, sizeof *p);
-    if (!p)
-        return 0;
-    for (size_t k = 0; k < r->count; k++)
-        for (int moments = k ? 4 : 2; moments <= 4; moments++) {
-            chart_series *s = begin_series(p, (unsigned)k, CHART_DOT, (chart_line)(5 - moments));
-            s->label = k ? r->subject[k].of.name : moments_names[moments - 2];
-            for (size_t i = 0; i < SIZES; i++)
-                if (table_sizes[i].moments == moments)
-                    add_point(p, (double)r->subject[k].table[i].info.memory, r->subject[k].table[i].tv_above, "");
-        }
-    begin_series(p, 7, CHART_CROSS, CHART_NO_LINE);
-    for (size_t i = 0; i < r->rows.count; i++) {
-        const evidence_row *of = &r->rows.row[i];
-        if (of->kind == ROW_PUBLISHED && of->number[COL_MEMORY] > 0)
-            add_point(p, of->number[COL_MEMORY], of->number[COL_TV], of->method);
-    }
-    chart c = {.about = "error against bytes",
-               .width = 1080,
-               .height = 420,
-               .right = 170,
-               .x = {CHART_BYTES, 0, 0, 0, "memory that the table takes"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
-               .series = p->series,
-               .count = p->count};
-    chart_fit_series(&c, 1e-7);
-    page_section(
-        page, "bytes", "Error against bytes",
-        "By the memory that a loaded table takes. Curves: tables of this library; where they are level, moments "
-        "are what is missing, and bytes where they fall. Crosses: other methods that keep tables.");
-    put_chart(page, "error against bytes", &c);
-    free(p);
-    page_section_end(page);
-    return 1;
 }
 
 /* ---- error against the angle --------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
  *
  *     angles.c    how far each table is from D, at every angle of incidence
  *     advice.c    which table to ship, and how many moments; and the same as a table
- *     plots.c     error against time, bytes and angle
+ *     plots.c     error against time and angle
  *     time.c      what a caller pays
  *     normals.c   density and samples (tools/draw/panels.h) */
 #ifndef TOOLS_EVIDENCE_PAGE_REPORT_H
@@ -64,7 +64,6 @@ void report_subject_free(report_subject *s);
 /* A section each; 0 if there is no memory. */
 int report_advice(html_page *page, const report *r);
 int report_frontier(html_page *page, const report *r);
-int report_bytes(html_page *page, const report *r);
 int report_angles(html_page *page, const report *r);
 int report_times(html_page *page, const report *r);
 int report_normals(html_page *page, const report *r);

@@ -105,24 +105,12 @@ function drawMarks(context, size, edge) {
   for (const part of [1 / 3, 2 / 3, 1])
     label(`${Number((edge * part).toPrecision(2))}°`, half,
           half - radius(edge * part) + (part < 1 ? points / 3 : 1.3 * points));
-  drawIncident(context, half, settings.theta < 0.95 * edge ? half + radius(settings.theta) : null, points / 3, label);
-}
-
-// A spot where the incident direction is, or an arrow towards it at the edge.
-function drawIncident(context, half, spot, mark, label) {
-  const x = spot === null ? 2 * half - 3.2 * mark : spot;
-  context.beginPath();
-  if (spot === null) {
-    context.moveTo(x + 2.4 * mark, half);
-    context.lineTo(x, half - 1.3 * mark);
-    context.lineTo(x, half + 1.3 * mark);
-    context.closePath();
-  } else {
-    context.arc(x, half, mark, 0, 2 * Math.PI);
-  }
+  if (settings.theta >= 0.95 * edge) return;
+  context.beginPath(); // a spot where the incident direction is
+  context.arc(half + radius(settings.theta), half, points / 3, 0, 2 * Math.PI);
   context.stroke();
   context.fill();
-  label("ωi", Math.min(x, 2 * half - 3 * mark), half - 2.2 * mark);
+  label("ωi", half + radius(settings.theta), half - 0.73 * points);
 }
 
 // ---- figures in words -----------------------------------------------------------------------------

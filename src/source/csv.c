@@ -1,0 +1,624 @@
+/* Measured curves: D or P22 against angle or slope, as CSV or as rows of numbers, each row checked against the one
+ * before; and the curve through them.
+ *
+ * The first line that is neither blank nor a comment (#) names two columns: theta_deg, theta (radians) or
+ * slope (= tan theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0
+ * or above, the second finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
+ *
+ * Between the rows: a shape-preserving cubic. It interpolates the logarithm of the second column if all
+ * values are positive, so that a curve over many decades keeps its shape in each; if there are zeros, the column
+ * itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic beyond.
+ * s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost as they
+ * stand (s >= last x), rows that double are joined in log x. s stays within 1e-12 and 1e3 of the last x.
+ *
+ * Below the first row: the second column keeps its first value.
+ *
+ * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
+ * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
+ * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. Rows may fall to
+ * 0 at 90 degrees, too; D keeps all its digits there, which differences of angles would lose.
+ *
+ * The cubic is Steffen's (slopes by eq. 11 inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and
+ * Astrophysics 239 (1990). Its first derivative is continuous, it never leaves the range of two neighbours, and it is
+ * exact for straight lines. */
+#include <float.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "core/checksum.h"
+#include "core/error.h"
+#include "core/read_file.h"
+#include "math/ascending.h"
+#include "source/source.h"
+#include "source/words.h"
+
+enum { BREAKS = 4096, OPERATIONS = 8 };
+
+static const double ROUNDING_MOST = 1e-6; /* of P22: rows of six digits */
+static const double APART = 1e-12; /* of themselves: the abscissa of the curve could not tell closer rows apart */
+static const double RIGHT_ANGLE = 1.57079632679489661923;
+
+/* Rows that have been checked: at least two. Angles are in radians; the last may be pi/2. */
+typedef struct csv_rows {
+    vndf_rows_over over;
+    vndf_rows_of of;
+    const double *x, *value;
+    size_t count;
+} csv_rows;
+
+/* Points with x ascending, at least two, and dy/dx there. */
+typedef struct curve {
+    double *x, *y, *slope;
+    size_t count;
+} curve;
+
+/* Of more rows than can be breaks: P22 r^2 over log r, and how far it strays from the chord to the next row. */
+typedef struct many_rows {
+    double *u, *f, *bend;
+    size_t count;
+} many_rows;
+
+typedef struct csv_source {
+    vndf_source base; /* first: a vndf_source* is cast back to this */
+    vndf_rows_over over;
+    vndf_rows_of of;
+    curve curve; /* over asinh(x/scale) */
+    double scale;
+    int logarithmic;   /* the curve is the logarithm of the second column */
+    double last_slope; /* where the tail begins; infinite if the rows reach 90 degrees */
+    double last_p22;
+    double tail;         /* beyond it P22 falls as r^-tail */
+    int falls_to_0;      /* the last row is 0 at 90 degrees, the row before is not 0 ... */
+    double last_but_one; /* ... and stands at this slope */
+    many_rows rows;      /* empty up to BREAKS rows */
+    double *breaks;      /* owned: the block of all these numbers */
+} csv_source;
+
+/* ---- the cubic -------------------------------------------------------------------------------- */
+
+/* The slope between the secants a and b of widths p and q: that of the parabola, reduced until both sides are monotone;
+ * 0 at a local extremum. */
+static double inner_slope(double a, double p, double b, double q)
+{
+    double parabola = fabs((a * q + b * p) / (p + q)), most = 2 * fmin(fabs(a), fabs(b));
+    return (a > 0) != (b > 0) ? 0 : copysign(fmin(parabola, most), a);
+}
+
+/* The same at an end, whose secant is a; b is the next one. */
+static double end_slope(double a, double p, double b, double q)
+{
+    double parabola = a + (a - b) * p / (p + q);
+    if ((parabola > 0) != (a > 0))
+        return 0;
+    return fabs(parabola) > 2 * fabs(a) ? 2 * a : parabola;
+}
+
+static void fit_cubic(curve *c)
+{
+    size_t last = c->count - 1;
+    double a = 0, p = 0; /* secant and width of the piece before */
+    for (size_t i = 0; i < last; i++) {
+        double q = c->x[i + 1] - c->x[i], b = (c->y[i + 1] - c->y[i]) / q;
+        c->slope[i] = i > 0 ? inner_slope(a, p, b, q) : b;
+        if (i == 1)
+            c->slope[0] = end_slope(a, p, b, q);
+        c->slope[last] = i > 0 ? end_slope(b, q, a, p) : b;
+        a = b;
+        p = q;
+    }
+}
+
+/* The first place in ascending x beyond u. */
+static size_t first_beyond(const double *x, size_t count, double u)
+{
+    return u < x[0] ? 0 : vndf_last_before(x, sizeof *x, count, u) + 1;
+}
+
+/* The part of Hermite's form that comes from the slopes, at the part t of piece i; u is 1 - t. */
+static double bend_at(const curve *c, size_t i, double t, double u)
+{
+    double h = c->x[i + 1] - c->x[i];
+    return t * u * (u * (c->slope[i] * h) - t * (c->slope[i + 1] * h));
+}
+
+static double value_at(const curve *c, double x)
+{
+    size_t last = c->count - 1;
+    if (!(x > c->x[0]))
+        return c->y[0];
+    if (x >= c->x[last])
+        return c->y[last];
+    size_t i = first_beyond(c->x, c->count, x) - 1;
+    double t = (x - c->x[i]) / (c->x[i + 1] - c->x[i]), y0 = c->y[i], y1 = c->y[i + 1];
+    double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend_at(c, i, t, 1 - t);
+    /* Rounding alone could leave the range, and a density must not be negative. */
+    return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
+}
+
+/* The value at the distance d before the last point, in the last piece, whose last value is 0. The values near it
+ * keep all their digits, which those of value_at lose with x. */
+static double value_before_end(const curve *c, double d)
+{
+    size_t i = c->count - 2;
+    double u = d / (c->x[i + 1] - c->x[i]), y0 = c->y[i];
+    return fmin(fmax(y0 * u * u * (3 - 2 * u) + bend_at(c, i, 1 - u, u), 0), y0);
+}
+
+/* ---- P22 -------------------------------------------------------------------------------------- */
+
+/* cos(theta)^4 at the slope r: P22 = D c^4. */
+static double cosine4(double r)
+{
+    double c = 1 / hypot(1, r), c2 = c * c;
+    return c2 * c2;
+}
+
+/* Between the abscissas of the angle of the slope r and of 90 degrees: asinh a - asinh b for a^2 - b^2 that is
+ * known with all its digits. */
+static double distance_to_grazing(double scale, double r)
+{
+    double a = RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
+    return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
+}
+
+static double p22_at(const csv_source *source, double r)
+{
+    if (r > source->last_slope)
+        return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
+    double x = source->over == VNDF_ROWS_OVER_SLOPE ? r : atan(r);
+    double y = source->falls_to_0 && r > source->last_but_one
+                   ? value_before_end(&source->curve, distance_to_grazing(source->scale, r))
+                   : value_at(&source->curve, asinh(x / source->scale));
+    double value = source->logarithmic ? exp(y) : y;
+    return source->of == VNDF_ROWS_OF_NDF ? value * cosine4(r) : value;
+}
+
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = p22_at((const csv_source *)self, r[i]);
+}
+
+/* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
+ * rows, where the rows say nothing more about the curve. */
+static double stray_of(const many_rows *rows, double u0, double f0, double u1, double f1)
+{
+    double slope = (f1 - f0) / (u1 - u0), from = u0, off = 0.0, sum = 0.0, margin = 1e-9 * (u1 - u0) + 1e-13;
+    size_t first = first_beyond(rows->u, rows->count, u0 + margin);
+    size_t end = first_beyond(rows->u, rows->count, u1 - margin);
+    for (size_t i = first; i < end; i++) {
+        double here = fabs(rows->f[i] - f0 - slope * (rows->u[i] - u0));
+        sum += (rows->u[i] - from) * (fmax(off, here) + (i > 0 ? rows->bend[i - 1] : 0.0));
+        off = here;
+        from = rows->u[i];
+    }
+    return end > first ? sum + (u1 - from) * (off + rows->bend[end - 1]) : 0.0;
+}
+
+/* Between rows that are breaks the curve is one cubic, or the exponential of one: a few points determine it. */
+static vndf_reach reach(const vndf_source *self, double low, double high)
+{
+    const csv_source *source = (const csv_source *)self;
+    vndf_reach at = {p22_at(source, low), p22_at(source, high), 0};
+    if (source->rows.count)
+        at.stray = stray_of(&source->rows, log(low), at.low * low * low, log(high), at.high * high * high);
+    return at;
+}
+
+static void destroy(vndf_source *self)
+{
+    free(((csv_source *)self)->breaks);
+    free(self->description);
+    free(self);
+}
+
+/* ---- fits ------------------------------------------------------------------------------------- */
+
+static double slope_of_row(const csv_rows *rows, size_t i)
+{
+    if (rows->over == VNDF_ROWS_OVER_SLOPE)
+        return rows->x[i];
+    return rows->x[i] >= RIGHT_ANGLE ? INFINITY : tan(rows->x[i]);
+}
+
+static double p22_of_row(const csv_rows *rows, size_t i)
+{
+    return rows->of == VNDF_ROWS_OF_P22 ? rows->value[i] : rows->value[i] * cosine4(slope_of_row(rows, i));
+}
+
+static void fit_curve(csv_source *source, const csv_rows *rows)
+{
+    size_t last = rows->count - 1;
+    double x = rows->x[last], first_step = rows->x[1] - rows->x[0], last_step = x - rows->x[last - 1];
+    source->scale = fmax(x * fmin(fmax(first_step / last_step, 1e-12), 1e3), DBL_MIN);
+    source->logarithmic = 1;
+    for (size_t i = 0; i <= last; i++)
+        source->logarithmic &= rows->value[i] > 0;
+    for (size_t i = 0; i <= last; i++) {
+        source->curve.x[i] = asinh(rows->x[i] / source->scale);
+        source->curve.y[i] = source->logarithmic ? log(rows->value[i]) : rows->value[i];
+    }
+    fit_cubic(&source->curve);
+}
+
+static void fit_tail(csv_source *source, const csv_rows *rows)
+{
+    size_t last = rows->count - 1;
+    double before = slope_of_row(rows, last - 1), p22_before = p22_of_row(rows, last - 1);
+    source->last_slope = slope_of_row(rows, last);
+    source->last_p22 = p22_of_row(rows, last);
+    source->tail = 4;
+    source->last_but_one = before;
+    source->falls_to_0 = isinf(source->last_slope) && rows->value[last] == 0 && rows->value[last - 1] > 0;
+    if (before > 0 && p22_before > 0 && source->last_p22 > 0 && isfinite(source->last_slope))
+        source->tail = fmax(4, log(p22_before / source->last_p22) / log(source->last_slope / before));
+}
+
+/* The slopes of the rows except 0 and infinity; if there are too many, every n-th. */
+static void fill_breaks(csv_source *source, const csv_rows *rows)
+{
+    size_t count = rows->count < BREAKS ? rows->count : BREAKS;
+    size_t kept = 0;
+    for (size_t i = 0; i < count; i++) {
+        double slope = slope_of_row(rows, i * (rows->count - 1) / (count - 1));
+        if (slope > 0 && isfinite(slope))
+            source->breaks[kept++] = slope;
+    }
+    source->base.breaks = source->breaks;
+    source->base.break_count = kept;
+}
+
+/* Leaves out rows at slope 0 and at 90 degrees. */
+static void fill_rows(csv_source *source, const csv_rows *given)
+{
+    many_rows *rows = &source->rows;
+    const curve *c = &source->curve;
+    for (size_t i = 0; i < given->count; i++) {
+        double r = slope_of_row(given, i), f = p22_of_row(given, i) * r * r, bend = 0;
+        if (!(r > 0) || !isfinite(r))
+            continue;
+        if (i + 1 < given->count) { /* of the curve from its chord, in its own unit */
+            double h = c->x[i + 1] - c->x[i], rise = c->y[i + 1] - c->y[i];
+            bend = 4.0 / 27 * (fabs(c->slope[i] * h - rise) + fabs(c->slope[i + 1] * h - rise));
+        }
+        double unit = source->logarithmic ? f : given->value[i] > 0 ? f / given->value[i] : 0;
+        rows->u[rows->count] = log(r);
+        rows->f[rows->count] = f;
+        rows->bend[rows->count++] = bend * unit;
+    }
+}
+
+/* How far rounding moves the rows, relative: two standard deviations. The last digits of many rows make fourth
+ * differences of 6.7 standard deviations in the mean. Differences above ROUNDING_MOST do not come from
+ * rounding. */
+static double rounding_of(const csv_source *source)
+{
+    const double *y = source->curve.y;
+    double sum = 0, most = 0;
+    for (size_t i = 2; i + 2 < source->curve.count; i++) {
+        sum += fabs(y[i - 2] - 4 * y[i - 1] + 6 * y[i] - 4 * y[i + 1] + y[i + 2]);
+        most = fmax(most, fabs(y[i]));
+    }
+    double deviation = sum / (double)source->curve.count / 6.7;
+    return fmin(2 * deviation / (source->logarithmic ? 1 : fmax(most, DBL_MIN)), ROUNDING_MOST);
+}
+
+/* The curve through rows that have been checked; it copies them and takes description, also where it fails. */
+static vndf_source *curve_through(const csv_rows *rows, char *description, vndf_error *error)
+{
+    csv_source *source = calloc(1, sizeof *source);
+    size_t n = rows->count;
+    double *block = malloc(((n > BREAKS ? 6 : 3) * n + BREAKS) * sizeof *block);
+    if (!source || !block) {
+        free(source);
+        free(block);
+        free(description);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", n);
+        return NULL;
+    }
+    source->base = (vndf_source){
+        .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS, .reach = reach};
+    source->over = rows->over;
+    source->of = rows->of;
+    source->breaks = block;
+    source->curve = (curve){block + BREAKS, block + BREAKS + n, block + BREAKS + 2 * n, n};
+    fit_curve(source, rows);
+    fit_tail(source, rows);
+    fill_breaks(source, rows);
+    if (n > BREAKS) {
+        source->rows = (many_rows){block + BREAKS + 3 * n, block + BREAKS + 4 * n, block + BREAKS + 5 * n, 0};
+        fill_rows(source, rows);
+        source->base.rounding = rounding_of(source);
+    }
+    return &source->base;
+}
+
+/* ---- what is read ---- */
+
+/* Columns, in the order of vndf_rows_over behind degrees, and of vndf_rows_of. */
+static const char *const first_names[] = {"theta_deg", "theta", "slope"};
+static const char *const second_names[] = {"ndf", "p22"};
+
+typedef struct span {
+    const char *text;
+    size_t size;
+} span;
+
+typedef struct reader {
+    span rest;         /* the text that has not been read */
+    const char *unit;  /* "line", or "row" of numbers in memory */
+    size_t at, before; /* number of the current one; of that of the row before */
+    const char *name;  /* of the text, NULL for numbers in memory */
+    vndf_status refusal;
+    csv_rows rows;
+    vndf_writer x, value; /* its numbers */
+    int degrees;          /* the first column */
+    vndf_error *error;
+} reader;
+
+static vndf_status refuse(const reader *r, const char *format, ...) VNDF_PRINTF(2, 3);
+
+/* An error with the message of `format`, and the place before it: "gloss.csv: line 7: ...", "row 3: ...". */
+static vndf_status refuse(const reader *r, const char *format, ...)
+{
+    char text[sizeof r->error->message];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    return vndf_fail(r->error, r->refusal, "%s%s%s %zu: %s", r->name ? r->name : "", r->name ? ": " : "", r->unit,
+                     r->at, text);
+}
+
+/* The source of rows that have been checked, or, where status is an error, none. Its description is
+ * "--csv 'my gloss.csv' (crc32 0f3a22bc)". */
+static vndf_source *source_of(reader *r, vndf_status status, const char *option, const char *name, uint32_t crc)
+{
+    char checksum[32];
+    snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
+    char *description = status == VNDF_OK ? vndf_text_pair(option, name, checksum, r->error) : NULL;
+    vndf_source *source = description ? curve_through(&r->rows, description, r->error) : NULL;
+    free(r->x.bytes);
+    free(r->value.bytes);
+    return source;
+}
+
+/* ---- rows ------------------------------------------------------------------------------------- */
+
+static const char *first_name(const reader *r)
+{
+    return first_names[r->degrees ? 0 : 1 + r->rows.over];
+}
+
+static vndf_status append(reader *r, double x, double value)
+{
+    if (r->rows.count == VNDF_LIMIT_CSV_ROWS)
+        return refuse(r, "more than %d rows", VNDF_LIMIT_CSV_ROWS);
+    vndf_write_bytes(&r->x, &x, sizeof x);
+    vndf_write_bytes(&r->value, &value, sizeof value);
+    r->rows.x = (const double *)(const void *)r->x.bytes;
+    r->rows.value = (const double *)(const void *)r->value.bytes;
+    r->rows.count++;
+    r->before = r->at;
+    return r->x.failed || r->value.failed
+               ? vndf_fail(r->error, VNDF_ERROR_MEMORY, "no memory for %zu rows", r->rows.count)
+               : VNDF_OK;
+}
+
+/* Checks a row and appends it, its angle in radians; 90 degrees is exact, also where an angle in radians is within 1e-9
+ * of it. */
+static vndf_status take_row(reader *r, double given, double value)
+{
+    const csv_rows *rows = &r->rows;
+    const char *first = first_name(r);
+    int degrees = r->degrees, angle = rows->over == VNDF_ROWS_OVER_THETA;
+    int grazing = degrees ? given == 90 : angle && fabs(given - RIGHT_ANGLE) <= 1e-9;
+    double x = grazing ? RIGHT_ANGLE : degrees ? given * (RIGHT_ANGLE / 90) : given;
+    char number[VNDF_NUMBER_TEXT];
+    if (!isfinite(given) || given < 0)
+        return refuse(r, "%s is %s; it must be finite and not negative", first, vndf_number_print(number, given));
+    if (!isfinite(value) || value < 0)
+        return refuse(r, "%s is %s; it must be finite and not negative", second_names[rows->of],
+                      vndf_number_print(number, value));
+    if (grazing && rows->of == VNDF_ROWS_OF_P22)
+        return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
+    if (angle && x > RIGHT_ANGLE)
+        return refuse(r, "%s is %s; angles from the normal are at most %s", first,
+                      vndf_number_print(number, given), degrees ? "90" : "pi/2");
+    if (rows->count > 0 && !(x > rows->x[rows->count - 1] * (1 + APART)))
+        return refuse(r, "%s is %s, which is not above that of %s %zu; rows must ascend and not repeat", first,
+                      vndf_number_print(number, given), r->unit, r->before);
+    return append(r, x, value);
+}
+
+/* ---- lines ------------------------------------------------------------------------------------ */
+
+static span trim(span s)
+{
+    while (s.size > 0 && (*s.text == ' ' || *s.text == '\t')) {
+        s.text++;
+        s.size--;
+    }
+    while (s.size > 0 && strchr(" \t\r", s.text[s.size - 1]))
+        s.size--;
+    return s;
+}
+
+/* Cuts the text before the first separator off s (all of it if there is none). */
+static span cut(span *s, char separator)
+{
+    const char *end = s->size > 0 ? memchr(s->text, separator, s->size) : NULL;
+    span head = {s->text, end ? (size_t)(end - s->text) : s->size};
+    size_t used = head.size + (end != NULL);
+    s->text += used;
+    s->size -= used;
+    return head;
+}
+
+/* The two fields of the next line that is neither blank nor a comment; *found is 0 at the end of the text. */
+static vndf_status next_line(reader *r, span field[2], int *found)
+{
+    size_t count = 1;
+    for (*found = 0; r->rest.size > 0;) {
+        span line = cut(&r->rest, '\n');
+        r->at++;
+        if (line.size > VNDF_LIMIT_CSV_LINE)
+            return refuse(r, "%zu characters; at most %d are possible", line.size, VNDF_LIMIT_CSV_LINE);
+        if (line.size > 0 && memchr(line.text, '\0', line.size))
+            return refuse(r, "a byte of value 0; a CSV is plain text");
+        line = trim(line);
+        if (line.size == 0 || line.text[0] == '#')
+            continue;
+        for (size_t i = 0; i < line.size; i++)
+            count += line.text[i] == ',';
+        if (count != 2)
+            return refuse(r, "%zu field%s; two are needed, separated by a comma: an angle or slope, and a density",
+                          count, count == 1 ? "" : "s");
+        field[0] = trim(cut(&line, ','));
+        field[1] = trim(line);
+        *found = 1;
+        break;
+    }
+    return VNDF_OK;
+}
+
+static vndf_status read_header(reader *r)
+{
+    char excerpt[VNDF_EXCERPT];
+    span field[2];
+    int found, first = 0, second = 0;
+    vndf_status status = next_line(r, field, &found);
+    r->at += status == VNDF_OK && r->at == 0; /* an empty file lacks its header on line 1 */
+    if (status == VNDF_OK && !found)
+        return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
+    if (status != VNDF_OK)
+        return status;
+    while (first < 3 && !vndf_is_word(field[0].text, field[0].size, first_names[first]))
+        first++;
+    while (second < 2 && !vndf_is_word(field[1].text, field[1].size, second_names[second]))
+        second++;
+    if (first == 3)
+        return refuse(r, "the first column is called '%s'; the header names it theta_deg, theta or slope",
+                      vndf_excerpt(excerpt, field[0].text, field[0].size));
+    if (second == 2)
+        return refuse(r, "the second column is called '%s'; the header names it ndf or p22",
+                      vndf_excerpt(excerpt, field[1].text, field[1].size));
+    r->degrees = first == 0;
+    r->rows.over = first == 2 ? VNDF_ROWS_OVER_SLOPE : VNDF_ROWS_OVER_THETA;
+    r->rows.of = second == 0 ? VNDF_ROWS_OF_NDF : VNDF_ROWS_OF_P22;
+    return VNDF_OK;
+}
+
+static vndf_status read_number(reader *r, span field, const char *name, double *value)
+{
+    char excerpt[VNDF_EXCERPT];
+    size_t used = vndf_number_read(field.text, field.size, value);
+    vndf_excerpt(excerpt, field.text, field.size);
+    if (field.size == 0)
+        return refuse(r, "%s is missing", name);
+    if (used == 0)
+        return refuse(r, "%s is '%s', which is no number; one like 0.25 or 1e-3 is needed", name, excerpt);
+    if (used < field.size)
+        return refuse(r, "%s is '%s', a number with something behind it", name, excerpt);
+    return isinf(*value) ? refuse(r, "%s is '%s', too large for a double", name, excerpt) : VNDF_OK;
+}
+
+static vndf_status read_all(reader *r)
+{
+    span field[2];
+    double x = 0, value = 0;
+    int found = 1;
+    vndf_status status = read_header(r);
+    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
+        if (read_number(r, field[0], first_name(r), &x) != VNDF_OK ||
+            read_number(r, field[1], second_names[r->rows.of], &value) != VNDF_OK ||
+            take_row(r, x, value) != VNDF_OK)
+            return VNDF_ERROR_SYNTAX;
+    if (status == VNDF_OK && r->rows.count < 2)
+        return refuse(r, "the text ends with %zu row%s; at least two are needed", r->rows.count,
+                      r->rows.count == 1 ? "" : "s");
+    return status;
+}
+
+vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error)
+{
+    vndf_error own;
+    reader r = {.rest = {text, size},
+                .unit = "line",
+                .name = name ? name : "unnamed",
+                .refusal = VNDF_ERROR_SYNTAX,
+                .error = error ? error : &own};
+    if (!text) {
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
+        return NULL;
+    }
+    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8 by spreadsheets */
+        r.rest = (span){text + 3, size - 3};
+    vndf_status status = read_all(&r);
+    return source_of(&r, status, "--csv", name, vndf_crc32(0, text, size));
+}
+
+vndf_source *vndf_source_csv_file(const char *path, vndf_error *error)
+{
+    size_t size = 0;
+    char *text = (char *)vndf_read_file(path, VNDF_LIMIT_CSV_BYTES, &size, error);
+    vndf_source *source = NULL;
+    if (text && size > VNDF_LIMIT_CSV_BYTES)
+        vndf_fail(error, VNDF_ERROR_SYNTAX, "%s: more than %d bytes; too long for a CSV of %d rows", path,
+                  VNDF_LIMIT_CSV_BYTES, VNDF_LIMIT_CSV_ROWS);
+    else if (text)
+        source = vndf_source_csv_text(path, text, size, error);
+    free(text);
+    return source;
+}
+
+/* ---- numbers ---------------------------------------------------------------------------------- */
+
+static vndf_status check_arguments(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
+                                   size_t count, vndf_error *error)
+{
+    if ((over != VNDF_ROWS_OVER_THETA && over != VNDF_ROWS_OVER_SLOPE) ||
+        (of != VNDF_ROWS_OF_NDF && of != VNDF_ROWS_OF_P22))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22");
+    if (!x || !value)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the array of %s is NULL",
+                         x                              ? second_names[of]
+                         : over == VNDF_ROWS_OVER_SLOPE ? "slope"
+                                                        : "theta");
+    if (count < 2 || count > VNDF_LIMIT_CSV_ROWS)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu rows; from 2 to %d are possible", count,
+                         VNDF_LIMIT_CSV_ROWS);
+    return VNDF_OK;
+}
+
+/* Of the bytes as a little-endian machine holds them. */
+static uint32_t checksum(uint32_t crc, const double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint64_t bits;
+        unsigned char bytes[8];
+        memcpy(&bits, &numbers[i], sizeof bits);
+        for (int b = 0; b < 8; b++)
+            bytes[b] = (unsigned char)(bits >> 8 * b & 255);
+        crc = vndf_crc32(crc, bytes, sizeof bytes);
+    }
+    return crc;
+}
+
+vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
+                              size_t count, const char *name, vndf_error *error)
+{
+    vndf_error own;
+    reader r = {.unit = "row", .refusal = VNDF_ERROR_DISTRIBUTION, .error = error ? error : &own};
+    vndf_status status = check_arguments(over, of, x, value, count, error);
+    r.rows.over = over;
+    r.rows.of = of;
+    for (; r.at < count && status == VNDF_OK; r.at++)
+        status = take_row(&r, x[r.at], value[r.at]);
+    uint32_t crc = status == VNDF_OK ? checksum(checksum(0, x, count), value, count) : 0;
+    return source_of(&r, status, "--rows", name, crc);
+}
