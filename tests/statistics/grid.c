@@ -118,7 +118,7 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
     double mass = 0;
     for (int again = 0; again < 2; again++)
         for (size_t i = 0; i < grid_elsewhere(g); i++)
-            if (!again || g->expected[i] <= 0)
+            if (!again || g->expected[i] <= allowed * samples)
                 g->expected[i] = samples * expect(g, density, of, i, again, allowed);
     for (size_t i = 0; i < grid_elsewhere(g); i++)
         mass += g->expected[i] / samples;

@@ -119,7 +119,8 @@ double slope_integral(const slope_frame *frame, slope_function *f, const void *o
 
 enum { RADII = 34, ARCS = 24, PILOT = 40 * RADII };
 
-/* Radii between which as many pilots lie, from the least to the largest. */
+/* Radii between which as many pilots lie, from the least to the largest, and one more as far beyond that, where a jump
+ * would be missed in a bin that reaches to the last slope. */
 static void place_bins(grid *g, const slope_frame *f, slope_draw *draw, const void *of)
 {
     static double pilot[PILOT];
@@ -131,8 +132,9 @@ static void place_bins(grid *g, const slope_frame *f, slope_draw *draw, const vo
         place_of(f, draw(of, u1, u2, &pdf), &pilot[i], &part);
     }
     sort_numbers(pilot, PILOT);
-    for (size_t i = 1; i < RADII; i++)
-        g->x[i] = fmin(pilot[(i - 1) * (PILOT - 1) / (RADII - 2)], LAST);
+    for (size_t i = 1; i < RADII - 1; i++)
+        g->x[i] = fmin(pilot[(i - 1) * (PILOT - 1) / (RADII - 3)], LAST);
+    g->x[RADII - 1] = fmin(2 * g->x[RADII - 2] - g->x[RADII - 3], LAST);
 }
 
 slope_test slope_chi_square(const slope_frame *frame, slope_draw *draw, slope_function *pdf, const void *of,
