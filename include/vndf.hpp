@@ -34,8 +34,8 @@
 // compiles without exceptions and RTTI. The value of a failed result is an empty owner, and so is one that was
 // moved from: C takes it as NULL.
 //
-// A callable must not throw, which would end the program: C is between it and its caller. A source that returns NaN
-// ends a build with an error, and so does progress that returns false.
+// What a callable throws does not cross C: the build stops, its result holds the exception, and value() throws it
+// again. Called by a function of C outside this header, such a callable gives NaN.
 //
 // Owners move and do not copy. Plain structs hold pointers to what they were made from, which must outlive them,
 // as in C: a surface its distribution, a family its distributions, a vndf_bsdf its material. A temporary owner
@@ -45,8 +45,10 @@
 
 #include <cstddef>
 #include <cstdio>
+#include <exception>
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -55,6 +57,12 @@
 #include "vndf.h"
 #include "vndf_bsdf.h"
 #include "vndf_build.h"
+
+#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+#  define VNDF_HPP_EXCEPTIONS 1
+#else
+#  define VNDF_HPP_EXCEPTIONS 0
+#endif
 
 namespace vndf
 {
@@ -79,16 +87,18 @@ template <class T> class [[nodiscard]] result
 {
   public:
     result(T value) : value_(std::move(value)) {}
-    result(const vndf_error &error) : error_(error) {}
+    result(const vndf_error &error, std::exception_ptr thrown = nullptr) : error_(error), thrown_(thrown) {}
     explicit operator bool() const noexcept { return error_.status == VNDF_OK; }
     vndf_status status() const noexcept { return error_.status; }
     const char *message() const noexcept { return error_.message; }
+    // What a callable threw meanwhile, or null.
+    std::exception_ptr thrown() const noexcept { return thrown_; }
     T &operator*() &noexcept { return value_; }
     const T &operator*() const &noexcept { return value_; }
     T &&operator*() &&noexcept { return std::move(value_); }
     T *operator->() noexcept { return &value_; }
     const T *operator->() const noexcept { return &value_; }
-#if defined(__cpp_exceptions) || defined(_CPPUNWIND)
+#if VNDF_HPP_EXCEPTIONS
     const T &value() const &
     {
         check();
@@ -101,6 +111,8 @@ template <class T> class [[nodiscard]] result
     }
     void check() const
     {
+        if (thrown_)
+            std::rethrow_exception(thrown_);
         if (error_.status != VNDF_OK)
             throw error(error_);
     }
@@ -108,6 +120,7 @@ template <class T> class [[nodiscard]] result
 
   private:
     vndf_error error_ = {VNDF_OK, ""};
+    std::exception_ptr thrown_;
     T value_{};
 };
 
@@ -118,11 +131,55 @@ struct nothing {
 namespace detail
 {
 
-// What call(&error) returns, unless it fails.
+// Where callables that C calls on this thread leave what they throw: the innermost call of this header.
+inline std::exception_ptr *&pending() noexcept
+{
+    static thread_local std::exception_ptr *innermost = nullptr;
+    return innermost;
+}
+
+// What call() returns; `otherwise` if it throws, or a callable before it has thrown.
+template <class R, class Call> R guard(R otherwise, const Call &call) noexcept
+{
+    if (pending() && *pending())
+        return otherwise;
+#if VNDF_HPP_EXCEPTIONS
+    try {
+        return call();
+    } catch (...) {
+        if (pending())
+            *pending() = std::current_exception();
+        return otherwise;
+    }
+#else
+    return call();
+#endif
+}
+
+inline vndf_error describe([[maybe_unused]] const std::exception_ptr &thrown)
+{
+    vndf_error error = {VNDF_ERROR_ARGUMENT, "a callable threw something that is no std::exception"};
+#if VNDF_HPP_EXCEPTIONS
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const std::exception &known) {
+        std::snprintf(error.message, sizeof error.message, "a callable threw: %s", known.what());
+    } catch (...) {
+    }
+#endif
+    return error;
+}
+
+// What call(&error) returns, unless it fails or a callable throws meanwhile.
 template <class T, class Call> result<T> made(const Call &call)
 {
     vndf_error error = {VNDF_OK, ""};
+    std::exception_ptr thrown;
+    std::exception_ptr *const outer = std::exchange(pending(), &thrown);
     T value(call(&error));
+    pending() = outer;
+    if (thrown)
+        return {describe(thrown), thrown};
     if (error.status != VNDF_OK)
         return error;
     return result<T>(std::move(value));
@@ -214,7 +271,8 @@ namespace detail
 
 inline double evaluate(double x, void *user) noexcept
 {
-    return (*static_cast<const source::density *>(user))(x);
+    const source::density &called = *static_cast<const source::density *>(user);
+    return guard(std::numeric_limits<double>::quiet_NaN(), [&] { return called(x); });
 }
 
 template <class Make> result<source> of_callable(Make *make, source::density given, const std::string &name)
@@ -249,8 +307,8 @@ namespace detail
 template <class Options> Options telling(Options options, const progress &told)
 {
     if (told) {
-        options.progress = [](double done, const char *what, void *user) noexcept {
-            return (*static_cast<const progress *>(user))(done, what) ? 0 : 1;
+        options.progress = [](double done, const char *what, void *user) {
+            return guard(1, [&] { return (*static_cast<const progress *>(user))(done, what) ? 0 : 1; });
         };
         options.progress_user = const_cast<progress *>(&told);
     }
@@ -286,6 +344,12 @@ struct drawn {
     float pdf;
 };
 
+struct drawn_of_lobe {
+    vec3 wm;
+    float pdf;
+    int lobe;
+};
+
 struct weighted {
     vec3 wm;
     float pdf, weight;
@@ -295,6 +359,13 @@ inline drawn sample(const vndf_view &view, float u1, float u2) noexcept
 {
     drawn d;
     d.wm = vndf_sample(&view, u1, u2, &d.pdf);
+    return d;
+}
+
+inline drawn_of_lobe sample(const vndf_mixture_view &view, float u1, float u2) noexcept
+{
+    drawn_of_lobe d;
+    d.wm = vndf_mixture_sample(&view, u1, u2, &d.pdf, &d.lobe);
     return d;
 }
 

@@ -214,8 +214,8 @@ HERE real law_weight_below(weights w, real x, real beyond)
 }
 
 /* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
- * both ends; the factor makes the mass exact where rho is the knot, and the end is held to 1e4 times the mean, so that a place in
- * the piece stays of moderate size. `part` of the cell is seen. */
+ * both ends; the factor makes the mass exact where rho is the knot. The end is held to 1e4 times the mean, so that
+ * places in the piece are of moderate size. `part` of the cell is seen. */
 HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, quad l, real m2, real part)
 {
     real x1 = pick(last, set(1.0f), after.a * after.b), one = set(1.0f);

@@ -57,6 +57,8 @@ class Places(unittest.TestCase):
         lobes = vndf.Mixture((vndf.Surface(vndf.ggx(), 0.3), 1), (vndf.Affine(vndf.ggx(), np.ones((2, 2, 9))), 2))
         for word in ("ggx", "0.3", "array(9,)", "vndf.Mixture"):
             self.assertIn(word, repr(lobes))
+        said = repr(vndf.Material(vndf.ggx(), 0.4, scattering="multiple"))
+        self.assertIn("alpha=0.4, scattering='multiple'", said)
 
     def test_wrong_shapes_are_named(self):
         surface = vndf.Surface(vndf.ggx(), 0.5)
@@ -72,6 +74,11 @@ class Places(unittest.TestCase):
 
     def test_numbers_of_float64_are_rounded(self):
         self.assertEqual(stacked(0.1), np.float32(0.1))
+
+    def test_memory_of_a_shape_lives_as_long_as_the_call(self):
+        surface = vndf.Surface(vndf.ggx(), np.full(1000, 0.5), np.full(1000, 0.25))
+        first = surface.ndf(np.array([0, 0, 1.0])[:, None])
+        self.assertTrue((first == first[0]).all())
 
 
 class Lock(unittest.TestCase):

@@ -42,6 +42,34 @@ class Materials(unittest.TestCase):
             estimate, error = self.albedo(material)
             np.testing.assert_array_less(abs(estimate - integral), error + 2e-3 * integral, str(effects))
 
+    def test_densities_integrate_to_what_is_not_lost(self):
+        wo, solid_angle = sphere(400)
+        material = vndf.Material(rings(), 0.5)
+        drawn = material.sample(WI, np.random.default_rng(3).random((3, 400000), dtype=np.float32))
+        kept = (drawn.lobe == vndf.LOBE_REFLECTION).mean()
+        self.assertAlmostEqual(material.pdf(WI, wo).sum() * solid_angle, kept, 2)
+
+    def test_a_mixture_is_the_sum_of_its_lobes(self):
+        lobes = [(vndf.Surface(rings(), 0.2), 0.7), (vndf.Affine.rotated(vndf.ggx(), 0.5, 0.3, 0.4), 0.3)]
+        mixture = vndf.Mixture(*lobes)
+        wo, _ = sphere(20)
+        wo = wo[:, wo[2] > 0.05]
+        wm = WI[:, None] + wo
+        wm /= np.linalg.norm(wm, axis=0)
+        d = sum(weight * surface.ndf(wm) for surface, weight in lobes)
+        area = [sum(weight * surface.projected_area(w) for surface, weight in lobes) for w in (WI, wo)]
+        g2 = 1 / (area[0] / WI[2] + area[1] / wo[2] - 1)
+        expected = d * g2 / (4 * WI[2] * wo[2])
+        np.testing.assert_allclose(vndf.Material(mixture).eval(WI, wo)[0], expected, rtol=2e-4)
+        np.testing.assert_allclose(mixture.ndf(wm), d, rtol=1e-4)
+
+    def test_textures_are_hits_of_their_own(self):
+        alpha = np.linspace(0.1, 1.0, 50)
+        textured = vndf.Material(vndf.ggx(), alpha).eval(WI, (-0.5, 0.1, 0.86))
+        for i in (0, 20, 49):
+            one = vndf.Material(vndf.ggx(), alpha[i]).eval(WI, (-0.5, 0.1, 0.86))
+            np.testing.assert_array_equal(one, textured[:, i])
+
     def test_a_rotation_is_its_matrix(self):
         """Cosine and sine in each other's place would turn the other way."""
         turned = vndf.Affine.rotated(rings(), 0.5, 0.2, 0.4)
@@ -57,7 +85,8 @@ class Materials(unittest.TestCase):
         whole, error = self.albedo(vndf.Material(vndf.ggx(), 1.0, scattering="kulla-conty", albedo=albedo))
         self.assertLess(abs(whole[0] - 1), 0.02)
         self.assertEqual(albedo.directional([0.2, 0.8], [[0.5], [1.0]]).shape, (2, 2))
-        self.assertEqual(albedo.average([0.5, 1.0]).shape, (2,))
+        mu = (np.arange(2000) + 0.5) / 2000
+        self.assertAlmostEqual(albedo.average(1.0), (2 * mu * albedo.directional(mu, 1.0)).mean(), 3)
 
     def test_g2_is_that_of_the_heights(self):
         surface = vndf.Surface(rings(), 0.5)

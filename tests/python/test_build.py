@@ -1,5 +1,6 @@
 """A table built from Python is the table of `vndf build`; what goes wrong is an exception with the library's words."""
 import copy
+import ctypes
 import math
 import os
 import pickle
@@ -10,6 +11,7 @@ import unittest
 
 import numpy as np
 import vndf
+from vndf import _library
 
 SOURCE = os.environ["VNDF_SOURCE"]
 
@@ -73,6 +75,14 @@ class Built(unittest.TestCase):
         self.assertEqual(vndf.certify(table, source), table.certificate)
         self.assertEqual(vndf.certify(table, vndf.Source.of(table)), table.certificate)
 
+    def test_moments(self):
+        source = vndf.Source.slope("exp(-r)")
+        tables = [vndf.build(source, max_bytes=4096, moments=moments) for moments in (2, 3, 4, 0)]
+        self.assertEqual([table.info.moments for table in tables], [2, 3, 4, 4])
+        above = [table.certificate.tv_above for table in tables]
+        self.assertGreater(above[0], above[1])
+        self.assertGreater(above[1], above[2])
+
     def test_families(self):
         family = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
         np.testing.assert_allclose(family.parameters[[0, 2]], [2, 4])
@@ -84,6 +94,34 @@ class Built(unittest.TestCase):
         middle = vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1]).at(0.5, 0.3).ndf(wm)
         ends = [vndf.Surface(d, 0.3).ndf(wm) for d in (vndf.ggx(), vndf.beckmann())]
         self.assertAlmostEqual(middle / np.mean(ends), 1, 5)
+
+    def test_textures_of_a_family_are_its_mixtures(self):
+        """Each element of an array of parameters is the surface at that parameter, of surfaces and of materials; shares
+        are those of the C library (vndf_family_at), inside and beyond the ends."""
+        family = vndf.Family.build("student-t", 2, 4, knots=4, max_bytes=2048)
+        parameters = np.array([1.0, 2.0, 2.1, 2.9, 3.7, 4.0, 9.0])
+        alpha = np.linspace(0.2, 0.6, 7)
+        rng = np.random.default_rng(1)
+        wi, wm, u = (0.6, 0.0, 0.8), np.array([[0.1], [0.2], [0.97]]), rng.random((3, 7))
+        wm = wm / np.linalg.norm(wm)
+        texture = family.at(parameters, alpha)
+        material = vndf.Material(texture)
+        drawn, scattered = texture.sample(wi, u[:2]), material.sample(wi, u)
+        for i, p in enumerate(parameters):
+            one = family.at(p, alpha[i])
+            mixture, shape = _library.vndf_mixture(), _library.vndf_affine(None, alpha[i], 0, 0, alpha[i], 0, 0)
+            _library.library.family_at(family._pointer, p, ctypes.byref(shape), ctypes.byref(mixture))
+            shares = [mixture.lobe[j].weight for j in range(mixture.count)]
+            np.testing.assert_allclose([w.item() for w in one.weights], shares, rtol=1e-6)
+            for name, arguments in (("pdf", (wi, wm)), ("visible", (wi, wm)), ("ndf", (wm,)), ("lambda_", (wi,))):
+                single = getattr(one, name)(*arguments)
+                np.testing.assert_allclose(getattr(texture, name)(*arguments)[..., i], np.ravel(single)[0], rtol=2e-6)
+            np.testing.assert_allclose(drawn.wm[:, i], one.sample(wi, u[:2, i]).wm, atol=1e-6)
+            single = vndf.Material(one)
+            np.testing.assert_allclose(scattered.wo[:, i], single.sample(wi, u[:, i]).wo, atol=2e-6)
+            np.testing.assert_allclose(material.eval(wi, (0, 0, 1))[:, i], single.eval(wi, (0, 0, 1)), rtol=2e-6)
+        np.testing.assert_allclose(texture.sample(wi, texture.invert(wi, wm)).wm, np.repeat(wm, 7, 1), atol=1e-4)
+        self.assertEqual(family.at(np.zeros(0)).g1(wi).shape, (0,))
 
 
 class Refused(unittest.TestCase):
@@ -115,7 +153,9 @@ class Refused(unittest.TestCase):
             (lambda: vndf.Mixture([(vndf.Surface(vndf.ggx()), 1)]), TypeError),
             (lambda: vndf.Surface("ggx", 0.3), TypeError),
             (lambda: vndf.Surface(vndf.ggx(), 0.0), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3, math.nan), ValueError),
             (lambda: vndf.Material("ggx"), TypeError),
+            (lambda: vndf.Material(vndf.ggx(), fresnel="conductor", eta=(1, 2, 3, 4, 5)), ValueError),
             (lambda: vndf.build("exp(-r)"), TypeError),
             (lambda: vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=-1), ValueError),
             (lambda: vndf.certify(None, None), TypeError),
@@ -123,16 +163,21 @@ class Refused(unittest.TestCase):
             (lambda: vndf.Family.of(["ggx", "beckmann"], [0, 1]), TypeError),
             (lambda: vndf.Source.of("rings.vndf"), TypeError),
             (lambda: vndf.Surface(vndf.ggx(), 0.3).sample((0.0, 0.0, 1.0), (math.nan, 0.5)), ValueError),
+            (lambda: vndf.Surface(vndf.ggx()).sample((0.0, 0.0, 1.0), [[0.1, math.nan], [0.5, 0.5]]), ValueError),
             (lambda: vndf.Surface(vndf.ggx(), 0.3).sample((0.0, 0.0, 1.0)), TypeError),
             (lambda: vndf.Material(vndf.ggx()).sample((0.0, 0.0, 1.0), (0.5, 0.5, math.nan)), ValueError),
             (lambda: vndf.Affine(vndf.ggx(), ((1.0, 2.0), (2.0, 4.0))), ValueError),
             (lambda: vndf.Material(vndf.ggx(), matrix=((0.3, 0.0), (0.0, 0.3)), mean=(math.nan, 0.0)), ValueError),
             (lambda: vndf.Mixture((vndf.Surface(vndf.ggx()), -1.0), (vndf.Surface(vndf.ggx()), 2.0)), ValueError),
+            (lambda: vndf.Mixture((vndf.Surface(vndf.ggx()), 0.0)), ValueError),
             (lambda: vndf.Family.of([vndf.ggx(), vndf.beckmann()], [0, 1]).at(math.nan), ValueError),
             (lambda: vndf.Source.slope(None), TypeError),
             (lambda: vndf.Source.slope_function(3), TypeError),
             (lambda: vndf.load("a\0b"), ValueError),
+            (lambda: vndf.Source.family("gg\0x"), ValueError),
             (lambda: vndf.Surface(vndf.ggx(), 0.3).sample(None, (0.1, 0.2)), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).g1(None), ValueError),
+            (lambda: vndf.Surface(vndf.ggx(), 0.3).ndf(None), ValueError),
         ):
             with self.assertRaises(error):
                 call()
@@ -153,7 +198,7 @@ class Refused(unittest.TestCase):
         table = vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=2048)
         built = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
         wm = (0.6, 0.0, 0.8)
-        for surface in (vndf.Surface(table, 0.3), built.at(2.5, 0.3),
+        for surface in (vndf.Surface(table, 0.3), built.at(2.5, 0.3), built.at([2.0, 3.3], 0.3),
                         vndf.Family.of([vndf.ggx(), table], [0, 1]).at(0.5, 0.3)):  # fmt: skip
             np.testing.assert_array_equal(pickle.loads(pickle.dumps(surface)).ndf(wm), surface.ndf(wm))
         gold = vndf.Material(table, 0.3, fresnel="conductor", eta=(0.2, 0.9, 1.1), k=2.0)

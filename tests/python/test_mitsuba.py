@@ -139,20 +139,42 @@ class AgainstTheLibrary(unittest.TestCase):
         # At the critical angle 1 - F has few digits in float.
         self.compare(glass, material, True, usual=3e-4, floor=1e-3)
 
+    def test_textured_tails(self):
+        """A family with a parameter at each hit is the library's mixture there."""
+        family = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
+        family.save("tails.vndfs")
+        for p in (2.0, 2.3, 3.7):
+            description = {**conductor(alpha=0.3, parameter=p), "distribution": "tails.vndfs"}
+            self.compare(description, vndf.Material(family.at(p, 0.3), fresnel="conductor", **GOLD), False)
+        texture = mi.Bitmap(np.float32([[[2.0], [2.6], [3.7]]]))
+        bitmap = {"type": "bitmap", "bitmap": texture, "raw": True, "filter_type": "nearest"}
+        bsdf = mi.load_dict({**conductor(alpha=0.3, parameter=bitmap), "distribution": "tails.vndfs"})
+        wi, wo = np.float32([0.6, 0, 0.8]), np.float32([-0.36, 0.48, 0.8])
+        for x, p in ((0.1, 2.0), (0.5, 2.6), (0.9, 3.7)):
+            si = interaction(mi.Vector3f(wi))
+            si.uv = mi.Point2f(x, 0.5)
+            value = np.ravel(bsdf.eval(mi.BSDFContext(), si, mi.Vector3f(wo), True))
+            expected = vndf.Material(family.at(p, 0.3), fresnel="conductor", **GOLD).eval(wi, wo) * wo[2]
+            np.testing.assert_allclose(value, expected, rtol=1e-4)
+
+
 class Mitsubas(unittest.TestCase):
-    def test_ggx_is_that_of_mitsuba(self):
-        """Value and density beside `roughconductor`, whose masking is separable."""
-        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
-        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
+    def test_a_distribution_has_mitsubas_calls(self):
+        """For GGX they answer what mitsuba.MicrofacetDistribution does, behind a facet and below the horizon too."""
+        theirs = mi.MicrofacetDistribution(mi.MicrofacetType.GGX, 0.3, 0.2, True)
+        ours = vndf.mitsuba.MicrofacetDistribution("ggx", 0.3, 0.2)
         rng = np.random.default_rng(5)
-        wi, wo = directions(rng, COUNT, 0.02), directions(rng, COUNT, -1)
+        wi, wo, m = directions(rng, COUNT, 0), directions(rng, COUNT, -1), directions(rng, COUNT, 0)
 
-        def ask(bsdf, wi, wo):
-            return bsdf.eval_pdf(mi.BSDFContext(), interaction(mi.Vector3f(wi)), mi.Vector3f(wo), True)
+        def ask(of, wi, wo, m):
+            wi, wo, m = mi.Vector3f(wi), mi.Vector3f(wo), mi.Vector3f(m)
+            drawn, density = of.sample(wi, mi.Point2f(0.3, 0.6))
+            return of.eval(m), of.pdf(wi, m), of.smith_g1(wo, m), of.G(wi, wo, m), density, theirs.pdf(wi, drawn)
 
-        one, other = (each(lambda *w, bsdf=mi.load_dict(of): ask(bsdf, *w), wi, wo) for of in (ours, theirs))
-        for ours_is, theirs_is in zip(one, other):
-            np.testing.assert_allclose(ours_is, theirs_is, rtol=5e-4, atol=1e-6)
+        *one, density, again = each(lambda *w: ask(ours, *w), wi, wo, m)
+        other = each(lambda *w: ask(theirs, *w), wi, wo, m)
+        for ours_is, theirs_is in (*zip(one, other), (density, again)):
+            np.testing.assert_allclose(ours_is, theirs_is, rtol=2e-4, atol=1e-6)
 
     CASES = [(kind, alpha, theta) for kind in ("conductor", "dielectric") for alpha in ((0.2, 0.2), (0.5, 0.2), (1, 1))
              for theta in (0, 30, 60, 80, 89)]  # fmt: skip
@@ -258,6 +280,52 @@ class Derivatives(unittest.TestCase):
         dr.set_grad(alpha, 1.0)
         dr.forward_to(answer)
         return dr.grad(answer)
+
+
+@unittest.skipIf(SCALAR, "slow")
+class Pictures(unittest.TestCase):
+    SIZE, SAMPLES = 64, 512
+
+    def scene(self, material):
+        to_world = mi.ScalarTransform4f
+        return mi.load_dict({
+            "type": "scene",
+            "integrator": {"type": "path", "max_depth": 2},
+            "sensor": {
+                "type": "perspective", "fov": 20, "fov_axis": "y",
+                "to_world": to_world().look_at(origin=[0, 1, 5], target=[0, 0.5, 0], up=[0, 1, 0]),
+                "film": {"type": "hdrfilm", "width": self.SIZE, "height": self.SIZE, "rfilter": {"type": "box"}},
+            },
+            "sky": {"type": "constant", "radiance": rgb([0.2, 0.3, 0.4])},
+            "lamp": {
+                "type": "sphere", "center": [-2, 3, 3], "radius": 0.8,
+                "emitter": {"type": "area", "radiance": rgb([12, 10, 8])},
+            },
+            "ball": {"type": "sphere", "center": [0, 0.5, 0], "radius": 0.7, "bsdf": material},
+        })  # fmt: skip
+
+    def render(self, material, seed):
+        return np.array(mi.render(self.scene(material), spp=self.SAMPLES, seed=seed))[:, :, :3]
+
+    def blocks(self, picture):
+        n = self.SIZE // 8
+        return picture.reshape(n, 8, n, 8, 3).mean(axis=(1, 3))
+
+    def agree(self, a, b, noise):
+        """Blocks of 64 pixels are within five standard deviations, and the whole within 0.2%. `noise`: of a block."""
+        apart = abs(self.blocks(a) - self.blocks(b))
+        self.assertLess((apart / (noise + 1e-4)).max(), 5)
+        self.assertLess(abs(a.mean() / b.mean() - 1), 2e-3)
+
+    def noise(self, material):
+        """Standard deviation of the difference of two pictures, a block each, from pairs of them."""
+        pictures = [self.blocks(self.render(material, seed)) for seed in range(6)]
+        return np.sqrt(2.0) * np.std(pictures, axis=0, ddof=1).clip(min=1e-4) * 1.5
+
+    def test_of_mitsubas_ggx(self):
+        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
+        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
+        self.agree(self.render(ours, 11), self.render(theirs, 12), self.noise(theirs))
 
 
 if __name__ == "__main__":

@@ -9,16 +9,17 @@
 
 Components come first: directions have shape (3, ...). The C headers are the manual of every call.
 """
+from . import plot
 from ._library import Error, Status
 from ._version import __version__
 from .bsdf import LOBE_NONE, LOBE_REFLECTION, LOBE_STRAIGHT, LOBE_TRANSMISSION, Albedo, Material, Scattered
 from .build import Source, build, certify, family_help, materials
 from .distribution import Certificate, Distribution, Info, beckmann, from_bytes, ggx, load
-from .surface import Affine, Family, Mixture, MixtureSample, Sample, Surface, WeightedSample
+from .surface import Affine, Blend, Family, Mixture, MixtureSample, Sample, Surface, WeightedSample
 
 __all__ = [
-    "Affine", "Albedo", "Certificate", "Distribution", "Error", "Family", "Info", "LOBE_NONE", "LOBE_REFLECTION",
+    "Affine", "Albedo", "Blend", "Certificate", "Distribution", "Error", "Family", "Info", "LOBE_NONE", "LOBE_REFLECTION",
     "LOBE_STRAIGHT", "LOBE_TRANSMISSION", "Material", "Mixture", "MixtureSample", "Sample", "Scattered", "Source",
     "Status", "Surface", "WeightedSample", "__version__", "beckmann", "build", "certify", "family_help", "from_bytes",
-    "ggx", "load", "materials",
+    "ggx", "load", "materials", "plot",
 ]  # fmt: skip

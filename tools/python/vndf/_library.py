@@ -157,6 +157,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "numbers": (c_size_t, [_p, _p, c_size_t]),
     "sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
     "affine_sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
+    "instructions_used": (_i, [_i]),
     "family_load": (_p, [_s, _error]),
     "family_load_memory": (_p, [_p, c_size_t, _error]),
     "family_of": (_p, [_p, _p, c_size_t, _error]),
@@ -164,6 +165,7 @@ _FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
     "family_info": (vndf_family_facts, [_p]),
     "family_parameter": (_f, [_p, c_size_t]),
     "family_distribution": (_p, [_p, c_size_t]),
+    "family_distance": (_f, [_p, c_size_t]),
     "family_at": (_i, [_p, _f, _p, _p]),
     # vndf_build.h
     "source_ndf_expression": (_p, [_s, _p, c_size_t, _error]),

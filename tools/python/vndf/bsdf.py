@@ -5,6 +5,7 @@ side of the surface. vndf_bsdf.h has the model and what effects go together.
 """
 from __future__ import annotations
 
+import inspect
 from ctypes import addressof, byref, c_void_p
 from typing import Any, NamedTuple, Optional, Union
 
@@ -14,7 +15,7 @@ from . import _library
 from ._arrays import Batch, Floats, Generator, Numbers, Size, addresses_of, components, stacked, uniform
 from ._library import Immutable, Owner, checked, library, want
 from .distribution import Distribution
-from .surface import Mixture, roughness, stretched
+from .surface import Blend, Mixture, roughness, stretched
 
 _CHOICES = {
     "lobes": ["reflection", "transmission", "both"],
@@ -68,7 +69,8 @@ class Material(Immutable):
     """A rough material: a distribution, its shape, its optics and its effects. Numbers may be arrays where a texture
     brings one for each hit: alpha, alpha_y, rotation, matrix, mean, and all of a mixture.
 
-    distribution: a :class:`Distribution`, or a :class:`Mixture`, which has its own roughness.
+    distribution: a :class:`Distribution`, or a :class:`Mixture` or a :class:`Blend` of a family, which have their own
+    roughness.
     alpha, alpha_y: roughness, > 0. rotation: the angle from x to the axis of alpha, radians.
     matrix, mean: in their place a matrix of slopes, shape (2, 2, ...), and a mean slope, shape (2, ...).
     lobes: "reflection", "transmission", "both".
@@ -84,7 +86,7 @@ class Material(Immutable):
     Raises :class:`vndf.Error` for a set that makes no sense, with the reason."""
 
     def __init__(
-        self, distribution: Union[Distribution, Mixture], alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
+        self, distribution: Union[Distribution, Mixture, Blend], alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
         rotation: Optional[Numbers] = None, matrix: Any = None, mean: Any = None, lobes: str = "reflection",
         fresnel: str = "none", masking: str = "height-correlated", normals: str = "visible",
         scattering: str = "single", transport: str = "radiance", reflection: str = "specular", eta: Numbers = 1.5,
@@ -92,7 +94,7 @@ class Material(Immutable):
         order_limit: int = 0,
     ) -> None:  # fmt: skip
         self._made = {name: value for name, value in locals().items() if name != "self"}
-        want(distribution, (Distribution, Mixture))
+        want(distribution, (Distribution, Mixture, Blend))
         if albedo is not None:
             want(albedo, Albedo)
         if mean is not None and matrix is None:
@@ -130,6 +132,11 @@ class Material(Immutable):
 
     def __reduce__(self) -> Any:
         return _material_of, (self._made,)
+
+    def __repr__(self) -> str:
+        default = inspect.signature(Material).parameters
+        said = [f"{n}={v!r}" for n, v in self._made.items() if n != "distribution" and v is not default[n].default]
+        return f"<vndf.Material of {', '.join([repr(self._made['distribution']), *said])}>"
 
     def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Scattered:
         """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1]: two for the normal, one for the lobe; in
@@ -173,11 +180,11 @@ class Material(Immutable):
         rows = rows.reshape(len(rows), -1)
         structs = np.zeros(rows.shape[1], _MIXTURE if shape == "mixture" else _AFFINE)
         if shape == "mixture":
-            lobes = self._made["distribution"].lobes
+            lobes = _lobes_of(self._made["distribution"], rows)
             structs["count"] = len(lobes)
-            for i, lobe in enumerate(lobes):
-                _put_affine(structs["lobe"][:, i]["surface"], lobe.distribution._pointer, rows[6 * i : 6 * i + 6])
-                structs["lobe"][:, i]["weight"] = rows[6 * len(lobes) + i]
+            for i, (pointer, parts, weight) in enumerate(lobes):
+                _put_affine(structs["lobe"][:, i]["surface"], pointer, parts)
+                structs["lobe"][:, i]["weight"] = weight
             (struct.mixture,) = batch.keep(structs[None])
         else:
             _put_affine(structs, 0, rows)
@@ -206,6 +213,19 @@ def _material_of(made: dict[str, Any]) -> Material:
     return Material(**made)
 
 
+def _lobes_of(surface: Union[Mixture, Blend], rows: Floats) -> list[tuple[Any, Any, Any]]:
+    """Of each lobe its distribution for all hits or for each, its matrix with its mean slope, and its weight."""
+    if isinstance(surface, Mixture):
+        count = len(surface.lobes)
+        return [(lobe.distribution._pointer, rows[6 * i : 6 * i + 6], rows[6 * count + i])
+                for i, lobe in enumerate(surface.lobes)]  # fmt: skip
+    parameter, x, y = rows
+    index, share = surface.family.places(parameter)
+    pointers = np.array([d._pointer for d in surface.family.distributions], np.uintp)
+    parts, beyond = (x, 0, 0, y, 0, 0), np.minimum(index + 1, len(pointers) - 1)
+    return [(pointers[index], parts, 1 - share), (pointers[beyond], parts, share)]
+
+
 def _put_affine(structs: Any, distribution: Any, parts: Any) -> None:
     structs["distribution"] = distribution
     for name, values in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], parts):
@@ -227,6 +247,8 @@ def _shape_of_hits(distribution: Any, alpha: Any, alpha_y: Any, rotation: Any, m
     """The arrays that hits bring, as one group, in the order of the C struct."""
     if isinstance(distribution, Mixture):
         return {"shape": stacked([*distribution._groups["shape"], *distribution.weights])}
+    if isinstance(distribution, Blend):
+        return dict(distribution._groups)
     if matrix is not None:
         return {"shape": stretched(matrix, (0.0, 0.0) if mean is None else mean)}
     shape = roughness(alpha, alpha_y)

@@ -8,7 +8,9 @@
 
 Parameters of both:
 
-distribution    a table file, "ggx" or "beckmann"
+distribution    a table file, "ggx" or "beckmann", or a file of a family of tables, which needs `parameter`
+parameter       of the family: a number or a texture; every hit is a mixture of two neighbours. LLVM and CUDA variants
+                evaluate all tables of the family at each hit
 alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
                 1e-4 counts as that
 rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
@@ -29,25 +31,85 @@ from __future__ import annotations
 
 import math
 import warnings
-from typing import Any
+from typing import Any, Union
 
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import law_of
+from ._drjit import Law, Table, law_of
+from .distribution import Distribution
+from .surface import Family
 
 _MOST_LOBES = 8
 _LEAST_ALPHA = 1e-4
 
 
+class MicrofacetDistribution:
+    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
+    are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann"."""
+
+    def __init__(self, distribution: Union[Distribution, str], alpha_u: Any, alpha_v: Any = None) -> None:
+        self._law = law_of(distribution)
+        self._alphas = [mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)]
+
+    def eval(self, m: Any) -> Any:
+        """D(m)."""
+        return self._law.ndf(*self._alphas, m)
+
+    def pdf(self, wi: Any, m: Any) -> Any:
+        """The density with which `sample` draws m."""
+        return self._law.pdf(self._law.view(*self._alphas, wi), m)
+
+    def sample(self, wi: Any, sample: Any) -> tuple[Any, Any]:
+        """A visible normal and its density."""
+        return self._law.sample(self._law.view(*self._alphas, wi), sample.x, sample.y)
+
+    def smith_g1(self, v: Any, m: Any) -> Any:
+        """Smith's masking, 0 where v sees the back of m."""
+        up = abs(v.z)
+        g1 = up / self._law.view(*self._alphas, mi.Vector3f(v.x, v.y, up)).area
+        return dr.select(dr.dot(v, m) * v.z > 0.0, g1, 0.0)
+
+    def G(self, wi: Any, wo: Any, m: Any) -> Any:
+        """The product of both ways, which Mitsuba's plugins use."""
+        return self.smith_g1(wi, m) * self.smith_g1(wo, m)
+
+    def alpha_u(self) -> Any:
+        return self._alphas[0]
+
+    def alpha_v(self) -> Any:
+        return self._alphas[1]
+
+
+class _Tails:
+    """A family's tables, and the texture of its parameter."""
+
+    def __init__(self, path: str, parameter: Any) -> None:
+        family = Family.load(path)
+        self.laws: list[Law] = [Table(distribution) for distribution in family.distributions]
+        self.knots, self._reciprocal = family.axis
+        self._ends = [float(end) for end in family.parameters[[0, -1]]]
+        self._parameter = parameter
+
+    def shares(self, si: Any, active: Any) -> list[Any]:
+        """Of each table; all but two are 0."""
+        p = dr.clip(self._parameter.eval_1(si, active), *self._ends)
+        x, k = -1.0 / p if self._reciprocal else p, self.knots.tolist()
+        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
+        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
+        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
+
+
 class _Lobe:
-    """One distribution, and the textures of its roughness and weight."""
+    """One distribution or family, and the textures of its roughness and weight."""
 
     def __init__(self, props: Any, suffix: str) -> None:
         name = str(props["distribution" + suffix])
         self.name = name
-        closed = name in ("ggx", "beckmann")
-        self.law = law_of(name if closed else str(mi.file_resolver().resolve(name)))
+        path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
+        self.parameter = {parameter: props.get_texture(parameter, 1.0)} if parameter in props else {}
+        self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
+        self.laws = self.tails.laws if self.tails else [law_of(name if name in ("ggx", "beckmann") else path)]
         both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
@@ -56,11 +118,13 @@ class _Lobe:
         self.alphas = {n: props.get_texture(n, 0.1) for n in ([along, across] if along in props else [both])}
         self.weight = {"weight" + suffix: props.get_texture("weight" + suffix, 1.0)}
 
-    def at(self, si: Any, active: Any) -> tuple[Any, ...]:
-        """Of a hit the law, with alpha_u, alpha_v and its weight."""
+    def at(self, si: Any, active: Any) -> list[Any]:
+        """Of a hit each law, with alpha_u, alpha_v and its weight."""
         alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
         weight = dr.maximum(next(iter(self.weight.values())).eval_1(si, active), 0.0)
-        return self.law, alphas[0], alphas[-1], weight
+        shares = self.tails.shares(si, active) if self.tails else [1.0]
+        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, shares)]
+        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
 
 
 class _Microsurface:
@@ -83,7 +147,7 @@ class _Microsurface:
     def textures(self) -> dict[str, Any]:
         named = {} if self.rotation is None else {"rotation": self.rotation}
         for lobe in self.lobes:
-            named.update({**lobe.alphas, **lobe.weight})
+            named.update({**lobe.alphas, **lobe.weight, **lobe.parameter})
         return named
 
 
@@ -92,7 +156,7 @@ class _Hit:
 
     def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
         self._separable = surface.is_separable
-        parts = [lobe.at(si, active) for lobe in surface.lobes]
+        parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
         self._laws, self._shapes = [part[0] for part in parts], [part[1:] for part in parts]
         total = sum(weight for _, _, weight in self._shapes)
         self._weights = [dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)

@@ -329,11 +329,64 @@ class Family(Owner):
         pointers = [library.family_distribution(self._pointer, i) for i in range(self.info["count"])]
         return [Distribution._of(pointer, _owner=self) for pointer in pointers]
 
-    def at(self, parameter: float, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> Mixture:
-        """The family at a parameter, which is clamped to its range, with this roughness: a mixture of two neighbours."""
-        shape, mixture = _library.vndf_affine(None, 1, 0, 0, 1, 0, 0), _library.vndf_mixture()
-        if np.isnan(parameter) or not library.family_at(self._pointer, parameter, byref(shape), byref(mixture)):
+    @functools.cached_property
+    def axis(self) -> tuple[Any, bool]:
+        """Knots where shares of neighbours are linear, ascending, and whether those are of 1/parameter."""
+        reciprocal = bool(self.info["reciprocal"])
+        return (-1.0 / np.float64(self.parameters) if reciprocal else np.float64(self.parameters)), reciprocal
+
+    def places(self, parameter: Numbers) -> tuple[Any, Any]:
+        """Of each parameter the index of the distribution below it, and the share of the next one."""
+        knots, reciprocal = self.axis
+        p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
+        x = -1.0 / p if reciprocal else p
+        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
+        beyond = np.minimum(index + 1, len(knots) - 1)
+        width = knots[beyond] - knots[index]
+        return index, np.where(width > 0, (x - knots[index]) / np.where(width > 0, width, 1), 0 * x)
+
+    def at(self, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> Union[Mixture, Blend]:
+        """The family at a parameter, which is clamped to its range, with this roughness; at an array of them, as a
+        texture has, a :class:`Blend`."""
+        if np.ndim(parameter):
+            return Blend(self, parameter, alpha, alpha_y)
+        index, share = self.places(parameter)
+        if np.isnan(share):
             raise ValueError(f"a family has no distribution at {parameter!r}")
-        known = {d._pointer: d for d in self.distributions}
-        lobes = [mixture.lobe[i] for i in range(mixture.count)]
-        return Mixture(*((Surface(known[lobe.surface.distribution], alpha, alpha_y), lobe.weight) for lobe in lobes))
+        pair = self.distributions[index : index + 2]
+        return Mixture(*((Surface(d, alpha, alpha_y), w) for d, w in zip(pair, (1 - share, share)) if w > 0))
+
+
+class Blend(_Rough):
+    """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. There is
+    one call of C for each pair of neighbours that elements lie between."""
+
+    _prefix = "mixture_"
+
+    def __init__(
+        self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None
+    ) -> None:  # fmt: skip
+        want(family, Family)
+        self.family = family
+        self._groups = {"shape": stacked([parameter, *roughness(alpha, alpha_y)])}
+
+    def _ask(self, name: str, rows: int, *, lobe: bool = False, **given: Floats) -> Floats:
+        batch = Batch(**self._groups, **given)
+        flat = {group: batch.whole(group).reshape(len(array), -1) for group, array in batch.groups.items()}
+        parameter, x, y = flat.pop("shape")
+        index, share = self.family.places(parameter)
+        result = batch.result(rows + lobe)
+        for i in np.unique(index):
+            here = np.flatnonzero(index == i)
+            pair = zip(self.family.distributions[i : i + 2], (1 - share[here], share[here]))
+            mixture = Mixture(*((Surface(d, x[here], y[here]), weight) for d, weight in pair))
+            part = mixture._ask(name, rows, lobe=lobe, **{group: array[:, here] for group, array in flat.items()})
+            result.reshape(rows + lobe, -1)[:, here] = part
+        return result
+
+    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
+        """As of other surfaces; the lobe is 0 or 1, the neighbour below or above."""
+        return MixtureSample(*self._draw("sample", 4, wi, u, rng, size, lobe=True))
+
+    def __repr__(self) -> str:
+        return f"<vndf.Blend of {self.family!r} at parameters of shape {self._groups['shape'].shape[1:]}>"
