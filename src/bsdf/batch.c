@@ -124,8 +124,7 @@ static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], 
         vndf_scattered s;
         if (at == 0)
             draw_block(b, u, i, rest < BLOCK ? rest : BLOCK, &drawn);
-        const vndf_vec3 wm = vndf_with_plain_zeros(vndf_vec3_of(drawn.x[at], drawn.y[at], drawn.z[at]));
-        const vndf_drawn_normal n = {wm, drawn.density[at], drawn.weight[at]};
+        const vndf_drawn_normal n = {{drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
         step_to(b, i, &hit);
         if (hit.material == m)
             m->routines->scatter(&hit, &n, u[2][i], &s);

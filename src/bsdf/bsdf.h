@@ -121,13 +121,6 @@ VNDF_INLINE vndf_vec3 vndf_turned(vndf_vec3 w, float side)
     return vndf_vec3_of(side * w.x, side * w.y, side * w.z);
 }
 
-/* A drawn normal whose zeros are positive: the view of a matrix and that of two roughnesses, which blocks take,
- * differ in their sign. */
-VNDF_INLINE vndf_vec3 vndf_with_plain_zeros(vndf_vec3 wm)
-{
-    return vndf_vec3_of(wm.x + 0.0f, wm.y + 0.0f, wm.z);
-}
-
 /* Lengths are not divided out and might overflow: a length far from 1 is invalid, as NaN is. */
 VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
 {

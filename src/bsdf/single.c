@@ -279,7 +279,6 @@ static void scatter_both(const vndf_bsdf *b, const vndf_drawn_normal *n, float u
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_drawn_normal n = draw(b, u[0], u[1]);
-    n.wm = vndf_with_plain_zeros(n.wm);
     b->material->single->scatter(b, &n, u[2], s);
 }
 
