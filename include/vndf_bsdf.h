@@ -105,7 +105,7 @@ VNDF_API void vndf_albedo_free(vndf_albedo *albedo);
 /* E, in [0, 1], of light from a direction with this cosine: of a dielectric from the side of z for cosine >= 0, from
  * the other side for cosine < 0; a mirror looks the same from both. |cosine| above 1 counts as 1, alpha is clamped to
  * [0, VNDF_ALBEDO_ALPHA_MAX], and NaN counts as 0. For NULL E is 1, as if nothing were lost. Within 1e-3 for a mirror;
- * for a dielectric of alpha from 0.01 on within 1e-2 where eta is a tenth or more from 1, 2e-2 where it is 1.05, and
+ * for a dielectric of alpha from 0.01 on within 1.5e-2 where eta is a tenth or more from 1, 2e-2 where it is 1.05, and
  * nearer to 1, where light from the denser side is reflected totally at grazing angles alone, 7e-2. (What a dielectric
  * transmits tends to 0 at cosine 0, but as a power of the cosine that may be as low as 0.001, which no grid resolves:
  * below a cosine of 5e-5 times the median slope, E is that at this cosine.) */

@@ -2,7 +2,7 @@
  * these against the oracle) over an even set of uniform numbers, for closed forms, tables and a disc, mirrors
  * and dielectrics, and with what is known exactly: E = 1 - log 2 for GGX of alpha 1 from straight above
  * (integral of u/(1 + u) from 0 to 1, u = cos_o), E = 1 at grazing incidence and in the limit of no roughness.
- * Look-ups are within 1e-3 of the quadrature, 1e-2 of dielectrics, and averages are integrals of the look-ups;
+ * Look-ups are within 1e-3 of the quadrature, 1.5e-2 of dielectrics, and averages are integrals of the look-ups;
  * any numbers give results in [0, 1]. What cannot be built is refused. Notices a missing shadow, F that is not
  * that of the side, weights of nodes that do not add up to 1. */
 #include "bsdf/bsdf_case.h"
@@ -156,7 +156,7 @@ int main(int arguments, char **argument)
         test_quadrature(&ndf, test_quick() ? 1e-3 : 2e-4);
         test_places(&ndf, 0, 1e-3);
         if (test_long() || i % 3 == 0)
-            test_places(&ndf, 1.5f, 1e-2);
+            test_places(&ndf, 1.5f, 1.5e-2);
         oracle_ndf_close(&ndf);
     }
     return test_done();
