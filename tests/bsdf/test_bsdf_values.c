@@ -152,7 +152,7 @@ static int check_bound(const hit *h, const vndf_scattered *s, int is_even)
 {
     const vndf_effects *e = &h->of.is.effects;
     const vndf_info info = vndf_distribution_info(h->of.is.distribution);
-    double most = info.certificate.weight_bounded > 0 ? (double)info.certificate.max_weight : 1;
+    double most = info.bytes > 0 ? (double)info.certificate.max_weight : 1;
     if (is_even && e->normals == VNDF_NORMALS_BOUNDED && info.bytes > 0 && e->shape < VNDF_SHAPE_MATRIX &&
         h->of.is.alpha_x == h->of.is.alpha_y)
         return TEST(s->lobe != VNDF_LOBE_NONE);
