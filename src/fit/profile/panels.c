@@ -13,7 +13,7 @@
 enum { DEPTH_BOUNDED = 1, DEPTH_SAMPLED = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
 static const double PANEL_TOLERANCE = 1e-10;
-static const double NEGLIGIBLE = 1e-34; /* of both peaks: far less than numbers of tables, or claims, tell from nothing */
+static const double NEGLIGIBLE = 1e-34; /* of both peaks: less than numbers of tables tell from nothing */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
 static const double SAME_EDGE = 1e-13;  /* of a slope: below the width that resolve() calls a jump */
 static const double ROUNDED = 4e-16;    /* of a slope: the error of points */
