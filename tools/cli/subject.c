@@ -285,34 +285,28 @@ static int add_subject(chosen_surface *chosen, const char *command, const char *
 
 /* ---- the surface --------------------------------------------------------------------------------- */
 
-static int check_words(const char *command, const aim_words *aim, const words *positional)
+int surface_open(chosen_surface *chosen, const arguments *given)
 {
-    if (!aim->lobes.count && !positional->count)
-        complain(command, SURFACE_POSITIONAL " is missing; see `%s --help`", command);
-    else if (aim->lobes.count && positional->count)
-        complain(command, "'%s' and --lobe are given; a lobe names its table by table=FILE",
-                 only_word(positional));
-    else if (aim->lobes.count && aim->alpha.count)
-        complain(command, "--alpha and --lobe are given; a lobe has its roughness by alpha=AX,AY");
-    else if (!aim->theta.count)
-        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
-    else
-        return 1;
-    return 0;
-}
-
-int surface_open(chosen_surface *chosen, const char *command, const aim_words *aim, const words *positional)
-{
+    const char *command = given->command, *alpha = option_value(given, "--alpha");
+    const char *name = given->positional.count ? given->positional.item[0] : NULL;
+    const words lobes = option_values(given, "--lobe");
     double theta = 0, phi = 0;
     chosen->tables = chosen->families = 0;
     chosen->mixture.count = 0;
-    if (!check_words(command, aim, positional) ||
-        !option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||
-        !option_number(command, "--phi", &aim->phi, -360, 360, &phi))
+    if (!lobes.count && !name)
+        return complain(command, SURFACE_POSITIONAL " is missing; see `%s --help`", command), 0;
+    if (lobes.count && name)
+        return complain(command, "'%s' and --lobe are given; a lobe names its table by table=FILE", name), 0;
+    if (lobes.count && alpha)
+        return complain(command, "--alpha and --lobe are given; a lobe has its roughness by alpha=AX,AY"), 0;
+    if (!option_value(given, "--theta"))
+        return complain(command,
+                        "--theta is missing: the angle from the normal to the incident direction, 0 to 180"),
+               0;
+    if (!option_number(given, "--theta", 0, 180, &theta) || !option_number(given, "--phi", -360, 360, &phi))
         return 0;
     chosen->wi = direction_from(theta, phi);
-    if (aim->lobes.count ? add_all_lobes(chosen, command, &aim->lobes)
-                         : add_subject(chosen, command, only_word(positional), only_word(&aim->alpha)))
+    if (lobes.count ? add_all_lobes(chosen, command, &lobes) : add_subject(chosen, command, name, alpha))
         return 1;
     surface_close(chosen);
     return 0;

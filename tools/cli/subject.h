@@ -39,17 +39,6 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 
 /* ---- surfaces ---- */
 
-/* The options that sample and eval share. */
-typedef struct aim_words {
-    words theta, phi, alpha, lobes;
-} aim_words;
-
-#define AIM_OPTIONS(aim)                                                                         \
-  {"--theta", 1, 1, &(aim).theta}, {"--phi", 1, 1, &(aim).phi}, {"--alpha", 1, 1, &(aim).alpha}, \
-  {                                                                                              \
-    "--lobe", 1, VNDF_MIXTURE_LOBES, &(aim).lobes                                                \
-  }
-
 /* A lobe of the mixture belongs to the --lobe `option`, counted from 0: a family makes two lobes of one. */
 typedef struct chosen_surface {
     vndf_mixture mixture;
@@ -62,7 +51,7 @@ typedef struct chosen_surface {
 
 /* The surface and the direction, from --theta (needed), --phi and either a positional word and --alpha or lobes.
  * Returns 1, or 0 after a complaint. */
-int surface_open(chosen_surface *chosen, const char *command, const aim_words *aim, const words *positional);
+int surface_open(chosen_surface *chosen, const arguments *given);
 void surface_close(chosen_surface *chosen);
 
 /* The positional word, and help for it, for the direction and for --lobe. */
@@ -76,7 +65,7 @@ void surface_close(chosen_surface *chosen);
   "parameter P, as in tails.vndfs@2.7. A surface of several lobes takes, in their place and that of --alpha, up\n"  \
   "to 8 times\n"                                                                                                    \
   "\n"                                                                                                              \
-  "  --lobe 'KEY=VALUE ...'  with the keys, between blanks and each once:\n"                                        \
+  "  --lobe 'KEY=VALUE ...' ...  with the keys, between blanks and each once:\n"                                    \
   "      table=" SURFACE_POSITIONAL "\n"                                                                            \
   "                               the distribution of the lobe (needed); FILE has no blanks in its name,\n"         \
   "                               and a family takes two of the 8 lobes\n"                                          \

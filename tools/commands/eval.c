@@ -12,7 +12,7 @@
 
 static const char name[] = "vndf eval";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf eval " SURFACE_POSITIONAL " --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
     "       vndf eval --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG]\n"
     "\n"
@@ -30,7 +30,8 @@ static const char help[] =
     "\n"
     "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n"
     "         echo 0.6,0,0.8 | vndf eval --theta 45 --lobe 'weight=0.7 table=ggx alpha=0.1,0.2 mean=0.1,0' \\\n"
-    "                                    --lobe 'weight=0.3 table=beckmann matrix=0.5,0.2,-0.1,0.4'\n";
+    "                                    --lobe 'weight=0.3 table=beckmann matrix=0.5,0.2,-0.1,0.4'\n",
+    NULL};
 
 enum { LINE_MAX_LENGTH = 256 };
 
@@ -91,22 +92,14 @@ static int evaluate_lines(const chosen_surface *surface, figures *f)
     return STATUS_GOOD;
 }
 
-int command_eval(int argc, char **argv)
+static int run(const arguments *given)
 {
-    aim_words aim = {0};
-    figure_words asked = {0};
-    words positional = {{NULL}, 0};
     chosen_surface surface;
-    const option_form options[] = {AIM_OPTIONS(aim), FIGURES_OPTIONS(asked)};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!surface_open(&surface, name, &aim, &positional))
+    if (!surface_open(&surface, given))
         return STATUS_USE;
     int status = STATUS_USE;
     if (input_stdin(name)) {
-        figures f = figures_begin(&asked);
+        figures f = figures_begin(given);
         figures_list(&f, "values");
         status = evaluate_lines(&surface, &f);
         figures_list_end(&f);
@@ -115,3 +108,6 @@ int command_eval(int argc, char **argv)
     surface_close(&surface);
     return status;
 }
+
+const subcommand command_eval = {
+    name, "ndf, pdf, lambda, g1 for normals read from stdin", SURFACE_POSITIONAL, 0, 1, run, help};

@@ -15,7 +15,7 @@
 
 static const char name[] = "vndf sample";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf sample " SURFACE_POSITIONAL " --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
     "                   -n N -o OUT [options]\n"
     "       vndf sample --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG] -n N -o OUT [options]\n"
@@ -25,7 +25,7 @@ static const char help[] =
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
     "                   wm.x wm.y wm.z pdf; -: stdout\n"
-    "  --format NAME    csv or f32, whatever OUT ends in (default, for -: csv)\n"
+    "  --format csv|f32  whatever OUT ends in (default, for -: csv)\n"
     "  -q               prints no progress\n"
     "\n" SURFACE_HELP "\n"
     "Then pdf is the density of the whole surface, and a CSV has one more column, lobe: which --lobe the normal was\n"
@@ -33,12 +33,8 @@ static const char help[] =
     "\n"
     "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n"
     "         vndf sample --theta 60 -n 1000 -o - --lobe 'weight=0.7 table=wavy.vndf alpha=0.1,0.3 mean=0.05,0' \\\n"
-    "                                             --lobe 'weight=0.3 table=ggx matrix=0.5,0.2,-0.1,0.4'\n";
-
-typedef struct sample_words {
-    aim_words aim;
-    words number, seed, format, output, quiet;
-} sample_words;
+    "                                             --lobe 'weight=0.3 table=ggx matrix=0.5,0.2,-0.1,0.4'\n",
+    NULL};
 
 typedef void write_normal(FILE *file, vndf_vec3 wm, float pdf, int lobe);
 
@@ -104,36 +100,24 @@ static int write_samples(output_file *output, write_normal *write, const chosen_
     return output_commit(output);
 }
 
-static int sample_to_file(const sample_words *given, const chosen_surface *surface)
+static int run(const arguments *given)
 {
     output_file output;
-    unsigned long long count = 0, seed = 1;
-    const char *path = only_word(&given->output);
-    write_normal *write = writer_for(path, only_word(&given->format), given->aim.lobes.count);
-    if (!write || !option_count(name, "-n", &given->number, 1, 1e12, &count) ||
-        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed) || !output_open(&output, name, path))
-        return STATUS_USE;
-    return write_samples(&output, write, surface, count, seed, given->quiet.count > 0);
-}
-
-int command_sample(int argc, char **argv)
-{
-    sample_words given = {0};
-    words positional = {{NULL}, 0};
     chosen_surface surface;
-    const option_form options[] = {
-        AIM_OPTIONS(given.aim),      {"-n", 1, 1, &given.number},       {"--seed", 1, 1, &given.seed},
-        {"-o", 1, 1, &given.output}, {"--format", 1, 1, &given.format}, {"-q", 0, 1, &given.quiet},
-    };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!given.number.count || !given.output.count)
-        return complain(name, "%s is missing", given.number.count ? "-o OUT" : "-n N");
-    if (!surface_open(&surface, name, &given.aim, &positional))
+    unsigned long long count = 0, seed = 1;
+    const char *path = option_value(given, "-o");
+    if (!option_value(given, "-n") || !path)
+        return complain(name, "%s is missing", path ? "-n N" : "-o OUT");
+    if (!surface_open(&surface, given))
         return STATUS_USE;
-    int status = sample_to_file(&given, &surface);
+    int status = STATUS_USE;
+    write_normal *write = writer_for(path, option_value(given, "--format"), option_values(given, "--lobe").count);
+    if (write && option_count(given, "-n", 1, 1e12, &count) && option_count(given, "--seed", 0, 0x1p53, &seed) &&
+        output_open(&output, name, path))
+        status = write_samples(&output, write, &surface, count, seed, option_value(given, "-q") != NULL);
     surface_close(&surface);
     return status;
 }
+
+const subcommand command_sample = {
+    name, "draw visible normals into a CSV or a file of floats", SURFACE_POSITIONAL, 0, 1, run, help};
