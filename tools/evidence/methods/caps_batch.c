@@ -3,8 +3,9 @@
  * with -O3 -ffast-math (CMakeLists.txt), hence with the machine's approximate reciprocals and roots, each with a Newton
  * step, within 3 ulps of 2^-24. But
  *
- * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (1 +
- *   w.z), the half vector's unit density is |h|/(pi (1 + w.z)), and stretching by alpha divides by alpha^2 and
+ * - the stretched direction w is left as long as it is, and the cap is as large, so that no root is divided by;
+ * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (|w| +
+ *   w.z)/|w|, the half vector's unit density is |h|/(pi (|w| + w.z)), and stretching by alpha divides by alpha^2 and
  *   multiplies by (|stretched h|/|h|)^3;
  * - azimuth 2 pi (u1 - 1/2), by polynomials within 5e-8 that need no reduction: with y = 1/4 - |u1 - 1/2| the
  *   cosine is sin(2 pi y), the sine cos(2 pi y) with a sign;
@@ -19,16 +20,16 @@
 #  define INLINED static inline
 #endif
 
+/* The direction in the unit problem, its length, and pi alpha^2 (length + z). */
 typedef struct caps {
-    float x, y, z, alpha; /* unit, of the unit problem */
-    float cap;            /* pi alpha^2 (1 + z) */
+    float x, y, z, alpha, length2, top, cap;
 } caps;
 
 INLINED caps caps_view(const block *b, size_t i)
 {
     float alpha = b->alpha[i], x = alpha * b->wi[0][i], y = alpha * b->wi[1][i], z = b->wi[2][i];
-    float per = 1.0f / sqrtf(x * x + y * y + z * z);
-    return (caps){x * per, y * per, z * per, alpha, 3.14159265f * alpha * alpha * (1.0f + z * per)};
+    float length2 = x * x + y * y + z * z, top = z + sqrtf(length2);
+    return (caps){x, y, z, alpha, length2, top, 3.14159265f * alpha * alpha * top};
 }
 
 INLINED void caps_draw(const caps v, block *b, size_t i)
@@ -36,13 +37,14 @@ INLINED void caps_draw(const caps v, block *b, size_t i)
     float turn = b->u[0][i] - 0.5f, y = 0.25f - fabsf(turn), q = y * y;
     float sine = y * (6.28318528f + q * (-41.3416806f + q * (81.6024764f + q * (-76.5811726f + q * 39.7598271f))));
     float cosine = 0.999999953f + q * (-19.7391712f + q * (64.9345727f + q * (-85.2398703f + q * 56.2387004f)));
-    float up = (1.0f - b->u[1][i]) * (1.0f + v.z), z = up - v.z, s = sqrtf(fmaxf(1.0f - z * z, 1e-30f));
+    float up = (1.0f - b->u[1][i]) * v.top, z = up - v.z, s = sqrtf(fmaxf(v.length2 - z * z, 1e-30f));
     float hx = s * sine + v.x, hy = s * copysignf(cosine, turn) + v.y, across = hx * hx + hy * hy;
-    float mm = fmaxf(v.alpha * v.alpha * across + up * up, 1e-30f), per = 1.0f / sqrtf(mm);
+    float mm = fmaxf(v.alpha * v.alpha * across + up * up, 1e-30f), area = (across + up * up) * v.cap;
+    float share = 1.0f / (sqrtf(mm) * area), per = share * area; /* one reciprocal for both */
     b->x[i] = hx * v.alpha * per;
     b->y[i] = hy * v.alpha * per;
     b->z[i] = up * per;
-    b->pdf[i] = mm * mm * per / ((across + up * up) * v.cap);
+    b->pdf[i] = mm * mm * share;
 }
 
 INLINED void caps_each(block *b, size_t first, size_t count)
