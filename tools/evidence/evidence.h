@@ -75,10 +75,10 @@ struct entry {
     method m;
     subject_id of; /* of normals */
     block_law law;
-    int is_shown;        /* 0: needed as a yardstick alone */
-    const entry *beside; /* what its time is compared with: caps or bare reflection; NULL: nothing */
+    int is_shown;         /* 0: needed as a yardstick alone */
+    const entry *beside;  /* what its time is compared with: caps or bare reflection; NULL: nothing */
     const entry *normals; /* what its worth is compared with: all normals, of materials visible ones */
-    double variance[3];  /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
+    double variance[3]; /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
     evidence_row row;
 };
 

@@ -265,8 +265,7 @@ vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, v
         if (list->entry[i].is_shown)
             return VNDF_OK;
     error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(error->message, sizeof error->message,
-             "no %s, distribution or instruction set has '%s' in its name",
+    snprintf(error->message, sizeof error->message, "no %s, distribution or instruction set has '%s' in its name",
              plan->at_hand ? "method" : "set of effects", plan->only);
     return VNDF_ERROR_ARGUMENT;
 }

@@ -30,10 +30,10 @@ typedef enum evidence_column {
     COL_SHARED, /* SHARE samples, values, densities of one direction or hit */
     COL_EVAL,
     COL_PDF,
-    COL_LATENCY, /* each sample's input depends on the last one's output */
-    COL_TV,      /* largest total variation to the true visible normals from above the horizon */
+    COL_LATENCY,  /* each sample's input depends on the last one's output */
+    COL_TV,       /* largest total variation to the true visible normals from above the horizon */
     COL_TV_BELOW, /* of tables of ours: from all directions */
-    COL_WEIGHT, /* largest true/drawn density that was met; of materials the largest weight */
+    COL_WEIGHT,   /* largest true/drawn density that was met; of materials the largest weight */
     COL_SOBOL,  /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of caps (measure/stratified.h) */
     COL_EFF_60, /* 1/(variance time) over that of all normals: albedo of gold at 60 and 85 degrees, a small light */
     COL_EFF_85,
@@ -62,8 +62,8 @@ typedef struct evidence_rows {
 
 void rows_free(evidence_rows *of);
 
-/* A rows_printer. Text and Markdown are for people, without the columns that no row has. CSV and JSON have every number
- * of every row. */
+/* A rows_printer. Text and Markdown are for people, without the columns that no row has. CSV and JSON have every
+ * number of every row. */
 int evidence_print(FILE *file, const void *of, figures_form form);
 
 /* Into a page, as text. */

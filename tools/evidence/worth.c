@@ -12,8 +12,8 @@
  * Total variation of a density p that is known, Dv being true: integral of max(0, p - Dv) = mean of max(0, 1 -
  * Dv/p) over the samples.
  *
- * Points are scrambled Sobol' points in replicates of 1024: means converge fast, their noise is seen from replicate to
- * replicate, and the variance of one sample is what it is. */
+ * Points are scrambled Sobol' points in replicates of 1024: means converge fast, their noise is seen from
+ * replicate to replicate, and the variance of one sample is what it is. */
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,12 +1,12 @@
-/* GGX by spherical caps in a batch: the cost of the best closed form, to compare our batches with. Dupuy & Benyoub 2023
- * as in ggx.c, in loops that the compiler makes vectors of, for three instruction sets in turn: this file is compiled
- * with -O3 -ffast-math (CMakeLists.txt), hence with the machine's approximate reciprocals and roots, each with a Newton
- * step, within 3 ulps of 2^-24. But
+/* GGX by spherical caps in a batch: the cost of the best closed form, to compare our batches with. Dupuy & Benyoub
+ * 2023 as in ggx.c, in loops that the compiler makes vectors of, for three instruction sets in turn: this file is
+ * compiled with -O3 -ffast-math (CMakeLists.txt), hence with the machine's approximate reciprocals and roots, each
+ * with a Newton step, within 3 ulps of 2^-24. But
  *
  * - the stretched direction w is left as long as it is, and the cap is as large, so that no root is divided by;
- * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (|w| +
- *   w.z)/|w|, the half vector's unit density is |h|/(pi (|w| + w.z)), and stretching by alpha divides by alpha^2 and
- *   multiplies by (|stretched h|/|h|)^3;
+ * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (|w|
+ *   + w.z)/|w|, the half vector's unit density is |h|/(pi (|w| + w.z)), and stretching by alpha divides by alpha^2
+ *   and multiplies by (|stretched h|/|h|)^3;
  * - azimuth 2 pi (u1 - 1/2), by polynomials within 5e-8 that need no reduction: with y = 1/4 - |u1 - 1/2| the
  *   cosine is sin(2 pi y), the sine cos(2 pi y) with a sign;
  * - only for incident directions above the horizon. */
@@ -74,7 +74,8 @@ static int has(vndf_instructions set)
     return set == VNDF_INSTRUCTIONS_AVX512
                ? __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                      __builtin_cpu_supports("avx512vl")
-               : set == VNDF_INSTRUCTIONS_PORTABLE || (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+               : set == VNDF_INSTRUCTIONS_PORTABLE ||
+                     (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
 }
 #else
 #  define FOR_AVX2
@@ -128,7 +129,9 @@ method method_ggx_caps_batch(vndf_instructions set)
                 .instructions = method_instructions_name(set),
                 .kind = ROW_PUBLISHED,
                 .limit = set,
-                .shared = is_512 ? shared_avx512 : is_256 ? shared_avx2 : shared_portable};
+                .shared = is_512   ? shared_avx512
+                          : is_256 ? shared_avx2
+                                   : shared_portable};
     if (has(set))
         m.each = is_512 ? each_avx512 : is_256 ? each_avx2 : each_portable;
     return m;

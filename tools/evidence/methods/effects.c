@@ -176,13 +176,14 @@ static void batch_density(const method *m, block *b, size_t first, size_t count)
 
 /* ---- by hand ------------------------------------------------------------------------------------- */
 
-/* Bare reflection over vndf.h, as someone would write it who wants nothing else: a visible normal, wi mirrored at it, and
- * G2/G1 of height-correlated masking; with A the projected area, cosines of wi and wo and `true` over drawn density,
+/* Bare reflection over vndf.h, as someone would write it who wants nothing else: a visible normal, wi mirrored at
+ * it, and G2/G1 of height-correlated masking; with A the projected area, cosines of wi and wo and `true` over
+ * drawn density,
  *
  *     weight = true/drawn A(wi) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)).
  *
- * vndf_bsdf.h handles special cases that this does not, above all smooth surfaces, whose roughness is below the rounding
- * of a direction. */
+ * vndf_bsdf.h handles special cases that this does not, above all smooth surfaces, whose roughness is below the
+ * rounding of a direction. */
 
 /* G2/(cos_i cos_o). */
 static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vndf_vec3 wo)

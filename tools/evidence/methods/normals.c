@@ -1,9 +1,10 @@
 /* All normals, not only the visible ones: B. Walter et al., "Microfacet Models for Refraction through Rough
- * Surfaces", EGSR 2007, eq. 28 and 35. The density is D(wm) cos(theta_m), a radial law and an azimuth. No draw reads wi.
+ * Surfaces", EGSR 2007, eq. 28 and 35. The density is D(wm) cos(theta_m), a radial law and an azimuth. No draw
+ * reads wi.
  *
- * The radial law is a CDF, so that it serves any D. At the scale where the median slope is 1, y = sin^2(theta_m) has the
- * density pi D(y) in [0, 1]. The CDF has cells of equal mass with a constant D in each, so that the density told is the
- * density drawn and a coarse table only costs variance. Roughness stretches. */
+ * The radial law is a CDF, so that it serves any D. At the scale where the median slope is 1, y = sin^2(theta_m)
+ * has the density pi D(y) in [0, 1]. The CDF has cells of equal mass with a constant D in each, so that the
+ * density told is the density drawn and a coarse table only costs variance. Roughness stretches. */
 #include <stdlib.h>
 
 #include "evidence/methods/vector.h"
