@@ -109,9 +109,9 @@ enum {
     VNDF_LIMIT_PARAMETER_NAME = 64,      /* characters */
     VNDF_LIMIT_FAMILY_LENGTH = 4096,     /* characters of a family's specification */
     VNDF_LIMIT_NAME_LENGTH = 4096,       /* characters of the name of a CSV or a callback */
-    VNDF_LIMIT_CSV_ROWS = 1000000,
+    VNDF_LIMIT_CSV_ROWS = 1 << 14,
     VNDF_LIMIT_CSV_LINE = 4096,     /* characters of a line */
-    VNDF_LIMIT_CSV_BYTES = 1 << 26, /* of a file */
+    VNDF_LIMIT_CSV_BYTES = 1 << 24, /* of a file */
     VNDF_LIMIT_BREAKS = 64,         /* of vndf_build_options */
     VNDF_LIMIT_BUILD_PANELS = 60000 /* pieces in which P22 is smooth to 1e-10 */
 };

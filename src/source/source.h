@@ -23,7 +23,6 @@ struct vndf_source {
     size_t break_count;
     int rebuildable;   /* the description alone makes the same source again */
     double operations; /* what an evaluation costs (vndf_build.h, limits) */
-    double rounding;   /* relative: P22 is no smoother than that */
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */
 };
 

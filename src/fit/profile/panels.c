@@ -179,7 +179,7 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     double m0 = l.m0 + r.m0, m1 = l.m1 + r.m1 + r.m0 * gap;
     if (vndf_profile_stopped(profile))
         return;
-    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE;
     int seen = depth >= (profile->source->reach ? DEPTH_BOUNDED : DEPTH_SAMPLED), good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
         slack += rough ? roughness(profile, r0, r1) : 0;
