@@ -99,15 +99,9 @@ static const char *const of_table[] = {"tool",           "bytes",      "memory",
                                        "normalization",  "scale",      "tv",         "tv_theta",  "tv_above",
                                        "tv_above_theta", "max_weight", "area_error", "ndf_error", "weight_bounded",
                                        "consistency",    "hidden",     "finest",     "verdict",   "horizon_power"};
-static const char *const of_family[] = {"knots",
-                                        "low",
-                                        "high",
-                                        "linear_in",
-                                        "distance",
-                                        "grazing",
-                                        "tables_tv",
-                                        "knot at 1.8 parameter bytes",
-                                        "verdict mixtures within"};
+static const char *const of_family[] = {"knots",         "low",     "high",      "linear_in",
+                                        "distance",      "grazing", "tables_tv", "knot at 1.8 parameter bytes",
+                                        "verdict within"};
 
 static double number_behind(const char *text, const char *key)
 {
