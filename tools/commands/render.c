@@ -36,7 +36,6 @@ static const char *const help[] = {
     "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
     "                  noisy\n"
-    "  --json          prints figures as JSON\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
@@ -49,7 +48,7 @@ typedef struct render_choice {
     unsigned long long spp, threads, seed, width;
     double exposure;
     const char *output, *format, *against; /* NULL: none */
-    int compares, has_json;
+    int compares, has_json, is_quiet;
 } render_choice;
 
 /* ---- words ---- */
@@ -101,7 +100,8 @@ static int read_choice(const arguments *given, render_choice *r, comparison *c)
                          .format = option_value(given, "--format"),
                          .against = option_value(given, "--against"),
                          .compares = option_value(given, "--compare") != NULL,
-                         .has_json = option_value(given, "--json") != NULL};
+                         .has_json = option_value(given, "--json") != NULL,
+                         .is_quiet = option_value(given, "-q") != NULL};
     *c = (comparison){.count = 0};
     return option_count(given, "--spp", 1, 1e9, &r->spp) &&
            option_count(given, "--threads", 1, 256, &r->threads) &&
@@ -237,6 +237,8 @@ static int tell(const comparison *c, const render_choice *r, const film *against
     film_free(&all);
     if (!good)
         return complain(name, "no memory for figures");
+    if (r->is_quiet)
+        return status;
     if (r->has_json) {
         print_json(c, noises, agrees, against != NULL, is_whole);
         return status;
@@ -254,9 +256,9 @@ static int tell(const comparison *c, const render_choice *r, const film *against
 /* ---- rendering ---- */
 
 /* 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s)
+static int render_ways(comparison *c, const scene *s, int is_quiet)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", 0);
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
     line.tells_left = 1;
     c->progress = progress_tell;
     c->user = &line;
@@ -292,7 +294,7 @@ static int render_figures(comparison *c, const render_choice *r, const scene *s,
 {
     output_hold_signals();
     int status = STATUS_USE;
-    if (render_ways(c, s))
+    if (render_ways(c, s, r->is_quiet))
         status = tell(c, r, against, 1);
     else
         complain(name, output_stopping() ? "interrupted; nothing was written" : "no memory for the films");
@@ -305,7 +307,7 @@ static int render_picture(comparison *c, const render_choice *r, const scene *s,
     output_file output;
     if (!output_open(&output, name, r->output))
         return STATUS_USE;
-    const int is_whole = render_ways(c, s);
+    const int is_whole = render_ways(c, s, r->is_quiet);
     if (!is_whole && (r->compares || !c->way[0].film.samples))
         return output_give_up(&output, !output_stopping() ? "no memory for the films"
                                        : r->compares      ? "interrupted; nothing was written"
