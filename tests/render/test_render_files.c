@@ -24,7 +24,7 @@ static void test_round_trip(void)
     rewind(file);
     size_t size = fread(bytes, 1, sizeof bytes, file);
     TEST(size == strlen("PF\n3 2\n-1.0\n") + sizeof values && memcmp(bytes, "PF\n3 2\n-1.0\n", 12) == 0);
-    if (TEST(image_read_pfm_bytes(&back, "x", bytes, size, &error)))
+    if (TEST(image_read_bytes(&back, "x", bytes, size, &error)))
         TEST(back.width == 3 && back.height == 2 && memcmp(back.rgb, values, sizeof values) == 0);
     image_free(&back);
     image_free(&made);
@@ -37,10 +37,10 @@ static void test_forms(void)
                       grey[] = "Pf\r\n1 2\r\n-1\r\n\0\0\x80\x3f\0\0\0\x40";
     image made;
     image_error error;
-    if (TEST(image_read_pfm_bytes(&made, "x", big, sizeof big - 1, &error)))
+    if (TEST(image_read_bytes(&made, "x", big, sizeof big - 1, &error)))
         TEST(made.rgb[0] == 1.0f && made.rgb[1] == 2.0f && made.rgb[2] == -2.0f);
     image_free(&made);
-    if (TEST(image_read_pfm_bytes(&made, "x", grey, sizeof grey - 1, &error)))
+    if (TEST(image_read_bytes(&made, "x", grey, sizeof grey - 1, &error)))
         TEST(made.rgb[0] == 2.0f && made.rgb[2] == 2.0f && made.rgb[3] == 1.0f && made.rgb[5] == 1.0f);
     image_free(&made);
 }
@@ -53,10 +53,12 @@ static void refuse_images(void)
         size_t size;
         const char *says;
     } bad[] = {
-        {"", 0, "x: this is no PFM image"},
-        {"P6\n1 1\n255\n", 11, "x: this is no PFM image"},
-        {"PFx\n1 1\n-1\n", 11, "x: this is no PFM image"},
-        {"PF\n1 1\n", 7, "the head of the PFM is not whole"},
+        {"", 0, "x: this is no PFM, PGM or PPM image"},
+        {"P4\n1 1\n255\n", 11, "x: this is no PFM, PGM or PPM image"},
+        {"PFx\n1 1\n-1\n", 11, "x: this is no PFM, PGM or PPM image"},
+        {"PF\n1 1\n", 7, "the head of the image is not whole: after PF come width, height, a scale and a blank"},
+        {"P6\n1 1\n65536\n123", 15, "the largest value is '65536'; it must be from 1 to 65535"},
+        {"P5\n1 2\n256\n\0\0\1", 14, "1 x 2 pixels take 4 bytes after the head, and there are 3"},
         {"Pf\n0 1\n-1\n" PIXEL, 14, "width 0 and height 1: both must be whole numbers"},
         {"Pf\n1 1.5\n-1\n" PIXEL, 16, "both must be whole numbers from 1 to 16384"},
         {"Pf\n16384 16384\n-1\n" PIXEL, 22, "16384 x 16384 pixels are more than"},
@@ -69,7 +71,7 @@ static void refuse_images(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         image made;
         image_error error = {""};
-        if (!(TEST(!image_read_pfm_bytes(&made, "x", bad[i].bytes, bad[i].size, &error) && !made.rgb) &
+        if (!(TEST(!image_read_bytes(&made, "x", bad[i].bytes, bad[i].size, &error) && !made.rgb) &
               TEST_HAS(error.message, bad[i].says)))
             fprintf(stderr, "    says %s\n", error.message);
     }

@@ -316,7 +316,6 @@ int command_build(int argc, char **argv)
         {"--rgl", 1, 1, &given.measured.rgl},
         {"--merl", 1, 1, &given.measured.merl},
         {"--channel", 1, 1, &given.measured.channel},
-        {"--matrix", 0, 1, &given.measured.matrix},
         {"--profile", 1, 1, &given.measured.profile},
         {"--height", 1, 1, &given.measured.height},
         {"--normal-map", 1, 1, &given.measured.normal_map},

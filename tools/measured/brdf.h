@@ -26,13 +26,9 @@
 
 /* D over theta, the mean of `ndf` over azimuths, smoothed within its noise. A material whose D strays from that mean by
  * more than RGL_ANISOTROPY_MOST is refused with the measure. Noted is how well that D explains what else the file
- * holds: how far `sigma` is from its area, at most, up to 85 degrees; the F0 and F90 of the mean of all channels whose
- * model (measured/model.h) is nearest, and the part of the light that it has elsewhere. */
+ * holds: the F0 and F90 of the mean of all channels whose model (measured/model.h) is nearest, and the part of the light
+ * that it has elsewhere. */
 int rgl_read(data_file *file, profile *rows);
-
-/* The same of an anisotropic material, as an isotropic D under a matrix: slopes are drawn evenly from `ndf`, and their
- * law is that of measured/slopes.h, which notes the matrix. */
-int rgl_read_matrix(data_file *file, profile *rows);
 
 enum { RGL_CHANNELS = 16 };
 

@@ -20,7 +20,6 @@ const char measured_help[] =
     "lobe that they are: vndf sample --lobe 'table=FILE matrix=XX,XY,YX,YY'.\n"
     "\n"
     "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
-    "    --matrix      an anisotropic one as the matrix of an isotropic D, which is printed\n"
     "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
     "    --channel red|green|blue|luminance    (default luminance)\n"
     "  --height FILE   heights of a surface: PFM, PGM, or numbers between blanks\n"
@@ -59,7 +58,6 @@ static const struct {
 } riders[] = {
     {"--step", offsetof(measured_words, step), "--height"},
     {"--cutoff", offsetof(measured_words, cutoff), "--height"},
-    {"--matrix", offsetof(measured_words, matrix), "--rgl"},
     {"--channel", offsetof(measured_words, channel), "--merl"},
 };
 
@@ -148,8 +146,8 @@ static int read_normal_map(const char *command, const measured_words *given, dat
 
 static int read_rgl(const char *command, const measured_words *given, data_file *file, profile *rows)
 {
-    (void)command;
-    return given->matrix.count ? rgl_read_matrix(file, rows) : rgl_read(file, rows);
+    (void)command, (void)given;
+    return rgl_read(file, rows);
 }
 
 static int read_merl(const char *command, const measured_words *given, data_file *file, profile *rows)

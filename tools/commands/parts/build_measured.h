@@ -8,7 +8,6 @@
 typedef struct measured_words {
     words rgl, merl, height, normal_map; /* files */
     words step, cutoff;                  /* of heights */
-    words matrix;                        /* of .bsdf */
     words channel;                       /* of MERL */
     words profile;                       /* what is written beside the table */
 } measured_words;
