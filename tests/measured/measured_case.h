@@ -1,5 +1,5 @@
-/* What tests of measured files share: files in memory, what is noted of them, why they are refused, and surfaces whose
- * law of slopes is known. */
+/* What tests of measured files share: files in memory, what is noted of them, why they are refused, and surfaces
+ * whose law of slopes is known. */
 #ifndef TESTS_MEASURED_MEASURED_CASE_H
 #define TESTS_MEASURED_MEASURED_CASE_H
 

@@ -1,9 +1,10 @@
-/* Surfaces become laws of slopes. The slopes of a Gaussian height field give Beckmann's distribution with alpha = sqrt 2
- * times the rms of the slope, a stretched one the same under its matrix, and both say how sure that is; the curve ends
- * where slopes end abruptly; a cut-off halves waves of its length. The same heights come out of every kind of file, and
- * normal maps have the slopes of the heights that they were made of. What has no law of slopes, or is no such file, is
- * refused with the place, and what has a strange one is named. Noticed: differences over one step in the place of two,
- * errors that say too little, rows from the wrong end, a scale in another's place, the wrong byte first. */
+/* Surfaces become laws of slopes. The slopes of a Gaussian height field give Beckmann's distribution with alpha =
+ * sqrt 2 times the rms of the slope, a stretched one the same under its matrix, and both say how sure that is; the
+ * curve ends where slopes end abruptly; a cut-off halves waves of its length. The same heights come out of every kind
+ * of file, and normal maps have the slopes of the heights that they were made of. What has no law of slopes, or is no
+ * such file, is refused with the place, and what has a strange one is named. Noticed: differences over one step in
+ * the place of two, errors that say too little, rows from the wrong end, a scale in another's place, the wrong byte
+ * first. */
 #include "measured_case.h"
 
 static height_field field_of(int width, int height)
@@ -30,8 +31,8 @@ static void blur(float *line, size_t stride, int count, double sigma)
     free(copy);
 }
 
-/* White noise blurred along x and y, periodic, scaled to a slope along x of that rms: slopes are Gaussian, so that P22
- * is Beckmann's with alpha = sqrt 2 times the rms of the slope along one axis. */
+/* White noise blurred along x and y, periodic, scaled to a slope along x of that rms: slopes are Gaussian, so that
+ * P22 is Beckmann's with alpha = sqrt 2 times the rms of the slope along one axis. */
 static height_field gaussian(int side, double sigma_x, double sigma_y, double rms)
 {
     height_field made = field_of(side, side);
@@ -52,7 +53,8 @@ static height_field gaussian(int side, double sigma_x, double sigma_y, double rm
     return made;
 }
 
-/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1; frees them. */
+/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1; frees them.
+ */
 static double from_beckmann(profile *rows, double alpha)
 {
     data_file file = {.name = "made"};

@@ -1,5 +1,5 @@
-/* A MERL file of a GGX surface, in closed form, is read as GGX within 1%, also where a diffuse part is under it, which
- * is told apart; the power iteration finds an eigenvector; what is no MERL file is refused. Noticed: a scale in
+/* A MERL file of a GGX surface, in closed form, is read as GGX within 1%, also where a diffuse part is under it,
+ * which is told apart; the power iteration finds an eigenvector; what is no MERL file is refused. Noticed: a scale in
  * another's place, masking left out. */
 #include "measured/measured_case.h"
 

@@ -1,5 +1,6 @@
 /* D goes out to a .bsdf and comes in again, with the F0 and the area that it went out with; noise in it is found and
- * smoothed; an anisotropic D is refused with the measure; a file that is not whole is refused with the field. Noticed: a fit to points in the place of the light, a warp that is turned, noise. */
+ * smoothed; an anisotropic D is refused with the measure; a file that is not whole is refused with the field.
+ * Noticed: a fit to points in the place of the light, a warp that is turned, noise. */
 #include "measured/measured_case.h"
 
 #include "measured/grid.h"

@@ -29,7 +29,7 @@ static void test_refusals(void)
         {{"ball.scene", "--compare", "visible"}, "--compare takes two samplers at least"},
         {{"ball.scene", "--compare", "all,all"}, "'all' stands there twice"},
         {{"ball.scene", "--compare", "all,visible", "--sampler", "all"}, "leave one out"},
-        {{"ball.scene", "-o", "x.png", "--equal", "time"}, "--equal is of --compare"},
+        {{"ball.scene", "-o", "x.png", "--equal", "time"}, "--equal goes with --compare"},
         {{"ball.scene", "-o", "-", "--json"}, "figures go to stdout, where -o - puts the picture"},
         {{"ball.scene", "-o", "x.png", "--spp", "0"}, "--spp"},
         {{"ball.scene", "-o", "x.png", "--width", "16384"}, "--width: 16384 x 16384 pixels"},

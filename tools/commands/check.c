@@ -21,7 +21,7 @@
 
 static const char name[] = "vndf check";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf check FILE|ggx|beckmann [--hard] [--samples N] [--csv FILE] [--seed S] [--json] [-q]\n"
     "\n"
     "Measures a distribution again and prints what it finds; exit status 1 if a claim fails.\n"
@@ -49,12 +49,8 @@ static const char help[] =
     "  --samples N  samples per chi-square test (default 1000000)\n"
     "  --csv FILE   the CSV that the table was built from; without it the certificate is not measured again\n"
     "  --seed S     the stream of random numbers, a whole number (default 1)\n" FIGURES_HELP "\n"
-    "example: vndf check wavy.vndf --hard --samples 4000000\n";
-
-typedef struct check_words {
-    words samples, csv, seed, hard;
-    figure_words figures;
-} check_words;
+    "example: vndf check wavy.vndf --hard --samples 4000000\n",
+    NULL};
 
 /* What is being checked, where findings go, and whether all were good. */
 typedef struct checking {
@@ -266,20 +262,20 @@ static void check_hard(checking *c)
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int check_all(const chosen_distribution *chosen, const check_words *given)
+static int check_all(const chosen_distribution *chosen, const arguments *given)
 {
     checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
-    if (!option_count(name, "--samples", &given->samples, 1000, 1e10, &c.samples) ||
-        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &c.seed))
+    const char *csv = option_value(given, "--csv");
+    if (!option_count(given, "--samples", 1000, 1e10, &c.samples) ||
+        !option_count(given, "--seed", 0, 0x1p53, &c.seed))
         return STATUS_USE;
-    if (!chosen->owned && given->csv.count)
+    if (!chosen->owned && csv)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
-    c.to = figures_begin(&given->figures);
-    c.bar = progress_begin(name, 0);
-    c.bar.is_seen &= !given->figures.quiet.count;
-    int failed = (chosen->owned && check_certificate(&c, only_word(&given->csv)) != STATUS_GOOD) ||
+    c.to = figures_begin(given);
+    c.bar = progress_begin(name, option_value(given, "-q") != NULL);
+    int failed = (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) ||
                  check_consistency(&c) != STATUS_GOOD || check_chi_square(&c) != STATUS_GOOD;
-    if (!failed && given->hard.count)
+    if (!failed && option_value(given, "--hard"))
         check_hard(&c);
     progress_end(&c.bar);
     if (failed)
@@ -289,23 +285,15 @@ static int check_all(const chosen_distribution *chosen, const check_words *given
     return c.good ? STATUS_GOOD : STATUS_NO;
 }
 
-int command_check(int argc, char **argv)
+static int run(const arguments *given)
 {
-    check_words given = {0};
-    words positional = {{NULL}, 0};
     chosen_distribution chosen;
-    const option_form options[] = {{"--samples", 1, 1, &given.samples},
-                                   {"--csv", 1, 1, &given.csv},
-                                   {"--seed", 1, 1, &given.seed},
-                                   {"--hard", 0, 1, &given.hard},
-                                   FIGURES_OPTIONS(given.figures)};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!distribution_open(&chosen, name, only_word(&positional)))
+    if (!distribution_open(&chosen, name, given->positional.item[0]))
         return STATUS_USE;
-    int status = check_all(&chosen, &given);
+    int status = check_all(&chosen, given);
     distribution_close(&chosen);
     return status;
 }
+
+const subcommand command_check = {
+    name, "measure a table again; exit 1 if a claim fails", "FILE|ggx|beckmann", 1, 1, run, help};

@@ -12,7 +12,7 @@
 
 static const char name[] = "vndf render";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf render SCENE -o OUT.png|OUT.pfm [options]\n"
     "       vndf render SCENE --compare LIST [-o SHEET.png] [options]\n"
     "       vndf render --grammar\n"
@@ -22,7 +22,7 @@ static const char help[] =
     "\n"
     "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout,\n"
     "                  in place of the text, and an interrupt then leaves nothing\n"
-    "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
+    "  --format png|pfm  whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
@@ -33,7 +33,7 @@ static const char help[] =
     "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of\n"
     "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
     "                  show the same; OUT has the pictures side by side, and their noise below\n"
-    "  --equal WHAT    the others get the time of the first, or its samples (default: time)\n"
+    "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
     "                  noisy\n"
     "  --json          prints figures as JSON\n"
@@ -42,11 +42,8 @@ static const char help[] =
     "The exit status is 1 where pictures differ by more than chance.\n"
     "\n"
     "example: vndf render tools/scenes/metal.scene -o metal.png --spp 64\n"
-    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n";
-
-typedef struct render_words {
-    words output, format, spp, threads, seed, sampler, width, exposure, compare, equal, against, json, grammar;
-} render_words;
+    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n",
+    NULL};
 
 /* What was asked for, and what comes of it. */
 typedef struct render_work {
@@ -61,18 +58,15 @@ typedef struct render_work {
 /* ---- words ---- */
 
 /* One sampler, or a list separated by commas. */
-static int read_samplers(const render_words *given, comparison *c)
+static int read_samplers(const arguments *given, comparison *c)
 {
-    static const char *const equals[] = {"time", "samples", NULL};
-    const char *list = only_word(&given->compare), *one = only_word(&given->sampler),
-               *equal = only_word(&given->equal);
+    const char *list = option_value(given, "--compare"), *one = option_value(given, "--sampler");
     const char *what = list ? "--compare" : "--sampler", *at = list ? list : one ? one : "visible";
-    int is_equal = equal ? word_among(name, "--equal", equal, equals) : 0;
     if (list && one)
         return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
-    if (is_equal < 0 || (equal && !list))
-        return is_equal < 0 ? 0 : (complain(name, "--equal is of --compare"), 0);
-    c->has_equal_time = is_equal == 0;
+    if (option_value(given, "--equal") && !list)
+        return complain(name, "--equal goes with --compare"), 0;
+    c->has_equal_time = option_choice(given, "--equal", 0) == 0;
     for (;; at++) {
         char copy[32];
         size_t letters = strcspn(at, ",");
@@ -94,19 +88,17 @@ static int read_samplers(const render_words *given, comparison *c)
 }
 
 /* All words, before anything is read or rendered. */
-static int read_words(const render_words *given, render_work *w)
+static int read_words(const arguments *given, render_work *w)
 {
     static const char *const forms[] = {"png", "pfm", NULL};
     unsigned long long threads = film_processors(), seed = 0;
-    *w = (render_work){.output = only_word(&given->output),
-                       .against = only_word(&given->against),
-                       .has_json = given->json.count > 0};
-    if (!option_count(name, "--spp", &given->spp, 1, 1e9, &w->spp) ||
-        !option_count(name, "--threads", &given->threads, 1, 256, &threads) ||
-        !option_count(name, "--seed", &given->seed, 0, 0x1p53, &seed) ||
-        !option_count(name, "--width", &given->width, 1, IMAGE_SIDE_MAX, &w->width) ||
-        !option_number(name, "--exposure", &given->exposure, 1e-6, 1e6, &w->exposure) ||
-        !read_samplers(given, &w->ways))
+    *w = (render_work){.output = option_value(given, "-o"),
+                       .against = option_value(given, "--against"),
+                       .has_json = option_value(given, "--json") != NULL};
+    if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
+        !option_count(given, "--seed", 0, 0x1p53, &seed) ||
+        !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
+        !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure) || !read_samplers(given, &w->ways))
         return 0;
     w->ways.threads = (unsigned)threads;
     w->ways.seed = seed;
@@ -114,7 +106,7 @@ static int read_words(const render_words *given, render_work *w)
         return w->ways.count > 1 || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
     if (output_is_stdout(w->output) && (w->ways.count > 1 || w->against || w->has_json))
         return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
-    w->is_pfm = output_form(name, w->output, only_word(&given->format), forms);
+    w->is_pfm = output_form(name, w->output, option_value(given, "--format"), forms);
     return w->is_pfm >= 0 && output_replaceable(name, w->output);
 }
 
@@ -222,10 +214,10 @@ static int tell(const render_work *w, int is_whole)
 
 /* ---- rendering ---- */
 
-/* `held` are the signals that wait. 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s, unsigned held)
+/* 0 if it was stopped, or there is no memory. */
+static int render_ways(comparison *c, const scene *s)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", held);
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", 0);
     int is_whole = 1;
     line.tells_left = 1;
     c->progress = progress_tell;
@@ -255,17 +247,18 @@ static int save(output_file *output, const render_work *w, float exposure)
 /* With a picture or figures alone: then no file is open, and signals wait for the end of a pass. */
 static int render(render_work *w, const scene *s)
 {
-    output_file output = {.held = 0};
+    output_file output;
     const int compares = w->ways.count > 1;
     if (w->output && !output_open(&output, name, w->output))
         return STATUS_USE;
-    const unsigned held = w->output ? output.held : output_hold_signals();
-    const int is_whole = render_ways(&w->ways, s, held);
+    if (!w->output)
+        output_hold_signals();
+    const int is_whole = render_ways(&w->ways, s);
     int status = STATUS_USE;
     if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
-        const char *why = !output_stopping(held) ? "no memory for the films"
-                          : compares             ? "interrupted; nothing was written"
-                                                 : "interrupted before every pixel had a sample";
+        const char *why = !output_stopping() ? "no memory for the films"
+                          : compares         ? "interrupted; nothing was written"
+                                             : "interrupted before every pixel had a sample";
         status = w->output ? output_give_up(&output, why) : complain(name, "%s", why);
     } else {
         status = w->output && !output.path ? STATUS_GOOD : tell(w, is_whole);
@@ -274,7 +267,7 @@ static int render(render_work *w, const scene *s)
         status = saved != STATUS_GOOD ? saved : status;
     }
     if (!w->output)
-        output_release_signals(held);
+        output_release_signals();
     return status;
 }
 
@@ -307,37 +300,20 @@ static int render_scene(render_work *w, scene *s)
     return w->against && !read_against(w, s) ? STATUS_USE : render(w, s);
 }
 
-int command_render(int argc, char **argv)
+static int run(const arguments *given)
 {
-    render_words given = {0};
-    words positional = {{NULL}, 0};
-    const option_form options[] = {
-        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
-        {"--spp", 1, 1, &given.spp},         {"--threads", 1, 1, &given.threads},
-        {"--seed", 1, 1, &given.seed},       {"--sampler", 1, 1, &given.sampler},
-        {"--width", 1, 1, &given.width},     {"--exposure", 1, 1, &given.exposure},
-        {"--compare", 1, 1, &given.compare}, {"--equal", 1, 1, &given.equal},
-        {"--against", 1, 1, &given.against}, {"--json", 0, 1, &given.json},
-        {"--grammar", 0, 1, &given.grammar},
-    };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     char message[1024];
     render_work w;
-    int status = parse_arguments(&form, argc, argv, &positional);
-    if (status != PARSE_GO_ON)
-        return status;
-    if (given.grammar.count) {
-        fputs(scene_grammar, stdout);
-        return STATUS_GOOD;
-    }
-    if (!positional.count)
+    if (option_value(given, "--grammar"))
+        return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
-    if (!read_words(&given, &w))
+    if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(only_word(&positional), message, sizeof message);
+    scene *s = scene_read(given->positional.item[0], message, sizeof message);
     if (!s)
         return complain(name, "%s", message);
-    status = render_scene(&w, s);
+    int status = render_scene(&w, s);
     for (size_t i = 0; i < w.ways.count; i++) {
         path_free(w.ways.way[i].plan);
         film_free(&w.ways.way[i].film);
@@ -346,3 +322,6 @@ int command_render(int argc, char **argv)
     scene_free(s);
     return status;
 }
+
+const subcommand command_render = {
+    name, "a picture of a scene, by one sampler or several side by side", "SCENE", 0, 1, run, help};

@@ -10,8 +10,8 @@
 #include "vndf_build.h"
 
 /* A file, whose bytes are not trusted. A reader returns 1, or 0 with the reason in `refused`: the file, the place in
- * it, what is wrong, what would be right. What it finds goes to `notes`, lines `key value`; `implausible` is the key of
- * what only a mistake explains. Members that are not given are zeroed. */
+ * it, what is wrong, what would be right. What it finds goes to `notes`, lines `key value`; `implausible` is the key
+ * of what only a mistake explains. Members that are not given are zeroed. */
 typedef struct data_file {
     const char *name;
     const unsigned char *bytes;
@@ -45,8 +45,8 @@ void profile_free(profile *freed);
 /* The curve through the rows, to be freed; NULL and the reason if they are none: not finite, not ascending. */
 vndf_source *profile_source(const profile *from, data_file *file);
 
-/* Finds the relative noise of values at even steps of some coordinate, about whose 0 they are symmetric, notes it, and
- * smooths them by as much as keeps them within that noise. */
+/* Finds the relative noise of values at even steps of some coordinate, about whose 0 they are symmetric, notes it,
+ * and smooths them by as much as keeps them within that noise. */
 int profile_smooth(profile *changed, data_file *file);
 
 /* Writes the rows as a CSV that `vndf build --csv` reads, with `title` as a comment; 0 if that fails. */

@@ -153,8 +153,8 @@ static double try_diffuse(search *s, double diffuse)
     return fmin(s->fitted.residual, 1);
 }
 
-/* On ever finer steps about the best so far, from 0 to the least light that comes back anywhere within 70 degrees; 0 if
- * that is as good. */
+/* On ever finer steps about the best so far, from 0 to the least light that comes back anywhere within 70 degrees; 0
+ * if that is as good. */
 static double find_diffuse(search *s)
 {
     double most = INFINITY, best = 0, none = try_diffuse(s, 0), least = none;

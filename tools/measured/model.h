@@ -37,8 +37,8 @@ double model_area(const vndf_surface *surface, double theta);
 
 enum { LAW_ANGLES = 256, LAW_AREAS = 181 };
 
-/* D at angles theta[i], the middles of bins from 0 to 90 degrees that are even in sqrt(theta), as MERL files have them;
- * their solid angles are 2 pi share[i]. Its projected area every half degree. 400 KB. */
+/* D at angles theta[i], the middles of bins from 0 to 90 degrees that are even in sqrt(theta), as MERL files have
+ * them; their solid angles are 2 pi share[i]. Its projected area every half degree. 400 KB. */
 typedef struct law {
     int count; /* at most LAW_ANGLES */
     double theta[LAW_ANGLES], share[LAW_ANGLES], ndf[LAW_ANGLES], area[LAW_AREAS];

@@ -3,9 +3,9 @@
  * In: D, and how well the model explains the light that the file holds beside it.
  *
  * Out: D stands at NORMALS + 1 angles. The vndf is coarser in theta by FINE, and each of its numbers is the mean over
- * the cells beside it, so that no ring of D falls between two of them: what is reflected there has to be drawn as well.
- * rgb is fitted (grid.h) to R at POINTS^2 places of each cell, so that the light of a cell where wo meets the horizon
- * is right. */
+ * the cells beside it, so that no ring of D falls between two of them: what is reflected there has to be drawn as
+ * well. rgb is fitted (grid.h) to R at POINTS^2 places of each cell, so that the light of a cell where wo meets the
+ * horizon is right. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -211,8 +211,8 @@ typedef struct rgl_arrays {
 } rgl_arrays;
 
 /* D, its areas, and of visible normals what does not depend on wi: D max(0, wi.m) over the unit square is, but for a
- * constant, the positive part of cos(theta_i) along + sin(theta_i) cos(phi) across. At 90 degrees D may have no bound:
- * the last number gives its cell, which is linear in u, the integral of D. */
+ * constant, the positive part of cos(theta_i) along + sin(theta_i) cos(phi) across. At 90 degrees D may have no
+ * bound: the last number gives its cell, which is linear in u, the integral of D. */
 static void fill_ndf(rgl_arrays *a)
 {
     enum { PARTS = 64 };
@@ -233,8 +233,8 @@ static void fill_ndf(rgl_arrays *a)
     }
 }
 
-/* The visible normals of one incident direction: the mean over the cells on both sides of each point, weighed by a hat.
- */
+/* The visible normals of one incident direction: the mean over the cells on both sides of each point, weighed by a
+ * hat. */
 static void fill_density(rgl_arrays *a, int incident)
 {
     double theta_i = (double)a->theta_i[incident];
@@ -271,8 +271,8 @@ static void look_up(rgl_arrays *a, const warp *to, double theta_i, double f0)
     }
 }
 
-/* What is reflected from one incident direction. Luminance, by which hosts may draw, is not 0 where a neighbour is not.
- */
+/* What is reflected from one incident direction. Luminance, by which hosts may draw, is not 0 where a neighbour is
+ * not. */
 static int fill_reflected(rgl_arrays *a, int incident)
 {
     const rgl_form *form = a->form;

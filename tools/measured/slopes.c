@@ -137,8 +137,8 @@ static void unstretched(shape root, const slope_set *slopes, size_t i, double *u
 }
 
 /* Relative, of the ratio: from the spread between parts, as they were drawn again. One step from the solution moves
- * about half as far as the solution does (the derivative of Tyler's map in two dimensions), so the spread counts twice.
- * Isotropic slopes u/|u| stretch and shear alike, and each is a deviation of the ratio. */
+ * about half as far as the solution does (the derivative of Tyler's map in two dimensions), so the spread counts
+ * twice. Isotropic slopes u/|u| stretch and shear alike, and each is a deviation of the ratio. */
 static double shape_error(const slope_set *slopes, shape root)
 {
     double stretch[SLOPE_PARTS] = {0}, shear[SLOPE_PARTS] = {0}, sum = 0;
@@ -218,8 +218,8 @@ static void find_edges(slope_bins *b, const double *sorted, double narrowest)
     b->edge[++b->count] = INFINITY;
 }
 
-/* Rows stand where the mean square of the lengths in a bin is, since for a density that falls evenly in r^2 it has its
- * mean there. The last bin has no end, and a heavy tail no mean square: there it is the mean of the logarithm. */
+/* Rows stand where the mean square of the lengths in a bin is, since for a density that falls evenly in r^2 it has
+ * its mean there. The last bin has no end, and a heavy tail no mean square: there it is the mean of the logarithm. */
 static void find_masses(slope_bins *b, const slope_set *slopes)
 {
     double number[BINS_MOST] = {0}, logarithm = 0, n = (double)b->samples;
@@ -346,8 +346,8 @@ static int make_rows(const slope_bins *b, data_file *file, profile *rows)
     return 1;
 }
 
-/* Multiplies the rows until their curve has the mass of every bin: in full steps, and in smaller ones after a step that
- * made the worst bin no better. Rows beyond the last bin go with it. The best rows are kept: where none have the
+/* Multiplies the rows until their curve has the mass of every bin: in full steps, and in smaller ones after a step
+ * that made the worst bin no better. Rows beyond the last bin go with it. The best rows are kept: where none have the
  * masses, the last ones may be far worse. Returns by how much of the whole a bin is wrong, or -1. */
 static double match(const slope_bins *b, profile *rows, data_file *file)
 {
@@ -376,9 +376,10 @@ static double match(const slope_bins *b, profile *rows, data_file *file)
     return left;
 }
 
-/* Fits the rows; by how much they miss a bin, or -1. *beyond: the mass of the curve beyond the longest slope; *is_tail:
- * whether the curve has the mass of the last bin, and little of it beyond the data. Of n independent slopes in the bin,
- * a right tail has the mass of one beyond the longest, and seldom that of four; the error says how large n is. */
+/* Fits the rows; by how much they miss a bin, or -1. *beyond: the mass of the curve beyond the longest slope;
+ * *is_tail: whether the curve has the mass of the last bin, and little of it beyond the data. Of n independent slopes
+ * in the bin, a right tail has the mass of one beyond the longest, and seldom that of four; the error says how large
+ * n is. */
 static double fit_rows(const slope_bins *b, data_file *file, profile *rows, double *beyond, int *is_tail)
 {
     size_t last = b->count - 1;

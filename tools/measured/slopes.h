@@ -1,10 +1,11 @@
 /* The law of slopes of a surface that was measured: P22 over the slope length, whether it is isotropic, and how sure
  * all that is.
  *
- * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s s^T
- * / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
- * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken as
- * isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this matrix.
+ * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s
+ * s^T / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
+ * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken
+ * as isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this
+ * matrix.
  *
  * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
  * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
@@ -34,7 +35,8 @@ void slopes_add(slope_set *to, double x, double y, int part);
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
 
-/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given. */
+/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given.
+ */
 double slope_mass(const vndf_source *source, double from, double to);
 
 #endif

@@ -46,8 +46,8 @@ typedef struct noise {
  */
 int noise_of(const film *f, const film *all, noise *made);
 
-/* How often way i needs the samples of the first for the same noise: the mean square of an error falls as 1/samples. And
- * how much more it gets out of a second: 1 over noise and time. Both are of noises without fireflies as well. */
+/* How often way i needs the samples of the first for the same noise: the mean square of an error falls as 1/samples.
+ * And how much more it gets out of a second: 1 over noise and time. Both are of noises without fireflies as well. */
 typedef struct gain {
     measured samples, efficiency;
     double samples_trimmed, efficiency_trimmed;

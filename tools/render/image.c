@@ -1,10 +1,11 @@
 /* Images in memory, and their files.
  *
- * A file is a head of four words - "PF" (colour) or "Pf" (grey), "P6" or "P5", then width, height and a number - and one
- * blank; from # on, a line of it is a comment. Of PFM the number is a scale, whose sign tells the byte order (negative:
- * the least byte first) and whose absolute value has no agreed meaning and is not read; floats follow, rows from the
- * bottom. Of PPM and PGM it is the largest value, and whole numbers of 8 or 16 bits follow, the greater byte first, rows
- * from the top. Numbers are read and written byte by byte: the order of this machine's bytes does not matter. */
+ * A file is a head of four words - "PF" (colour) or "Pf" (grey), "P6" or "P5", then width, height and a number - and
+ * one blank; from # on, a line of it is a comment. Of PFM the number is a scale, whose sign tells the byte order
+ * (negative: the least byte first) and whose absolute value has no agreed meaning and is not read; floats follow,
+ * rows from the bottom. Of PPM and PGM it is the largest value, and whole numbers of 8 or 16 bits follow, the greater
+ * byte first, rows from the top. Numbers are read and written byte by byte: the order of this machine's bytes does
+ * not matter. */
 #include "render/image.h"
 
 #include <math.h>

@@ -22,7 +22,8 @@ static const double near = 1e-6; /* the least size */
 #define PLACE "X Y Z", NUMBERS, 3, 3, -1e6, 1e6
 #define NAME WORDS, 1, 1, 0, 0
 
-/* Of every statement, or of its kind; those of the three kinds of rough materials are of "rough", that of all shapes of "body". */
+/* Of every statement, or of its kind; those of the three kinds of rough materials are of "rough", that of all shapes
+ * of "body". */
 static const key keys[] = {
     {"film", "width", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
     {"film", "height", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
@@ -435,8 +436,8 @@ static int read_mesh(reader *r)
 
 enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 
-/* Those before ONCE may be there once; those from there to NAMED have a name, and read their clauses themselves; those
- * after it are shapes. */
+/* Those before ONCE may be there once; those from there to NAMED have a name, and read their clauses themselves;
+ * those after it are shapes. */
 static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
                                               "material", "sphere", "rectangle",  "mesh"};
 static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_camera,    read_integrator,

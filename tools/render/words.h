@@ -1,5 +1,5 @@
-/* A scene file as words, and its statements as clauses. Everything that reads returns 1, or 0 after a refusal that names
- * the place. */
+/* A scene file as words, and its statements as clauses. Everything that reads returns 1, or 0 after a refusal that
+ * names the place. */
 #ifndef TOOLS_RENDER_WORDS_H
 #define TOOLS_RENDER_WORDS_H
 
@@ -67,8 +67,8 @@ typedef struct statement {
     size_t clauses;
 } statement;
 
-/* Finds the clauses in the words from `from` on: those of the keys of `of` and `also`. A key without a name ends them.
- */
+/* Finds the clauses in the words from `from` on: those of the keys of `of` and `also`. A key without a name ends
+ * them. */
 int read_clauses(scene_words *w, statement *s, size_t from, const key *keys, const char *of, const char *also);
 
 /* The clause with this name, with at == NULL if it is not there. */
