@@ -1,5 +1,5 @@
-/* No bytes crash the reader of PFM, PGM and PPM: they are refused with a message, or make an image of finite numbers that
- * look-ups stay inside of. */
+/* No bytes crash the reader of PFM, PGM and PPM: they are refused with a message, or make an image of finite numbers
+ * that look-ups stay inside of. */
 #include "fuzz/fuzz.h"
 #include "render/image.h"
 
