@@ -36,7 +36,6 @@ static const char *const help[] = {
     "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
     "                  noisy\n"
-    "  --json          prints figures as JSON\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
@@ -51,7 +50,7 @@ typedef struct render_work {
     unsigned long long spp, width;
     double exposure;
     const char *output, *against; /* NULL: none */
-    int is_pfm, has_json;
+    int is_pfm, has_json, is_quiet;
     film other; /* what the films are held against: that in a file, or zeroed: the first */
 } render_work;
 
@@ -94,7 +93,8 @@ static int read_words(const arguments *given, render_work *w)
     unsigned long long threads = film_processors(), seed = 0;
     *w = (render_work){.output = option_value(given, "-o"),
                        .against = option_value(given, "--against"),
-                       .has_json = option_value(given, "--json") != NULL};
+                       .has_json = option_value(given, "--json") != NULL,
+                       .is_quiet = option_value(given, "-q") != NULL};
     if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
         !option_count(given, "--seed", 0, 0x1p53, &seed) ||
         !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
@@ -198,6 +198,8 @@ static int tell(const render_work *w, int is_whole)
             status = STATUS_NO;
     }
     film_free(&all);
+    if (good && w->is_quiet)
+        return status;
     if (good && !w->has_json && c->count == 1)
         print_film(first, c, is_whole);
     else if (good)
@@ -215,9 +217,9 @@ static int tell(const render_work *w, int is_whole)
 /* ---- rendering ---- */
 
 /* 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s)
+static int render_ways(comparison *c, const scene *s, int is_quiet)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", 0);
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
     int is_whole = 1;
     line.tells_left = 1;
     c->progress = progress_tell;
@@ -253,7 +255,7 @@ static int render(render_work *w, const scene *s)
         return STATUS_USE;
     if (!w->output)
         output_hold_signals();
-    const int is_whole = render_ways(&w->ways, s);
+    const int is_whole = render_ways(&w->ways, s, w->is_quiet);
     int status = STATUS_USE;
     if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
         const char *why = !output_stopping() ? "no memory for the films"
