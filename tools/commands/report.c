@@ -38,18 +38,6 @@ static const char student[] = "student-t:2.5";
 
 /* ---- what is measured ---------------------------------------------------------------------------- */
 
-const evidence_row *report_row(const report *r, const char *called, const char *distribution,
-                               const char *instructions)
-{
-    for (size_t i = 0; i < r->rows.count; i++) {
-        const evidence_row *of = &r->rows.row[i];
-        if (strcmp(of->method, called) == 0 && strcmp(of->distribution, distribution) == 0 &&
-            strcmp(of->instructions, instructions) == 0)
-            return of;
-    }
-    return NULL;
-}
-
 /* Takes the source, which may be NULL with an error; an exit status. */
 static int add_subject(report *r, vndf_source *source, const char *title, vndf_error *error)
 {
@@ -75,23 +63,6 @@ static int add_subjects(report *r, const arguments *given)
     return status;
 }
 
-/* Times of the tables of the distribution at hand, from its rows. */
-static void note_times(report *r)
-{
-    static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
-    r->batch = sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)];
-    for (size_t i = 0; i < SIZES; i++) {
-        char batch[64];
-        report_table *t = &r->subject[0].table[i];
-        snprintf(batch, sizeof batch, "%s, batch", table_sizes[i].name);
-        const evidence_row *one = report_row(r, table_sizes[i].name, r->subject[0].of.name, "scalar");
-        const evidence_row *many = report_row(r, batch, r->subject[0].of.name, r->batch);
-        t->ns = one ? one->number[COL_NS] : (double)NAN;
-        t->batch = many ? many->number[COL_NS] : (double)NAN;
-        t->shared = many ? many->number[COL_SHARED] : (double)NAN;
-    }
-}
-
 static int measure(report *r, const arguments *given, evidence_plan *plan)
 {
     vndf_error error = {VNDF_OK, ""};
@@ -101,10 +72,11 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
             status = complain(name, "%s: %s", r->subject[i].of.name, error.message);
     if (status != STATUS_GOOD)
         return status;
+    r->batch = method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
     plan->at_hand = &r->subject[0].of;
     if (evidence_run(plan, &r->rows, &error) != VNDF_OK)
         return complain(name, "%s", error.message);
-    note_times(r);
+    report_note_times(r);
     return STATUS_GOOD;
 }
 

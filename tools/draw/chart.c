@@ -5,7 +5,7 @@
 
 #include "draw/svg.h"
 
-static const double radius = 4, text_height = 12, glyph_width = 5.9, line_step = 15;
+static const double radius = 4, text_height = 12, glyph_width = 6.5, line_step = 15;
 
 /* ---- colours ------------------------------------------------------------------------------------- */
 

@@ -90,10 +90,10 @@ int page_data(html_page *page, const char *name, const char *what, text_table t)
 /* ---- the page ------------------------------------------------------------------------------------ */
 
 static const char style[] =
-    ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;--good:#00694c;"
+    ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;"
     "--bad:#a94a00;--box:#f1f6fb;--link:#005f96}\n"
     "@media screen and (prefers-color-scheme:dark){:root{--back:#16191d;--ink:#e9ecef;--quiet:#b6bec6;"
-    "--rule:#3a4149;--good:#5ad6b2;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}}\n"
+    "--rule:#3a4149;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}}\n"
     "*{box-sizing:border-box}\n"
     "body{font:16px/1.5 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;color:var(--ink);background:var(--back);"
     "max-width:1180px;margin:0 auto;padding:24px}\n"
@@ -104,8 +104,9 @@ static const char style[] =
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
-    "th:first-child,td:first-child{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
-    "tr.chosen td{font-weight:600;background:var(--box)}.no{color:var(--bad)}.yes{color:var(--good)}\n"
+    ".text{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
+    "tr.chosen td{font-weight:600;background:var(--box)}tr.chosen td:first-child::before{content:'✓ '}\n"
+    ".no{color:var(--bad)}.no::after{content:' ✗'}\n"
     "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
     ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"

@@ -56,14 +56,13 @@ static double error_of(const evidence_row *r)
 static int is_wanted(const report *r, const evidence_row *of, row_kind kind, int moments, int is_batch)
 {
     int is_of = kind == ROW_TABLE ? of->number[COL_MOMENTS] == moments : 1;
-    int at_hand =
-        kind == ROW_CLOSED || kind == ROW_PUBLISHED || strcmp(of->distribution, r->subject[0].of.name) == 0;
-    return of->kind == kind && is_of && at_hand && of->number[COL_TV] <= 1 &&
+    int is_exact = kind == ROW_CLOSED || (kind == ROW_PUBLISHED && !strstr(of->method, "all normals"));
+    int is_at_hand = is_exact || strcmp(of->distribution, r->subject[0].of.name) == 0;
+    return of->kind == kind && is_of && is_at_hand && of->number[COL_TV] <= 1 &&
            strcmp(of->instructions, is_batch ? r->batch : "scalar") == 0;
 }
 
-/* Without what colour and shape say: of tables the size alone, of all others the name and, where there are two
- * of it, the distribution. */
+/* Without what colour and shape say: of tables the size alone, of all others the name. */
 static void label_row(const evidence_row *r, char label[LABEL])
 {
     const char *batch = strstr(r->method, ", batch");
@@ -72,8 +71,6 @@ static void label_row(const evidence_row *r, char label[LABEL])
         table_bytes_text(label, r->number[COL_FILE]);
     else if (r->kind == ROW_CLOSED)
         snprintf(label, LABEL, "vndf_%.40s()", r->distribution);
-    else if (strncmp(r->method, "all normals (2007)", (size_t)length) == 0)
-        snprintf(label, LABEL, "all normals, %.40s", r->distribution);
     else
         snprintf(label, LABEL, "%.*s", length, r->method);
 }
