@@ -96,7 +96,6 @@ static const refusal families[] = {
 };
 
 #define AIM "sample", "--theta", "60", "-n", "9", NONE
-#define LOBE(text) AIM, "--lobe", text
 
 static const refusal surfaces[] = {
     {"is not csv or f32", {AIM, "ggx", "--format", "text"}},
@@ -110,26 +109,17 @@ static const refusal surfaces[] = {
     {"--theta 'nan' is not a number", {"sample", "ggx", "--theta", "nan", "-n", "9", NONE}},
     {"--alpha '0' is not in the range", {AIM, "ggx", "--alpha", "0"}},
     {"--alpha '1,2,3' has too many numbers", {AIM, "ggx", "--alpha", "1,2,3"}},
+    {"--alpha '-0.1' is not in the range", {AIM, "ggx", "--alpha", "-0.1"}},
+    {"--alpha '0.1,1e400' is too large", {AIM, "ggx", "--alpha", "0.1,1e400"}},
     {"FILE|ggx|beckmann|FILE.vndfs@P is missing", {AIM}},
-    {"'ggx' and --lobe are given", {LOBE("table=ggx"), "ggx"}},
-    {"--alpha and --lobe are given", {LOBE("table=ggx"), "--alpha", "1"}},
-    {"--lobe 2: table=FILE|ggx|beckmann|FILE.vndfs@P is missing", {LOBE("table=ggx"), "--lobe", "weight=1"}},
-    {"did you mean 'weight'?", {LOBE("wieght=1 table=ggx")}},
-    {"--lobe 1: 'ggx' is not KEY=VALUE", {LOBE("ggx")}},
-    {"--lobe 1: alpha is given twice", {LOBE("table=ggx alpha=1 alpha=2")}},
-    {"--lobe 1 has both alpha and matrix", {LOBE("table=ggx alpha=1 matrix=1,0,0,1")}},
-    {"--lobe 1: alpha '' is not a number", {LOBE("table=ggx alpha=")}},
-    {"--lobe 1: matrix '1,0,1' has too few numbers", {LOBE("table=ggx matrix=1,0,1")}},
-    {"--lobe 2: matrix '1,2,2,4' is singular", {LOBE("table=ggx"), "--lobe", "table=ggx matrix=1,2,2,4"}},
-    {"--lobe 1: alpha '0.1,1e400' is too large", {LOBE("table=ggx alpha=0.1,1e400")}},
-    {"the weights of all lobes are 0", {LOBE("table=ggx weight=0"), "--lobe", "table=ggx weight=0"}},
-    {"missing.vndf", {LOBE("table=ggx"), "--lobe", "table=missing.vndf"}},
+    {"--alpha and --matrix are given", {AIM, "ggx", "--alpha", "1", "--matrix", "1,0,0,1"}},
+    {"--matrix '1,0,1' has too few numbers", {AIM, "ggx", "--matrix", "1,0,1"}},
+    {"--matrix '1,2,2,4' is singular", {AIM, "ggx", "--matrix", "1,2,2,4"}},
+    {"--mean '' is not a number", {AIM, "ggx", "--mean", ""}},
+    {"did you mean '--matrix'?", {AIM, "ggx", "--matrx", "1,0,0,1"}},
     {"say at which parameter, as in two.vndfs@2.5", {AIM, "two.vndfs"}},
     {"'3.1' is not in the range of the family, from 1.8 to 3", {AIM, "two.vndfs@3.1"}},
     {"the parameter 'x' is not a number", {AIM, "two.vndfs@x"}},
-    {"a family counts as two",
-     {LOBE("table=two.vndfs@2"), "--lobe", "table=two.vndfs@2", "--lobe", "table=two.vndfs@2", "--lobe",
-      "table=two.vndfs@2", "--lobe", "table=ggx"}},
     {"svg", {"plot", TABLE, "-o", "none.png"}},
     {"--samples '10' is not in the range", {"check", TABLE, "--samples", "10"}},
     {"a closed form was not made of a CSV", {"check", "ggx", "--csv", "text.txt"}},

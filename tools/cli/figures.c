@@ -33,36 +33,6 @@ void figures_json_text(FILE *file, const char *text)
     fputc('"', file);
 }
 
-/* What stands before a value. 0: nothing is printed. */
-static int put_name(figures *f, const char *name)
-{
-    const int is_first = f->in_object++ == 0;
-    if (f->form == FIGURES_JSON && f->list)
-        fprintf(f->file, "%s\"%s\": ", is_first ? "" : ", ", name);
-    else if (f->form == FIGURES_JSON)
-        fprintf(f->file, "%s\n  \"%s\": ", is_first ? "{" : ",", name);
-    else if (f->form == FIGURES_TEXT)
-        fprintf(f->file, f->list ? " %s " : "%s ", name);
-    return f->form != FIGURES_NONE;
-}
-
-static void put_end(figures *f)
-{
-    if (f->form == FIGURES_TEXT && !f->list)
-        fputc('\n', f->file);
-}
-
-void figures_text(figures *f, const char *name, const char *text)
-{
-    if (!put_name(f, name))
-        return;
-    if (f->form == FIGURES_JSON)
-        figures_json_text(f->file, text);
-    else
-        fputs(text, f->file);
-    put_end(f);
-}
-
 static void note_unit(figures *f, const char *name, const char *unit)
 {
     for (int i = 0; i < f->units; i++)
@@ -72,31 +42,46 @@ static void note_unit(figures *f, const char *name, const char *unit)
         f->unit[f->units++] = (struct figures_unit){f->list, name, unit};
 }
 
+/* A figure whose value is this text. */
+static void put(figures *f, const char *name, const char *text, int is_word, const char *unit)
+{
+    const int is_first = f->in_object++ == 0;
+    if (f->form == FIGURES_TEXT) {
+        fprintf(f->file, "%s%s %s%s%s", f->list ? " " : "", name, text, *unit ? " " : "", unit);
+        fputs(f->list ? "" : "\n", f->file);
+    } else if (f->form == FIGURES_JSON) {
+        fprintf(f->file, "%s%s\"%s\": ", is_first ? f->list ? "" : "{" : ",",
+                f->list ? is_first ? "" : " " : "\n  ", name);
+        if (is_word)
+            figures_json_text(f->file, text);
+        else
+            fputs(text, f->file);
+        note_unit(f, name, unit);
+    }
+}
+
+void figures_text(figures *f, const char *name, const char *text)
+{
+    put(f, name, text, 1, "");
+}
+
 void figures_number(figures *f, const char *name, int digits, double x, const char *unit)
 {
-    if (!put_name(f, name))
-        return;
-    if (f->form == FIGURES_JSON) {
-        fprintf(f->file, isfinite(x) ? "%.*g" : "null", digits, x);
-        note_unit(f, name, unit);
-    } else
-        fprintf(f->file, "%.*g%s%s", digits, x, *unit ? " " : "", unit);
-    put_end(f);
+    char text[64];
+    snprintf(text, sizeof text, f->form == FIGURES_JSON && !isfinite(x) ? "null" : "%.*g", digits, x);
+    put(f, name, text, 0, unit);
 }
 
 void figures_truth(figures *f, const char *name, int is)
 {
     static const char *const said[2][2] = {{"no", "yes"}, {"false", "true"}};
-    if (!put_name(f, name))
-        return;
-    fputs(said[f->form == FIGURES_JSON][is != 0], f->file);
-    put_end(f);
+    put(f, name, said[f->form == FIGURES_JSON][is != 0], 0, "");
 }
 
 void figures_list(figures *f, const char *name)
 {
-    if (f->form == FIGURES_JSON && put_name(f, name))
-        fputc('[', f->file);
+    if (f->form == FIGURES_JSON)
+        put(f, name, "[", 0, "");
     f->list = name;
     f->records = 0;
 }

@@ -77,9 +77,8 @@ static int run_plan(evidence_plan *plan, const arguments *given)
 {
     vndf_error error = {VNDF_OK, ""};
     evidence_rows found;
-    unsigned held = output_hold_signals();
-    progress p = progress_begin(given->command, held);
-    p.is_seen &= !option_value(given, "-q");
+    output_hold_signals();
+    progress p = progress_begin(given->command, option_value(given, "-q") != NULL);
     plan->progress = &p;
     plan->only = option_value(given, "--only");
     plan->start = clock_seconds();
@@ -89,7 +88,7 @@ static int run_plan(evidence_plan *plan, const arguments *given)
                                     : rows_print(given, evidence_print, &found);
     int judged = judge(given->command, &found);
     rows_free(&found);
-    output_release_signals(held);
+    output_release_signals();
     return printed == STATUS_GOOD ? judged : printed;
 }
 

@@ -99,7 +99,7 @@ static int read_range(const char *text, double range[2])
 }
 
 /* A family if there is no source. 0 after a complaint. */
-static int build(const arguments *given, const vndf_source *source, unsigned held, built *to)
+static int build(const arguments *given, const vndf_source *source, built *to)
 {
     const words breaks_at = option_values(given, "--break");
     double breaks[WORDS_MAX], range[2];
@@ -115,8 +115,7 @@ static int build(const arguments *given, const vndf_source *source, unsigned hel
     for (size_t i = 0; i < breaks_at.count; i++)
         if (!parse_numbers(name, "--break", breaks_at.item[i], 1e-30, 1e30, 1, 1, &breaks[i]))
             return 0;
-    progress bar = progress_begin("building", held);
-    bar.is_seen &= !option_value(given, "-q");
+    progress bar = progress_begin("building", option_value(given, "-q") != NULL);
     one.progress_user = &bar;
     one.max_bytes = (size_t)bytes;
     one.moments = option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0;
@@ -134,7 +133,7 @@ static int build(const arguments *given, const vndf_source *source, unsigned hel
     progress_end(&bar);
     if (to->table || to->family)
         return 1;
-    if (output_stopping(held))
+    if (output_stopping())
         complain(name, "%s; '%s' was not touched", error.message, option_value(given, "-o"));
     else
         complain(name, "%s%s", error.message,
@@ -238,16 +237,16 @@ static int run(const arguments *given)
         source = source_from_words(given, NULL);
     if (!source && !option_value(given, "--parameter"))
         return STATUS_USE;
-    unsigned held = output_hold_signals();
+    output_hold_signals();
     int status = STATUS_USE;
-    if (output_replaceable(name, option_value(given, "-o")) && build(given, source, held, &made))
+    if (output_replaceable(name, option_value(given, "-o")) && build(given, source, &made))
         status = save(&made, option_value(given, "-o"));
     if (status == STATUS_GOOD)
         tell(given, &made, found);
     vndf_free(made.table);
     vndf_family_free(made.family);
     vndf_source_free(source);
-    output_release_signals(held);
+    output_release_signals();
     return status;
 }
 

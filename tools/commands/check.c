@@ -259,8 +259,7 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
     if (!chosen->owned && csv)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
     c.to = figures_begin(given);
-    c.bar = progress_begin(name, 0);
-    c.bar.is_seen &= !option_value(given, "-q");
+    c.bar = progress_begin(name, option_value(given, "-q") != NULL);
     int failed = (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) ||
                  check_consistency(&c) != STATUS_GOOD || check_chi_square(&c) != STATUS_GOOD;
     if (!failed)

@@ -87,9 +87,9 @@ static int plot_to_file(const figure_plan *figure, const char *path)
     static const char *const forms[] = {"svg", NULL};
     if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
-    if (draw_figure(output.file, figure) && !output_stopping(output.held))
+    if (draw_figure(output.file, figure) && !output_stopping())
         return output_commit(&output);
-    return output_give_up(&output, output_stopping(output.held) ? "interrupted" : "no memory");
+    return output_give_up(&output, output_stopping() ? "interrupted" : "no memory");
 }
 
 static int run(const arguments *given)

@@ -253,10 +253,10 @@ static int tell(const comparison *c, const render_choice *r, const film *against
 
 /* ---- rendering ---- */
 
-/* `held` are the signals that wait. 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s, unsigned held)
+/* 0 if it was stopped, or there is no memory. */
+static int render_ways(comparison *c, const scene *s)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", held);
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", 0);
     line.tells_left = 1;
     c->progress = progress_tell;
     c->user = &line;
@@ -290,13 +290,13 @@ static int save(output_file *output, const comparison *c, const render_choice *r
 /* Figures alone: no file is open, and signals wait for the end of a pass. */
 static int render_figures(comparison *c, const render_choice *r, const scene *s, const film *against)
 {
-    const unsigned held = output_hold_signals();
+    output_hold_signals();
     int status = STATUS_USE;
-    if (render_ways(c, s, held))
+    if (render_ways(c, s))
         status = tell(c, r, against, 1);
     else
-        complain(name, output_stopping(held) ? "interrupted; nothing was written" : "no memory for the films");
-    output_release_signals(held);
+        complain(name, output_stopping() ? "interrupted; nothing was written" : "no memory for the films");
+    output_release_signals();
     return status;
 }
 
@@ -305,11 +305,11 @@ static int render_picture(comparison *c, const render_choice *r, const scene *s,
     output_file output;
     if (!output_open(&output, name, r->output))
         return STATUS_USE;
-    const int is_whole = render_ways(c, s, output.held);
+    const int is_whole = render_ways(c, s);
     if (!is_whole && (r->compares || !c->way[0].film.samples))
-        return output_give_up(&output, !output_stopping(output.held) ? "no memory for the films"
-                                       : r->compares                 ? "interrupted; nothing was written"
-                                                     : "interrupted before every pixel had a sample");
+        return output_give_up(&output, !output_stopping() ? "no memory for the films"
+                                       : r->compares      ? "interrupted; nothing was written"
+                                                          : "interrupted before every pixel had a sample");
     const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */
     const int saved = save(&output, c, r, s->exposure);

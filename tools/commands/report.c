@@ -100,10 +100,10 @@ static int write_page(html_page *page, const report *r)
            report_normals(page, r) && page_end(page);
 }
 
-static int write_report(const report *r, const char *path, page_place place, unsigned held, int is_quiet)
+static int write_report(const report *r, const char *path, page_place place, int is_quiet)
 {
     html_page page;
-    int status = write_page(&page, r) ? page_write(&page, path, held) : complain(name, "no memory for the page");
+    int status = write_page(&page, r) ? page_write(&page, path) : complain(name, "no memory for the page");
     if (status == STATUS_GOOD && !is_quiet) {
         if (place == PAGE_OURS)
             printf("replaced the report in %s\n", path);
@@ -126,21 +126,20 @@ static int run(const arguments *given)
     page_place place = page_examine(name, path);
     if (place == PAGE_REFUSED)
         return STATUS_USE;
-    unsigned held = output_hold_signals();
-    progress p = progress_begin(name, held);
-    p.is_seen &= !is_quiet;
+    output_hold_signals();
+    progress p = progress_begin(name, is_quiet);
     evidence_plan plan = {.seconds = seconds, .progress = &p, .start = clock_seconds()};
     report *r = calloc(1, sizeof *r);
     int status = r ? measure(r, given, &plan) : complain(name, "no memory");
     progress_end(&p);
     if (status == STATUS_GOOD)
-        status = write_report(r, path, place, held, is_quiet);
+        status = write_report(r, path, place, is_quiet);
     for (size_t i = 0; r && i < r->count; i++)
         report_subject_free(&r->subject[i]);
     if (r)
         rows_free(&r->rows);
     free(r);
-    output_release_signals(held);
+    output_release_signals();
     return status;
 }
 

@@ -20,7 +20,7 @@ vndf_source *measured_source(const arguments *given, char found[MEASURED_NOTES])
 #define MEASURED_HELP                                                                                               \
   "From measurements (tools/measured/README.md says what is assumed of each). What was found is printed with the\n" \
   "table: errors, residuals that say how well D explains the data, and for stretched surfaces the matrix of the\n"  \
-  "lobe that they are: vndf sample --lobe 'table=FILE matrix=XX,XY,YX,YY'.\n"                                       \
+  "surface that they are: vndf sample FILE --matrix XX,XY,YX,YY.\n"                                                 \
   "\n"                                                                                                              \
   "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"             \
   "    --matrix      an anisotropic one as the matrix of an isotropic D, which is printed\n"                        \
