@@ -178,7 +178,7 @@ static void check_page(const char *folder)
     TEST(is_well_formed(alone));
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         char head[64];
-        snprintf(head, sizeof head, "<section id=\"%s\">", sections[i]);
+        snprintf(head, sizeof head, "<h2 id=\"%s\">", sections[i]);
         TEST_HAS(page, head);
     }
     TEST_HAS(page, ": ship ");

@@ -1,8 +1,6 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
  * thing after the other, and has the page written; evidence/page/report.h maps the rest. */
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
@@ -123,10 +121,12 @@ static int run(const arguments *given)
     double seconds = 45;
     if (!option_number(given, "--seconds", 1, 3600, &seconds))
         return STATUS_USE;
-    page_place place = page_examine(name, path);
-    if (place == PAGE_REFUSED)
-        return STATUS_USE;
     output_hold_signals();
+    page_place place = page_examine(name, path);
+    if (place == PAGE_REFUSED) {
+        output_release_signals();
+        return STATUS_USE;
+    }
     progress p = progress_begin(name, is_quiet);
     evidence_plan plan = {.seconds = seconds, .progress = &p, .start = clock_seconds()};
     report *r = calloc(1, sizeof *r);
@@ -139,6 +139,8 @@ static int run(const arguments *given)
     if (r)
         rows_free(&r->rows);
     free(r);
+    if (status != STATUS_GOOD && place == PAGE_NEW)
+        remove(path); /* fails, and the folder stays, if a file was committed */
     output_release_signals();
     return status;
 }

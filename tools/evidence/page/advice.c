@@ -58,7 +58,7 @@ static void write_advice(FILE *html, const report_subject *s)
         write_cheaper(html, s, s->chosen - 3, "The next smaller file");
     if (size->moments > 2 && v.all)
         write_cheaper(html, s, s->chosen - 1, "One moment fewer");
-    fputs("<br><code>vndf build ", html);
+    fputs("<code>vndf build ", html);
     svg_escape(html, vndf_source_description(s->of.source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
 }
@@ -87,8 +87,8 @@ static void add_rows(text_table *t, const report *r, const report_subject *s)
         put_limited(t, "weight", "%.3g", v.value[0], v.kept[0]);
         put_limited(t, "added variance (%)", "%.2g", v.value[1], v.kept[1]);
         put_limited(t, "G1 error", "%.1e", v.value[4], v.kept[4]);
-        table_number(t, "one by one (ns)", "%.0f", of->ns);
-        table_number(t, "batch (ns)", "%.1f", of->batch);
+        table_number(t, "ns", "%.0f", of->ns);
+        table_number(t, "batch ns", "%.1f", of->batch);
         table_row_mark(t, i == s->chosen ? "chosen" : NULL);
     }
 }
@@ -108,6 +108,5 @@ int report_advice(html_page *page, const report *r)
     }
     fputs("</div>\n", page->html);
     int good = table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
-    page_section_end(page);
     return good;
 }

@@ -53,6 +53,5 @@ int report_normals(html_page *page, const report *r)
         add_ndf(&ndf, &r->subject[i]);
     }
     good &= page_data(page, "ndf.csv", "D against the angle of the normal", ndf);
-    page_section_end(page);
     return good;
 }

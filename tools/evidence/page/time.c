@@ -61,6 +61,5 @@ int report_times(html_page *page, const report *r)
     FILE *data = good ? page_file_begin(page, "methods.csv") : NULL;
     good = data && evidence_print(data, &r->rows, FIGURES_CSV) &&
            page_data_end(page, "all methods, as vndf bench -o FILE.csv has them");
-    page_section_end(page);
     return good;
 }
