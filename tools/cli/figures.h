@@ -9,11 +9,6 @@
 
 typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
 
-/* Of every command with figures. */
-#define FIGURES_HELP                                \
-  "  --json           prints the figures as JSON\n" \
-  "  -q               prints neither figures nor progress\n"
-
 /* ---- figures, one after the other ---- */
 
 enum { FIGURES_MAX = 96 };
@@ -56,9 +51,7 @@ void figures_json_text(FILE *file, const char *text);
 
 #define ROWS_HELP                                                                      \
   "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n" \
-  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"             \
-  "  --json           the same as --format json\n"                                     \
-  "  -q               prints neither rows nor progress\n"
+  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"
 
 /* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
 typedef int rows_printer(FILE *file, const void *rows, figures_form form);

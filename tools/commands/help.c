@@ -53,7 +53,14 @@ static const char head_end[] =
     "same command; symbolic links are followed to their file. `-o -` is stdout, without other text, and - in\n"
     "the place of an input is stdin, once\n"
     "\n"
-    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all\n";
+    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all;\n"
+    "every command takes both\n";
+
+/* What every command takes. */
+static const char every_help[] = "\n"
+                                 "in every command:\n"
+                                 "  --json           prints its figures as JSON\n"
+                                 "  -q               prints neither figures nor progress\n";
 
 void command_list_text(char text[HELP_MAX])
 {
@@ -69,6 +76,7 @@ void command_help_text(const subcommand *of, char text[HELP_MAX])
     text[0] = '\0';
     for (const char *const *chapter = of->help; *chapter; chapter++)
         strncat(text, *chapter, HELP_MAX - 1 - strlen(text));
+    strncat(text, every_help, HELP_MAX - 1 - strlen(text));
 }
 
 /* `bench effects` is two words. */

@@ -24,7 +24,6 @@ static const char *const help[] = {
     "  --set NAME=X ...  a parameter of the expression\n"
     "  --with NAME ...  another family, as --family takes it, to be shown beside it; up to 3 times\n"
     "  --seconds S     to spend in all, roughly, 1 to 3600 (default 45); fewer mean more noise\n"
-    "  -q              names no files\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a report, which is replaced; other\n"
     "files in it are left alone. Interrupted, the command leaves DIR as it was.\n"
