@@ -99,10 +99,9 @@ VNDF_API void vndf_source_free(vndf_source *source);
 
 /* An input beyond a limit is refused with an error that names the limit. Builds are bounded by operations, not by
  * seconds, so that the same input gives the same result on every machine. An evaluation of P22 counts as 8
- * operations; of a formula, as families are, as 4, plus 8 for each power and each function but abs, min, max and step,
- * plus 1 for each of these four and each number, name and other operator. An operation
- * takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own time. Memory stays below
- * 512 MiB. */
+ * operations; of a formula, as families are, as 4, plus 8 for each power and function, plus 1 for each number, name and
+ * other operator. An operation takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own
+ * time. Memory stays below 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096, /* characters */
     VNDF_LIMIT_EXPRESSION_DEPTH = 64,    /* parentheses, calls, signs and powers inside one another */

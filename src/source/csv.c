@@ -169,8 +169,8 @@ static void p22(const vndf_source *self, const double *r, size_t count, double *
         values[i] = p22_at((const csv_source *)self, r[i]);
 }
 
-/* All rows are breaks, and between two of them the curve is one cubic, or the exponential of one: a few points determine
- * it. */
+/* All rows are breaks, and between two of them the curve is one cubic, or the exponential of one, which a few points
+ * determine. */
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
     const csv_source *source = (const csv_source *)self;

@@ -214,20 +214,17 @@ vndf_peak vndf_panels_peak(const vndf_profile *profile)
     return most;
 }
 
-/* Octaves, the known breaks of the source and other edges, ascending and apart; to be freed. */
+/* Octaves and other edges, ascending and apart; to be freed. */
 static double *make_edges(const vndf_profile *profile, size_t *count)
 {
-    const vndf_source *source = profile->source;
     double first = exp2(-VNDF_OCTAVES), last = exp2(VNDF_OCTAVES);
-    double *edge = malloc((2 * VNDF_OCTAVES + 1 + source->break_count + profile->edge_count) * sizeof *edge);
+    double *edge = malloc((2 * VNDF_OCTAVES + 1 + profile->edge_count) * sizeof *edge);
     size_t n = 0, kept = 0;
     for (int i = -VNDF_OCTAVES; edge && i <= VNDF_OCTAVES; i++)
         edge[n++] = exp2(i);
-    for (size_t i = 0; edge && i < source->break_count + profile->edge_count; i++) {
-        double r = i < source->break_count ? source->breaks[i] : profile->edge[i - source->break_count];
-        if (r > first && r < last)
-            edge[n++] = r;
-    }
+    for (size_t i = 0; edge && i < profile->edge_count; i++)
+        if (profile->edge[i] > first && profile->edge[i] < last)
+            edge[n++] = profile->edge[i];
     if (edge)
         qsort(edge, n, sizeof *edge, vndf_ascending);
     for (size_t i = 0; i < n; i++)
