@@ -66,12 +66,12 @@ static char *describe(const char *pattern, double low, double high, vndf_error *
 }
 
 enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
-enum { SLOPES_TO_E = 24, OCTAVES = 100, SLOPES_MOST = SLOPES_TO_E * 139 };
+enum { SLOPES_TO_E = 16, SLOPES = SLOPES_TO_E * 94 };
+static const double SLOPE_LEAST = 1e-13; /* the largest is 7e27 */
 static const double DISTANCE_DEFAULT = 1e-3;
 static const double MAP_GAIN = 0.75; /* 1/p has to make the largest distance smaller by this */
 static const double EVEN = 1.03;     /* largest over mean distance: good enough */
-static const double LITTLE_MASS = 1e-9, LITTLE_GRAZING = 1e-5; /* of the sums, before and beyond the slopes */
-static const double PLACED = 0.1;                              /* of the progress */
+static const double PLACED = 0.1;    /* of the progress */
 
 /* Knots, the distances between them, and the largest. */
 typedef struct spread {
@@ -80,15 +80,14 @@ typedef struct spread {
 
 /* P22 at some parameter: shares of the slopes, and of the normals that are visible at grazing incidence. */
 typedef struct shares {
-    double slope[SLOPES_MOST], grazing; /* grazing: the mean slope */
+    double slope[SLOPES], grazing; /* grazing: the mean slope */
 } shares;
 
 typedef struct builder {
     const char *pattern;
     vndf_family_options options;
     double low, high;
-    int reciprocal;    /* mixtures are linear in 1/p */
-    size_t first, end; /* slopes that count */
+    int reciprocal; /* mixtures are linear in 1/p */
     shares left, right, own;
     size_t count;
     spread spread, trial;
@@ -121,7 +120,7 @@ static vndf_status no_memory(vndf_error *error)
 
 static double slope_at(size_t i)
 {
-    return exp2(-OCTAVES) * exp((double)i / SLOPES_TO_E);
+    return SLOPE_LEAST * exp((double)i / SLOPES_TO_E);
 }
 
 static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *error)
@@ -131,40 +130,16 @@ static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *
     double sum = 0, along = 0;
     if (!source)
         return vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
-    for (size_t i = b->first; i < b->end; i++) {
+    for (size_t i = 0; i < SLOPES; i++) {
         double r = slope_at(i), value = vndf_source_p22(source, r) * r * r;
         to->slope[i] = value > 0 && value < HUGE_VAL ? value : 0;
         sum += to->slope[i];
         along += to->slope[i] * r;
     }
-    for (size_t i = b->first; sum > 0 && i < b->end; i++)
+    for (size_t i = 0; sum > 0 && i < SLOPES; i++)
         to->slope[i] /= sum;
     to->grazing = sum > 0 ? along / sum : 1;
     vndf_source_free(source);
-    return VNDF_OK;
-}
-
-/* Leaves out slopes where next to nothing of some members lies. */
-static vndf_status choose_slopes(builder *b, vndf_error *error)
-{
-    double middle = b->low > 0 ? sqrt(b->low) * sqrt(b->high) : 0.5 * (b->low + b->high);
-    double member[3] = {b->low, number_of(middle), b->high};
-    size_t first = SLOPES_MOST, end = 0;
-    b->end = SLOPES_MOST;
-    for (int k = 0; k < 3; k++) {
-        vndf_status status = tabulate(b, member[k], &b->own, error);
-        size_t i = 0, n = SLOPES_MOST;
-        if (status != VNDF_OK)
-            return status;
-        for (double sum = b->own.slope[0]; sum < LITTLE_MASS && i + 1 < n; sum += b->own.slope[i])
-            i++;
-        for (double sum = 0; sum < LITTLE_GRAZING * b->own.grazing && n > i + 1; n--)
-            sum += b->own.slope[n - 1] * slope_at(n - 1);
-        first = i < first ? i : first;
-        end = n > end ? n : end;
-    }
-    b->first = first;
-    b->end = end < SLOPES_MOST ? end + 1 : end;
     return VNDF_OK;
 }
 
@@ -186,7 +161,7 @@ static vndf_status measure_between(builder *b, double low, double high, double *
         if (status != VNDF_OK)
             return status;
         double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
-        for (size_t i = b->first; i < b->end; i++) {
+        for (size_t i = 0; i < SLOPES; i++) {
             double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
             sum += fabs(mixed - own);
             along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
@@ -329,8 +304,6 @@ static vndf_status place(builder *b, vndf_error *error)
     b->width = PLACED;
     snprintf(b->stage, sizeof b->stage, "placing knots");
     vndf_status status = show_all(b, 0, error);
-    if (status == VNDF_OK)
-        status = choose_slopes(b, error);
     if (status == VNDF_OK)
         status = choose_map(b, error);
     if (status != VNDF_OK || !b->options.knots)
