@@ -26,12 +26,12 @@ enum { NODES = 512 };
 void vndf_compensation_resolve(vndf_material *m)
 {
     double f[VNDF_WAVELENGTHS], sum[VNDF_WAVELENGTHS] = {0.0};
-    vndf_reflectance(m, 1.0, m->is.eta, f);
+    vndf_reflectances(m, (seen_cosine){1.0, 0.0}, m->is.eta, f);
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance0[i] = (float)f[i];
     for (int n = 0; n < NODES; n++) {
         double mu = (n + 0.5) / NODES;
-        vndf_reflectance(m, mu, m->is.eta, f);
+        vndf_reflectances(m, (seen_cosine){mu, 1.0 - mu}, m->is.eta, f);
         for (int i = 0; i < m->is.wavelengths; i++)
             sum[i] += 2.0 * mu * f[i] / NODES;
     }

@@ -72,7 +72,7 @@ if(NOT status EQUAL 0)
     message(FATAL_ERROR "the copy cannot be configured:\n${output}")
 endif()
 
-# "walk_eval 0" is the program test_walk_eval with the argument 0.
+# "walk 0" is the program test_walk with the argument 0.
 macro(build_checks)
     list(TRANSFORM ${ARGV0} REPLACE "^([^ ]+).*$" "test_\\1" OUTPUT_VARIABLE targets)
     list(REMOVE_DUPLICATES targets)
