@@ -63,7 +63,7 @@ refused(build
 run(2 build --rgl out.bsdf -o out.bsdf)
 has(errors "an input of this command")
 refused(export
-    "ggx --rgl|-o is missing"
+    "ggx --rgl|-o OUT is missing"
     "ggx --rgl --language c -o bad.bsdf|--language is for kernels"
     "ggx beckmann --rgl -o bad.bsdf|2 distributions are given"
     "ggx --rgl --f0 2 -o bad.bsdf|--f0 '2' is not in the range"
@@ -75,7 +75,7 @@ refused(export
 
 refused(build
     "--merl out.bsdf|this is no MERL file"
-    "--merl out.bsdf --channel grey|--channel 'grey' is none of"
+    "--merl out.bsdf --channel grey|--channel 'grey' is not"
     "--rgl out.bsdf --channel red|--channel is for --merl")
 
 # ---- surfaces -----------------------------------------------------------------------------------

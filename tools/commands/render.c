@@ -12,7 +12,7 @@
 
 static const char name[] = "vndf render";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf render SCENE -o OUT.png|OUT.pfm [options]\n"
     "       vndf render SCENE --compare LIST [-o SHEET.png] [options]\n"
     "       vndf render --grammar\n"
@@ -22,7 +22,7 @@ static const char help[] =
     "\n"
     "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout,\n"
     "                  in place of the text, and an interrupt then leaves nothing\n"
-    "  --format NAME   png or pfm, whatever OUT ends in (default, for -: png)\n"
+    "  --format png|pfm  whatever OUT ends in (default, for -: png)\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
@@ -33,7 +33,7 @@ static const char help[] =
     "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of\n"
     "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
     "                  show the same; OUT has the pictures side by side, and their noise below\n"
-    "  --equal WHAT    the others get the time of the first, or its samples (default: time)\n"
+    "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
     "                  noisy\n"
     "  --json          prints figures as JSON\n"
@@ -42,11 +42,8 @@ static const char help[] =
     "The exit status is 1 where pictures differ by more than chance.\n"
     "\n"
     "example: vndf render tools/scenes/metal.scene -o metal.png --spp 64\n"
-    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n";
-
-typedef struct render_words {
-    words output, format, spp, threads, seed, sampler, width, exposure, compare, equal, against, json, grammar;
-} render_words;
+    "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n",
+    NULL};
 
 typedef struct render_choice {
     unsigned long long spp, threads, seed, width;
@@ -77,15 +74,14 @@ static int read_sampler(const char *what, const char *word, size_t letters, comp
 }
 
 /* A list separated by commas, or one word. */
-static int read_samplers(const render_words *given, comparison *c)
+static int read_samplers(const arguments *given, comparison *c)
 {
-    const char *list = only_word(&given->compare), *one = only_word(&given->sampler),
-               *equal = only_word(&given->equal);
+    const char *list = option_value(given, "--compare"), *one = option_value(given, "--sampler");
     if (list && one)
         return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
-    if (equal && (!list || (strcmp(equal, "time") != 0 && strcmp(equal, "samples") != 0)))
-        return complain(name, "--equal %s: it is time or samples, beside --compare", equal), 0;
-    c->has_equal_time = !equal || strcmp(equal, "time") == 0;
+    if (option_value(given, "--equal") && !list)
+        return complain(name, "--equal goes with --compare"), 0;
+    c->has_equal_time = option_choice(given, "--equal", 0) == 0;
     if (!list)
         return read_sampler("--sampler", one ? one : "visible", strlen(one ? one : "visible"), c);
     for (const char *at = list;; at++) {
@@ -98,20 +94,20 @@ static int read_samplers(const render_words *given, comparison *c)
     }
 }
 
-static int read_choice(const render_words *given, render_choice *r, comparison *c)
+static int read_choice(const arguments *given, render_choice *r, comparison *c)
 {
     *r = (render_choice){.threads = film_processors(),
-                         .output = only_word(&given->output),
-                         .format = only_word(&given->format),
-                         .against = only_word(&given->against),
-                         .compares = given->compare.count > 0,
-                         .has_json = given->json.count > 0};
+                         .output = option_value(given, "-o"),
+                         .format = option_value(given, "--format"),
+                         .against = option_value(given, "--against"),
+                         .compares = option_value(given, "--compare") != NULL,
+                         .has_json = option_value(given, "--json") != NULL};
     *c = (comparison){.count = 0};
-    return option_count(name, "--spp", &given->spp, 1, 1e9, &r->spp) &&
-           option_count(name, "--threads", &given->threads, 1, 256, &r->threads) &&
-           option_count(name, "--seed", &given->seed, 0, 0x1p53, &r->seed) &&
-           option_count(name, "--width", &given->width, 1, IMAGE_SIDE_MAX, &r->width) &&
-           option_number(name, "--exposure", &given->exposure, 1e-6, 1e6, &r->exposure) && read_samplers(given, c);
+    return option_count(given, "--spp", 1, 1e9, &r->spp) &&
+           option_count(given, "--threads", 1, 256, &r->threads) &&
+           option_count(given, "--seed", 0, 0x1p53, &r->seed) &&
+           option_count(given, "--width", 1, IMAGE_SIDE_MAX, &r->width) &&
+           option_number(given, "--exposure", 1e-6, 1e6, &r->exposure) && read_samplers(given, c);
 }
 
 /* Whether OUT is a PNG (0) or a PFM (1); -1 after a complaint. */
@@ -257,10 +253,10 @@ static int tell(const comparison *c, const render_choice *r, const film *against
 
 /* ---- rendering ---- */
 
-/* `held` are the signals that wait. 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s, unsigned held)
+/* 0 if it was stopped, or there is no memory. */
+static int render_ways(comparison *c, const scene *s)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", held);
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", 0);
     line.tells_left = 1;
     c->progress = progress_tell;
     c->user = &line;
@@ -294,13 +290,13 @@ static int save(output_file *output, const comparison *c, const render_choice *r
 /* Figures alone: no file is open, and signals wait for the end of a pass. */
 static int render_figures(comparison *c, const render_choice *r, const scene *s, const film *against)
 {
-    const unsigned held = output_hold_signals();
+    output_hold_signals();
     int status = STATUS_USE;
-    if (render_ways(c, s, held))
+    if (render_ways(c, s))
         status = tell(c, r, against, 1);
     else
-        complain(name, output_stopping(held) ? "interrupted; nothing was written" : "no memory for the films");
-    output_release_signals(held);
+        complain(name, output_stopping() ? "interrupted; nothing was written" : "no memory for the films");
+    output_release_signals();
     return status;
 }
 
@@ -309,11 +305,11 @@ static int render_picture(comparison *c, const render_choice *r, const scene *s,
     output_file output;
     if (!output_open(&output, name, r->output))
         return STATUS_USE;
-    const int is_whole = render_ways(c, s, output.held);
+    const int is_whole = render_ways(c, s);
     if (!is_whole && (r->compares || !c->way[0].film.samples))
-        return output_give_up(&output, !output_stopping(output.held) ? "no memory for the films"
-                                       : r->compares                 ? "interrupted; nothing was written"
-                                                     : "interrupted before every pixel had a sample");
+        return output_give_up(&output, !output_stopping() ? "no memory for the films"
+                                       : r->compares      ? "interrupted; nothing was written"
+                                                          : "interrupted before every pixel had a sample");
     const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */
     const int saved = save(&output, c, r, s->exposure);
@@ -356,38 +352,21 @@ static int render_scene(comparison *c, const render_choice *r, scene *s)
     return status;
 }
 
-int command_render(int argc, char **argv)
+static int run(const arguments *given)
 {
-    render_words given = {0};
-    words positional = {{NULL}, 0};
-    const option_form options[] = {
-        {"-o", 1, 1, &given.output},         {"--format", 1, 1, &given.format},
-        {"--spp", 1, 1, &given.spp},         {"--threads", 1, 1, &given.threads},
-        {"--seed", 1, 1, &given.seed},       {"--sampler", 1, 1, &given.sampler},
-        {"--width", 1, 1, &given.width},     {"--exposure", 1, 1, &given.exposure},
-        {"--compare", 1, 1, &given.compare}, {"--equal", 1, 1, &given.equal},
-        {"--against", 1, 1, &given.against}, {"--json", 0, 1, &given.json},
-        {"--grammar", 0, 1, &given.grammar},
-    };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "SCENE", 0, 1};
     char message[1024];
     render_choice r;
     comparison c;
-    int status = parse_arguments(&form, argc, argv, &positional);
-    if (status != PARSE_GO_ON)
-        return status;
-    if (given.grammar.count) {
-        fputs(scene_grammar, stdout);
-        return STATUS_GOOD;
-    }
-    if (!positional.count)
+    if (option_value(given, "--grammar"))
+        return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
-    if (!read_choice(&given, &r, &c) || !is_output_usable(&r))
+    if (!read_choice(given, &r, &c) || !is_output_usable(&r))
         return STATUS_USE;
-    scene *s = scene_read(only_word(&positional), message, sizeof message);
+    scene *s = scene_read(given->positional.item[0], message, sizeof message);
     if (!s)
         return complain(name, "%s", message);
-    status = render_scene(&c, &r, s);
+    int status = render_scene(&c, &r, s);
     for (size_t i = 0; i < c.count; i++) {
         path_free(c.way[i].plan);
         film_free(&c.way[i].film);
@@ -395,3 +374,6 @@ int command_render(int argc, char **argv)
     scene_free(s);
     return status;
 }
+
+const subcommand command_render = {
+    name, "a picture of a scene, by one sampler or several side by side", "SCENE", 0, 1, run, help};

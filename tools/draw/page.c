@@ -284,7 +284,7 @@ static int write_temporaries(const html_page *page, char **path, output_file *ou
     return STATUS_GOOD;
 }
 
-int page_write(const html_page *page, const char *folder, unsigned held)
+int page_write(const html_page *page, const char *folder)
 {
     output_file output[PAGE_FILES_MAX];
     char *path[PAGE_FILES_MAX];
@@ -297,7 +297,7 @@ int page_write(const html_page *page, const char *folder, unsigned held)
             status = STATUS_USE;
     status = status == STATUS_GOOD ? write_temporaries(page, path, output, &count)
                                    : complain(page->command, "no memory");
-    if (status == STATUS_GOOD && output_stopping(held))
+    if (status == STATUS_GOOD && output_stopping())
         status = complain(page->command, "interrupted; '%s' was not touched", folder);
     while (status == STATUS_GOOD && done < count)
         status = output_commit(&output[done++]);

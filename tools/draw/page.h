@@ -52,8 +52,8 @@ typedef enum page_place { PAGE_REFUSED, PAGE_NEW, PAGE_EMPTY, PAGE_OURS } page_p
 page_place page_examine(const char *command, const char *folder);
 
 /* All files are written to temporaries first and renamed when all are complete, the page last; a failure or a
- * signal before that leaves the folder as it was. `held` are the blocked signals (tools/cli/output.h). An exit
- * status, after a complaint if it is not good. */
-int page_write(const html_page *page, const char *folder, unsigned held);
+ * signal before that leaves the folder as it was; signals are held (tools/cli/output.h). An exit status,
+ * after a complaint if it is not good. */
+int page_write(const html_page *page, const char *folder);
 
 #endif

@@ -1,16 +1,16 @@
 /* The integral of the density over each bin. With L = |(sx m'x, sy m'y, m'z)|, m' a unit vector of the stretched
- * hemisphere, dwm = sx sy / L^3 dm', and dm' = sin(theta') dtheta' dphi'. Nothing in it is singular; but the
- * lobe may have parts of very different width, and tails that fall by a power so low that slopes of 1e20 count.
+ * hemisphere, dwm = sx sy / L^3 dm', and dm' = sin(theta') dtheta' dphi'. Nothing in it is singular; but the lobe
+ * may have parts of very different width, and tails that fall by a power so low that slopes of 1e20 count.
  *
- * D is isotropic, so all that is steep in a density lies at a constant stretched slope R = tan(theta'): the borders
- * of a table's cells, jumps and rings. Along the azimuth it is smooth but for the horizon of wi, and for the right
- * angle to wi where the law of a table has an edge. So at one slope all bins of a ring are integrated over their
- * azimuths by Gauss' rule, cut at these places, which are known; and over the slopes all of them together, adaptively:
- * the panel whose two rules differ most is halved next. (A quadrature in two dimensions for each bin chases the
- * roundings of a narrow ring for minutes.)
+ * D is isotropic, so all that is steep in a density lies at a constant stretched slope R = tan(theta'): the
+ * borders of a table's cells, jumps and rings. Along the azimuth it is smooth but for the horizon of wi, and for
+ * the right angle to wi where the law of a table has an edge. So at one slope all bins of a ring are integrated
+ * over their azimuths by Gauss' rule, cut at these places, which are known; and over the slopes all of them
+ * together, adaptively: the panel whose two rules differ most is halved next. (A quadrature in two dimensions for
+ * each bin chases the roundings of a narrow ring for minutes.)
  *
- * A panel is an interval of log R that spans a factor of 4 at first. Beyond R < 2^-64 and R > 2^100 the density of a
- * table is smooth, and R or 1/R will do. */
+ * A panel is an interval of log R that spans a factor of 4 at first. Beyond R < 2^-64 and R > 2^100 the density of
+ * a table is smooth, and R or 1/R will do. */
 #include "evidence/measure/bins.h"
 
 #include <math.h>

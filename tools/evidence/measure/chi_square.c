@@ -1,4 +1,4 @@
-/* Samples of one view, binned by bins.h and judged by pearson.h. */
+/* Samples of one view, binned by bins.h and judged by statistics.h. */
 #include "evidence/measure/chi_square.h"
 
 #include <math.h>
@@ -6,7 +6,7 @@
 
 #include "evidence/measure/bins.h"
 #include "cli/random.h"
-#include "evidence/measure/pearson.h"
+#include "evidence/measure/statistics.h"
 
 static const double least_expected = 5;
 
