@@ -91,7 +91,8 @@ HERE real beckmann_exponent(beckmann_law v, real x, real d)
     return t * (t - 2.0f * v.around * v.bound);
 }
 
-/* The density of the slopes; 0 where it underflows, as P22 does: near level normals the smallest float is times z^-3. */
+/* The density of the slopes; 0 where it underflows, as P22 does: of nearly level normals the least float is times z^-3,
+ * which is much. */
 HERE real beckmann_slopes(beckmann_law v, real x, real y, real d)
 {
     return 1.12837917f * exp_of(-(beckmann_exponent(v, x, d) + y * y)) * d / v.whole;

@@ -1,8 +1,8 @@
 /* Random walks, of closed forms and tables, mirrors, metal and glass. For each hit
  *
- *   samples   are unit and on the side that the lobe says; without absorption each that leaves has weight 1 (closed forms:
- *             to the bit; tables, whose weight holds the ratio of true to drawn density: in the mean, 4.5 sigma), and
- *             the order limit of 64 loses less than 1e-3 of them
+ *   samples   are unit and on the side that the lobe says; without absorption each that leaves has weight 1 (closed
+ *             forms: to the bit; tables, whose weight holds the ratio of true to drawn density: in the mean, 4.5
+ *             sigma), and the order limit of 64 loses less than 1e-3 of them
  *   eval      over 96 bins of the sphere its integral, all orders, is the mean weight of the samples that fall in: 5
  *             sigmas, 6e-7 each, of some 3000, where both are known: 100 samples, none of them a tenth of all
  *   density   vndf_bsdf_pdf is positive, of integral 1 within 3e-4, and near the law of the samples: a total variation
