@@ -1,6 +1,6 @@
-# A test of the tests: each defect of tests/house/mutants.txt, planted in a copy of its file, makes the test fail that is
-# named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text that is no longer
-# found exactly once is an error too: the list has to follow the sources.
+# A test of the tests: each defect of tests/house/mutants.txt, planted in a copy of its file, makes the test fail that
+# is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text that is no
+# longer found exactly once is an error too: the list has to follow the sources.
 #
 # Nothing is built twice: of the objects that the test's program takes from the libraries of this build, those that
 # depend on the file are compiled with the defect and linked in their place. Planted are the defects that are marked
@@ -58,7 +58,7 @@ macro(build_mutant folder target)
             continue()
         endif()
         file(READ ${object}.d depends)
-        string(FIND "${depends}" " ${SOURCE}/${file}" place)
+        string(FIND "${depends}" "/${file}" place)
         if(place EQUAL -1)
             continue()
         endif()
