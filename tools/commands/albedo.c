@@ -12,7 +12,7 @@
 static const char name[] = "vndf albedo";
 
 static const char *const help[] = {
-    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
+    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT]\n"
     "\n"
     "The directional albedo E: the part of the light that one scattering event with height-correlated Smith masking\n"
     "sends on, and its average 2 integral E mu dmu. 1 - E is what energy compensation has to give back (Kulla &\n"

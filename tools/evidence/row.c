@@ -105,11 +105,6 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
     return good;
 }
 
-int evidence_print_html(FILE *file, const evidence_rows *all)
-{
-    return print_shown(file, all, table_print_html);
-}
-
 /* ---- every number -------------------------------------------------------------------------------- */
 
 static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
