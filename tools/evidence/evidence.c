@@ -45,7 +45,7 @@ static void note_ours(entry *e)
     const vndf_distribution *d = e->m.state;
     vndf_info info = vndf_distribution_info(d);
     double *to = e->row.number, scale = info.scale > 0 ? info.scale : 1;
-    to[COL_SOBOL] = stratified_measure(d, (float)(0.5 / scale), 32, 1).all;
+    to[COL_SOBOL] = stratified_beside_caps(d, (float)(0.5 / scale), 32, 1);
     if (e->m.kind != ROW_TABLE)
         return;
     to[COL_TV] = (double)info.certificate.tv_above;
