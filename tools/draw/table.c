@@ -116,8 +116,8 @@ static void put_padded(FILE *file, const char *text, size_t width, int is_right)
     fprintf(file, "%*s%s%*s", is_right ? (int)spaces : 0, "", text, is_right ? 0 : (int)spaces, "");
 }
 
-/* What a terminal shows: groups by the first column, then a label if the second one holds texts. Labels and groups share
- * the first column of it; the headings stand in the line of each group. */
+/* What a terminal shows: groups by the first column, then a label if the second one holds texts. Labels and groups
+ * share the first column of it; the headings stand in the line of each group. */
 static void print_text(FILE *file, const text_table *t)
 {
     size_t width[TABLE_COLUMNS_MAX] = {0}, first = t->columns > 1 && t->kind[1] == TABLE_TEXT ? 2 : 1;

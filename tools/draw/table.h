@@ -63,8 +63,8 @@ void table_row_mark(text_table *t, const char *mark);
 
 /* ---- printing; 0 if there was no memory ---- */
 
-/* For a terminal in groups of equal first cells, which stand in the heading, columns as wide as they have to be; as JSON
- * an array of objects; not FIGURES_NONE. */
+/* For a terminal in groups of equal first cells, which stand in the heading, columns as wide as they have to be;
+ * as JSON an array of objects; not FIGURES_NONE. */
 int table_print(FILE *file, const text_table *t, figures_form form);
 
 /* Into a page. */

@@ -21,8 +21,8 @@ void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2);
 double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_light light, size_t points,
                         size_t scrambles, uint64_t seed);
 
-/* That error over that of GGX by caps, as rough in the median slope, for 64 points: the geometric mean over six views and
- * both lights. */
+/* That error over that of GGX by caps, as rough in the median slope, for 64 points: the geometric mean over six
+ * views and both lights. */
 double stratified_beside_caps(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed);
 
 #endif

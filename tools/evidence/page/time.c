@@ -33,10 +33,11 @@ void report_note_times(report *r)
 int report_times(html_page *page, const report *r)
 {
     text_table t = {.rows = 0};
-    page_section(page, "time", "What a sample costs",
-                 "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
-                 "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
-                 "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.");
+    page_section(
+        page, "time", "What a sample costs",
+        "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
+        "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
+        "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.");
     for (const evidence_row *of = r->rows.row; of < r->rows.row + r->rows.count; of++) {
         const evidence_row *batch = batch_of(r, of);
         if (strcmp(of->instructions, "scalar") != 0)
