@@ -92,7 +92,6 @@ static const refusal families[] = {
     {"--parameter 'x' is not a number", {FAMILY("student-t", "x..3")}},
     {"the first must be below the second", {FAMILY("student-t", "3..2")}},
     {"column 5: too many parameters", {FAMILY("ggx", "1..2")}},
-    {"right would be abc:{p},C or abc:B,{p}", {FAMILY("abc", "1..2")}},
     {"C is missing; right would be abc:B,C", {FAMILY("abc:{p}", "1..2")}},
     {"--knots '1' is not in the range from 2 to 256", {FAMILY("student-t", "2..3"), "--knots", "1"}},
     {"at the parameter 1: student-t: GAMMA is 1", {FAMILY("student-t", "1..3")}},
