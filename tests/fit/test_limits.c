@@ -2,7 +2,6 @@
  * is refused with an error that names the limit. (Length and depth of expressions, lines and rows of a CSV, panels:
  * test_expression, test_csv, test_certificate.) */
 #include <stdlib.h>
-#include <time.h>
 
 #include "fit/guard.h"
 #include "oracle/oracle.h"
@@ -137,41 +136,6 @@ static void test_operations(void)
     TEST_HAS(error.message, "1e+10 operations");
 }
 
-/* ---- what a build asks while it runs ---- */
-
-/* Between two questions whether to go on, the processor time of the longest silence. */
-typedef struct asked {
-    long times;
-    clock_t last, longest;
-} asked;
-
-static int note_time(double done, const char *what, void *user)
-{
-    asked *a = user;
-    clock_t now = clock(), silence = now - a->last;
-    (void)done;
-    (void)what;
-    a->longest = silence > a->longest ? silence : a->longest;
-    a->last = now;
-    a->times++;
-    return 0;
-}
-
-/* A build asks where a stage begins, and every 2^18 operations, milliseconds each. */
-static void test_asked_often(void)
-{
-    asked a = {0, clock(), 0};
-    vndf_build_options options = {.progress = note_time, .progress_user = &a};
-    vndf_source *source = vndf_source_family("ggx", NULL);
-    vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
-    double longest = (double)a.longest / CLOCKS_PER_SEC;
-    TEST(table && a.times > 5);
-    TEST(test_quick() || longest < 0.06);
-    fprintf(stderr, "a default build asked %ld times, with silences of %.3g s at most\n", a.times, longest);
-    vndf_free(table);
-    vndf_source_free(source);
-}
-
 int main(void)
 {
     test_parameters();
@@ -179,6 +143,5 @@ int main(void)
     test_long_files();
     test_stated_size();
     test_operations();
-    test_asked_often();
     return test_done();
 }
