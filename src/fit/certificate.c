@@ -187,12 +187,6 @@ static double ndf_error(const survey *s)
     return worst;
 }
 
-/* The n with P22 ~ r^-n between two slopes. */
-static double power_between(const vndf_profile *profile, double r0, double r1)
-{
-    return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
-}
-
 int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
 {
     size_t n = draft->strips.count;
@@ -215,9 +209,10 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;
-        double power = power_between(profile, end / 16, end / 4) - 4;
+        double power = vndf_profile_exponent(profile, end / 16, end / 4) - 4,
+               pole = vndf_profile_exponent(profile, 4 * first, 16 * first);
         c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
-        c->weight_bounded = !(power < -4e-3) && !(power_between(profile, 4 * first, 16 * first) >= 7e-3);
+        c->weight_bounded = !(power < -4e-3) && (pole < 7e-3 || pole == HUGE_VAL);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }

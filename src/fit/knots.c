@@ -289,8 +289,7 @@ static size_t find_jumps(const vndf_profile *profile, float *jump)
 /* The least with which R^2 P22, by xi, stays finite in the tail. */
 static unsigned squarings_of(const vndf_profile *profile)
 {
-    double end = profile->panel[profile->count].r, p0 = vndf_profile_p22(profile, end / 64);
-    double power = log(p0 / vndf_profile_p22(profile, end / 4)) / log(16.0);
+    double end = profile->panel[profile->count].r, power = vndf_profile_exponent(profile, end / 64, end / 4);
     unsigned n = 0;
     while (n < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << n) < 1 - 1e-3)
         n++;
