@@ -14,10 +14,10 @@ enum {
 };
 
 typedef struct subcommand {
-    const char *name;                     /* "vndf build" */
-    const char *purpose;                  /* for `vndf --help` */
-    const char *positional;               /* the words that are no options, "FILE|ggx|beckmann" */
-    size_t least, most;                   /* how many of these */
+    const char *name;       /* "vndf build" */
+    const char *purpose;    /* for `vndf --help` */
+    const char *positional; /* the words that are no options, "FILE|ggx|beckmann"; a hint where there are none */
+    size_t least, most;     /* how many of these */
     int (*run)(const struct arguments *); /* an exit status */
     const char *const *help;              /* its chapters, NULL ends them: C promises 4095 characters of a text */
 } subcommand;

@@ -38,7 +38,8 @@ static int dispatch(int argc, char **argv)
     if (given.positional.count < c->least)
         return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
     if (given.positional.count > c->most && c->most == 0)
-        return complain(c->name, "'%s' is not expected; only options are", given.positional.item[0]);
+        return complain(c->name, "'%s' is not expected; only options are%s", given.positional.item[0],
+                        c->positional);
     if (given.positional.count > c->most)
         return complain(c->name, "'%s' is one word too many; expected only %s", given.positional.item[c->most],
                         c->positional);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "core/nearest.h"
 
 int complain(const char *command, const char *format, ...)
 {
@@ -24,51 +25,13 @@ int complain(const char *command, const char *format, ...)
 
 enum { HINT_LENGTH = 32 };
 
-static size_t least_of(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
-static int same_letter(char a, char b)
-{
-    return tolower((unsigned char)a) == tolower((unsigned char)b);
-}
-
-/* Edits that make b of a: a letter inserted, deleted or replaced, two neighbours swapped. Three rows of the table at a
- * time: row[i % 3] has the edits of the first i letters. */
-static size_t edit_distance(const char *a, const char *b)
-{
-    size_t row[3][HINT_LENGTH + 1], length = strlen(b), i;
-    for (size_t j = 0; j <= length; j++)
-        row[0][j] = j;
-    for (i = 1; a[i - 1]; i++) {
-        size_t *now = row[i % 3], *before = row[(i + 2) % 3], *earlier = row[(i + 1) % 3];
-        now[0] = i;
-        for (size_t j = 1; j <= length; j++) {
-            now[j] =
-                least_of(before[j - 1] + !same_letter(a[i - 1], b[j - 1]), least_of(before[j], now[j - 1]) + 1);
-            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]))
-                now[j] = least_of(now[j], earlier[j - 2] + 1);
-        }
-    }
-    return row[(i - 1) % 3][length];
-}
-
-/* More than two edits, or more than one of a short word, make another word. */
 const char *nearest_word(const char *word, const char *const *candidates, size_t count)
 {
     const char *nearest = NULL;
-    size_t least = strlen(word) > 4 ? 3 : 2;
-    if (strlen(word) > HINT_LENGTH)
-        return NULL;
-    for (size_t i = 0; i < count; i++) {
-        size_t length = strlen(candidates[i]);
-        size_t distance = length > HINT_LENGTH ? length : edit_distance(word, candidates[i]);
-        if (distance < least && 2 * distance < length) {
-            least = distance;
+    size_t size = strlen(word), least = vndf_word_slip(size);
+    for (size_t i = 0; i < count; i++)
+        if (vndf_word_is_nearer(word, size, candidates[i], &least))
             nearest = candidates[i];
-        }
-    }
     return nearest;
 }
 
@@ -146,29 +109,28 @@ static size_t choices_of(const option_term *term, char text[LISTED_LENGTH], cons
     return count;
 }
 
-/* `value` is the word behind it, or NULL. */
-static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
+/* `value` is what it was given, or the word behind it, or NULL. */
+static void refuse_option(const arguments *given, const char *word, size_t length, const char *value)
 {
-    char name[HINT_LENGTH + 1], known[WORDS_MAX][HINT_LENGTH];
-    const char *names[WORDS_MAX], *hint = NULL;
-    option_term term;
-    size_t count = 0;
-    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH, word);
-    for (const char *at = given->help; count < WORDS_MAX && next_option(&at, &term); count++) {
-        snprintf(known[count], HINT_LENGTH, "%.*s", (int)term.name_length, term.name);
-        names[count] = known[count];
+    char name[HINT_LENGTH];
+    option_term term, hint = {.name = NULL};
+    size_t least = vndf_word_slip(length);
+    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH - 1, word);
+    const char letter = name[strspn(name, "-")];
+    const int is_letter = isalpha((unsigned char)letter) && length <= 3; /* "-a 0.3" or "--a=0.3" */
+    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term)) {
+        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
+        return;
     }
-    hint = nearest_word(name, names, count);
-    if (isalpha((unsigned char)name[1]) && !name[2]) { /* "-a 0.3" */
-        if (value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term))
-            return complain(given->command, "there is no option '%s'; did you mean '--set %s=%s'?", name, name + 1,
-                            value);
-        for (size_t i = 0; i < count && !hint; i++)
-            hint = strncmp(names[i], "--", 2) == 0 && names[i][2] == name[1] ? names[i] : NULL;
-    }
-    if (hint)
-        return complain(given->command, "there is no option '%s'; did you mean '%s'?", name, hint);
-    return complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
+    for (const char *at = given->help; next_option(&at, &term);)
+        if (is_letter ? !hint.name && term.name[1] == '-' && term.name[2] == letter
+                      : vndf_word_is_nearer(term.name, term.name_length, name, &least))
+            hint = term;
+    if (hint.name)
+        complain(given->command, "there is no option '%s'; did you mean '%.*s'?", name, (int)hint.name_length,
+                 hint.name);
+    else
+        complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
@@ -181,7 +143,7 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     option_term term, other;
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
     if (!find_option(given->help, word, length, &term))
-        return refuse_option(given, word, length, next), 0;
+        return (refuse_option(given, word, length, equals ? equals + 1 : next), 0);
     snprintf(name, sizeof name, "%.*s", (int)length, word);
     if (!term.value && equals)
         return complain(given->command, "%s takes no value", name), 0;

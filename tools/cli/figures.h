@@ -9,11 +9,6 @@
 
 typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
 
-/* Of every command with figures. */
-#define FIGURES_HELP                                \
-  "  --json           prints the figures as JSON\n" \
-  "  -q               prints neither figures nor progress\n"
-
 /* ---- figures, one after the other ---- */
 
 enum { FIGURES_MAX = 96 };
@@ -25,6 +20,7 @@ typedef struct figures {
     const char *list; /* the list that is open, or NULL */
     int in_object;    /* figures that the object at hand has already */
     int records;      /* of the list */
+    int column;       /* where its text goes on */
     struct figures_unit {
         const char *list, *name, *unit;
     } unit[FIGURES_MAX]; /* for JSON, which has them at its end */
@@ -42,7 +38,8 @@ void figures_number(figures *f, const char *name, int digits, double x, const ch
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* A list of records: each is a line of text that begins with the name of the list. */
+/* A list of records: each is a line of text that begins with the name of the list, and goes on below after 100
+ * columns. */
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);
@@ -56,9 +53,7 @@ void figures_json_text(FILE *file, const char *text);
 
 #define ROWS_HELP                                                                      \
   "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n" \
-  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"             \
-  "  --json           the same as --format json\n"                                     \
-  "  -q               prints neither rows nor progress\n"
+  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"
 
 /* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
 typedef int rows_printer(FILE *file, const void *rows, figures_form form);

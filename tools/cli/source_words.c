@@ -69,6 +69,7 @@ vndf_source *source_from_words(const arguments *given, const char *otherwise)
     for (size_t i = 0; i < set.count; i++)
         if (!read_parameter(command, set.item[i], names[i], &parameters[i]))
             return NULL;
+    const char *option = ndf ? "--ndf" : slope ? "--slope" : "--family";
     if (ndf)
         source = vndf_source_ndf_expression(ndf, parameters, set.count, &error);
     else if (slope)
@@ -76,7 +77,7 @@ vndf_source *source_from_words(const arguments *given, const char *otherwise)
     else
         source = vndf_source_family(family ? family : otherwise, &error);
     if (!source) {
-        complain(command, "%s", error.message);
+        complain(command, "%s: %s", option, error.message);
         if (strstr(error.message, "unknown name") && !strstr(error.message, "did you mean"))
             complain(command, "a parameter of your own has its value by --set NAME=X");
     }
@@ -92,29 +93,22 @@ static void add(char *text, size_t size, const char *more)
     snprintf(text + at, size - at, "%s", more);
 }
 
-/* Between quotes where a shell would make something else of it. */
-static void add_word(char *text, size_t size, const char *word)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
-    const int is_plain = *word && strspn(word, plain) == strlen(word);
-    add(text, size, is_plain ? "" : "'");
-    for (; *word; word++) {
-        const char letter[2] = {*word, '\0'};
-        add(text, size, *word == '\'' ? "'\\''" : letter);
-    }
-    add(text, size, is_plain ? "" : "'");
-}
-
 void source_text_add(const arguments *given, const char *option, char *text, size_t size)
 {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
     const words values = option_values(given, option);
     for (size_t i = 0; i < values.count; i++) {
+        const char *word = values.item[i];
+        const char *quote = *word && strspn(word, plain) == strlen(word) ? "" : "'";
         add(text, size, *text ? " " : "");
         add(text, size, option);
-        if (strcmp(values.item[i], option) == 0) /* a flag */
+        if (strcmp(word, option) == 0) /* a flag */
             continue;
         add(text, size, " ");
-        add_word(text, size, values.item[i]);
+        add(text, size, quote);
+        for (; *word; word++)
+            add(text, size, *word == '\'' ? "'\\''" : (const char[2]){*word, '\0'});
+        add(text, size, quote);
     }
 }
 

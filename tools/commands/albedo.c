@@ -12,7 +12,7 @@
 static const char name[] = "vndf albedo";
 
 static const char *const help[] = {
-    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
+    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT]\n"
     "\n"
     "The directional albedo E: the part of the light that one scattering event with height-correlated Smith masking\n"
     "sends on, and its average 2 integral E mu dmu. 1 - E is what energy compensation has to give back (Kulla &\n"
@@ -92,10 +92,7 @@ static int print(FILE *file, const void *of, figures_form form)
         table_number(&t, "albedo", "%.9g", (double)at(r, side, theta, alpha));
         table_number(&t, "average", "%.9g", (double)vndf_albedo_average(r->albedo, (float)alpha, side ? -1 : 1));
     }
-    int good = form == FIGURES_TEXT       ? 1
-               : form == FIGURES_CSV      ? table_print_csv(file, &t)
-               : form == FIGURES_MARKDOWN ? table_print_markdown(file, &t)
-                                          : table_print_json(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }

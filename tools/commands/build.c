@@ -43,7 +43,7 @@ static const char *const help[] = {
     "                  the best table that fits\n"
     "  --moments 2|3|4    default 4: above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
     "                  visible ones, whatever D is, but for the error of cells; fewer are smaller and faster\n"
-    "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the figures\n" FIGURES_HELP
+    "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the figures\n"
     "\n"
     "With --parameter, tables along a number of a family, in one file: between two of these knots the family is used\n"
     "as the mixture of both, and what is printed says how far that is from it (measured at 7 parameters between\n"
@@ -250,5 +250,10 @@ static int run(const arguments *given)
     return status;
 }
 
-const subcommand command_build = {
-    name, "make a table from a formula, a CSV, a named family or a file of measurements", "", 0, 0, run, help};
+const subcommand command_build = {name,
+                                  "make a table from a formula, a CSV, a named family or a file of measurements",
+                                  "; a formula is --slope 'EXPR' or --ndf 'EXPR', a file --csv FILE",
+                                  0,
+                                  0,
+                                  run,
+                                  help};

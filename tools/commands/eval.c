@@ -23,7 +23,7 @@ static const char *const help[] = {
     "  pdf     density per steradian with which `vndf sample` draws wm from this incident direction\n"
     "  lambda  Smith's Lambda of the incident direction\n"
     "  g1      Smith's masking of the incident direction, 1/(1 + lambda); 0 below the horizon\n"
-    "\n" SURFACE_HELP FIGURES_HELP "\n"
+    "\n" SURFACE_HELP "\n"
     "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n"
     "         echo 0.6,0,0.8 | vndf eval beckmann --theta 45 --matrix 0.5,0.2,-0.1,0.4 --json\n",
     NULL};

@@ -53,7 +53,8 @@ static const char head_end[] =
     "same command; symbolic links are followed to their file. `-o -` is stdout, without other text, and - in\n"
     "the place of an input is stdin, once\n"
     "\n"
-    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all\n";
+    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all;\n"
+    "every command takes both\n";
 
 void command_list_text(char text[HELP_MAX])
 {
@@ -64,11 +65,21 @@ void command_list_text(char text[HELP_MAX])
     snprintf(text + at, HELP_MAX - at, "%s", head_end);
 }
 
+/* What every command takes stands before its last example. */
 void command_help_text(const subcommand *of, char text[HELP_MAX])
 {
+    static const char every[] = "\n"
+                                "  --json           prints figures as JSON, here and in every command\n"
+                                "  -q               prints neither figures nor progress\n";
+    const size_t length = sizeof every - 1;
+    char *last = text;
     text[0] = '\0';
     for (const char *const *chapter = of->help; *chapter; chapter++)
-        strncat(text, *chapter, HELP_MAX - 1 - strlen(text));
+        strncat(text, *chapter, HELP_MAX - length - 1 - strlen(text));
+    for (char *at = text; (at = strstr(at, "\nexample: ")) != NULL; at++)
+        last = at;
+    memmove(last + length, last, strlen(last) + 1);
+    memcpy(last, every, length);
 }
 
 /* `bench effects` is two words. */

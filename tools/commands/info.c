@@ -8,7 +8,7 @@
 #include "cli/subject.h"
 
 static const char *const help[] = {
-    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs [--json] [-q]\n"
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"
     "\n"
     "Prints lines of a name, a value and its unit:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
@@ -44,7 +44,7 @@ static const char *const help[] = {
     "  knot at P bytes B tv T distance D    a line for each table, D up to the next knot\n"
     "\n"
     "FILE is - for a table on stdin.\n"
-    "\n" FIGURES_HELP "\n"
+    "\n"
     "example: vndf info wavy.vndf\n"
     "         vndf info wavy.vndf --json\n",
     NULL};

@@ -23,7 +23,6 @@ static const char *const help[] = {
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
     "                   wm.x wm.y wm.z pdf; -: stdout\n"
     "  --format csv|f32  whatever OUT ends in (default, for -: csv)\n"
-    "  -q               prints no progress\n"
     "\n"
     "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n"
     "         vndf sample ggx --theta 60 --matrix 0.5,0.2,-0.1,0.4 --mean 0.05,0 -n 1000 -o -\n",
