@@ -1,6 +1,6 @@
-/* Baked tables hold what quadrature over slopes finds, for closed forms, haze and rings: DFG and energy to 1e-3, of GGX at
- * alpha 1 also what is known exactly; a cosine that was fitted lights a rectangle as the BSDF does. Notices a Fresnel
- * term in the wrong channel, axes that are swapped, a matrix that is not the inverse, weights that do not sum to 1, and
+/* Baked tables hold what quadrature over slopes finds, for closed forms, haze and rings: DFG and energy to 1e-3, of GGX
+ * at alpha 1 also what is known exactly; a fitted cosine lights a rectangle as the BSDF does. Notices a Fresnel term
+ * in the wrong channel, axes that are swapped, a matrix that is not the inverse, weights that do not sum to 1, and
  * half floats that are not the nearest. */
 #include "bake/files.h"
 #include "harness/constants.h"

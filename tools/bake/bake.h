@@ -63,8 +63,8 @@ typedef struct bake_sum {
 } bake_sum;
 bake_sum bake_direction(const bake_settings *s, float alpha, double cosine);
 
-/* The same by a quadrature over slopes that draws nothing: D, Lambda and the laws of reflection and, where eta is above 0,
- * refraction alone. */
+/* The same by a quadrature over slopes that draws nothing, from D, Lambda and the law of reflection; with eta above 0
+ * what bake_glass is. */
 bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, double eta);
 
 /* Of both lobes of a dielectric, from the side of z. */

@@ -228,5 +228,4 @@ void bake_section(html_page *page, const baked *b)
         "max-width:100%%\">\n<figcaption>The last axis to the right, the one before it down. Channels are red, green "
         "and blue.</figcaption></figure>\n",
         b->name, b->name);
-    page_section_end(page);
 }

@@ -26,7 +26,8 @@ static const char *const help[] = {
     "  --masking correlated|separable  Smith's masking and shadowing together (default correlated)\n"
     "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64)\n"
     "  --shape grid|cycles|ospray  order and places of energy, as a path tracer keeps them (default grid)\n"
-    "  --format LIST    of the files: npy,dds,c,glsl,js (default all)\n" FIGURES_HELP "\n"
+    "  --format LIST    of the files: npy,dds,c,glsl,js (default all)\n"
+    "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold tables of this command, which are\n"
     "replaced. Interrupted, the command leaves DIR as it was.\n"
     "\n"
@@ -159,15 +160,18 @@ static int run(const arguments *given)
     unsigned what = listed(given, "--what", kinds), forms = listed(given, "--format", bake_forms);
     if (mapping < 0 || masking < 0 || option_choice(given, "--shape", 0) < 0 || !what || !forms ||
         !option_count(given, "--size", 4, 256, &size) ||
-        page_examine(name, given->positional.item[1]) == PAGE_REFUSED ||
         !distribution_open(&chosen, name, given->positional.item[0]))
         return STATUS_USE;
     bake_settings s = {.distribution = chosen.distribution,
                        .mapping = (bake_mapping)mapping,
                        .masking = masking ? VNDF_MASKING_SEPARABLE : VNDF_MASKING_HEIGHT_CORRELATED,
                        .size = (size_t)size};
+    const char *folder = given->positional.item[1];
     output_hold_signals();
-    int status = bake(given, &s, what, forms);
+    page_place place = page_examine(name, folder);
+    int status = place == PAGE_REFUSED ? STATUS_USE : bake(given, &s, what, forms);
+    if (status != STATUS_GOOD && place == PAGE_NEW)
+        remove(folder);
     output_release_signals();
     distribution_close(&chosen);
     return status;
