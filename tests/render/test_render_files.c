@@ -102,10 +102,12 @@ static void refuse_meshes(void)
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "x.obj:4: a face has 3 corners or more, this one has 2"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "x.obj:4: number 4 is none of 3 corners (v) so far"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "x.obj:4: number -4 is none of 3 corners (v) so far"},
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n", "x.obj:4: number 0 is none of 3 corners (v) so far, which are counted from 1"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
+         "x.obj:4: number 0 is none of 3 corners (v) so far, which are counted from 1"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n", "x.obj:4: number 1 is none of 0 texture coordinates (vt)"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/ 2 3\n", "x.obj:4: '1/' should be v, v/vt, v//vn or v/vt/vn, in numbers"},
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1a 2 3\n", "x.obj:4: '1a' should be v, v/vt, v//vn or v/vt/vn, and end there"},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1a 2 3\n",
+         "x.obj:4: '1a' should be v, v/vt, v//vn or v/vt/vn, and end there"},
         {"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "x.obj:4: the file ends here without a triangle"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
@@ -190,7 +192,7 @@ static const struct {
     {"environment constant 1 1 1 turn 3\n", ":1:28: 'turn' stands beside 'image' only"},
     {"environment image sky\n",
      ":1:19: 'sky' is no image that is defined before this; it must be one of: (none yet)"},
-    {"image a pattern tils\n", ":1:17: there is no pattern 'tils'; did you mean tiles"},
+    {"image a pattern tils\n", ":1:17: there is no pattern 'tils', but tiles, grid and studio"},
     {"image a pattern tiles width 0\n", ":1:29: width is 0, it must be from 1 to 16384"},
     {"image a file none.pfm\n", "none.pfm: No such file"},
     {"image a file none.pfm width 3\n", ":1:23: 'width' stands beside 'pattern' only"},

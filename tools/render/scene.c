@@ -1,8 +1,8 @@
 /* Reads a scene: the words of the file, statement after statement by the table of keys, then a look at the whole.
  *
- * Blanks, tabs and ends of lines separate the words; # outside quotes begins a comment; "quotes" hold blanks. A word in
- * the first column of a line begins a statement; a line that begins with a blank continues it. Everything that reads
- * returns 1, or 0 after a refusal that names the place. */
+ * Blanks, tabs and ends of lines separate the words; # outside quotes begins a comment; "quotes" hold blanks. A word
+ * in the first column of a line begins a statement; a line that begins with a blank continues it. Everything that
+ * reads returns 1, or 0 after a refusal that names the place. */
 #include "render/scene.h"
 
 #include <stdarg.h>
