@@ -168,7 +168,7 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
         table_word(&t, "interrupted", is_whole ? "no" : "yes");
     }
-    int good = w->has_json ? table_print_json(stdout, &t) : table_print_text(stdout, &t);
+    int good = table_print(stdout, &t, w->has_json ? FIGURES_JSON : FIGURES_TEXT);
     table_free(&t);
     return good;
 }
