@@ -160,7 +160,7 @@ static int run(const arguments *given)
     unsigned what = listed(given, "--what", kinds), forms = listed(given, "--format", bake_forms);
     if (mapping < 0 || masking < 0 || option_choice(given, "--shape", 0) < 0 || !what || !forms ||
         !option_count(given, "--size", 4, 256, &size) ||
-        !distribution_open(&chosen, name, given->positional.item[0]))
+        !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
     bake_settings s = {.distribution = chosen.distribution,
                        .mapping = (bake_mapping)mapping,
