@@ -31,7 +31,6 @@
 
 #include "core/checksum.h"
 #include "core/error.h"
-#include "core/read_file.h"
 #include "math/ascending.h"
 #include "source/source.h"
 #include "source/words.h"
