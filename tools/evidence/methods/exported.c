@@ -1,5 +1,6 @@
 /* What `vndf export --language c` writes, as one method beside the library's calls: the build writes the kernel
- * (tools/export/write_kernel.c), vndf_numbers gives the numbers. */
+ * (tools/export/write_kernel.c), vndf_numbers gives the numbers. All of it is inlined, since a view that goes through
+ * memory by value costs half as much again. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,14 +8,14 @@
 
 #include "exported_kernel.h"
 
-static exported_view view_at(const float *numbers, const method_input *in)
+EXPORTED_FUNCTION exported_view view_at(const float *numbers, const method_input *in)
 {
     int distribution = numbers ? 0 : EXPORTED_GGX;
     exported_vec3 wi = {in->wi.x, in->wi.y, in->wi.z};
     return exported_view_of(numbers, exported_surface_of(distribution, in->alpha, in->alpha), wi);
 }
 
-static vndf_vec3 draw(const float *numbers, exported_view view, const float u[2], float *pdf)
+EXPORTED_FUNCTION vndf_vec3 draw(const float *numbers, exported_view view, const float u[2], float *pdf)
 {
     exported_sampled drawn = exported_sample(numbers, view, u[0], u[1]);
     *pdf = drawn.pdf;
