@@ -385,8 +385,12 @@ def register() -> None:
             wi, wo = hit.turned(si.wi), hit.turned(wo)
             views, area = hit.seen_from(_up(wi))
             eta = dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
-            wm = dr.normalize(dr.fma(wo, dr.select(reflects, 1.0, eta), wi))
-            wm = dr.mulsign(wm, wi.z * wm.z)  # on the side of wi
+            wm = dr.fma(wo, dr.select(reflects, 1.0, eta), wi)
+            # As in C, a facet whose z the rounding of wo exceeds faces wi and has that z.
+            rounding = (1.0 + eta) * 1.2e-7
+            lost = (wi.z * wo.z < 0.0) & (abs(wm.z) < rounding)
+            wm.z = dr.select(lost, dr.mulsign(rounding, wi.z * dr.dot(wi, wm)), wm.z)
+            wm = dr.mulsign(dr.normalize(wm), wi.z * wm.z)  # on the side of wi
             facing = dr.dot(wi, wm)
             active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
             r_i = mi.fresnel(facing, eta)[0]
