@@ -56,7 +56,8 @@ VNDF_API vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, con
                                        size_t count, const char *name, vndf_error *error);
 
 /* A family by name: ggx, beckmann, student-t:GAMMA, gtr:GAMMA, epd:P, abc:B,C or abc:MATERIAL,
- * sgd:ALPHA,P or sgd:MATERIAL/CHANNEL, hyper-cauchy:..., phong:N, mix:(...). vndf_family_help lists them. */
+ * sgd:ALPHA,P or sgd:MATERIAL/CHANNEL, hyper-cauchy:..., phong:N, charlie:A, mix:(...). vndf_family_help lists them.
+ * Masking is Smith's of the same D in all of them, also of charlie, whose paper fits another. */
 VNDF_API vndf_source *vndf_source_family(const char *specification, vndf_error *error);
 
 /* One line per family with its parameters, ranges, formula and reference; a static string. */

@@ -1,9 +1,11 @@
-/* The subcommands of `vndf` and what they return. Each takes the words after its own name, prints its
- * answer on stdout and its complaints on stderr as `vndf NAME: ...`, and returns an exit status. */
+/* The commands of `vndf` and what they return. Each is a file in commands/, which prints its answer on stdout and its
+ * complaints on stderr as `vndf NAME: ...`. */
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
 
 #include <stddef.h>
+
+struct arguments;
 
 enum {
     STATUS_GOOD = 0, /* done, and the answer is yes */
@@ -11,35 +13,30 @@ enum {
     STATUS_USE = 2   /* not done: wrong use, unreadable input, an output that cannot be written */
 };
 
-int command_build(int argc, char **argv);
-int command_info(int argc, char **argv);
-int command_check(int argc, char **argv);
-int command_sample(int argc, char **argv);
-int command_eval(int argc, char **argv);
-int command_plot(int argc, char **argv);
-int command_report(int argc, char **argv);
-int command_bench(int argc, char **argv);
-int command_bench_effects(int argc, char **argv); /* the words after `bench effects` */
-int command_albedo(int argc, char **argv);
-int command_export(int argc, char **argv);
-int command_explore(int argc, char **argv);
-int command_render(int argc, char **argv);
-int command_help(int argc, char **argv);
-
 typedef struct subcommand {
-    const char *name;
-    int (*run)(int argc, char **argv);
-    const char *purpose;
+    const char *name;       /* "vndf build" */
+    const char *purpose;    /* for `vndf --help` */
+    const char *positional; /* the words that are no options, "FILE|ggx|beckmann"; a hint where there are none */
+    size_t least, most;     /* how many of these */
+    int (*run)(const struct arguments *); /* an exit status */
+    const char *const *help;              /* its chapters, NULL ends them: C promises 4095 characters of a text */
 } subcommand;
 
-/* All of them, in the order of `vndf --help`. */
-extern const subcommand subcommands[];
-extern const size_t subcommand_count;
+extern const subcommand command_build, command_info, command_check, command_sample, command_eval, command_plot,
+    command_report, command_bench, command_bench_effects, command_albedo, command_export, command_explore,
+    command_render, command_help;
 
-/* What `vndf --help` prints; an exit status. */
-int print_help(void);
+/* All of them, in the order of `vndf --help`; NULL ends them. */
+extern const subcommand *const subcommands[];
 
-/* Says that there is no such command, and which one may be meant; STATUS_USE. */
-int refuse_subcommand(const char *command, const char *wrong);
+/* The command that words call and how many of them are its name; NULL after a complaint of `who`. */
+const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used);
+
+/* All chapters of its help. */
+enum { HELP_MAX = 1 << 14 };
+void command_help_text(const subcommand *of, char text[HELP_MAX]);
+
+/* What `vndf --help` prints. */
+void command_list_text(char text[HELP_MAX]);
 
 #endif

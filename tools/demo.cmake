@@ -1,18 +1,11 @@
-# The demo: tables from a formula that nobody has a sampler for, from a CSV and from a measured material;
-# each is built, printed with its certificate and drawn; the first is checked as well, which takes seconds. All of it
-# through the program `vndf`.
+# The demo: tables from a formula that nobody has a sampler for, from a CSV and from a measured material; each is built,
+# printed with its certificate and drawn; the first is checked as well, which takes seconds.
 #
-#   cmake -DVNDF=path/of/vndf -DOUT=folder -DEXAMPLE=tables/example.csv -P tools/demo.cmake
+#   cmake -DVNDF=path/of/vndf -DOUT=folder -P tools/demo.cmake
 cmake_minimum_required(VERSION 3.16)
 
-foreach(needed VNDF OUT EXAMPLE)
-    if(NOT DEFINED ${needed})
-        message(FATAL_ERROR "-D${needed}=... is missing; see the head of demo.cmake")
-    endif()
-endforeach()
 file(MAKE_DIRECTORY ${OUT})
-configure_file(${EXAMPLE} ${OUT}/example.csv COPYONLY) # so that the table names it without a path
-get_filename_component(program ${VNDF} NAME_WE)
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/../tables/example.csv DESTINATION ${OUT}) # so that the table names it without a path
 
 # To stdout like the program's own lines, so that they stay in order in a log.
 function(say text)
@@ -21,14 +14,9 @@ endfunction()
 
 # Runs `vndf ...`, prints the command as one would type it, and ends the demo if it fails.
 function(vndf)
-    set(shown "")
-    foreach(word IN LISTS ARGN)
-        if(word MATCHES "[^-+.,:/=_A-Za-z0-9]")
-            set(word "'${word}'")
-        endif()
-        string(APPEND shown " ${word}")
-    endforeach()
-    say("\n$ ${program}${shown}")
+    string(REGEX REPLACE "([^;]*[^-+.,:/=_A-Za-z0-9;][^;]*)" "'\\1'" shown "${ARGN}")
+    list(JOIN shown " " shown)
+    say("\n$ vndf ${shown}")
     execute_process(COMMAND ${VNDF} ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "the command above ended with exit status ${status}")

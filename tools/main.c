@@ -1,25 +1,49 @@
-/* vndf: one program, a subcommand for each thing that can be done with a distribution of normals.
- * This file only dispatches; each subcommand has a file of its own, and help.c lists them. */
+/* vndf: one program, a command for each thing that can be done with a distribution of normals. This file reads the
+ * words by the help of the command and runs it; commands/help.c lists all. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "command.h"
 #include "cli/output.h"
+#include "command.h"
 #include "vndf.h"
+
+static int asks(const char *word, const char *long_name, const char *short_name)
+{
+    return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
+}
 
 static int dispatch(int argc, char **argv)
 {
+    static char help[HELP_MAX];
+    int used = 0;
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)
-        return print_help();
-    if (strcmp(argv[1], "--version") == 0)
+    if (asks(argv[1], "--version", "-V"))
         return puts("vndf " VNDF_VERSION) < 0 ? STATUS_USE : STATUS_GOOD;
-    for (size_t i = 0; i < subcommand_count; i++)
-        if (strcmp(argv[1], subcommands[i].name) == 0)
-            return subcommands[i].run(argc - 2, argv + 2);
-    return refuse_subcommand("vndf", argv[1]);
+    if (asks(argv[1], "--help", "-h")) {
+        command_list_text(help);
+        return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    }
+    const subcommand *c = command_named("vndf", argc - 1, (const char *const *)(argv + 1), &used);
+    if (!c)
+        return STATUS_USE;
+    command_help_text(c, help);
+    for (int i = 1 + used; i < argc && strcmp(argv[i], "--") != 0; i++)
+        if (asks(argv[i], "--help", "-h"))
+            return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    arguments given = {.command = c->name, .help = help};
+    if (!arguments_read(&given, argc - 1 - used, argv + 1 + used))
+        return STATUS_USE;
+    if (given.positional.count < c->least)
+        return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
+    if (given.positional.count > c->most && c->most == 0)
+        return complain(c->name, "'%s' is not expected; only options are%s", given.positional.item[0],
+                        c->positional);
+    if (given.positional.count > c->most)
+        return complain(c->name, "'%s' is one word too many; expected only %s", given.positional.item[c->most],
+                        c->positional);
+    return c->run(&given);
 }
 
 int main(int argc, char **argv)

@@ -19,7 +19,8 @@ enum {
     LINK_BYTES = 4096
 };
 
-size_t vndf_replace_folder_length(const char *path)
+/* Bytes of path before its last name. */
+static size_t folder_length(const char *path)
 {
     size_t length = strlen(path);
     while (length && path[length - 1] != '/')
@@ -45,7 +46,8 @@ static char *join(const char *folder, size_t length, const char *name)
 
 #ifdef VNDF_HAS_POSIX
 
-char *vndf_replace_end_of_links(const char *path)
+/* The name at the end of all links, also where nothing is there yet; to be freed. NULL and errno. */
+static char *end_of_links(const char *path)
 {
     char held[LINK_BYTES], *at = join(path, 0, path);
     int reason = ELOOP;
@@ -57,7 +59,7 @@ char *vndf_replace_end_of_links(const char *path)
         if (length < 0)
             break;
         held[length] = '\0';
-        char *next = join(at, held[0] == '/' ? 0 : vndf_replace_folder_length(at), held);
+        char *next = join(at, held[0] == '/' ? 0 : folder_length(at), held);
         free(at);
         at = next;
     }
@@ -112,7 +114,7 @@ int vndf_replace_flush(FILE *file)
 
 #else
 
-char *vndf_replace_end_of_links(const char *path)
+static char *end_of_links(const char *path)
 {
     return join(path, 0, path);
 }
@@ -160,8 +162,8 @@ static int finish(vndf_replacement *r, int good)
 /* To vndf.PROCESS.tmp in the folder of the target, or another number where a crash left one of that name. */
 int vndf_replace_begin(vndf_replacement *r, const char *path)
 {
-    *r = (vndf_replacement){vndf_replace_end_of_links(path), NULL, NULL};
-    size_t length = r->target ? vndf_replace_folder_length(r->target) : 0;
+    *r = (vndf_replacement){end_of_links(path), NULL, NULL};
+    size_t length = r->target ? folder_length(r->target) : 0;
     r->temporary = r->target ? join(r->target, length, "") : NULL;
     for (int i = 0; r->temporary && !r->file && i < NAMES_MAX && (i == 0 || errno == EEXIST); i++) {
         snprintf(r->temporary + length, SUFFIX_MAX, i ? "vndf.%ld.%d.tmp" : "vndf.%ld.tmp", process_number(), i);

@@ -27,10 +27,4 @@ int vndf_replace_whole(const char *path, const void *bytes, size_t size);
 /* Flushes; 0 and errno, which may be 0, if that failed or any write before. */
 int vndf_replace_flush(FILE *file);
 
-/* The name at the end of all links, also where nothing is there yet; to be freed. NULL and errno. */
-char *vndf_replace_end_of_links(const char *path);
-
-/* Bytes of path before its last name. */
-size_t vndf_replace_folder_length(const char *path);
-
 #endif

@@ -390,6 +390,15 @@ HERE real law_area_above(table t, seen v, whole cell)
     return most(area, size(v.c)); /* no less than the plane */
 }
 
+/* The area of what is drawn, by which mixtures share: it is there with the law, without the spline. Straight from below
+ * nothing is seen. */
+HERE real law_drawn_area(seen v, const int below)
+{
+    if (!below)
+        return v.total;
+    return pick(less(set(2e-15f), v.s), v.s * v.total * 0.318309886f, set(0.0f));
+}
+
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
  * digits, and the area that is drawn where it does not. */
 HERE real law_area_in(table t, seen v, whole cell, const int below)
@@ -397,10 +406,9 @@ HERE real law_area_in(table t, seen v, whole cell, const int below)
     real above = law_area_above(t, v, cell);
     if (!below)
         return above;
-    real sampled = v.s * v.total * 0.318309886f;
+    real sampled = law_drawn_area(v, below);
     real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
-    real area = sampled + mixed * ((above - size(v.c)) - sampled);
-    return pick(less(set(2e-15f), v.s), area, set(0.0f)); /* straight from below nothing is seen */
+    return sampled + mixed * ((above - size(v.c)) - sampled);
 }
 
 HERE real law_area(table t, seen v, const int below)

@@ -17,14 +17,16 @@ typedef struct affine_map {
     real determinant; /* of M */
 } affine_map;
 
-/* The same with its determinant. Only matrices that turn or shear need all the digits of their products. */
+/* The same with its determinant. Only where its two products are close do they need all their digits. */
 HERE affine_map affine_measured(affine_map m)
 {
     m.determinant = m.xx * m.yy;
     if (m.plain == 0) {
-        mask sheared = less(set(0.0f), size(m.xy) + size(m.yx));
-        if (any(sheared))
-            m.determinant = pick(sheared, difference_of_products(m.xx, m.yy, m.xy, m.yx), m.determinant);
+        real across = m.xy * m.yx, sum = size(m.determinant) + size(across);
+        m.determinant = m.determinant - across;
+        mask close = less(size(m.determinant), 0.25f * sum);
+        if (any(close))
+            m.determinant = pick(close, difference_of_products(m.xx, m.yy, m.xy, m.yx), m.determinant);
     }
     return m;
 }

@@ -1,6 +1,7 @@
 /* Mixtures of affine surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz &
- * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A; the density is the whole
- * sum. Shares are kept themselves, never as differences of running sums: that of a faint lobe has all its digits. */
+ * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A, in which A_i is the area
+ * that is drawn of it, and the density is the whole sum. Shares are kept themselves, never as differences of running
+ * sums: that of a faint lobe has all its digits. */
 #include <float.h>
 
 #include "sampler/sampler.h"
@@ -31,27 +32,23 @@ static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_L
     return sum;
 }
 
-/* Areas and what they make of the weights; where no lobe sees an area that a float can hold, the weights alone
- * count. */
-static void set_shares(vndf_mixture_view *view)
+/* What areas make of the weights; where no lobe sees an area that a float can hold, the weights alone count. */
+static void shares_of(const vndf_mixture_view *view, float (*area)(const vndf_view *view), float share[])
 {
     float sum = 0.0f, total = 0.0f;
     for (int i = 0; i < view->count; i++) {
-        vndf_mixture_part *part = &view->part[i];
-        part->share = part->weight * vndf_view_own_area(&part->view);
-        sum += part->share;
-        total += part->weight;
+        share[i] = view->part[i].weight * area(&view->part[i].view);
+        sum += share[i];
+        total += view->part[i].weight;
     }
-    for (int i = 0; i < view->count; i++) {
-        vndf_mixture_part *part = &view->part[i];
-        part->share = sum > FLT_MIN ? part->share / sum : part->weight / total;
-    }
+    for (int i = 0; i < view->count; i++)
+        share[i] = sum > FLT_MIN ? share[i] / sum : view->part[i].weight / total;
 }
 
 vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
 {
     vndf_mixture_view view;
-    float weight[VNDF_MIXTURE_LOBES];
+    float weight[VNDF_MIXTURE_LOBES], share[VNDF_MIXTURE_LOBES];
     view.count = 0;
     if (!(weights_of(mixture, weight) > 0.0f))
         return view;
@@ -68,7 +65,9 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         part->weight = weight[i];
         view.count++;
     }
-    set_shares(&view);
+    shares_of(&view, vndf_view_drawn_area, share);
+    for (int i = 0; i < view.count; i++)
+        view.part[i].share = share[i];
     return view;
 }
 
@@ -113,9 +112,10 @@ float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
 
 float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
 {
-    float sum = 0.0f;
+    float sum = 0.0f, share[VNDF_MIXTURE_LOBES];
+    shares_of(view, vndf_view_own_area, share);
     for (int i = 0; i < view->count; i++)
-        sum += view->part[i].share * vndf_visible(&view->part[i].view, wm);
+        sum += share[i] * vndf_visible(&view->part[i].view, wm);
     return least(sum, FLT_MAX);
 }
 

@@ -14,8 +14,9 @@ void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi, in
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);
 float vndf_view_area(const vndf_view *view, vndf_vec3 w);
 
-/* That of its own wi. */
+/* That of its own wi; and that of what is drawn, which for tables is within the certificate's TV of it. */
 float vndf_view_own_area(const vndf_view *view);
+float vndf_view_drawn_area(const vndf_view *view);
 
 /* The projection of w on the mean plane: w.z without a mean slope. G1(w) = that over vndf_view_area. */
 float vndf_view_cosine(const vndf_view *view, vndf_vec3 w);

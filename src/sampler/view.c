@@ -340,6 +340,14 @@ float vndf_view_own_area(const vndf_view *view)
     return view->distribution ? unit_area(view->distribution, s) * s->f.size : 0.0f;
 }
 
+float vndf_view_drawn_area(const vndf_view *view)
+{
+    const vndf_state *s = vndf_state_of(view);
+    if (!view->distribution || vndf_is_exact(view->distribution))
+        return vndf_view_own_area(view);
+    return law_drawn_area(s->of.table.v, vndf_is_below(s)) * frame_reach(s->f) * s->f.size;
+}
+
 float vndf_view_area(const vndf_view *view, vndf_vec3 w)
 {
     vndf_mapped surface = {view->distribution, vndf_state_of(view)->f.m};

@@ -1,5 +1,5 @@
 /* The words of a command line as one text: text that grows, quoting as a shell wants it, and splitting into words
- * again. Short printable excerpts of input, for error messages, and the nearest words. Numbers as text. */
+ * again. Short printable excerpts of input, for error messages. Numbers as text. */
 #ifndef VNDF_SOURCE_WORDS_H
 #define VNDF_SOURCE_WORDS_H
 
@@ -36,15 +36,8 @@ void vndf_words_free(vndf_words *words);
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
 
-/* Whether the text is the word; and how many letters (of at most 64) are to be inserted, dropped, replaced or
- * exchanged with the next for it to become the word, small or capital. */
+/* Whether the text is the word. */
 int vndf_is_word(const char *text, size_t size, const char *word);
-size_t vndf_word_distance(const char *text, size_t size, const char *word);
-
-/* Whether the word is nearer than *least, which becomes its distance: only where most letters are the text's own.
- * *least begins with the number of letters that are no slip but another word, vndf_word_slip. */
-size_t vndf_word_slip(size_t size);
-int vndf_word_is_nearer(const char *text, size_t size, const char *word, size_t *least);
 
 /* ---- numbers, the same in every locale: a decimal point is '.', whatever setlocale() was told --------------- */
 

@@ -1,6 +1,6 @@
 /* sample and eval speak of one surface: eval gives each normal the density that sample wrote, in every form of file;
- * a --lobe alone prints the bytes of its distribution, several the numbers of their sum, and a family those of its
- * tables. It notices a key of --lobe that is not used, and a column that is another one. */
+ * a diagonal matrix prints the bytes of its roughness, and a family the numbers of its tables. It notices an option
+ * that is not used, and a column that is another one. */
 #include "harness/run_program.h"
 
 #define TABLE VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"
@@ -28,8 +28,9 @@ static const char *read_line(const char *text, double number[5])
 }
 
 /* Every normal of `sample` (the words behind the command) has its density in `eval`. */
-static void test_densities(char *csv, const char *const *eval, const char *header)
+static void test_densities(char *csv, const char *const *eval)
 {
+    static const char header[] = "wm.x,wm.y,wm.z,pdf\n";
     const char *rows = csv + strlen(header);
     double drawn[5], found[5];
     FILE *in = fopen("in", "w");
@@ -55,34 +56,28 @@ static void test_densities(char *csv, const char *const *eval, const char *heade
 
 static void test_sample(void)
 {
-#define ONE "--theta", "60", "--phi", "30", "--alpha", "0.1,0.3"
-#define TWO                                                                                                \
-  "--theta", "70", "--lobe", "weight=0.7 table=beckmann matrix=0.2,0.1,-0.05,0.3 mean=0.3,-0.2", "--lobe", \
-      "weight=0.3 table=ggx alpha=0.5"
-    static const char *const eval_one[] = {"eval", TABLE, ONE, NULL}, *const eval_two[] = {"eval", TWO, NULL};
+#define ROUGH "--theta", "60", "--phi", "30", "--alpha", "0.1,0.3"
+#define SHEARED "--theta", "70", "--matrix", "0.2,0.1,-0.05,0.3", "--mean", "0.3,-0.2"
+    static const char *const eval_rough[] = {"eval", TABLE, ROUGH, NULL};
+    static const char *const eval_sheared[] = {"eval", "beckmann", SHEARED, NULL};
+    const char *const names[] = {"ggx", "beckmann", TABLE};
     size_t size;
-    test_densities(PRINTED("in", "sample", TABLE, ONE, "-n", "100", "-o", "-"), eval_one, "wm.x,wm.y,wm.z,pdf\n");
-    test_densities(PRINTED("in", "sample", TWO, "-n", "100", "-o", "-"), eval_two, "wm.x,wm.y,wm.z,pdf,lobe\n");
-    free(PRINTED("in", "sample", TABLE, ONE, "-n", "100", "--seed=1", "-o", "a.csv"));
-    free(PRINTED("in", "sample", TABLE, ONE, "-n", "1e2", "-o", "a.f32"));
-    free(PRINTED("in", "sample", TABLE, ONE, "-n", "100", "-o", "b.csv", "--format", "f32"));
-    char *other = PRINTED("in", "sample", TABLE, ONE, "-n", "9", "--seed", "2", "-o", "-");
+    test_densities(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "-o", "-"), eval_rough);
+    test_densities(PRINTED("in", "sample", "beckmann", SHEARED, "-n", "100", "-o", "-"), eval_sheared);
+    free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "--seed=1", "-o", "a.csv"));
+    free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "1e2", "-o", "a.f32"));
+    free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "-o", "b.csv", "--format", "f32"));
+    char *other = PRINTED("in", "sample", TABLE, ROUGH, "-n", "9", "--seed", "2", "-o", "-");
     char *file = run_file("a.csv", &size), *floats = run_file("a.f32", &size);
     TEST(floats && size == 1600 && run_same("a.f32", "b.csv") && strncmp(other, file, 60) != 0);
-    test_same(PRINTED("in", "sample", TABLE, ONE, "-n", "100", "-o", "-"), file);
+    test_same(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "-o", "-"), file);
     free(floats);
     free(other);
     TEST(remove("a.csv") == 0 && remove("a.f32") == 0 && remove("b.csv") == 0);
-}
-
-static void test_one_lobe(const char *name, const char *theta)
-{
-    char lobe[256];
-    snprintf(lobe, sizeof lobe, " alpha=0.1,0.3  table=%s ", name);
-    test_same(PRINTED("in", "sample", name, "--theta", theta, "--alpha", "0.1,0.3", "-n", "50", "-o", "-"),
-              PRINTED("in", "sample", "--lobe", lobe, "--theta", theta, "-n", "50", "-o", "-"));
-    test_same(PRINTED("in", "eval", name, "--theta", theta, "--alpha", "0.1,0.3"),
-              PRINTED("in", "eval", "--lobe", lobe, "--theta", theta));
+    for (int i = 0; i < 3; i++)
+        test_same(PRINTED("in", "sample", names[i], ROUGH, "-n", "50", "-o", "-"),
+                  PRINTED("in", "sample", names[i], "--theta", "60", "--phi", "30", "--matrix", "0.1,0,0,0.3",
+                          "-n", "50", "-o", "-"));
 }
 
 /* ndf, pdf, lambda and g1 of the first line of "in". */
@@ -101,46 +96,38 @@ static void test_values(const char *const *words, double ndf, double pdf, double
 #define VALUES(ndf, pdf, lambda, g1, ...) \
   test_values((const char *const[]){"eval", __VA_ARGS__, NULL}, ndf, pdf, lambda, g1)
 
-static void test_lobes(void)
+static void test_maps(void)
 {
     const double pi = 3.14159265358979;
-    const char *const names[] = {"ggx", "beckmann", TABLE}, *const thetas[] = {"0", "75", "90", "130"};
     TEST(run_put("in", "0,0,1\n0.6,0,0.8\n-0.48,0.64,0.6\n"));
-    for (int i = 0; i < 3; i++)
-        for (int k = 0; k < 4; k++)
-            test_one_lobe(names[i], thetas[k]);
-    /* GGX of alpha 1: D is 1/pi; from 60 degrees A = 3/4. From above every lobe has the area 1. */
+    /* GGX of alpha 1: D is 1/pi; from 60 degrees A = 3/4. */
     VALUES(1 / pi, 2 / (3 * pi), 0.5, 2.0 / 3, "ggx", "--theta", "60");
-    VALUES(1.75 / pi, 1.75 / pi, 0, 1, "--lobe", "weight=3 table=ggx", "--lobe", "table=ggx alpha=0.5", "--theta",
-           "0");
-    VALUES(8 / pi, 8 / pi, 0, 1, "--lobe", "table=ggx matrix=0,0.5,0.25,0", "--theta", "0");
+    VALUES(8 / pi, 8 / pi, 0, 1, "ggx", "--matrix", "0,0.5,0.25,0", "--theta", "0");
     /* The mean slope (1, 0) leans the normal to (-1, 0, 1), where GGX has its peak; lambda is of the mean plane. */
     TEST(run_put("in", "-0.70710678,0,0.70710678\n"));
-    VALUES(4 / pi, 4 / pi * sqrt(0.5), 0, 1, "--lobe", "table=ggx mean=1,0", "--theta", "0");
+    VALUES(4 / pi, 4 / pi * sqrt(0.5), 0, 1, "ggx", "--mean", "1,0", "--theta", "0");
 }
 
 static void test_families(void)
 {
+    double middle[5], first[5], last[5]; /* linear in 1/p: 1/2.25 is the mean of 1/1.8 and 1/3 */
     free(PRINTED("in", "build", "--family", "student-t", "--parameter", "1.8..3", "--knots", "2", "--max-bytes",
                  "2048", "-o", "two.vndfs"));
     free(PRINTED("in", "build", "--family", "student-t:1.8", "--max-bytes", "2048", "-o", "first.vndf"));
     TEST(run_put("in", "0,0,1\n0.6,0,0.8\n"));
-#define FROM "--theta", "70", "-n", "50", "-o", "-"
-    test_same(PRINTED("in", "sample", "two.vndfs@1.8", FROM), PRINTED("in", "sample", "first.vndf", FROM));
+    test_same(PRINTED("in", "sample", "two.vndfs@1.8", "--theta", "70", "-n", "50", "-o", "-"),
+              PRINTED("in", "sample", "first.vndf", "--theta", "70", "-n", "50", "-o", "-"));
     test_same(PRINTED("in", "eval", "two.vndfs@2.4", "--theta", "70", "--alpha", "0.3"),
-              PRINTED("in", "eval", "--lobe", "table=two.vndfs@2.4 alpha=0.3", "--theta", "70"));
-    char *lobes = PRINTED("in", "sample", FROM, "--lobe", "table=two.vndfs@2", "--lobe", "table=ggx");
-    TEST(lobes && strstr(lobes, ",0\n") && strstr(lobes, ",1\n") && !strstr(lobes, ",2\n"));
-    free(lobes);
-    double middle[5], halves[5]; /* linear in 1/p: 1/2.25 is the mean of 1/1.8 and 1/3 */
-    char *at_middle = PRINTED("in", "eval", "two.vndfs@2.25", "--theta", "0");
-    char *of_halves =
-        PRINTED("in", "eval", "--lobe", "table=two.vndfs@1.8", "--lobe", "table=two.vndfs@3", "--theta", "0");
-    read_line(at_middle, middle);
-    read_line(of_halves, halves);
-    TEST_RELATIVE(middle[0], halves[0], 1e-5);
-    free(at_middle);
-    free(of_halves);
+              PRINTED("in", "eval", "two.vndfs@2.4", "--theta", "70", "--matrix", "0.3,0,0,0.3"));
+    char *texts[] = {PRINTED("in", "eval", "two.vndfs@2.25", "--theta", "0"),
+                     PRINTED("in", "eval", "two.vndfs@1.8", "--theta", "0"),
+                     PRINTED("in", "eval", "two.vndfs@3", "--theta", "0")};
+    read_line(texts[0], middle);
+    read_line(texts[1], first);
+    read_line(texts[2], last);
+    TEST_RELATIVE(middle[0], (first[0] + last[0]) / 2, 1e-5);
+    for (int i = 0; i < 3; i++)
+        free(texts[i]);
     TEST(remove("two.vndfs") == 0 && remove("first.vndf") == 0);
 }
 
@@ -150,7 +137,7 @@ int main(void)
     if (!run_begin(folder) || !TEST(run_put("in", "")))
         return test_done();
     test_sample();
-    test_lobes();
+    test_maps();
     test_families();
     TEST(remove("in") == 0);
     return run_end(folder);

@@ -178,7 +178,7 @@ static void check_page(const char *folder)
     TEST(is_well_formed(alone));
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         char head[64];
-        snprintf(head, sizeof head, "<section id=\"%s\">", sections[i]);
+        snprintf(head, sizeof head, "<h2 id=\"%s\">", sections[i]);
         TEST_HAS(page, head);
     }
     TEST_HAS(page, ": ship ");
@@ -186,7 +186,7 @@ static void check_page(const char *folder)
     TEST_HAS(page, ">advised</text>");
     TEST(!strstr(page, "<script") && !strstr(page, "src=") && !strstr(page, "url(") && !strstr(page, "@import"));
     TEST(!strstr(page, ">nan<") && !strstr(page, "nan\"") && !strstr(page, "nan "));
-    TEST(count_linked(folder, page) == 5);
+    TEST(count_linked(folder, page) == 4);
     free(page);
     free(alone);
 }
@@ -214,7 +214,7 @@ static void test_page(const char *folder, const char *option, const char *value)
     const run_outcome *o = run_program(&run_plain, words);
     TEST(o->status == STATUS_GOOD);
     TEST_HAS(o->text, "/index.html\n");
-    TEST(count_entries(folder) == 7);
+    TEST(count_entries(folder) == 6);
     check_page(folder);
 }
 
@@ -227,7 +227,7 @@ static void test_replaced(const char *folder)
     const run_outcome *o = run_program(&run_plain, words);
     TEST(o->status == STATUS_GOOD);
     TEST_HAS(o->text, "replaced the report in ");
-    TEST(count_entries(folder) == 8); /* the note is still there */
+    TEST(count_entries(folder) == 7); /* the note is still there */
     check_page(folder);
 }
 

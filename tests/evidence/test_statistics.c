@@ -1,4 +1,4 @@
-/* The p-values that decide tests are right: incomplete gamma, chi-square, Kolmogorov-Smirnov and Sidak
+/* The p-values that decide tests are right: incomplete gamma, chi-square and Sidak
  * against values computed with 30 digits, and against closed forms that hold for every argument. */
 #include "evidence/measure/statistics.h"
 #include "harness/test.h"
@@ -50,17 +50,6 @@ static void test_chi_square(void)
     TEST(statistics_chi_square_p(5, 0) == 1);
 }
 
-/* Stephens' argument is distance (sqrt n + 0.12 + 0.11/sqrt n); divided by it, the limit itself is tested. */
-static void test_kolmogorov(void)
-{
-    const size_t n = 100000000;
-    const double root = 1e4 + 0.12 + 0.11e-4;
-    TEST_NEAR(statistics_kolmogorov_p(0.5 / root, n), 0.96394524366487509439, 1e-9);
-    TEST_NEAR(statistics_kolmogorov_p(1.1799 / root, n), 0.12351204971188672412, 1e-9);
-    TEST_NEAR(statistics_kolmogorov_p(1.3581 / root, n), 0.049999630431667435753, 1e-9);
-    TEST_NEAR(statistics_kolmogorov_p(0.29408, 20), 0.05, 2e-3); /* the tabulated 5% point of n = 20 */
-}
-
 static void test_sidak(void)
 {
     TEST_RELATIVE(statistics_sidak(0.01, 1), 0.01, 1e-14);
@@ -74,7 +63,6 @@ int main(void)
     test_gamma_values();
     test_gamma_borders();
     test_chi_square();
-    test_kolmogorov();
     test_sidak();
     return test_done();
 }

@@ -20,7 +20,7 @@ set(below_source core math)
 set(below_fit core math source table kernel sampler)
 set(run_time core math table kernel sampler bsdf)
 # What tools/ share with src/ beside include/: it knows nothing of distributions.
-set(shared core/replace_file.h core/checksum.h)
+set(shared core/replace_file.h core/checksum.h core/nearest.h)
 # What the build writes: the kernel of tools/export in C.
 set(written exported_kernel.h)
 

@@ -217,7 +217,7 @@ static void fresnel_of(const oracle_bsdf *o, double cosine, double ratio, double
 /* With which a normal is drawn: lobes by their areas. */
 static double normal_density(const oracle_bsdf *o, const double wi[3], const double wm[3], double facing)
 {
-    double all = ndf_of(o, wm) * wm[2], area = area_of(o, wi), sum = 0;
+    double all = ndf_of(o, wm) * wm[2], area = 0, sum = 0;
     switch (o->is.effects.normals) {
     case VNDF_NORMALS_ALL: return all;
     case VNDF_NORMALS_V_CAVITY: /* of a normal and its twin (-x, -y, z) the one that is seen */
@@ -225,8 +225,10 @@ static double normal_density(const oracle_bsdf *o, const double wi[3], const dou
     case VNDF_NORMALS_BOUNDED: return -1;
     default: break;
     }
+    for (int i = 0; i < o->count; i++)
+        area += o->weight[i] * oracle_surface_drawn_area(&o->lobe[i], wi);
     for (int i = 0; i < o->count; i++) {
-        double share = o->weight[i] * oracle_surface_area(&o->lobe[i], wi) / area;
+        double share = o->weight[i] * oracle_surface_drawn_area(&o->lobe[i], wi) / area;
         sum += share > 0 ? share * oracle_surface_drawn(&o->lobe[i], wi, wm) : 0;
     }
     return sum * facing / dot(wi, wm);

@@ -81,6 +81,14 @@ double oracle_surface_area(const oracle_surface *o, const double w[3])
     return area(&o->of, look.s, look.c);
 }
 
+double oracle_surface_drawn_area(const oracle_surface *o, const double w[3])
+{
+    oracle_look look = oracle_look_from(o, w);
+    if (o->of.kind != ORACLE_KIND_TABLE)
+        return area(&o->of, look.s, look.c);
+    return oracle_law_from(o->of.table, look.s, look.c).drawn;
+}
+
 double oracle_surface_visible(const oracle_surface *o, const double wi[3], const double wm[3])
 {
     double wi2 = wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2],

@@ -37,6 +37,9 @@ oracle_look oracle_look_from(const oracle_surface *surface, const double wi[3]);
 double oracle_surface_ndf(const oracle_surface *surface, const double wm[3]);
 double oracle_surface_area(const oracle_surface *surface, const double w[3]);
 
+/* The area of what is drawn, by which mixtures share; of the closed forms and formulas the true one. */
+double oracle_surface_drawn_area(const oracle_surface *surface, const double w[3]);
+
 /* The density per steradian with which wm is drawn; of the closed forms and formulas the true one. */
 double oracle_surface_drawn(const oracle_surface *surface, const double wi[3], const double wm[3]);
 double oracle_surface_visible(const oracle_surface *surface, const double wi[3], const double wm[3]);

@@ -83,8 +83,9 @@ static double truth(const point *p, quantity q)
 {
     double area = 0, cosine = 0, sum = 0;
     for (int i = 0; i < p->s.of.count; i++) {
-        double weight = p->s.of.count == 2 ? (i + 1) / 3.0 : 1,
-               here = weight * oracle_surface_area(&p->lobe[i], p->wi);
+        double weight = p->s.of.count == 2 ? (i + 1) / 3.0 : 1;
+        double here =
+            weight * (q == DENSITY ? oracle_surface_drawn_area : oracle_surface_area)(&p->lobe[i], p->wi);
         area += here;
         cosine += weight * oracle_look_from(&p->lobe[i], p->wi).c;
         sum += q == DENSITY   ? here * oracle_surface_drawn(&p->lobe[i], p->wi, p->wm)

@@ -112,6 +112,8 @@ static void test_masses(void)
                            *gtr = vndf_family_form_find("gtr", 3);
     for (size_t i = 0; i < sizeof smooth / sizeof *smooth; i++)
         test_mass(smooth[i], 1e-10);
+    test_mass("charlie:0.05", 1e-10);
+    test_mass("charlie:1", 1e-10);
     test_mass("epd:1000", 3e-6); /* all but a jump, which Simpson's rule does not like */
     for (double a = 1e-4; a < 1; a *= 2.3) {
         double half[] = {a, 0.5}, none[] = {a, 0}, B[] = {1 / a, 3}, ggx[] = {2, a};
@@ -128,7 +130,7 @@ static void test_errors(void)
 {
     static const char *const texts[][2] = {
         {"", "column 1: unknown family ''; known are ggx, beckmann, student-t, gtr, epd, abc, sgd, hyper-cauchy, "
-             "phong, mix"},
+             "phong, charlie, mix"},
         {"GGX", "column 1: unknown family 'GGX'; did you mean 'ggx'? known are ggx, "},
         {"student", "column 1: unknown family 'student'; did you mean 'student-t'?"},
         {"ggx:1", "column 5: too many parameters; right would be ggx"},

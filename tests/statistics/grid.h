@@ -1,11 +1,12 @@
-/* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against expected
- * counts. Borders are even, or every second one is a quantile of a pilot run, so that half of the bins lie where
- * the samples go, however narrow the law is. tools/evidence/measure/bins.h, which knows visible normals, is finer. */
+/* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against
+ * expected counts. Borders are even, or every second one is a quantile of a pilot run, so that half of the bins
+ * lie where the samples go, however narrow the law is. tools/evidence/measure/bins.h, which knows visible normals,
+ * is finer. */
 #ifndef TESTS_STATISTICS_GRID_H
 #define TESTS_STATISTICS_GRID_H
 
 #include "evidence/measure/bins.h"
-#include "evidence/measure/pearson.h"
+#include "evidence/measure/statistics.h"
 
 enum { GRID_ROWS = 65, GRID_COLUMNS = 130, GRID_BINS = GRID_ROWS * GRID_COLUMNS };
 
@@ -31,8 +32,8 @@ size_t grid_elsewhere(const grid *g);
 typedef double grid_density(double x, double y, const void *of);
 double grid_integral(grid_density *density, const void *of, const double x[2], const double y[2], double allowed);
 
-/* Writes the integral over every bin, times `samples`, to `expected`, and what they leave of 1 to the last; returns the
- * integral of all. */
+/* Writes the integral over every bin, times `samples`, to `expected`, and what they leave of 1 to the last;
+ * returns the integral of all. */
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed);
 
 /* Of all bins together; those that expect less than 5 are pooled with their neighbours. */

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "core/nearest.h"
 
 int complain(const char *command, const char *format, ...)
 {
@@ -24,51 +25,13 @@ int complain(const char *command, const char *format, ...)
 
 enum { HINT_LENGTH = 32 };
 
-static size_t least_of(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
-static int same_letter(char a, char b)
-{
-    return tolower((unsigned char)a) == tolower((unsigned char)b);
-}
-
-/* Edits that make b of a: a letter inserted, deleted or replaced, two neighbours swapped. Three rows of the table at a
- * time: row[i % 3] has the edits of the first i letters. */
-static size_t edit_distance(const char *a, const char *b)
-{
-    size_t row[3][HINT_LENGTH + 1], length = strlen(b), i;
-    for (size_t j = 0; j <= length; j++)
-        row[0][j] = j;
-    for (i = 1; a[i - 1]; i++) {
-        size_t *now = row[i % 3], *before = row[(i + 2) % 3], *earlier = row[(i + 1) % 3];
-        now[0] = i;
-        for (size_t j = 1; j <= length; j++) {
-            now[j] =
-                least_of(before[j - 1] + !same_letter(a[i - 1], b[j - 1]), least_of(before[j], now[j - 1]) + 1);
-            if (i > 1 && j > 1 && same_letter(a[i - 1], b[j - 2]) && same_letter(a[i - 2], b[j - 1]))
-                now[j] = least_of(now[j], earlier[j - 2] + 1);
-        }
-    }
-    return row[(i - 1) % 3][length];
-}
-
-/* More than two edits, or more than one of a short word, make another word. */
 const char *nearest_word(const char *word, const char *const *candidates, size_t count)
 {
     const char *nearest = NULL;
-    size_t least = strlen(word) > 4 ? 3 : 2;
-    if (strlen(word) > HINT_LENGTH)
-        return NULL;
-    for (size_t i = 0; i < count; i++) {
-        size_t length = strlen(candidates[i]);
-        size_t distance = length > HINT_LENGTH ? length : edit_distance(word, candidates[i]);
-        if (distance < least && 2 * distance < length) {
-            least = distance;
+    size_t size = strlen(word), least = vndf_word_slip(size);
+    for (size_t i = 0; i < count; i++)
+        if (vndf_word_is_nearer(word, size, candidates[i], &least))
             nearest = candidates[i];
-        }
-    }
     return nearest;
 }
 
@@ -98,119 +61,165 @@ int word_among(const char *command, const char *what, const char *word, const ch
 
 /* ---- options ------------------------------------------------------------------------------------- */
 
-static const option_form *find_option(const command_form *form, const char *word, size_t length)
+int next_option(const char **at, option_term *term)
 {
-    for (size_t i = 0; i < form->option_count; i++) {
-        const option_form *candidate = &form->options[i];
-        if (strlen(candidate->name) == length && memcmp(candidate->name, word, length) == 0)
-            return candidate;
+    const char *p = *at;
+    size_t indent = 0;
+    if (strncmp(p, ", -", 3) == 0)
+        p += indent = 2;
+    while ((indent != 2 && indent != 4) || *p != '-') {
+        p = strchr(p, '\n');
+        if (!p)
+            return 0;
+        indent = strspn(++p, " ");
+        p += indent;
     }
-    return NULL;
-}
-
-/* `value` is the word behind it, or NULL. */
-static int refuse_option(const command_form *form, const char *word, size_t length, const char *value)
-{
-    char name[HINT_LENGTH + 1];
-    const char *names[WORDS_MAX];
-    size_t count = form->option_count < WORDS_MAX ? form->option_count : WORDS_MAX;
-    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH, word);
-    for (size_t i = 0; i < count; i++)
-        names[i] = form->options[i].name;
-    const char *hint = nearest_word(name, names, count);
-    if (isalpha((unsigned char)name[1]) && !name[2]) { /* "-a 0.3" */
-        if (value && isdigit((unsigned char)*value) && find_option(form, "--set", 5))
-            return complain(form->command, "there is no option '%s'; did you mean '--set %s=%s'?", name, name + 1,
-                            value);
-        for (size_t i = 0; i < count && !hint; i++)
-            hint = strncmp(names[i], "--", 2) == 0 && names[i][2] == name[1] ? names[i] : NULL;
+    *term = (option_term){.name = p, .name_length = strcspn(p, " ,\n")};
+    p += term->name_length;
+    if (*p == ' ' && p[1] != ' ') {
+        term->value = ++p;
+        while (*p && *p != '\n' && strncmp(p, "  ", 2) != 0 && strncmp(p, ", -", 3) != 0)
+            p++;
+        term->value_length = (size_t)(p - term->value);
+        term->repeats = term->value_length > 4 && strncmp(p - 4, " ...", 4) == 0;
+        term->value_length -= term->repeats ? 4 : 0;
     }
-    if (hint)
-        return complain(form->command, "there is no option '%s'; did you mean '%s'?", name, hint);
-    return complain(form->command, "there is no option '%s'; `%s --help` lists them", name, form->command);
+    *at = p;
+    return 1;
 }
 
-static int store_word(const command_form *form, const option_form *option, const char *value)
+static int find_option(const char *help, const char *name, size_t length, option_term *term)
 {
-    if (option->values->count >= option->most)
-        return option->most == 1
-                   ? complain(form->command, "%s is given twice", option->name)
-                   : complain(form->command, "%s is given more than %zu times", option->name, option->most);
-    option->values->item[option->values->count++] = value;
-    return PARSE_GO_ON;
+    while (next_option(&help, term))
+        if (term->name_length == length && memcmp(term->name, name, length) == 0)
+            return 1;
+    return 0;
 }
 
-/* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. */
-static int take_option(const command_form *form, int argc, char **argv, int *at)
+/* The words of --channel red|green into text, as a list that ends with NULL; 0: what it takes is no choice. */
+static size_t choices_of(const option_term *term, char text[LISTED_LENGTH], const char *list[WORDS_MAX])
 {
-    const char *word = argv[*at];
+    size_t count = 0;
+    snprintf(text, LISTED_LENGTH, "%.*s", (int)term->value_length, term->value ? term->value : "");
+    if (strpbrk(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZ"))
+        return 0;
+    for (char *word = strtok(text, "|"); word && count < WORDS_MAX - 1; word = strtok(NULL, "|"))
+        list[count++] = word;
+    list[count] = NULL;
+    return count;
+}
+
+/* `value` is what it was given, or the word behind it, or NULL. */
+static void refuse_option(const arguments *given, const char *word, size_t length, const char *value)
+{
+    char name[HINT_LENGTH];
+    option_term term, hint = {.name = NULL};
+    size_t least = vndf_word_slip(length);
+    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH - 1, word);
+    const char letter = name[strspn(name, "-")];
+    const int is_letter = isalpha((unsigned char)letter) && length <= 3; /* "-a 0.3" or "--a=0.3" */
+    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term)) {
+        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
+        return;
+    }
+    for (const char *at = given->help; next_option(&at, &term);)
+        if (is_letter ? !hint.name && term.name[1] == '-' && term.name[2] == letter
+                      : vndf_word_is_nearer(term.name, term.name_length, name, &least))
+            hint = term;
+    if (hint.name)
+        complain(given->command, "there is no option '%s'; did you mean '%.*s'?", name, (int)hint.name_length,
+                 hint.name);
+    else
+        complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
+}
+
+/* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
+static int take_option(arguments *given, int argc, char **argv, int *at)
+{
+    const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL;
     const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    const char *choices[WORDS_MAX];
+    char name[HINT_LENGTH], text[LISTED_LENGTH];
+    option_term term, other;
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    const option_form *option = find_option(form, word, length);
-    if (!option)
-        return refuse_option(form, word, length, *at + 1 < argc ? argv[*at + 1] : NULL);
-    if (!option->takes_value && equals)
-        return complain(form->command, "%s takes no value", option->name);
-    if (!option->takes_value)
-        return store_word(form, option, word);
-    if (equals)
-        return store_word(form, option, equals + 1);
-    if (*at + 1 >= argc)
-        return complain(form->command, "%s needs a value", option->name);
-    *at += 1;
-    return store_word(form, option, argv[*at]);
-}
-
-static int take_positional(const command_form *form, const char *word, words *positional)
-{
-    if (positional->count < form->positional_max) {
-        positional->item[positional->count++] = word;
-        return PARSE_GO_ON;
+    if (!find_option(given->help, word, length, &term))
+        return (refuse_option(given, word, length, equals ? equals + 1 : next), 0);
+    snprintf(name, sizeof name, "%.*s", (int)length, word);
+    if (!term.value && equals)
+        return complain(given->command, "%s takes no value", name), 0;
+    if (term.value && equals)
+        value = equals + 1;
+    else if (term.value) {
+        if (!next || find_option(given->help, next, strlen(next), &other))
+            return complain(given->command, "%s needs a value, as in %s %.*s", name, name, (int)term.value_length,
+                            term.value),
+                   0;
+        value = next;
+        *at += 1;
     }
-    if (form->positional_max == 0)
-        return complain(form->command, "'%s' is not expected; only options are", word);
-    return complain(form->command, "'%s' is one word too many; expected only %s", word, form->positional);
+    if (!term.repeats && option_value(given, name))
+        return complain(given->command, "%s is given twice", name), 0;
+    if (choices_of(&term, text, choices) && word_among(given->command, name, value, choices) < 0)
+        return 0;
+    if (given->name.count == WORDS_MAX)
+        return complain(given->command, "%s: these are more than %d options", name, WORDS_MAX), 0;
+    given->length[given->name.count] = length;
+    given->name.item[given->name.count++] = word;
+    given->value.item[given->value.count++] = value;
+    return 1;
 }
 
-/* Of take_form, while it runs. */
-static form_taker *taker;
-static void *taker_user;
-
-void take_form(int (*run)(int argc, char **argv), form_taker *take, void *user)
+int arguments_read(arguments *given, int argc, char **argv)
 {
-    taker = take;
-    taker_user = user;
-    run(0, NULL);
-    taker = NULL;
-}
-
-int parse_arguments(const command_form *form, int argc, char **argv, words *positional)
-{
-    int result = PARSE_GO_ON;
     int options_end = 0;
-    if (taker) {
-        taker(form, taker_user);
-        return STATUS_GOOD;
-    }
-    for (int i = 0; i < argc && result == PARSE_GO_ON; i++) {
-        int is_option = !options_end && argv[i][0] == '-' && argv[i][1] != '\0';
-        if (is_option && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))
-            return fputs(form->help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
-        if (is_option && strcmp(argv[i], "--") == 0)
+    for (int i = 0; i < argc; i++) {
+        if (options_end || argv[i][0] != '-' || !argv[i][1]) {
+            if (given->positional.count == WORDS_MAX)
+                return complain(given->command, "these are more than %d words", WORDS_MAX), 0;
+            given->positional.item[given->positional.count++] = argv[i];
+        } else if (strcmp(argv[i], "--") == 0)
             options_end = 1;
-        else if (is_option)
-            result = take_option(form, argc, argv, &i);
-        else
-            result = take_positional(form, argv[i], positional);
+        else if (!take_option(given, argc, argv, &i))
+            return 0;
     }
-    if (result == PARSE_GO_ON && positional->count < form->positional_min)
-        return complain(form->command, "%s is missing; see `%s --help`", form->positional, form->command);
-    return result;
+    return 1;
 }
 
-const char *only_word(const words *values)
+words option_values(const arguments *given, const char *name)
 {
-    return values->count ? values->item[0] : NULL;
+    words found = {.count = 0};
+    option_term term;
+    if (!find_option(given->help, name, strlen(name), &term)) {
+        complain(given->command, "its help has no item %s, for which its code asks", name);
+        abort();
+    }
+    for (size_t i = 0; i < given->name.count; i++)
+        if (given->length[i] == strlen(name) && strncmp(given->name.item[i], name, given->length[i]) == 0)
+            found.item[found.count++] = given->value.item[i];
+    return found;
+}
+
+const char *option_value(const arguments *given, const char *name)
+{
+    words found = option_values(given, name);
+    return found.count ? found.item[0] : NULL;
+}
+
+int option_choice(const arguments *given, const char *name, int otherwise)
+{
+    const char *value = option_value(given, name), *choices[WORDS_MAX];
+    char text[LISTED_LENGTH];
+    option_term term;
+    if (!value || !find_option(given->help, name, strlen(name), &term) || !choices_of(&term, text, choices))
+        return otherwise;
+    return word_among(given->command, name, value, choices);
+}
+
+const char *option_among(const arguments *given, const char *const *names)
+{
+    while (*names && !option_value(given, *names))
+        names++;
+    return *names;
 }
 
 /* ---- numbers ------------------------------------------------------------------------------------- */
@@ -259,23 +268,19 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
     }
 }
 
-int option_number(const char *command, const char *what, const words *values, double low, double high,
-                  double *number)
+int option_number(const arguments *given, const char *name, double low, double high, double *number)
 {
-    const char *text = only_word(values);
-    return !text || parse_numbers(command, what, text, low, high, 1, 1, number) == 1;
+    const char *text = option_value(given, name);
+    return !text || parse_numbers(given->command, name, text, low, high, 1, 1, number) == 1;
 }
 
-int option_count(const char *command, const char *what, const words *values, double low, double high,
-                 unsigned long long *count)
+int option_count(const arguments *given, const char *name, double low, double high, unsigned long long *count)
 {
-    double number = 0;
-    if (!only_word(values))
-        return 1;
-    if (!option_number(command, what, values, low, high, &number))
+    double number = (double)*count;
+    if (!option_number(given, name, low, high, &number))
         return 0;
     if (number != floor(number))
-        return complain(command, "%s '%s' is not a whole number", what, only_word(values)), 0;
+        return complain(given->command, "%s '%s' is not a whole number", name, option_value(given, name)), 0;
     *count = (unsigned long long)number;
     return 1;
 }

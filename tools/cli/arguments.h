@@ -1,5 +1,11 @@
-/* Words of a command line: options with values (`--tv X` or `--tv=X`, `-o FILE`), flags, positional
- * words, and numbers read strictly. Every refusal says which word was wrong and what would be right. */
+/* The words that a command is given. The text that its --help prints is the table of its options: an item in column 2
+ * or 4 names them, and is read as
+ *
+ *     --seed S         takes a value, once          --set NAME=X ...        takes values, as often as one likes
+ *     --hard           is a flag                    --channel red|green     takes one of these words
+ *     --ndf EXPR, --slope EXPR                      are two
+ *
+ * with two blanks before what is said of them. Every refusal says which word was wrong and what would be right. */
 #ifndef TOOLS_CLI_ARGUMENTS_H
 #define TOOLS_CLI_ARGUMENTS_H
 
@@ -13,53 +19,42 @@
 
 enum { WORDS_MAX = 64 };
 
-/* Words collected for one option, in the order given; they belong to argv. */
+/* In the order given; they belong to argv. */
 typedef struct words {
     const char *item[WORDS_MAX];
     size_t count;
 } words;
 
-typedef struct option_form {
-    const char *name; /* "--theta", "-o" */
-    int takes_value;  /* 0: a flag, counted in values->count */
-    size_t most;      /* how often it may be given, at most WORDS_MAX */
-    words *values;
-} option_form;
-
-typedef struct command_form {
+typedef struct arguments {
     const char *command; /* "vndf build": opens every message */
-    const char *help;    /* printed for --help */
-    const option_form *options;
-    size_t option_count;
-    const char *positional; /* what the positional words are, "FILE|ggx|beckmann" */
-    size_t positional_min, positional_max;
-} command_form;
+    const char *help;
+    words positional;         /* what is no option */
+    words name, value;        /* of options, name as it was typed; the value of a flag is its name */
+    size_t length[WORDS_MAX]; /* of the names, which may go on with '=' */
+} arguments;
 
-enum { PARSE_GO_ON = -1 };
+/* Reads argv; command and help are there already. Returns 1, or 0 after a complaint. */
+int arguments_read(arguments *given, int argc, char **argv);
 
-/* Fills the word lists of the options and *positional. Returns PARSE_GO_ON, or the exit status with
- * which the program is to end: help was asked for and printed, or a word was refused. */
-int parse_arguments(const command_form *form, int argc, char **argv, words *positional);
+/* The first value of an option, NULL if it was not given; all of them; and of --channel red|green, which of the words
+ * it is (`otherwise` if it was not given). Ends the program for an option that the help does not name. */
+const char *option_value(const arguments *given, const char *name);
+words option_values(const arguments *given, const char *name);
+int option_choice(const arguments *given, const char *name, int otherwise);
 
-/* Calls run(0, NULL): the form that it gives to parse_arguments goes to `take`, and nothing is parsed or done. */
-typedef void form_taker(const command_form *form, void *user);
-void take_form(int (*run)(int argc, char **argv), form_taker *take, void *user);
+/* Whether one of these options was given, NULL ends them: its name, or NULL. */
+const char *option_among(const arguments *given, const char *const *names);
 
-/* The one value of an option that may be given once, or NULL. */
-const char *only_word(const words *values);
+/* One number for an option that may be absent: *number keeps its value then. 0 after a complaint. */
+int option_number(const arguments *given, const char *name, double low, double high, double *number);
+
+/* The same for a whole number in [low, high], high <= 2^53; "1e6" is read as 1000000. */
+int option_count(const arguments *given, const char *name, double low, double high, unsigned long long *count);
 
 /* Reads `least` to `most` comma-separated finite decimal numbers in [low, high] into numbers[].
  * Returns how many; 0 after a complaint that names `what` (an option) and the offending text. */
 size_t parse_numbers(const char *command, const char *what, const char *text, double low, double high,
                      size_t least, size_t most, double *numbers);
-
-/* One number for an option that may be absent: *number keeps its value then. 0 after a complaint. */
-int option_number(const char *command, const char *what, const words *values, double low, double high,
-                  double *number);
-
-/* The same for a whole number in [low, high], high <= 2^53; "1e6" is read as 1000000. */
-int option_count(const char *command, const char *what, const words *values, double low, double high,
-                 unsigned long long *count);
 
 /* Which of these a word is, {"csv", "f32", NULL} say; -1 after a complaint that names `what` (an option), them and the
  * nearest. */
@@ -74,5 +69,16 @@ const char *nearest_word(const char *word, const char *const *candidates, size_t
 
 /* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it. */
 int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
+
+/* ---- what a help names ---- */
+
+typedef struct option_term {
+    const char *name, *value;         /* in the help */
+    size_t name_length, value_length; /* value_length 0: a flag */
+    int repeats;
+} option_term;
+
+/* The option behind *at, which begins at the help and moves on; 0: there is none. */
+int next_option(const char **at, option_term *term);
 
 #endif

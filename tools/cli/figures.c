@@ -8,12 +8,12 @@
 
 /* ---- figures, one after the other ---------------------------------------------------------------- */
 
-figures figures_begin(const figure_words *asked)
+figures figures_begin(const arguments *given)
 {
     figures f = {.file = stdout, .form = FIGURES_TEXT};
-    if (asked->quiet.count)
+    if (option_value(given, "-q"))
         f.form = FIGURES_NONE;
-    else if (asked->json.count)
+    else if (option_value(given, "--json"))
         f.form = FIGURES_JSON;
     return f;
 }
@@ -33,35 +33,7 @@ void figures_json_text(FILE *file, const char *text)
     fputc('"', file);
 }
 
-/* What stands before a value. 0: nothing is printed. */
-static int put_name(figures *f, const char *name)
-{
-    const int is_first = f->in_object++ == 0;
-    if (f->form == FIGURES_JSON && f->list)
-        fprintf(f->file, "%s\"%s\": ", is_first ? "" : ", ", name);
-    else if (f->form == FIGURES_JSON)
-        fprintf(f->file, "%s\n  \"%s\": ", is_first ? "{" : ",", name);
-    else if (f->form == FIGURES_TEXT)
-        fprintf(f->file, f->list ? " %s " : "%s ", name);
-    return f->form != FIGURES_NONE;
-}
-
-static void put_end(figures *f)
-{
-    if (f->form == FIGURES_TEXT && !f->list)
-        fputc('\n', f->file);
-}
-
-void figures_text(figures *f, const char *name, const char *text)
-{
-    if (!put_name(f, name))
-        return;
-    if (f->form == FIGURES_JSON)
-        figures_json_text(f->file, text);
-    else
-        fputs(text, f->file);
-    put_end(f);
-}
+enum { COLUMNS = 100 }; /* of a record; what is longer goes on below */
 
 static void note_unit(figures *f, const char *name, const char *unit)
 {
@@ -72,31 +44,52 @@ static void note_unit(figures *f, const char *name, const char *unit)
         f->unit[f->units++] = (struct figures_unit){f->list, name, unit};
 }
 
+/* A figure whose value is this text. */
+static void put(figures *f, const char *name, const char *text, int is_word, const char *unit)
+{
+    const int is_first = f->in_object++ == 0;
+    if (f->form == FIGURES_TEXT) {
+        char whole[COLUMNS];
+        int length = snprintf(whole, sizeof whole, " %s %s%s%s", name, text, *unit ? " " : "", unit);
+        if (f->list && f->column + length > COLUMNS) {
+            fputs("\n   ", f->file);
+            f->column = 3;
+        }
+        f->column += length;
+        fprintf(f->file, f->list ? " %s %s%s%s" : "%s %s%s%s\n", name, text, *unit ? " " : "", unit);
+    } else if (f->form == FIGURES_JSON) {
+        fprintf(f->file, "%s%s\"%s\": ", is_first ? f->list ? "" : "{" : ",",
+                f->list ? is_first ? "" : " " : "\n  ", name);
+        if (is_word)
+            figures_json_text(f->file, text);
+        else
+            fputs(text, f->file);
+        note_unit(f, name, unit);
+    }
+}
+
+void figures_text(figures *f, const char *name, const char *text)
+{
+    put(f, name, text, 1, "");
+}
+
 void figures_number(figures *f, const char *name, int digits, double x, const char *unit)
 {
-    if (!put_name(f, name))
-        return;
-    if (f->form == FIGURES_JSON) {
-        fprintf(f->file, isfinite(x) ? "%.*g" : "null", digits, x);
-        note_unit(f, name, unit);
-    } else
-        fprintf(f->file, "%.*g%s%s", digits, x, *unit ? " " : "", unit);
-    put_end(f);
+    char text[64];
+    snprintf(text, sizeof text, f->form == FIGURES_JSON && !isfinite(x) ? "null" : "%.*g", digits, x);
+    put(f, name, text, 0, unit);
 }
 
 void figures_truth(figures *f, const char *name, int is)
 {
     static const char *const said[2][2] = {{"no", "yes"}, {"false", "true"}};
-    if (!put_name(f, name))
-        return;
-    fputs(said[f->form == FIGURES_JSON][is != 0], f->file);
-    put_end(f);
+    put(f, name, said[f->form == FIGURES_JSON][is != 0], 0, "");
 }
 
 void figures_list(figures *f, const char *name)
 {
-    if (f->form == FIGURES_JSON && put_name(f, name))
-        fputc('[', f->file);
+    if (f->form == FIGURES_JSON)
+        put(f, name, "[", 0, "");
     f->list = name;
     f->records = 0;
 }
@@ -115,7 +108,7 @@ void figures_record(figures *f)
     if (f->form == FIGURES_JSON)
         fputs(f->records ? ",\n    {" : "\n    {", f->file);
     else if (f->form == FIGURES_TEXT)
-        fputs(f->list, f->file);
+        f->column = fprintf(f->file, "%s", f->list);
     f->records++;
     f->in_object = 0;
 }
@@ -142,38 +135,29 @@ void figures_end(figures *f)
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
-static const char *const forms[] = {"text", "csv", "md", "json", NULL}; /* as figures_form has them */
+static const char *const forms[] = {"text", "csv", "md", "json",
+                                    NULL}; /* as figures_form and --format have them */
 
-/* NULL: -o - is said by form_of_stdout. */
-static const char *file_of(const figure_words *given)
+static figures_form form_of_stdout(const arguments *given)
 {
-    const char *path = only_word(&given->file);
-    return path && !output_is_stdout(path) ? path : NULL;
+    const char *path = option_value(given, "-o");
+    if (option_value(given, "-q"))
+        return FIGURES_NONE;
+    if (option_value(given, "--json"))
+        return FIGURES_JSON;
+    return (figures_form)option_choice(given, "--format",
+                                       path && output_is_stdout(path) ? FIGURES_CSV : FIGURES_TEXT);
 }
 
-/* -1 after a complaint. */
-static int form_of_stdout(const char *command, const figure_words *given)
+int rows_check(const arguments *given)
 {
-    const char *format = only_word(&given->format);
-    int form = given->file.count && !file_of(given) ? FIGURES_CSV : FIGURES_TEXT;
-    if (format)
-        form = output_form(command, "-", format, forms);
-    else if (given->json.count)
-        form = FIGURES_JSON;
-    return given->quiet.count && form >= 0 ? FIGURES_NONE : form;
-}
-
-int rows_check(const char *command, const figure_words *given)
-{
-    const char *path = file_of(given);
+    const char *path = option_value(given, "-o");
     output_file output;
-    if (form_of_stdout(command, given) < 0)
-        return 0;
-    if (given->json.count && given->format.count)
-        return complain(command, "--json and --format are given; --json is --format json"), 0;
-    if (!path)
+    if (option_value(given, "--json") && option_value(given, "--format"))
+        return complain(given->command, "--json and --format are given; --json is --format json"), 0;
+    if (!path || output_is_stdout(path))
         return 1;
-    if (output_form(command, path, NULL, forms + 1) < 0 || !output_open(&output, command, path))
+    if (output_form(given->command, path, NULL, forms + 1) < 0 || !output_open(&output, given->command, path))
         return 0;
     output_discard(&output);
     return 1;
@@ -188,12 +172,12 @@ static int print_to(const char *command, const char *path, rows_printer *print, 
                                                         : output_give_up(&output, "no memory for the table");
 }
 
-int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows)
+int rows_print(const arguments *given, rows_printer *print, const void *rows)
 {
-    const char *path = file_of(given);
-    int form = form_of_stdout(command, given), to_file = STATUS_GOOD;
+    const char *command = given->command, *path = option_value(given, "-o");
+    int form = form_of_stdout(given), to_file = STATUS_GOOD;
     int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, form);
-    if (path)
+    if (path && !output_is_stdout(path))
         to_file = print_to(command, path, print, rows, 1 + output_form(command, path, NULL, forms + 1));
     return status == STATUS_GOOD ? to_file : status;
 }

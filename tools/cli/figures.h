@@ -9,21 +9,6 @@
 
 typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
 
-/* The words of the options, which every command with figures has under these names. */
-typedef struct figure_words {
-    words json, quiet;  /* all */
-    words file, format; /* rows */
-} figure_words;
-
-#define FIGURES_OPTIONS(given)     \
-  {"--json", 0, 1, &(given).json}, \
-  {                                \
-    "-q", 0, 1, &(given).quiet     \
-  }
-#define FIGURES_HELP                                \
-  "  --json           prints the figures as JSON\n" \
-  "  -q               prints neither figures nor progress\n"
-
 /* ---- figures, one after the other ---- */
 
 enum { FIGURES_MAX = 96 };
@@ -35,6 +20,7 @@ typedef struct figures {
     const char *list; /* the list that is open, or NULL */
     int in_object;    /* figures that the object at hand has already */
     int records;      /* of the list */
+    int column;       /* where its text goes on */
     struct figures_unit {
         const char *list, *name, *unit;
     } unit[FIGURES_MAX]; /* for JSON, which has them at its end */
@@ -42,7 +28,7 @@ typedef struct figures {
 } figures;
 
 /* Text, JSON or nothing, on stdout. */
-figures figures_begin(const figure_words *asked);
+figures figures_begin(const arguments *given);
 
 void figures_text(figures *f, const char *name, const char *text);
 
@@ -52,7 +38,8 @@ void figures_number(figures *f, const char *name, int digits, double x, const ch
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* A list of records: each is a line of text that begins with the name of the list. */
+/* A list of records: each is a line of text that begins with the name of the list, and goes on below after 100
+ * columns. */
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);
@@ -64,25 +51,18 @@ void figures_json_text(FILE *file, const char *text);
 
 /* ---- rows ---- */
 
-#define ROWS_OPTIONS(given)                            \
-  FIGURES_OPTIONS(given), {"-o", 1, 1, &(given).file}, \
-  {                                                    \
-    "--format", 1, 1, &(given).format                  \
-  }
-#define ROWS_HELP                                                                       \
-  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n"  \
-  "  --format NAME    of stdout: text, csv, md or json (default text; with -o - csv)\n" \
-  "  --json           the same as --format json\n"                                      \
-  "  -q               prints neither rows nor progress\n"
+#define ROWS_HELP                                                                      \
+  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n" \
+  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"
 
 /* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
 typedef int rows_printer(FILE *file, const void *rows, figures_form form);
 
 /* Whether the words go together and the file can be written, before what they will hold is measured. 1, or 0 after a
  * complaint. */
-int rows_check(const char *command, const figure_words *given);
+int rows_check(const arguments *given);
 
 /* Prints to stdout and to the file of -o; an exit status. */
-int rows_print(const char *command, const figure_words *given, rows_printer *print, const void *rows);
+int rows_print(const arguments *given, rows_printer *print, const void *rows);
 
 #endif

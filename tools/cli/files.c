@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 
 #include "cli/arguments.h"
-#include "core/replace_file.h"
 
 /* ---- the list ------------------------------------------------------------------------------------ */
 
@@ -43,22 +42,15 @@ static int same_inode(const char *a, const char *b)
     return stat(a, &of_a) == 0 && stat(b, &of_b) == 0 && of_a.st_dev == of_b.st_dev && of_a.st_ino == of_b.st_ino;
 }
 
-/* What is not there yet is known by its last name and its folder, behind all links. */
+/* What is not there yet is known by its last name and its folder. */
 int files_same(const char *a, const char *b)
 {
-    if (strcmp(a, b) == 0 || same_inode(a, b))
-        return 1;
-    char *end_of_a = vndf_replace_end_of_links(a), *end_of_b = vndf_replace_end_of_links(b);
-    int same = 0;
-    if (end_of_a && end_of_b) {
-        size_t in_a = vndf_replace_folder_length(end_of_a), in_b = vndf_replace_folder_length(end_of_b);
-        same = strcmp(end_of_a + in_a, end_of_b + in_b) == 0;
-        end_of_a[in_a] = end_of_b[in_b] = '\0';
-        same = same && same_inode(in_a ? end_of_a : ".", in_b ? end_of_b : ".");
-    }
-    free(end_of_a);
-    free(end_of_b);
-    return same;
+    const char *slash_a = strrchr(a, '/'), *slash_b = strrchr(b, '/');
+    const char *last_a = slash_a ? slash_a + 1 : a, *last_b = slash_b ? slash_b + 1 : b;
+    char in_a[4096], in_b[4096];
+    snprintf(in_a, sizeof in_a, "%.*s.", (int)(last_a - a), a);
+    snprintf(in_b, sizeof in_b, "%.*s.", (int)(last_b - b), b);
+    return same_inode(a, b) || (strcmp(last_a, last_b) == 0 && same_inode(in_a, in_b));
 }
 
 /* ---- whole files --------------------------------------------------------------------------------- */

@@ -19,53 +19,45 @@ void output_begin(void)
 #endif
 }
 
-enum { STOPPING_COUNT = 3 };
+enum { STOPPING = 3 };
 
-static const int stopping[STOPPING_COUNT] = {SIGINT, SIGTERM, SIGHUP};
+static const int stopping[STOPPING] = {SIGINT, SIGTERM, SIGHUP};
 
-static sigset_t set_of(unsigned held)
+/* Of output_hold_signals: those that wait, and how many callers want that. */
+static sigset_t held;
+static int holders;
+
+/* A signal that the parent told us to ignore, or holds itself, is left alone: it would count as pending for ever, or be
+ * let through by us. */
+void output_hold_signals(void)
 {
-    sigset_t set;
-    sigemptyset(&set);
-    for (unsigned i = 0; i < STOPPING_COUNT; i++)
-        if (held >> i & 1u)
-            sigaddset(&set, stopping[i]);
-    return set;
-}
-
-/* A signal that the parent told us to ignore, or holds itself, is left alone: it would count as
- * pending for ever, or be let through by us. */
-unsigned output_hold_signals(void)
-{
-    unsigned held = 0;
+    struct sigaction action;
     sigset_t before;
+    if (holders++)
+        return;
+    sigemptyset(&held);
     sigprocmask(SIG_BLOCK, NULL, &before);
-    for (unsigned i = 0; i < STOPPING_COUNT; i++) {
-        struct sigaction action;
+    for (int i = 0; i < STOPPING; i++)
         if (sigaction(stopping[i], NULL, &action) == 0 && action.sa_handler != SIG_IGN &&
             !sigismember(&before, stopping[i]))
-            held |= 1u << i;
-    }
-    sigset_t set = set_of(held);
-    sigprocmask(SIG_BLOCK, &set, NULL);
-    return held;
+            sigaddset(&held, stopping[i]);
+    sigprocmask(SIG_BLOCK, &held, NULL);
 }
 
-void output_release_signals(unsigned held)
+void output_release_signals(void)
 {
-    sigset_t set = set_of(held);
-    sigprocmask(SIG_UNBLOCK, &set, NULL);
+    if (--holders == 0)
+        sigprocmask(SIG_UNBLOCK, &held, NULL);
 }
 
-int output_stopping(unsigned held)
+int output_stopping(void)
 {
     sigset_t pending;
-    if (sigpending(&pending) != 0)
-        return 0;
-    for (unsigned i = 0; i < STOPPING_COUNT; i++)
-        if ((held >> i & 1u) && sigismember(&pending, stopping[i]))
-            return 1;
-    return 0;
+    int stops = 0;
+    sigpending(&pending);
+    for (int i = 0; holders && i < STOPPING; i++)
+        stops |= sigismember(&held, stopping[i]) && sigismember(&pending, stopping[i]);
+    return stops;
 }
 
 /* ---- opening ------------------------------------------------------------------------------------- */
@@ -99,13 +91,13 @@ int output_open(output_file *output, const char *command, const char *path)
         return 1;
     if (!output_replaceable(command, path))
         return 0;
-    output->held = output_hold_signals();
+    output_hold_signals();
     if (vndf_replace_begin(&output->replaces, path)) {
         output->file = output->replaces.file;
         return 1;
     }
     complain(command, "cannot write '%s': %s", path, strerror(errno));
-    output_release_signals(output->held);
+    output_release_signals();
     return 0;
 }
 
@@ -130,7 +122,7 @@ int output_commit(output_file *output)
     if (!vndf_replace_commit(&output->replaces))
         status = complain(output->command, "cannot write '%s': %s", output->path,
                           errno ? strerror(errno) : "write failed");
-    output_release_signals(output->held);
+    output_release_signals();
     return status;
 }
 
@@ -142,7 +134,8 @@ int output_give_up(output_file *output, const char *why)
         vndf_replace_discard(&output->replaces);
     if (why)
         complain(output->command, "%s", why);
-    output_release_signals(output->held);
+    if (output->path)
+        output_release_signals();
     return STATUS_USE;
 }
 

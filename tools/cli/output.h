@@ -1,7 +1,6 @@
 /* Files that appear whole or not at all (core/replace_file.h), none of which is an input as well (files.h). While the
- * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_stopping(held) now and then, and
- * closing lets the signal through after the temporary is gone. (Waiting, not a handler: a handler would need
- * global state.) */
+ * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_stopping() now and then, and closing lets the
+ * signal through after the temporary is gone. */
 #ifndef TOOLS_CLI_OUTPUT_H
 #define TOOLS_CLI_OUTPUT_H
 
@@ -14,14 +13,13 @@ typedef struct output_file {
     const char *path;          /* NULL for stdout */
     FILE *file;                /* to write to */
     vndf_replacement replaces; /* unless it is stdout */
-    unsigned held;             /* stopping signals that wait; see output_hold_signals */
 } output_file;
 
 /* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
 /* 1 if one of the signals that wait has come; close with output_give_up then. */
-int output_stopping(unsigned held);
+int output_stopping(void);
 
 /* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
 int output_commit(output_file *output);
@@ -42,10 +40,9 @@ int output_replaceable(const char *command, const char *path);
 /* A file that outgrows a limit of the shell fails to be written, as on a full disk, and ends nothing. */
 void output_begin(void);
 
-/* Makes the stopping signals wait, for a library call that writes a file. The result tells
- * output_release_signals which ones it stopped, and is of no other use. */
-unsigned output_hold_signals(void);
-void output_release_signals(unsigned held);
+/* Makes the stopping signals wait until as many callers have released them as held them. */
+void output_hold_signals(void);
+void output_release_signals(void);
 
 /* Flushes stdout; an exit status, with a complaint if what was printed could not be delivered. */
 int output_finish_stdout(const char *command);

@@ -12,9 +12,9 @@ enum { BAR = 20 };
 
 static const double between = 0.1; /* seconds, from line to line */
 
-progress progress_begin(const char *name, unsigned held)
+progress progress_begin(const char *name, int is_quiet)
 {
-    return (progress){.name = name, .held = held, .is_seen = isatty(STDERR_FILENO), .begun = clock_seconds()};
+    return (progress){.name = name, .is_seen = !is_quiet && isatty(STDERR_FILENO), .begun = clock_seconds()};
 }
 
 void progress_step(progress *p, double to)
@@ -47,7 +47,7 @@ int progress_show(double done, const char *what, void *user)
         show(p, fmin(fmax(p->from + done * (to - p->from), 0), 1), what);
         p->shown = now;
     }
-    return output_stopping(p->held);
+    return output_stopping();
 }
 
 int progress_tell(double done, void *user)

@@ -1,18 +1,18 @@
-/* How far the work is, on a line of stderr where that is a terminal; and whether the user asked to stop. */
+/* How far the work is, on a line of stderr where that is a terminal; and whether the user asked to stop, by a signal
+ * that waits (output_hold_signals). */
 #ifndef TOOLS_CLI_PROGRESS_H
 #define TOOLS_CLI_PROGRESS_H
 
 typedef struct progress {
     const char *name;    /* of the work: "building" */
     int tells_left;      /* how many seconds are left: where the work goes on evenly */
-    unsigned held;       /* signals that wait (output_hold_signals) until the work has stopped and said so */
     int is_seen;         /* stderr is a terminal */
     double from, to;     /* the step at hand, as a part of all the work */
     double begun, shown; /* on the clock: the work; the last line */
 } progress;
 
 /* All the work is one step until progress_step divides it. */
-progress progress_begin(const char *name, unsigned held);
+progress progress_begin(const char *name, int is_quiet);
 
 /* The next step, from where the last one ended (the first: 0) up to `to`, a part of all the work. */
 void progress_step(progress *p, double to);

@@ -25,20 +25,6 @@ static int read_parameter(const char *command, const char *text, char storage[NA
     return parse_numbers(command, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
 }
 
-static vndf_source *source_from_expression(const char *command, const source_words *given, vndf_error *error)
-{
-    vndf_parameter parameters[WORDS_MAX];
-    char names[WORDS_MAX][NAME_MAX_LENGTH];
-    for (size_t i = 0; i < given->set.count; i++)
-        if (!read_parameter(command, given->set.item[i], names[i], &parameters[i]))
-            return NULL;
-    const char *formula = only_word(given->ndf.count ? &given->ndf : &given->slope);
-    vndf_source *source = given->ndf.count
-                              ? vndf_source_ndf_expression(formula, parameters, given->set.count, error)
-                              : vndf_source_slope_expression(formula, parameters, given->set.count, error);
-    return source;
-}
-
 vndf_source *source_from_csv(const char *command, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
@@ -51,34 +37,51 @@ vndf_source *source_from_csv(const char *command, const char *path)
     return source;
 }
 
-vndf_source *source_from_words(const char *command, const source_words *given)
+static const char *const kinds[] = {"--ndf", "--slope", "--csv", "--family", NULL};
+
+size_t source_words_count(const arguments *given)
 {
+    size_t count = 0;
+    for (const char *const *kind = kinds; *kind; kind++)
+        count += option_value(given, *kind) != NULL;
+    return count;
+}
+
+vndf_source *source_from_words(const arguments *given, const char *otherwise)
+{
+    const char *command = given->command, *ndf = option_value(given, "--ndf"), *csv = option_value(given, "--csv");
+    const char *slope = option_value(given, "--slope"), *family = option_value(given, "--family");
+    const words set = option_values(given, "--set");
+    const size_t count = source_words_count(given);
+    vndf_parameter parameters[WORDS_MAX];
+    char names[WORDS_MAX][NAME_MAX_LENGTH];
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source;
-    if (given->csv.count)
-        return source_from_csv(command, only_word(&given->csv));
-    if (given->family.count)
-        source = vndf_source_family(only_word(&given->family), &error);
+    if (count > 1 || (count == 0 && !otherwise))
+        return complain(command, "%s of --ndf, --slope, --csv and --family; %s is needed",
+                        count ? "more than one" : "none", otherwise ? "one at most" : "exactly one"),
+               NULL;
+    if (set.count && !ndf && !slope)
+        return complain(command, "--set is for --ndf and --slope; the parameters of a family follow its name"),
+               NULL;
+    if (csv)
+        return source_from_csv(command, csv);
+    for (size_t i = 0; i < set.count; i++)
+        if (!read_parameter(command, set.item[i], names[i], &parameters[i]))
+            return NULL;
+    const char *option = ndf ? "--ndf" : slope ? "--slope" : "--family";
+    if (ndf)
+        source = vndf_source_ndf_expression(ndf, parameters, set.count, &error);
+    else if (slope)
+        source = vndf_source_slope_expression(slope, parameters, set.count, &error);
     else
-        source = source_from_expression(command, given, &error);
-    if (!source && error.status != VNDF_OK) {
-        complain(command, "%s", error.message);
+        source = vndf_source_family(family ? family : otherwise, &error);
+    if (!source) {
+        complain(command, "%s: %s", option, error.message);
         if (strstr(error.message, "unknown name") && !strstr(error.message, "did you mean"))
             complain(command, "a parameter of your own has its value by --set NAME=X");
     }
     return source;
-}
-
-size_t source_words_count(const source_words *given)
-{
-    return given->ndf.count + given->slope.count + given->csv.count + given->family.count;
-}
-
-int source_words_check_set(const char *command, const source_words *given)
-{
-    if (given->set.count && !given->ndf.count && !given->slope.count)
-        return complain(command, "--set is for --ndf and --slope; the parameters of a family follow its name");
-    return PARSE_GO_ON;
 }
 
 /* ---- as text ------------------------------------------------------------------------------------- */
@@ -90,39 +93,33 @@ static void add(char *text, size_t size, const char *more)
     snprintf(text + at, size - at, "%s", more);
 }
 
-/* Between quotes where a shell would make something else of it. */
-static void add_word(char *text, size_t size, const char *word)
+void source_text_add(const arguments *given, const char *option, char *text, size_t size)
 {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
-    const int is_plain = *word && strspn(word, plain) == strlen(word);
-    add(text, size, is_plain ? "" : "'");
-    for (; *word; word++) {
-        const char letter[2] = {*word, '\0'};
-        add(text, size, *word == '\'' ? "'\\''" : letter);
-    }
-    add(text, size, is_plain ? "" : "'");
-}
-
-void source_text_add(const char *option, const words *values, char *text, size_t size)
-{
-    for (size_t i = 0; i < values->count; i++) {
+    const words values = option_values(given, option);
+    for (size_t i = 0; i < values.count; i++) {
+        const char *word = values.item[i];
+        const char *quote = *word && strspn(word, plain) == strlen(word) ? "" : "'";
         add(text, size, *text ? " " : "");
         add(text, size, option);
-        if (strcmp(values->item[i], option) == 0) /* a flag */
+        if (strcmp(word, option) == 0) /* a flag */
             continue;
         add(text, size, " ");
-        add_word(text, size, values->item[i]);
+        add(text, size, quote);
+        for (; *word; word++)
+            add(text, size, *word == '\'' ? "'\\''" : (const char[2]){*word, '\0'});
+        add(text, size, quote);
     }
 }
 
-void source_text_name(const source_words *given, char *text, size_t size)
+void source_text_name(const arguments *given, char *text, size_t size)
 {
-    const words *all[] = {&given->ndf, &given->slope, &given->csv, &given->family};
+    const words set = option_values(given, "--set");
     text[0] = '\0';
-    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-        add(text, size, all[i]->count ? only_word(all[i]) : "");
-    for (size_t i = 0; i < given->set.count; i++) {
+    for (const char *const *kind = kinds; *kind; kind++)
+        add(text, size, option_value(given, *kind) ? option_value(given, *kind) : "");
+    for (size_t i = 0; i < set.count; i++) {
         add(text, size, ", ");
-        add(text, size, given->set.item[i]);
+        add(text, size, set.item[i]);
     }
 }

@@ -6,27 +6,21 @@
 #include "cli/arguments.h"
 #include "vndf_build.h"
 
-typedef struct source_words {
-    words ndf, slope, csv, family, set;
-} source_words;
+/* How many of --ndf, --slope, --csv and --family were given. */
+size_t source_words_count(const arguments *given);
 
-/* How many of --ndf, --slope, --family and the CSV's option were given. */
-size_t source_words_count(const source_words *given);
-
-/* PARSE_GO_ON if --set stands with a formula or not at all, else the status after a complaint. */
-int source_words_check_set(const char *command, const source_words *given);
-
-/* The source of the one that was given; NULL after a complaint. */
-vndf_source *source_from_words(const char *command, const source_words *given);
+/* The source of the one that was given, or of the family `otherwise` where none was (NULL: one is needed). NULL after a
+ * complaint, also where --set stands with another one than a formula. */
+vndf_source *source_from_words(const arguments *given, const char *otherwise);
 
 /* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
 vndf_source *source_from_csv(const char *command, const char *path);
 
-/* Adds " OPTION VALUE" for each of the values to what stands in text, with quotes where a shell needs them;
+/* Adds " OPTION VALUE" for each value of an option to what stands in text, with quotes where a shell needs them;
  * " OPTION" for a flag. Cut where `size` ends. */
-void source_text_add(const char *option, const words *values, char *text, size_t size);
+void source_text_add(const arguments *given, const char *option, char *text, size_t size);
 
 /* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */
-void source_text_name(const source_words *given, char *text, size_t size);
+void source_text_name(const arguments *given, char *text, size_t size);
 
 #endif

@@ -114,214 +114,88 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
     return count != 0;
 }
 
-/* ---- lobes of a surface -------------------------------------------------------------------------- */
-
-/* A lobe of a table or a closed form, or the two of FILE.vndfs@P; 0 after a complaint. */
-static int add_distribution(chosen_surface *chosen, const char *command, const char *name, vndf_mixture_lobe lobe,
-                            int option)
-{
-    vndf_mixture at = {1, {lobe}};
-    const char *parameter = family_parameter(name);
-    double p;
-    if (!parameter && is_family_file(name))
-        return complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name), 0;
-    if (chosen->mixture.count + (parameter != NULL) >= VNDF_MIXTURE_LOBES)
-        return complain(command, "--lobe: these are more than %d lobes; a family counts as two",
-                        VNDF_MIXTURE_LOBES),
-               0;
-    if (parameter) {
-        char path[LENGTH_MAX];
-        snprintf(path, sizeof path, "%.*s", (int)(parameter - name) - 1, name);
-        vndf_family *family = family_open(command, path);
-        if (!family)
-            return 0;
-        chosen->family[chosen->families++] = family;
-        vndf_family_facts facts = vndf_family_info(family);
-        if (!parse_numbers(command, "the parameter", parameter, -1e30, 1e30, 1, 1, &p))
-            return 0;
-        if (!((float)p >= facts.low && (float)p <= facts.high))
-            return complain(command, "the parameter '%s' is not in the range of the family, from %.7g to %.7g",
-                            parameter, (double)facts.low, (double)facts.high),
-                   0;
-        vndf_family_at(family, (float)p, &lobe.surface, &at);
-    } else {
-        chosen_distribution *table = &chosen->table[chosen->tables];
-        if (!distribution_open(table, command, name))
-            return 0;
-        chosen->tables++;
-        at.lobe[0].weight = 1;
-        at.lobe[0].surface.distribution = table->distribution;
-    }
-    for (int i = 0; i < at.count; i++) {
-        at.lobe[i].weight *= lobe.weight;
-        chosen->option[chosen->mixture.count] = option;
-        chosen->mixture.lobe[chosen->mixture.count++] = at.lobe[i];
-    }
-    return 1;
-}
-
-enum { KEY_TABLE, KEY_WEIGHT, KEY_ALPHA, KEY_MATRIX, KEY_MEAN, KEYS };
-static const char *const key_names[KEYS + 1] = {"table", "weight", "alpha", "matrix", "mean", NULL};
-
-typedef struct lobe_text {
-    const char *command;
-    char where[16]; /* "--lobe 2": opens messages */
-    char text[LENGTH_MAX];
-    const char *value[KEYS]; /* in text, or NULL */
-} lobe_text;
-
-/* "alpha=0.2 weight=1" into lobe->value. 1, or 0 after a complaint. */
-static int split_lobe(lobe_text *lobe, const char *given)
-{
-    static const char blanks[] = " \t\r\n";
-    char what[32];
-    snprintf(what, sizeof what, "%s: the key", lobe->where);
-    if (strlen(given) >= sizeof lobe->text)
-        return complain(lobe->command, "%s has more than %d characters", lobe->where, LENGTH_MAX - 1), 0;
-    strcpy(lobe->text, given);
-    for (char *word = strtok(lobe->text, blanks); word; word = strtok(NULL, blanks)) {
-        char *equals = strchr(word, '=');
-        if (!equals)
-            return complain(lobe->command, "%s: '%.40s' is not KEY=VALUE", lobe->where, word), 0;
-        *equals = '\0';
-        int key = word_among(lobe->command, what, word, key_names);
-        if (key < 0)
-            return 0;
-        if (lobe->value[key])
-            return complain(lobe->command, "%s: %s is given twice", lobe->where, word), 0;
-        lobe->value[key] = equals + 1;
-    }
-    if (!lobe->value[KEY_TABLE])
-        return complain(lobe->command, "%s: table=" SURFACE_POSITIONAL " is missing", lobe->where), 0;
-    if (lobe->value[KEY_ALPHA] && lobe->value[KEY_MATRIX])
-        return complain(lobe->command, "%s has both alpha and matrix; one of them is possible", lobe->where), 0;
-    return 1;
-}
-
-/* As many numbers as `least` to `most`; an absent key leaves them as they are. 1, or 0 after a complaint. */
-static int read_key(const lobe_text *lobe, int key, double low, double high, size_t least, size_t most,
-                    double *numbers)
-{
-    char what[32];
-    if (!lobe->value[key])
-        return 1;
-    snprintf(what, sizeof what, "%s: %s", lobe->where, key_names[key]);
-    size_t count = parse_numbers(lobe->command, what, lobe->value[key], low, high, least, most, numbers);
-    if (count == 1 && most == 2)
-        numbers[1] = numbers[0];
-    return count != 0;
-}
-
-static int read_numbers(const lobe_text *lobe, vndf_mixture_lobe *to)
-{
-    double weight = 1, alpha[2] = {1, 1}, matrix[4], mean[2] = {0, 0};
-    if (!read_key(lobe, KEY_WEIGHT, 0, 1e30, 1, 1, &weight) ||
-        !read_key(lobe, KEY_ALPHA, narrowest, widest, 1, 2, alpha) ||
-        !read_key(lobe, KEY_MATRIX, -widest, widest, 4, 4, matrix) ||
-        !read_key(lobe, KEY_MEAN, -1e6, 1e6, 2, 2, mean))
-        return 0;
-    if (!lobe->value[KEY_MATRIX]) {
-        matrix[0] = alpha[0];
-        matrix[1] = matrix[2] = 0;
-        matrix[3] = alpha[1];
-    }
-    to->weight = (float)weight;
-    to->surface =
-        (vndf_affine){NULL,           (float)matrix[0], (float)matrix[1], (float)matrix[2], (float)matrix[3],
-                      (float)mean[0], (float)mean[1]};
-    return 1;
-}
-
-/* A matrix that is singular or out of the range of floats has no view. */
-static int is_valid(const vndf_affine *surface)
-{
-    vndf_mixture alone = {1, {{*surface, 1}}};
-    vndf_vec3 up = {0, 0, 1};
-    return vndf_mixture_view_from(&alone, up).count == 1;
-}
-
-static int add_lobe(chosen_surface *chosen, const char *command, const char *given, int option)
-{
-    lobe_text lobe = {.command = command};
-    vndf_mixture_lobe next;
-    snprintf(lobe.where, sizeof lobe.where, "--lobe %d", option + 1);
-    if (!split_lobe(&lobe, given) || !read_numbers(&lobe, &next) ||
-        !add_distribution(chosen, command, lobe.value[KEY_TABLE], next, option))
-        return 0;
-    if (is_valid(&chosen->mixture.lobe[chosen->mixture.count - 1].surface))
-        return 1;
-    const char *matrix = lobe.value[KEY_MATRIX], *alpha = lobe.value[KEY_ALPHA];
-    complain(command,
-             "%s: %s '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
-             lobe.where, matrix ? "matrix" : "alpha",
-             matrix  ? matrix
-             : alpha ? alpha
-                     : "1");
-    return 0;
-}
-
-static int add_all_lobes(chosen_surface *chosen, const char *command, const words *lobes)
-{
-    double sum = 0;
-    for (size_t i = 0; i < lobes->count; i++)
-        if (!add_lobe(chosen, command, lobes->item[i], (int)i))
-            return 0;
-    for (int i = 0; i < chosen->mixture.count; i++)
-        sum += (double)chosen->mixture.lobe[i].weight;
-    if (!(sum > 0))
-        complain(command, "--lobe: the weights of all lobes are 0");
-    return sum > 0;
-}
-
-/* With --alpha: a roughness that is out of the range of the table draws nothing, and is no mistake here. */
-static int add_subject(chosen_surface *chosen, const char *command, const char *name, const char *alpha)
-{
-    vndf_surface plain = {NULL, 1, 1};
-    if (!roughness_from(command, alpha, &plain))
-        return 0;
-    vndf_mixture_lobe lobe = {{NULL, plain.alpha_x, 0, 0, plain.alpha_y, 0, 0}, 1};
-    return add_distribution(chosen, command, name, lobe, 0);
-}
-
 /* ---- the surface --------------------------------------------------------------------------------- */
 
-static int check_words(const char *command, const aim_words *aim, const words *positional)
+/* --alpha or --matrix, and --mean. 1, or 0 after a complaint. */
+static int read_map(const arguments *given, vndf_affine *map)
 {
-    if (!aim->lobes.count && !positional->count)
-        complain(command, SURFACE_POSITIONAL " is missing; see `%s --help`", command);
-    else if (aim->lobes.count && positional->count)
-        complain(command, "'%s' and --lobe are given; a lobe names its table by table=FILE",
-                 only_word(positional));
-    else if (aim->lobes.count && aim->alpha.count)
-        complain(command, "--alpha and --lobe are given; a lobe has its roughness by alpha=AX,AY");
-    else if (!aim->theta.count)
-        complain(command, "--theta is missing: the angle from the normal to the incident direction, 0 to 180");
-    else
+    const char *command = given->command, *alpha = option_value(given, "--alpha");
+    const char *matrix = option_value(given, "--matrix"), *mean = option_value(given, "--mean");
+    double m[4], shift[2] = {0, 0};
+    vndf_surface plain;
+    if (alpha && matrix)
+        return complain(command, "--alpha and --matrix are given; one of them is possible"), 0;
+    if (!roughness_from(command, alpha, &plain) ||
+        (matrix && !parse_numbers(command, "--matrix", matrix, -widest, widest, 4, 4, m)) ||
+        (mean && !parse_numbers(command, "--mean", mean, -1e6, 1e6, 2, 2, shift)))
+        return 0;
+    *map = (vndf_affine){vndf_ggx(), plain.alpha_x, 0, 0, plain.alpha_y, (float)shift[0], (float)shift[1]};
+    if (!matrix)
         return 1;
+    map->xx = (float)m[0];
+    map->xy = (float)m[1];
+    map->yx = (float)m[2];
+    map->yy = (float)m[3];
+    const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
+    const vndf_vec3 up = {0, 0, 1};
+    if (vndf_mixture_view_from(&alone, up).count == 1)
+        return 1;
+    complain(command,
+             "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
+             matrix);
     return 0;
 }
 
-int surface_open(chosen_surface *chosen, const char *command, const aim_words *aim, const words *positional)
+/* FILE.vndfs@P; `parameter` is the text of P in it. 1, or 0 after a complaint. */
+static int family_surface(chosen_surface *chosen, const char *command, const char *name, const char *parameter,
+                          const vndf_affine *map)
 {
+    char path[LENGTH_MAX];
+    double p;
+    snprintf(path, sizeof path, "%.*s", (int)(parameter - name) - 1, name);
+    chosen->family = family_open(command, path);
+    if (!chosen->family || !parse_numbers(command, "the parameter", parameter, -1e30, 1e30, 1, 1, &p))
+        return 0;
+    vndf_family_facts facts = vndf_family_info(chosen->family);
+    if (!((float)p >= facts.low && (float)p <= facts.high))
+        return complain(command, "the parameter '%s' is not in the range of the family, from %.7g to %.7g",
+                        parameter, (double)facts.low, (double)facts.high),
+               0;
+    vndf_family_at(chosen->family, (float)p, map, &chosen->mixture);
+    return 1;
+}
+
+int surface_open(chosen_surface *chosen, const arguments *given)
+{
+    const char *command = given->command, *name = given->positional.item[0];
+    const char *parameter = family_parameter(name);
     double theta = 0, phi = 0;
-    chosen->tables = chosen->families = 0;
-    chosen->mixture.count = 0;
-    if (!check_words(command, aim, positional) ||
-        !option_number(command, "--theta", &aim->theta, 0, 180, &theta) ||
-        !option_number(command, "--phi", &aim->phi, -360, 360, &phi))
+    vndf_affine map;
+    *chosen = (chosen_surface){.family = NULL};
+    if (!option_value(given, "--theta"))
+        return complain(command,
+                        "--theta is missing: the angle from the normal to the incident direction, 0 to 180"),
+               0;
+    if (!option_number(given, "--theta", 0, 180, &theta) || !option_number(given, "--phi", -360, 360, &phi) ||
+        !read_map(given, &map))
         return 0;
     chosen->wi = direction_from(theta, phi);
-    if (aim->lobes.count ? add_all_lobes(chosen, command, &aim->lobes)
-                         : add_subject(chosen, command, only_word(positional), only_word(&aim->alpha)))
+    if (is_family_file(name))
+        return complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name), 0;
+    if (parameter ? family_surface(chosen, command, name, parameter, &map)
+                  : distribution_open(&chosen->table, command, name)) {
+        if (!parameter) {
+            map.distribution = chosen->table.distribution;
+            chosen->mixture = (vndf_mixture){1, {{map, 1}}};
+        }
         return 1;
+    }
     surface_close(chosen);
     return 0;
 }
 
 void surface_close(chosen_surface *chosen)
 {
-    while (chosen->tables > 0)
-        distribution_close(&chosen->table[--chosen->tables]);
-    while (chosen->families > 0)
-        vndf_family_free(chosen->family[--chosen->families]);
+    distribution_close(&chosen->table);
+    vndf_family_free(chosen->family);
 }

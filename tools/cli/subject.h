@@ -1,5 +1,4 @@
-/* What the user points at: a distribution (FILE|ggx|beckmann), a roughness, an incident direction; and the surface that
- * sample and eval look at, of one distribution with --alpha, or of one or more --lobe. */
+/* What the user points at: a distribution (FILE|ggx|beckmann), a roughness, an incident direction, a surface. */
 #ifndef TOOLS_CLI_SUBJECT_H
 #define TOOLS_CLI_SUBJECT_H
 
@@ -39,50 +38,27 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 
 /* ---- surfaces ---- */
 
-/* The options that sample and eval share. */
-typedef struct aim_words {
-    words theta, phi, alpha, lobes;
-} aim_words;
-
-#define AIM_OPTIONS(aim)                                                                         \
-  {"--theta", 1, 1, &(aim).theta}, {"--phi", 1, 1, &(aim).phi}, {"--alpha", 1, 1, &(aim).alpha}, \
-  {                                                                                              \
-    "--lobe", 1, VNDF_MIXTURE_LOBES, &(aim).lobes                                                \
-  }
-
-/* A lobe of the mixture belongs to the --lobe `option`, counted from 0: a family makes two lobes of one. */
+/* What sample and eval look at: one distribution, or the two neighbours of a family's parameter. */
 typedef struct chosen_surface {
     vndf_mixture mixture;
-    int option[VNDF_MIXTURE_LOBES];
-    chosen_distribution table[VNDF_MIXTURE_LOBES];
-    vndf_family *family[VNDF_MIXTURE_LOBES];
-    int tables, families; /* that are open */
+    chosen_distribution table;
+    vndf_family *family; /* NULL: it is of a table or a closed form */
     vndf_vec3 wi;
 } chosen_surface;
 
-/* The surface and the direction, from --theta (needed), --phi and either a positional word and --alpha or lobes.
- * Returns 1, or 0 after a complaint. */
-int surface_open(chosen_surface *chosen, const char *command, const aim_words *aim, const words *positional);
+/* From the positional word and the options of SURFACE_HELP. Returns 1, or 0 after a complaint. */
+int surface_open(chosen_surface *chosen, const arguments *given);
 void surface_close(chosen_surface *chosen);
 
-/* The positional word, and help for it, for the direction and for --lobe. */
 #define SURFACE_POSITIONAL "FILE|ggx|beckmann|FILE.vndfs@P"
-#define AIM_HELP                                                                                                  \
-  "  --theta DEG      angle of the incident direction from the normal, 0 to 180; above 90 is below the surface\n" \
-  "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"                                     \
-  "  --alpha AX[,AY]  roughness along x and y (default 1: the distribution as the builder received it)\n"
 #define SURFACE_HELP                                                                                                \
   "FILE is a table (vndf build), - for stdin; FILE.vndfs@P is a family of tables (vndf build --parameter) at the\n" \
-  "parameter P, as in tails.vndfs@2.7. A surface of several lobes takes, in their place and that of --alpha, up\n"  \
-  "to 8 times\n"                                                                                                    \
+  "parameter P, as in tails.vndfs@2.7.\n"                                                                           \
   "\n"                                                                                                              \
-  "  --lobe 'KEY=VALUE ...'  with the keys, between blanks and each once:\n"                                        \
-  "      table=" SURFACE_POSITIONAL "\n"                                                                            \
-  "                               the distribution of the lobe (needed); FILE has no blanks in its name,\n"         \
-  "                               and a family takes two of the 8 lobes\n"                                          \
-  "      weight=W                 its part of the surface, over the sum of all weights (default 1)\n"               \
-  "      alpha=AX[,AY]            its roughness (default 1), or\n"                                                  \
-  "      matrix=XX,XY,YX,YY       the linear map of its slopes, s = M u + mean, not singular\n"                     \
-  "      mean=X,Y                 its mean slope (default 0,0)\n"
+  "  --theta DEG      angle of the incident direction from the normal, 0 to 180; above 90 is below the surface\n"   \
+  "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"                                       \
+  "  --alpha AX[,AY]  roughness along x and y (default 1: the distribution as the builder received it), or\n"       \
+  "  --matrix XX,XY,YX,YY  the linear map of its slopes, s = M u + mean, not singular\n"                            \
+  "  --mean X,Y       its mean slope (default 0,0): the mean plane stands for the horizon in lambda and g1\n"
 
 #endif

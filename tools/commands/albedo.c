@@ -11,8 +11,8 @@
 
 static const char name[] = "vndf albedo";
 
-static const char help[] =
-    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT] [--json] [-q]\n"
+static const char *const help[] = {
+    "usage: vndf albedo FILE|ggx|beckmann [--eta X] [--alpha LIST] [--theta LIST] [-o OUT]\n"
     "\n"
     "The directional albedo E: the part of the light that one scattering event with height-correlated Smith masking\n"
     "sends on, and its average 2 integral E mu dmu. 1 - E is what energy compensation has to give back (Kulla &\n"
@@ -26,7 +26,8 @@ static const char help[] =
     "exit status: 0 good, 2 wrong use\n"
     "\n"
     "example: vndf albedo ggx --alpha 0.1,0.5,1\n"
-    "         vndf albedo tables/hazy.vndf --eta 1.5 -o hazy_glass.csv\n";
+    "         vndf albedo tables/hazy.vndf --eta 1.5 -o hazy_glass.csv\n",
+    NULL};
 
 enum { LIST_MAX = 16 };
 
@@ -99,36 +100,32 @@ static int print(FILE *file, const void *of, figures_form form)
     return good;
 }
 
-static int read_list(const char *what, const words *given, const char *otherwise, double most, list *to)
+static int read_list(const arguments *given, const char *what, const char *otherwise, double most, list *to)
 {
-    const char *text = only_word(given);
+    const char *text = option_value(given, what);
     to->count = parse_numbers(name, what, text ? text : otherwise, 0, most, 1, LIST_MAX, to->value);
     return to->count != 0;
 }
 
-int command_albedo(int argc, char **argv)
+static int run(const arguments *given)
 {
-    figure_words asked = {0};
-    words subject = {{NULL}, 0}, eta = subject, alpha = subject, theta = subject;
-    const option_form options[] = {
-        {"--eta", 1, 1, &eta}, {"--alpha", 1, 1, &alpha}, {"--theta", 1, 1, &theta}, ROWS_OPTIONS(asked)};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
+    const char *subject = given->positional.item[0];
     vndf_error error = {VNDF_OK, ""};
     chosen_distribution chosen;
-    report r = {.eta = 0};
-    int status = parse_arguments(&form, argc, argv, &subject);
-    if (status != PARSE_GO_ON)
-        return status;
-    if (!rows_check(name, &asked) || !option_number(name, "--eta", &eta, 0.01, 100, &r.eta) ||
-        !read_list("--alpha", &alpha, "0.05,0.1,0.2,0.3,0.5,0.7,1", (double)VNDF_ALBEDO_ALPHA_MAX, &r.alpha) ||
-        !read_list("--theta", &theta, "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta) ||
-        !distribution_open(&chosen, name, only_word(&subject)))
+    report r = {.eta = 0, .subject = input_name(subject)};
+    if (!rows_check(given) || !option_number(given, "--eta", 0.01, 100, &r.eta) ||
+        !read_list(given, "--alpha", "0.05,0.1,0.2,0.3,0.5,0.7,1", (double)VNDF_ALBEDO_ALPHA_MAX, &r.alpha) ||
+        !read_list(given, "--theta", "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta) ||
+        !distribution_open(&chosen, name, subject))
         return STATUS_USE;
     vndf_albedo *albedo = vndf_albedo_build(chosen.distribution, (float)r.eta, &error);
     r.albedo = albedo;
-    r.subject = input_name(only_word(&subject));
-    status = albedo ? rows_print(name, &asked, print, &r) : complain(name, "%s", error.message);
+    int status = albedo ? rows_print(given, print, &r) : complain(name, "%s", error.message);
     vndf_albedo_free(albedo);
     distribution_close(&chosen);
     return status;
 }
+
+const subcommand command_albedo = {
+    name, "what single scattering keeps of the light, for energy compensation", "FILE|ggx|beckmann", 1, 1, run,
+    help};

@@ -15,7 +15,7 @@
 static const char normals_name[] = "vndf bench", effects_name[] = "vndf bench effects",
                   student[] = "student-t:2.5";
 
-static const char normals_help[] =
+static const char *const normals_help[] = {
     "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options]\n"
     "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
     "\n"
@@ -26,7 +26,7 @@ static const char normals_help[] =
     "random roughness, data in cache; results are verified before they count.\n"
     "\n"
     "  --family NAME    what the tables are of, as `vndf build` takes it (default student-t:2.5); so are\n"
-    "  --ndf EXPR, --slope EXPR, --set NAME=X\n"
+    "  --ndf EXPR, --slope EXPR, --set NAME=X ...\n"
     "  --csv FILE       rows of D or P22, as `vndf build` reads them\n"
     "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
     "                   may take longer\n"
@@ -34,36 +34,28 @@ static const char normals_help[] =
     "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench --only avx512\n"
-    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n";
+    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n",
+    NULL};
 
-static const char effects_help[] =
+static const char *const effects_help[] = {
     "usage: vndf bench effects [--distribution FILE|ggx|beckmann] ... [options]\n"
     "\n"
     "Times hit and sample, value and density of each set of effects that vndf_bsdf.h has, from bare reflection\n"
     "upward, beside bare reflection written by hand; and measures mean, lost samples, largest weight, variance\n"
-    "and efficiency. Further rows compare visible with bounded normals by roughness and angle. All take turns in\n"
-    "one process, with the same random directions over the hemisphere; results are verified before they count.\n"
+    "and efficiency. All take turns in one process, with the same random directions over the hemisphere; results\n"
+    "are verified before they count.\n"
     "\n"
-    "  --distribution D  a table file, ggx or beckmann, up to 8 times (default: ggx, beckmann and\n"
+    "  --distribution D ...  a table file, ggx or beckmann, up to 8 times (default: ggx, beckmann and\n"
     "                    student-t:2.5, which is built)\n"
-    "  --alpha AX[,AY]   roughness, but of the further rows (default 0.5)\n"
+    "  --alpha AX[,AY]   roughness (default 0.5)\n"
     "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
-    "  --only WORD       only sets of effects or distributions with WORD in their name; `variance`: the further\n"
-    "                    rows\n"
+    "  --only WORD       only sets of effects or distributions with WORD in their name\n"
     "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n" ROWS_HELP "\n"
     "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench effects --distribution ggx --only masking\n"
-    "         vndf bench effects -o effects.csv\n";
-
-/* What both commands take. */
-typedef struct bench_words {
-    const char *command;
-    words seconds, only;
-    figure_words figures;
-    source_words source;              /* of normals */
-    words distribution, alpha, theta; /* of effects */
-} bench_words;
+    "         vndf bench effects -o effects.csv\n",
+    NULL};
 
 /* ---- output -------------------------------------------------------------------------------------- */
 
@@ -81,23 +73,22 @@ static int judge(const char *command, const evidence_rows *found)
     return status;
 }
 
-static int run_plan(evidence_plan *plan, const bench_words *given)
+static int run_plan(evidence_plan *plan, const arguments *given)
 {
     vndf_error error = {VNDF_OK, ""};
     evidence_rows found;
-    unsigned held = output_hold_signals();
-    progress p = progress_begin(given->command, held);
-    p.is_seen &= !given->figures.quiet.count;
+    output_hold_signals();
+    progress p = progress_begin(given->command, option_value(given, "-q") != NULL);
     plan->progress = &p;
-    plan->only = only_word(&given->only);
+    plan->only = option_value(given, "--only");
     plan->start = clock_seconds();
     vndf_status status = evidence_run(plan, &found, &error);
     progress_end(&p);
     int printed = status != VNDF_OK ? complain(given->command, "%s", error.message)
-                                    : rows_print(given->command, &given->figures, evidence_print, &found);
+                                    : rows_print(given, evidence_print, &found);
     int judged = judge(given->command, &found);
     rows_free(&found);
-    output_release_signals(held);
+    output_release_signals();
     return printed == STATUS_GOOD ? judged : printed;
 }
 
@@ -139,87 +130,51 @@ static int open_all(opened *o, evidence_plan *plan, const words *names)
     return o->built != NULL;
 }
 
-static int run_effects(const bench_words *given)
+static int run_effects(const arguments *given)
 {
-    vndf_surface alpha;
+    const char *alpha = option_value(given, "--alpha");
+    const words names = option_values(given, "--distribution");
+    vndf_surface surface;
     evidence_plan plan = {.theta = 60, .seconds = 15};
     opened o = {.count = 0, .built = NULL};
-    const char *text = only_word(&given->alpha);
-    if (!roughness_from(effects_name, text ? text : "0.5", &alpha) ||
-        !option_number(effects_name, "--seconds", &given->seconds, 0.01, 3600, &plan.seconds) ||
-        !option_number(effects_name, "--theta", &given->theta, 0, 89.9, &plan.theta) ||
-        !rows_check(given->command, &given->figures))
+    if (names.count > MATERIALS_MAX)
+        return complain(effects_name, "--distribution is given more than %d times", MATERIALS_MAX);
+    if (!roughness_from(effects_name, alpha ? alpha : "0.5", &surface) ||
+        !option_number(given, "--seconds", 0.01, 3600, &plan.seconds) ||
+        !option_number(given, "--theta", 0, 89.9, &plan.theta) || !rows_check(given))
         return STATUS_USE;
-    plan.alpha_x = alpha.alpha_x;
-    plan.alpha_y = alpha.alpha_y;
-    int status = open_all(&o, &plan, &given->distribution) ? run_plan(&plan, given) : STATUS_USE;
+    plan.alpha_x = surface.alpha_x;
+    plan.alpha_y = surface.alpha_y;
+    int status = open_all(&o, &plan, &names) ? run_plan(&plan, given) : STATUS_USE;
     for (size_t i = 0; i < o.count; i++)
         distribution_close(&o.of[i]);
     vndf_free(o.built);
     return status;
 }
 
-int command_bench_effects(int argc, char **argv)
-{
-    bench_words given = {.command = effects_name};
-    words positional = {{NULL}, 0};
-    const option_form options[] = {
-        {"--distribution", 1, MATERIALS_MAX, &given.distribution},
-        {"--alpha", 1, 1, &given.alpha},
-        {"--theta", 1, 1, &given.theta},
-        {"--only", 1, 1, &given.only},
-        {"--seconds", 1, 1, &given.seconds},
-        ROWS_OPTIONS(given.figures),
-    };
-    const command_form form = {effects_name, effects_help, options, sizeof options / sizeof options[0], "", 0, 0};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    return parsed == PARSE_GO_ON ? run_effects(&given) : parsed;
-}
+const subcommand command_bench_effects = {effects_name, "what each effect of a BSDF costs", "", 0, 0, run_effects,
+                                          effects_help};
 
 /* ---- vndf bench ---------------------------------------------------------------------------------- */
 
-static int run_normals(const bench_words *given)
+static int run_normals(const arguments *given)
 {
     subject s;
     evidence_plan plan = {.at_hand = &s, .seconds = 40};
-    vndf_error error = {VNDF_OK, ""};
-    if (!option_number(normals_name, "--seconds", &given->seconds, 0.1, 3600, &plan.seconds) ||
-        !rows_check(given->command, &given->figures))
+    const char *family = option_value(given, "--family");
+    if (!option_number(given, "--seconds", 0.1, 3600, &plan.seconds) || !rows_check(given))
         return STATUS_USE;
-    int own = source_words_count(&given->source) != 0;
-    vndf_source *source =
-        own ? source_from_words(normals_name, &given->source) : vndf_source_family(student, &error);
+    vndf_source *source = source_from_words(given, student);
     if (!source)
-        return own ? STATUS_USE : complain(normals_name, "%s", error.message);
-    const char *family = only_word(&given->source.family);
-    subject_begin(&s, source, !own ? student : family ? family : vndf_source_description(source));
+        return STATUS_USE;
+    subject_begin(&s, source,
+                  !source_words_count(given) ? student
+                  : family                   ? family
+                                             : vndf_source_description(source));
     int status = run_plan(&plan, given);
     subject_free(&s);
     return status;
 }
 
-int command_bench(int argc, char **argv)
-{
-    if (argc > 0 && strcmp(argv[0], "effects") == 0)
-        return command_bench_effects(argc - 1, argv + 1);
-    bench_words given = {.command = normals_name};
-    words positional = {{NULL}, 0};
-    const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},
-        {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv},
-        {"--family", 1, 1, &given.source.family},
-        {"--set", 1, WORDS_MAX, &given.source.set},
-        {"--seconds", 1, 1, &given.seconds},
-        {"--only", 1, 1, &given.only},
-        ROWS_OPTIONS(given.figures),
-    };
-    const command_form form = {normals_name, normals_help, options, sizeof options / sizeof options[0], "", 0, 0};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed == PARSE_GO_ON && source_words_count(&given.source) > 1)
-        return complain(normals_name,
-                        "more than one of --ndf, --slope, --csv and --family; one at most is needed");
-    if (parsed == PARSE_GO_ON)
-        parsed = source_words_check_set(normals_name, &given.source);
-    return parsed == PARSE_GO_ON ? run_normals(&given) : parsed;
-}
+const subcommand command_bench = {
+    normals_name, "time, error and efficiency of all methods side by side", "", 0, 0, run_normals, normals_help};

@@ -12,9 +12,8 @@
 
 static const char name[] = "vndf eval";
 
-static const char help[] =
-    "usage: vndf eval " SURFACE_POSITIONAL " --theta DEG [--phi DEG] [--alpha AX[,AY]]\n"
-    "       vndf eval --lobe 'KEY=VALUE ...' [--lobe ...] --theta DEG [--phi DEG]\n"
+static const char *const help[] = {
+    "usage: vndf eval " SURFACE_POSITIONAL " --theta DEG [options]\n"
     "\n"
     "Reads one normal a line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), and prints a line for each:\n"
     "\n"
@@ -24,13 +23,10 @@ static const char help[] =
     "  pdf     density per steradian with which `vndf sample` draws wm from this incident direction\n"
     "  lambda  Smith's Lambda of the incident direction\n"
     "  g1      Smith's masking of the incident direction, 1/(1 + lambda); 0 below the horizon\n"
-    "\n" AIM_HELP FIGURES_HELP "\n" SURFACE_HELP "\n"
-    "Then all four numbers are of the whole surface. Where lobes have mean slopes, the mean plane of the whole stands\n"
-    "for the horizon in lambda and g1.\n"
-    "\n"
+    "\n" SURFACE_HELP "\n"
     "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n"
-    "         echo 0.6,0,0.8 | vndf eval --theta 45 --lobe 'weight=0.7 table=ggx alpha=0.1,0.2 mean=0.1,0' \\\n"
-    "                                    --lobe 'weight=0.3 table=beckmann matrix=0.5,0.2,-0.1,0.4'\n";
+    "         echo 0.6,0,0.8 | vndf eval beckmann --theta 45 --matrix 0.5,0.2,-0.1,0.4 --json\n",
+    NULL};
 
 enum { LINE_MAX_LENGTH = 256 };
 
@@ -55,7 +51,7 @@ static int read_normal(char *line, unsigned long long number, vndf_vec3 *wm)
     return 1;
 }
 
-/* One lobe gives the bits of its distribution alone. */
+/* What is no family gives the bits of its distribution alone. */
 static double ndf_of(const vndf_mixture *m, vndf_vec3 wm)
 {
     return (double)(m->count == 1 ? vndf_affine_ndf(&m->lobe[0].surface, wm) : vndf_mixture_ndf(m, wm));
@@ -91,22 +87,14 @@ static int evaluate_lines(const chosen_surface *surface, figures *f)
     return STATUS_GOOD;
 }
 
-int command_eval(int argc, char **argv)
+static int run(const arguments *given)
 {
-    aim_words aim = {0};
-    figure_words asked = {0};
-    words positional = {{NULL}, 0};
     chosen_surface surface;
-    const option_form options[] = {AIM_OPTIONS(aim), FIGURES_OPTIONS(asked)};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], SURFACE_POSITIONAL, 0, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!surface_open(&surface, name, &aim, &positional))
+    if (!surface_open(&surface, given))
         return STATUS_USE;
     int status = STATUS_USE;
     if (input_stdin(name)) {
-        figures f = figures_begin(&asked);
+        figures f = figures_begin(given);
         figures_list(&f, "values");
         status = evaluate_lines(&surface, &f);
         figures_list_end(&f);
@@ -115,3 +103,6 @@ int command_eval(int argc, char **argv)
     surface_close(&surface);
     return status;
 }
+
+const subcommand command_eval = {
+    name, "ndf, pdf, lambda, g1 for normals read from stdin", SURFACE_POSITIONAL, 1, 1, run, help};

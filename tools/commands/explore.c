@@ -21,7 +21,7 @@ enum { NUMBERS_MAX = 1024 * 2048 };
 
 static const char name[] = "vndf explore";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf explore FILE... -o PAGE.html\n"
     "\n"
     "Writes one page that needs nothing else, not even a network: in a browser with WebGL2 it draws two spheres, each\n"
@@ -37,7 +37,8 @@ static const char help[] =
     "\n"
     "exit status: 0 good, 2 wrong use\n"
     "\n"
-    "example: vndf explore tables/student-t-2.5.vndf tables/hazy.vndf -o normals.html\n";
+    "example: vndf explore tables/student-t-2.5.vndf tables/hazy.vndf -o normals.html\n",
+    NULL};
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
@@ -184,32 +185,35 @@ static int put_file(FILE *to, const export_document *document, const char *file,
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int run(const words *files, const char *path, export_document *document)
+static int write_page(const arguments *given, export_document *document)
 {
     output_file page;
     translation_prefix(&document->as, "vndf");
-    if (!named_tables_open(name, files, 0, document))
+    if (!named_tables_open(name, &given->positional, 0, document))
         return STATUS_USE;
     if (document->count > NUMBERS_MAX)
         return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", document->count,
                         NUMBERS_MAX);
-    if (!output_open(&page, name, path))
+    if (!output_open(&page, name, option_value(given, "-o")))
         return STATUS_USE;
     return put_file(page.file, document, "explorer.html", "") ? output_commit(&page)
                                                               : output_give_up(&page, "no memory");
 }
 
-int command_explore(int argc, char **argv)
+static int run(const arguments *given)
 {
-    words files = {{NULL}, 0}, output = {{NULL}, 0};
-    const option_form options[] = {{"-o", 1, 1, &output}};
-    const command_form form = {name, help, options, 1, "FILE", 1, EXPORT_TABLES_MAX};
     export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL};
-    int status = parse_arguments(&form, argc, argv, &files);
-    if (status == PARSE_GO_ON && !output.count)
-        return complain(name, "-o is missing");
-    if (status == PARSE_GO_ON)
-        status = run(&files, only_word(&output), &document);
+    if (!option_value(given, "-o"))
+        return complain(name, "-o PAGE.html is missing");
+    int status = write_page(given, &document);
     named_tables_close(&document);
     return status;
 }
+
+const subcommand command_explore = {name,
+                                    "a page that draws tables, GGX and Beckmann side by side in a browser",
+                                    "FILE",
+                                    1,
+                                    EXPORT_TABLES_MAX,
+                                    run,
+                                    help};

@@ -7,27 +7,14 @@
 #include "command.h"
 #include "manual/manual.h"
 
-const subcommand subcommands[] = {
-    {"build", command_build, "make a table from a formula, a CSV, a named family or a file of measurements"},
-    {"info", command_info, "what a table is, where it came from, its certificate"},
-    {"check", command_check, "measure a table again; exit 1 if a claim fails"},
-    {"sample", command_sample, "draw visible normals into a CSV or a file of floats"},
-    {"eval", command_eval, "ndf, pdf, lambda, g1 for normals read from stdin"},
-    {"plot", command_plot, "draw density and samples as an SVG"},
-    {"report", command_report, "a page of plots: what accuracy costs, and which table to ship"},
-    {"bench", command_bench, "time, error and efficiency of all methods side by side"},
-    {"albedo", command_albedo, "what single scattering keeps of the light, for energy compensation"},
-    {"export", command_export, "the sampler with your tables as one file for C, CUDA, GLSL and other languages"},
-    {"explore", command_explore, "a page that draws tables, GGX and Beckmann side by side in a browser"},
-    {"render", command_render, "a picture of a scene, by one sampler or several side by side"},
-    {"help", command_help, "the help of a command; the manual page and completion of bash"},
-};
-
-const size_t subcommand_count = sizeof subcommands / sizeof subcommands[0];
+const subcommand *const subcommands[] = {
+    &command_build,  &command_info,    &command_check,  &command_sample,        &command_eval,
+    &command_plot,   &command_report,  &command_bench,  &command_bench_effects, &command_albedo,
+    &command_export, &command_explore, &command_render, &command_help,          NULL};
 
 static const char name[] = "vndf help";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf help [COMMAND]\n"
     "       vndf help --man [-o FILE]\n"
     "       vndf help --completion bash [-o FILE]\n"
@@ -41,7 +28,8 @@ static const char help[] =
     "\n"
     "example: vndf help bench effects\n"
     "         vndf help --man -o vndf.1 && man -l vndf.1\n"
-    "         source <(vndf help --completion bash)\n";
+    "         source <(vndf help --completion bash)\n",
+    NULL};
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 
@@ -65,89 +53,101 @@ static const char head_end[] =
     "same command; symbolic links are followed to their file. `-o -` is stdout, without other text, and - in\n"
     "the place of an input is stdin, once\n"
     "\n"
-    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all\n";
+    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all;\n"
+    "every command takes both\n";
 
-enum { HEAD_SIZE = 8192 };
-
-static void write_head(char head[HEAD_SIZE])
+void command_list_text(char text[HELP_MAX])
 {
-    size_t at = (size_t)snprintf(head, HEAD_SIZE, "%s", head_begin);
-    for (size_t i = 0; i < subcommand_count && at < HEAD_SIZE; i++)
-        at += (size_t)snprintf(head + at, HEAD_SIZE - at, "  %-8s %s\n", subcommands[i].name,
-                               subcommands[i].purpose);
-    if (at < HEAD_SIZE)
-        snprintf(head + at, HEAD_SIZE - at, "%s", head_end);
+    size_t at = (size_t)snprintf(text, HELP_MAX, "%s", head_begin);
+    for (const subcommand *const *c = subcommands; *c; c++)
+        at += (size_t)snprintf(text + at, HELP_MAX - at, "  %-13s %s\n", (*c)->name + strlen("vndf "),
+                               (*c)->purpose);
+    snprintf(text + at, HELP_MAX - at, "%s", head_end);
 }
 
-int print_help(void)
+/* What every command takes stands before its last example. */
+void command_help_text(const subcommand *of, char text[HELP_MAX])
 {
-    char head[HEAD_SIZE];
-    write_head(head);
-    return fputs(head, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    static const char every[] = "\n"
+                                "  --json           prints figures as JSON, here and in every command\n"
+                                "  -q               prints neither figures nor progress\n";
+    const size_t length = sizeof every - 1;
+    char *last = text;
+    text[0] = '\0';
+    for (const char *const *chapter = of->help; *chapter; chapter++)
+        strncat(text, *chapter, HELP_MAX - length - 1 - strlen(text));
+    for (char *at = text; (at = strstr(at, "\nexample: ")) != NULL; at++)
+        last = at;
+    memmove(last + length, last, strlen(last) + 1);
+    memcpy(last, every, length);
 }
 
-int refuse_subcommand(const char *command, const char *wrong)
+/* `bench effects` is two words. */
+const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used)
 {
     const char *names[WORDS_MAX] = {"--help", "--version"};
-    for (size_t i = 0; i < subcommand_count; i++)
-        names[2 + i] = subcommands[i].name;
-    const char *hint = nearest_word(wrong, names, 2 + subcommand_count);
+    const subcommand *found = NULL;
+    char two[128] = "";
+    size_t count = 2;
+    if (argc > 1)
+        snprintf(two, sizeof two, "%.60s %.60s", argv[0], argv[1]);
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        const char *its = names[count++] = (*c)->name + strlen("vndf ");
+        if (strcmp(its, two) == 0 || (strcmp(its, argv[0]) == 0 && !found)) {
+            found = *c;
+            *used = 1 + (strcmp(its, two) == 0);
+        }
+    }
+    const char *hint = nearest_word(found ? two : argv[0], names, count);
+    if (found && (*used == 2 || !hint || !strchr(hint, ' ')))
+        return found;
     if (hint)
-        return complain(command, "there is no command '%s'; did you mean '%s'?", wrong, hint);
-    if (strchr(wrong, '.'))
-        return complain(command, "there is no command '%s'; did you mean `vndf info %s`?", wrong, wrong);
-    return complain(command, "there is no command '%s'; `vndf --help` lists them", wrong);
+        complain(who, "there is no command '%s'; did you mean '%s'?", found ? two : argv[0], hint);
+    else if (strchr(argv[0], '.'))
+        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", argv[0], argv[0]);
+    else
+        complain(who, "there is no command '%s'; `vndf --help` lists them", argv[0]);
+    return NULL;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
 static int show(const words *asked)
 {
-    static char word[] = "--help";
-    char *argv[] = {word, NULL};
-    static const char *const modes[] = {"effects", NULL};
-    if (asked->count == 2 && strcmp(asked->item[0], "bench") == 0)
-        return word_among(name, "what follows bench,", asked->item[1], modes) < 0 ? STATUS_USE
-                                                                                  : command_bench_effects(1, argv);
-    if (asked->count == 2)
-        return complain(name, "'%s' is one word too many", asked->item[1]);
-    for (size_t i = 0; i < subcommand_count; i++)
-        if (strcmp(asked->item[0], subcommands[i].name) == 0)
-            return subcommands[i].run(1, argv);
-    return refuse_subcommand(name, asked->item[0]);
+    static char text[HELP_MAX];
+    int used;
+    const subcommand *c = command_named(name, (int)asked->count, asked->item, &used);
+    if (!c)
+        return STATUS_USE;
+    if (asked->count > (size_t)used)
+        return complain(name, "'%s' is one word too many", asked->item[used]);
+    command_help_text(c, text);
+    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
 }
 
-static int write(int is_man, const char *path)
+static int run(const arguments *given)
 {
-    char head[HEAD_SIZE];
+    static char text[HELP_MAX];
+    const char *path = option_value(given, "-o"), *man = option_value(given, "--man");
+    const char *completion = option_value(given, "--completion");
     output_file output;
+    if ((given->positional.count > 0) + (man != NULL) + (completion != NULL) > 1)
+        return complain(name, "one of a command, --man and --completion is possible");
+    if (path && !man && !completion)
+        return complain(name, "-o goes with --man or --completion");
+    if (given->positional.count)
+        return show(&given->positional);
     if (!output_open(&output, name, path ? path : "-"))
         return STATUS_USE;
-    write_head(head);
-    if (is_man)
-        manual_write_man(output.file, head);
-    else
+    command_list_text(text);
+    if (man)
+        manual_write_man(output.file, text);
+    else if (completion)
         manual_write_bash(output.file);
+    else
+        fputs(text, output.file);
     return output_commit(&output);
 }
 
-int command_help(int argc, char **argv)
-{
-    words asked = {{NULL}, 0}, man = {{NULL}, 0}, completion = {{NULL}, 0}, output = {{NULL}, 0};
-    static const char *const shells[] = {"bash", NULL};
-    const option_form options[] = {
-        {"--man", 0, 1, &man}, {"--completion", 1, 1, &completion}, {"-o", 1, 1, &output}};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "COMMAND", 0, 2};
-    int parsed = parse_arguments(&form, argc, argv, &asked);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (asked.count + man.count + completion.count == 0)
-        return output.count ? complain(name, "-o goes with --man or --completion") : print_help();
-    if ((asked.count > 0) + man.count + completion.count > 1 || (asked.count && output.count))
-        return complain(name, "one of a command, --man and --completion is possible");
-    if (asked.count)
-        return show(&asked);
-    if (completion.count && word_among(name, "--completion", only_word(&completion), shells) < 0)
-        return STATUS_USE;
-    return write(man.count > 0, only_word(&output));
-}
+const subcommand command_help = {
+    name, "the help of a command; the manual page and completion of bash", "COMMAND", 0, 2, run, help};

@@ -7,8 +7,8 @@
 #include "cli/output.h"
 #include "cli/subject.h"
 
-static const char help[] =
-    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs [--json] [-q]\n"
+static const char *const help[] = {
+    "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"
     "\n"
     "Prints lines of a name, a value and its unit:\n"
     "  source         how the table was made, as arguments of `vndf build`\n"
@@ -44,9 +44,10 @@ static const char help[] =
     "  knot at P bytes B tv T distance D    a line for each table, D up to the next knot\n"
     "\n"
     "FILE is - for a table on stdin.\n"
-    "\n" FIGURES_HELP "\n"
+    "\n"
     "example: vndf info wavy.vndf\n"
-    "         vndf info wavy.vndf --json\n";
+    "         vndf info wavy.vndf --json\n",
+    NULL};
 
 static int info_of_family(const char *command, const char *path, figures *f)
 {
@@ -78,20 +79,17 @@ static int info_of_table(const char *command, const char *name, figures *f)
     return STATUS_GOOD;
 }
 
-int command_info(int argc, char **argv)
+static int run(const arguments *given)
 {
-    figure_words asked = {0};
-    words positional = {{NULL}, 0};
-    const option_form options[] = {FIGURES_OPTIONS(asked)};
-    const command_form form = {"vndf info", help, options, 2, "FILE|ggx|beckmann|FILE.vndfs", 1, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    const char *name = only_word(&positional);
-    figures f = figures_begin(&asked);
+    const char *name = given->positional.item[0];
+    figures f = figures_begin(given);
     int status =
-        is_family_file(name) ? info_of_family(form.command, name, &f) : info_of_table(form.command, name, &f);
+        is_family_file(name) ? info_of_family(given->command, name, &f) : info_of_table(given->command, name, &f);
     if (status == STATUS_GOOD)
         figures_end(&f);
     return status;
 }
+
+const subcommand command_info = {
+    "vndf info", "what a table is, where it came from, its certificate", "FILE|ggx|beckmann|FILE.vndfs", 1, 1, run,
+    help};

@@ -13,7 +13,7 @@
 
 static const char name[] = "vndf plot";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf plot FILE|ggx|beckmann [--theta A,B,...] [--alpha AX[,AY]] -o OUT.svg\n"
     "\n"
     "Draws D against the angle of the normal, and for each incident direction the visible normals: their\n"
@@ -23,7 +23,8 @@ static const char help[] =
     "  --alpha AX[,AY]  roughness along x and y (default 1)\n"
     "  -o OUT.svg       the figure; - for stdout\n"
     "\n"
-    "example: vndf plot wavy.vndf --theta 0,60 -o wavy.svg\n";
+    "example: vndf plot wavy.vndf --theta 0,60 -o wavy.svg\n",
+    NULL};
 
 enum { DISCS_MAX = 8 };
 
@@ -86,30 +87,27 @@ static int plot_to_file(const figure_plan *figure, const char *path)
     static const char *const forms[] = {"svg", NULL};
     if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
-    if (draw_figure(output.file, figure) && !output_stopping(output.held))
+    if (draw_figure(output.file, figure) && !output_stopping())
         return output_commit(&output);
-    return output_give_up(&output, output_stopping(output.held) ? "interrupted" : "no memory");
+    return output_give_up(&output, output_stopping() ? "interrupted" : "no memory");
 }
 
-int command_plot(int argc, char **argv)
+static int run(const arguments *given)
 {
-    words theta = {{NULL}, 0}, alpha = {{NULL}, 0}, path = {{NULL}, 0}, positional = {{NULL}, 0};
+    const char *theta = option_value(given, "--theta"), *path = option_value(given, "-o");
     chosen_distribution chosen;
     figure_plan figure = {{NULL, 1, 1}, {0, 45, 80, 100}, 4};
-    const option_form options[] = {{"--theta", 1, 1, &theta}, {"--alpha", 1, 1, &alpha}, {"-o", 1, 1, &path}};
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "FILE|ggx|beckmann", 1, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (!path.count)
+    if (!path)
         return complain(name, "-o OUT.svg is missing");
-    if (theta.count)
-        figure.count = parse_numbers(name, "--theta", only_word(&theta), 0, 180, 1, DISCS_MAX, figure.theta);
-    if (figure.count == 0 || !roughness_from(name, only_word(&alpha), &figure.surface) ||
-        !distribution_open(&chosen, name, only_word(&positional)))
+    if (theta)
+        figure.count = parse_numbers(name, "--theta", theta, 0, 180, 1, DISCS_MAX, figure.theta);
+    if (figure.count == 0 || !roughness_from(name, option_value(given, "--alpha"), &figure.surface) ||
+        !distribution_open(&chosen, name, given->positional.item[0]))
         return STATUS_USE;
     figure.surface.distribution = chosen.distribution;
-    int status = plot_to_file(&figure, only_word(&path));
+    int status = plot_to_file(&figure, path);
     distribution_close(&chosen);
     return status;
 }
+
+const subcommand command_plot = {name, "draw density and samples as an SVG", "FILE|ggx|beckmann", 1, 1, run, help};

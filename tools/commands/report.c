@@ -1,8 +1,6 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
  * thing after the other, and has the page written; evidence/page/report.h maps the rest. */
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
@@ -14,7 +12,7 @@
 
 static const char name[] = "vndf report";
 
-static const char help[] =
+static const char *const help[] = {
     "usage: vndf report [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options] DIR\n"
     "\n"
     "Writes DIR/index.html, one page that needs nothing else: which table to ship and with how many moments, error\n"
@@ -23,36 +21,19 @@ static const char help[] =
     "\n"
     "  --ndf EXPR, --slope EXPR, --csv FILE, --family NAME\n"
     "                  your own D, as `vndf build --help` describes them (default --family student-t:2.5)\n"
-    "  --set NAME=X    a parameter of the expression; may be repeated\n"
-    "  --with NAME     another family, as --family takes it, to be shown beside it; up to 3 times\n"
+    "  --set NAME=X ...  a parameter of the expression\n"
+    "  --with NAME ...  another family, as --family takes it, to be shown beside it; up to 3 times\n"
     "  --seconds S     to spend in all, roughly, 1 to 3600 (default 45); fewer mean more noise\n"
-    "  -q              names no files\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold a report, which is replaced; other\n"
     "files in it are left alone. Interrupted, the command leaves DIR as it was.\n"
     "\n"
-    "example: vndf report --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 wavy-report\n";
+    "example: vndf report --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 wavy-report\n",
+    NULL};
 
 static const char student[] = "student-t:2.5";
 
-typedef struct report_words {
-    source_words source;
-    words seconds, with, quiet;
-} report_words;
-
 /* ---- what is measured ---------------------------------------------------------------------------- */
-
-const evidence_row *report_row(const report *r, const char *called, const char *distribution,
-                               const char *instructions)
-{
-    for (size_t i = 0; i < r->rows.count; i++) {
-        const evidence_row *of = &r->rows.row[i];
-        if (strcmp(of->method, called) == 0 && strcmp(of->distribution, distribution) == 0 &&
-            strcmp(of->instructions, instructions) == 0)
-            return of;
-    }
-    return NULL;
-}
 
 /* Takes the source, which may be NULL with an error; an exit status. */
 static int add_subject(report *r, vndf_source *source, const char *title, vndf_error *error)
@@ -62,43 +43,24 @@ static int add_subject(report *r, vndf_source *source, const char *title, vndf_e
     return STATUS_GOOD;
 }
 
-static int add_subjects(report *r, const report_words *given)
+static int add_subjects(report *r, const arguments *given)
 {
+    const words with = option_values(given, "--with");
     vndf_error error = {VNDF_OK, ""};
-    int status;
-    if (source_words_count(&given->source)) {
-        char title[256];
-        vndf_source *source = source_from_words(name, &given->source);
-        if (!source)
-            return STATUS_USE;
-        source_text_name(&given->source, title, sizeof title);
-        status = add_subject(r, source, title, &error);
-    } else {
-        status = add_subject(r, vndf_source_family(student, &error), student, &error);
-    }
-    for (size_t i = 0; i < given->with.count && status == STATUS_GOOD; i++)
-        status = add_subject(r, vndf_source_family(given->with.item[i], &error), given->with.item[i], &error);
+    char title[256];
+    if (with.count >= REPORT_SUBJECTS)
+        return complain(name, "--with is given more than %d times", REPORT_SUBJECTS - 1);
+    vndf_source *source = source_from_words(given, student);
+    if (!source)
+        return STATUS_USE;
+    source_text_name(given, title, sizeof title);
+    int status = add_subject(r, source, *title ? title : student, &error);
+    for (size_t i = 0; i < with.count && status == STATUS_GOOD; i++)
+        status = add_subject(r, vndf_source_family(with.item[i], &error), with.item[i], &error);
     return status;
 }
 
-/* Times of the tables of the distribution at hand, from its rows. */
-static void note_times(report *r)
-{
-    static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
-    r->batch = sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)];
-    for (size_t i = 0; i < SIZES; i++) {
-        char batch[64];
-        report_table *t = &r->subject[0].table[i];
-        snprintf(batch, sizeof batch, "%s, batch", table_sizes[i].name);
-        const evidence_row *one = report_row(r, table_sizes[i].name, r->subject[0].of.name, "scalar");
-        const evidence_row *many = report_row(r, batch, r->subject[0].of.name, r->batch);
-        t->ns = one ? one->number[COL_NS] : (double)NAN;
-        t->batch = many ? many->number[COL_NS] : (double)NAN;
-        t->shared = many ? many->number[COL_SHARED] : (double)NAN;
-    }
-}
-
-static int measure(report *r, const report_words *given, evidence_plan *plan)
+static int measure(report *r, const arguments *given, evidence_plan *plan)
 {
     vndf_error error = {VNDF_OK, ""};
     int status = add_subjects(r, given);
@@ -107,10 +69,11 @@ static int measure(report *r, const report_words *given, evidence_plan *plan)
             status = complain(name, "%s: %s", r->subject[i].of.name, error.message);
     if (status != STATUS_GOOD)
         return status;
+    r->batch = method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
     plan->at_hand = &r->subject[0].of;
     if (evidence_run(plan, &r->rows, &error) != VNDF_OK)
         return complain(name, "%s", error.message);
-    note_times(r);
+    report_note_times(r);
     return STATUS_GOOD;
 }
 
@@ -134,10 +97,10 @@ static int write_page(html_page *page, const report *r)
            report_normals(page, r) && page_end(page);
 }
 
-static int write_report(const report *r, const char *path, page_place place, unsigned held, int is_quiet)
+static int write_report(const report *r, const char *path, page_place place, int is_quiet)
 {
     html_page page;
-    int status = write_page(&page, r) ? page_write(&page, path, held) : complain(name, "no memory for the page");
+    int status = write_page(&page, r) ? page_write(&page, path) : complain(name, "no memory for the page");
     if (status == STATUS_GOOD && !is_quiet) {
         if (place == PAGE_OURS)
             printf("replaced the report in %s\n", path);
@@ -150,48 +113,36 @@ static int write_report(const report *r, const char *path, page_place place, uns
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int run(const report_words *given, double seconds, const char *path, page_place place)
+static int run(const arguments *given)
 {
-    unsigned held = output_hold_signals();
-    progress p = progress_begin(name, held);
-    p.is_seen &= !given->quiet.count;
+    const char *path = given->positional.item[0];
+    const int is_quiet = option_value(given, "-q") != NULL;
+    double seconds = 45;
+    if (!option_number(given, "--seconds", 1, 3600, &seconds))
+        return STATUS_USE;
+    output_hold_signals();
+    page_place place = page_examine(name, path);
+    if (place == PAGE_REFUSED) {
+        output_release_signals();
+        return STATUS_USE;
+    }
+    progress p = progress_begin(name, is_quiet);
     evidence_plan plan = {.seconds = seconds, .progress = &p, .start = clock_seconds()};
     report *r = calloc(1, sizeof *r);
     int status = r ? measure(r, given, &plan) : complain(name, "no memory");
     progress_end(&p);
     if (status == STATUS_GOOD)
-        status = write_report(r, path, place, held, given->quiet.count > 0);
+        status = write_report(r, path, place, is_quiet);
     for (size_t i = 0; r && i < r->count; i++)
         report_subject_free(&r->subject[i]);
     if (r)
         rows_free(&r->rows);
     free(r);
-    output_release_signals(held);
+    if (status != STATUS_GOOD && place == PAGE_NEW)
+        remove(path); /* fails, and the folder stays, if a file was committed */
+    output_release_signals();
     return status;
 }
 
-int command_report(int argc, char **argv)
-{
-    report_words given = {0};
-    words positional = {{NULL}, 0};
-    double seconds = 45;
-    const option_form options[] = {
-        {"--ndf", 1, 1, &given.source.ndf},         {"--slope", 1, 1, &given.source.slope},
-        {"--csv", 1, 1, &given.source.csv},         {"--family", 1, 1, &given.source.family},
-        {"--set", 1, WORDS_MAX, &given.source.set}, {"--with", 1, REPORT_SUBJECTS - 1, &given.with},
-        {"--seconds", 1, 1, &given.seconds},        {"-q", 0, 1, &given.quiet},
-    };
-    const command_form form = {name, help, options, sizeof options / sizeof options[0], "DIR", 1, 1};
-    int parsed = parse_arguments(&form, argc, argv, &positional);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    if (source_words_count(&given.source) > 1)
-        return complain(name, "more than one of --ndf, --slope, --csv and --family; one at most is needed");
-    if (!option_number(name, "--seconds", &given.seconds, 1, 3600, &seconds))
-        return STATUS_USE;
-    parsed = source_words_check_set(name, &given.source);
-    if (parsed != PARSE_GO_ON)
-        return parsed;
-    page_place place = page_examine(name, only_word(&positional));
-    return place == PAGE_REFUSED ? STATUS_USE : run(&given, seconds, only_word(&positional), place);
-}
+const subcommand command_report = {
+    name, "a page of plots: what accuracy costs, and which table to ship", "DIR", 1, 1, run, help};

@@ -50,7 +50,7 @@ static void add(text_table *t, const char *heading, table_kind kind, const char 
         t->heading[t->columns++] = copy_of(t, heading);
     }
     if (make_room(t))
-        t->cell[t->count++] = (table_cell){copy_of(t, text), NULL};
+        t->cell[t->count++] = (table_cell){.text = copy_of(t, text)};
 }
 
 void table_text(text_table *t, const char *heading, const char *text)
@@ -89,6 +89,12 @@ void table_mark(text_table *t, const char *mark)
 {
     if (t->count)
         t->cell[t->count - 1].mark = mark;
+}
+
+void table_row_mark(text_table *t, const char *mark)
+{
+    if (t->count >= t->rows * t->columns && t->rows)
+        t->cell[(t->rows - 1) * t->columns].row_mark = mark;
 }
 
 /* ---- text -------------------------------------------------------------------------------------- */
@@ -247,9 +253,9 @@ int table_print_json(FILE *file, const text_table *t)
 
 /* ---- a page ------------------------------------------------------------------------------------ */
 
-static void put_tag(FILE *file, const char *tag, const char *class)
+static void put_tag(FILE *file, const char *tag, const char *mark)
 {
-    fprintf(file, class ? "<%s class=\"%s\">" : "<%s>", tag, class);
+    fprintf(file, mark ? "<%s class=\"%s\">" : "<%s>", tag, mark);
 }
 
 int table_print_html(FILE *file, const text_table *t)
@@ -258,15 +264,15 @@ int table_print_html(FILE *file, const text_table *t)
         return 0;
     fputs("<div class=\"scroll\"><table><thead><tr>", file);
     for (size_t k = 0; k < t->columns; k++) {
-        fputs("<th>", file);
+        put_tag(file, "th", t->kind[k] == TABLE_NUMBER ? NULL : "text");
         svg_escape(file, t->heading[k]);
         fputs("</th>", file);
     }
     fputs("</tr></thead>\n<tbody>\n", file);
     for (size_t i = 0; i < t->rows; i++) {
-        put_tag(file, "tr", t->cell[i * t->columns].mark);
+        put_tag(file, "tr", t->cell[i * t->columns].row_mark);
         for (size_t k = 0; k < t->columns; k++) {
-            put_tag(file, "td", k ? t->cell[i * t->columns + k].mark : NULL);
+            put_tag(file, "td", t->kind[k] == TABLE_NUMBER ? t->cell[i * t->columns + k].mark : "text");
             svg_escape(file, shown(t, i, k));
             fputs("</td>", file);
         }

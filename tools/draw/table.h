@@ -19,8 +19,9 @@ enum { TABLE_COLUMNS_MAX = 48 };
 typedef enum table_kind { TABLE_TEXT, TABLE_WORD, TABLE_NUMBER } table_kind;
 
 typedef struct table_cell {
-    char *text;       /* owned; "" for what does not apply */
-    const char *mark; /* NULL, or its class in a page */
+    char *text; /* owned; "" for what does not apply */
+    const char *mark,
+        *row_mark; /* NULL, or the class of the number and, of a row's first cell, of the row in a page */
 } table_cell;
 
 typedef struct text_table {
@@ -54,8 +55,9 @@ void table_time(text_table *t, const char *heading, double ns);
 /* Six digits, for CSV. */
 void table_value(text_table *t, const char *heading, double x);
 
-/* The class of the last cell in a page: "no", say; of the first of a row: that of the row. */
+/* The class in a page of the last cell, a number: "no", say; and of the row. */
 void table_mark(text_table *t, const char *mark);
+void table_row_mark(text_table *t, const char *mark);
 
 /* ---- printing; 0 if there was no memory ---- */
 

@@ -4,6 +4,7 @@
 
 #include "cli/random.h"
 #include "cli/subject.h"
+#include "evidence/measure/stratified.h"
 #include "evidence/method.h"
 
 void block_pack(block *b)
@@ -36,7 +37,7 @@ static vndf_vec3 scattered(const block_law *law, random_stream *stream)
     vndf_vec3 wo = hemisphere(stream);
     uint64_t coin = random_bits(stream);
     int through = law->lobes == VNDF_LOBES_TRANSMISSION || (law->lobes == VNDF_LOBES_BOTH && (coin & 1));
-    wo.z = through == law->inside ? wo.z : -wo.z;
+    wo.z = through ? -wo.z : wo.z;
     return wo;
 }
 
@@ -47,7 +48,6 @@ void block_fill(block *b, const block_law *law, uint64_t seed)
         vndf_vec3 wi = hemisphere(&stream);
         if (!isnan(law->theta))
             wi = direction_from(law->theta, 360 * random_double(&stream));
-        wi.z = law->inside ? -wi.z : wi.z;
         put(b->wi, i, wi);
         put(b->given, i, scattered(law, &stream));
         b->alpha[i] = law->low + (law->high - law->low) * random_float(&stream);
@@ -71,28 +71,9 @@ void block_aim(block *b, vndf_vec3 wi, float alpha)
     block_pack(b);
 }
 
-/* The bits of i after the point, in reverse. */
-static double mirrored(uint32_t i)
+void block_spread(block *b, uint32_t seed)
 {
-    double x = 0, digit = 0.5;
-    for (; i; i >>= 1, digit /= 2)
-        x += (i & 1u) ? digit : 0;
-    return x;
-}
-
-static float wrapped(double x)
-{
-    x -= floor(x);
-    return (float)(floor(x * 0x1p24) * 0x1p-24);
-}
-
-void block_spread(block *b, uint64_t seed)
-{
-    random_stream stream = random_from(seed);
-    double shift1 = random_double(&stream), shift2 = random_double(&stream);
-    for (uint32_t i = 0; i < BLOCK; i++) {
-        b->u[0][i] = wrapped((double)i / BLOCK + shift1);
-        b->u[1][i] = wrapped(mirrored(i) + shift2);
-    }
+    for (uint32_t i = 0; i < BLOCK; i++)
+        stratified_point(i, seed, &b->u[0][i], &b->u[1][i]);
     block_pack(b);
 }

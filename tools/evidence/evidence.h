@@ -1,14 +1,14 @@
 /* Evidence: what it costs to sample, and what a sample is worth; the inside of `vndf bench` and `vndf report`.
  *
  *     row.h        a row of numbers for each method, the one list of columns, the printers
- *     method.h     what a method is, and the blocks of inputs it runs over; the methods are in methods/
- *     effects.h    materials as methods: bare reflection by hand, and each set of effects
+ *     method.h     what a method is, and the blocks of inputs it runs over; the methods are in methods/, materials
+ *                  with their sets of effects among them
  *     list.c       which methods of which distributions: entries, made ready; tables are built here
  *     verify.c     whether the results of a method are right, before it is timed
- *     worth.c      error, variance and bias of a method from one direction
+ *     worth.c      error and variance of a method from one direction
  *     time.c       time, in turns
  *     evidence.c   all of these in order, into rows
- *     measure/     what `vndf check` asks: chi-square, agreement of calls, hard cases; points of Sobol'
+ *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
  *     page/        what `vndf report` writes
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
@@ -16,7 +16,7 @@
 #define TOOLS_EVIDENCE_EVIDENCE_H
 
 #include "cli/progress.h"
-#include "evidence/effects.h"
+#include "evidence/method.h"
 #include "vndf_build.h"
 
 /* ---- what is asked ------------------------------------------------------------------------------- */
@@ -28,7 +28,7 @@ typedef struct table_size {
     const char *name;
 } table_size;
 
-enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9, MATERIALS_MAX = 8 };
+enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9, MATERIALS_MAX = 8, ENTRIES_MAX = 256 };
 extern const table_size table_sizes[SIZES];
 
 /* A D and its tables, which are built when they are wanted. */
@@ -70,23 +70,20 @@ vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_e
 
 typedef enum subject_id { OF_GGX, OF_BECKMANN, AT_HAND, BESIDE, SUBJECTS } subject_id;
 
-enum { NO_ENTRY = -1 };
-
-typedef struct entry {
+typedef struct entry entry;
+struct entry {
     method m;
     subject_id of; /* of normals */
     block_law law;
-    double worth_theta; /* of materials: the direction of their weights */
-    int is_shown;       /* 0: needed as a yardstick alone */
-    int beside,
-        visible;        /* entries that time and worth are compared with, or NO_ENTRY: caps or bare reflection, all
-                            normals or visible ones */
+    int is_shown;         /* 0: needed as a yardstick alone */
+    const entry *beside;  /* what its time is compared with: caps or bare reflection; NULL: nothing */
+    const entry *normals; /* what its worth is compared with: all normals, of materials visible ones */
     double variance[3]; /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
     evidence_row row;
-} entry;
+};
 
 typedef struct evidence_list {
-    entry *entry;
+    entry entry[ENTRIES_MAX];
     size_t count;
     subject student;                      /* time for a D that everybody has, beside that at hand */
     method_reference reference[SUBJECTS]; /* distribution NULL where nothing of it is wanted */

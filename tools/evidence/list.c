@@ -12,7 +12,7 @@ const table_size table_sizes[SIZES] = {{2048, 2, "table 2 KiB, 2 moments"}, {204
                                        {8192, 2, "table 8 KiB, 2 moments"}, {8192, 3, "table 8 KiB, 3 moments"},
                                        {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
 
-static const char closed_name[] = "closed form", student[] = "student-t:2.5", variance[] = "variance";
+static const char student[] = "student-t:2.5";
 
 /* The first stands for the scalar calls. */
 static const vndf_instructions sets[] = {VNDF_INSTRUCTIONS_BEST, VNDF_INSTRUCTIONS_PORTABLE,
@@ -64,62 +64,46 @@ typedef struct maker {
     vndf_error *error;
 } maker;
 
-static int is_in(const char *text, const char *only)
-{
-    return !only || strstr(text, only) != NULL;
-}
-
-/* Room for one more; 0 and an error if there is none. */
-static int make_room(evidence_list *list, vndf_error *error)
-{
-    enum { STEP = 64 };
-    entry *room = list->entry;
-    if (list->count % STEP == 0)
-        room = realloc(list->entry, (list->count + STEP) * sizeof *room);
-    if (room)
-        list->entry = room;
-    else
-        *error = (vndf_error){VNDF_ERROR_MEMORY, "no memory"};
-    return room != NULL;
-}
-
-/* Takes the method, or releases it if it cannot run here, is neither wanted nor a yardstick, or there is no room. */
-static entry *add(const maker *to, method m, const char *distribution, int is_yardstick)
+static int is_wanted(const maker *to, const method *m, const char *distribution)
 {
     const char *only = to->plan->only;
-    int is_shown = is_in(m.name, only) || is_in(distribution, only) || is_in(m.instructions, only);
-    if (!m.each || !(is_shown || is_yardstick) || !make_room(to->list, to->error)) {
+    return !only || strstr(m->name, only) || strstr(distribution, only) || strstr(m->instructions, only);
+}
+
+/* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
+static entry *add(const maker *to, method m, const char *distribution, int is_yardstick)
+{
+    evidence_list *list = to->list;
+    int is_shown = is_wanted(to, &m, distribution);
+    if (!m.each || !(is_shown || is_yardstick) || list->count == ENTRIES_MAX) {
         method_release(&m);
         return NULL;
     }
-    entry *e = &to->list->entry[to->list->count++];
-    *e = (entry){.m = m, .is_shown = is_shown, .beside = NO_ENTRY, .visible = NO_ENTRY};
+    entry *e = &list->entry[list->count++];
+    *e = (entry){.m = m, .is_shown = is_shown, .variance = {NAN, NAN, NAN}};
     e->row = (evidence_row){.instructions = m.instructions, .kind = m.kind};
     snprintf(e->row.method, sizeof e->row.method, "%s", m.name);
     snprintf(e->row.distribution, sizeof e->row.distribution, "%.63s", distribution);
     for (evidence_column c = 0; c < COLUMNS; c++)
         e->row.number[c] = NAN;
-    for (int k = 0; k < 3; k++)
-        e->variance[k] = NAN;
     return e;
 }
 
-static int find(const evidence_list *list, size_t from, const char *name, const char *instructions)
+/* The entry from `from` on of that name. */
+static const entry *find(const evidence_list *list, size_t from, const char *name)
 {
     for (size_t i = from; name && i < list->count; i++)
-        if (strncmp(list->entry[i].m.name, name, strlen(name)) == 0 &&
-            strcmp(list->entry[i].m.instructions, instructions) == 0)
-            return (int)i;
-    return NO_ENTRY;
+        if (strcmp(list->entry[i].m.name, name) == 0)
+            return &list->entry[i];
+    return NULL;
 }
 
 /* ---- normals ------------------------------------------------------------------------------------- */
 
 static void add_normals(const maker *to, subject_id of, method m, int is_yardstick)
 {
-    static const char *const names[SUBJECTS] = {"ggx", "beckmann", NULL, student};
-    const char *name = of == AT_HAND ? to->plan->at_hand->name : names[of];
-    entry *e = add(to, m, m.kind == ROW_MOVE ? "-" : name, is_yardstick);
+    const char *const names[SUBJECTS] = {"ggx", "beckmann", to->plan->at_hand->name, student};
+    entry *e = add(to, m, names[of], is_yardstick);
     if (!e)
         return;
     e->of = of;
@@ -130,112 +114,98 @@ static void add_normals(const maker *to, subject_id of, method m, int is_yardsti
     }
 }
 
-static void add_ours(const maker *to, subject_id of, const vndf_distribution *d, const char *name,
-                     method_call first, method_call last)
+static void add_closed(const maker *to, subject_id of, const vndf_distribution *d)
 {
-    for (method_call call = first; call <= last; call++)
-        for (size_t i = 0; i < SETS; i++)
+    static const char name[] = "closed form";
+    to->list->reference[of] = method_reference_of(d);
+    add_normals(to, of, method_all_normals(&to->list->reference[of]), 1);
+    for (method_call call = METHOD_SAMPLE; call < METHOD_CALLS; call++)
+        for (size_t i = 0; i < SETS && (call == METHOD_SAMPLE || call >= METHOD_AFFINE); i++)
             add_normals(to, of, method_ours(d, name, call, sets[i]), 0);
+    if (of == OF_GGX)
+        add_normals(to, of, method_exported(d, name), 0);
 }
 
-static void add_closed(const maker *to)
+/* One of the tables by all its calls up to `last`; it is built if any of them is wanted. */
+static vndf_status add_table(const maker *to, subject_id of, subject *s, size_t size, method_call last)
 {
-    add_normals(to, OF_GGX, method_ggx_caps(), 1);
-    for (size_t i = 1; i < SETS; i++)
-        add_normals(to, OF_GGX, method_ggx_caps_batch(sets[i]), 0);
-    add_normals(to, OF_GGX, method_ggx_all_normals(), 1);
-    add_ours(to, OF_GGX, vndf_ggx(), closed_name, METHOD_SAMPLE, METHOD_SAMPLE);
-    add_normals(to, OF_GGX, method_exported(vndf_ggx(), closed_name), 0);
-    add_ours(to, OF_GGX, vndf_ggx(), closed_name, METHOD_DIAGONAL, METHOD_TWO_LOBES);
-    for (size_t i = 1; i < SETS; i++)
-        add_normals(to, OF_GGX, method_move(sets[i]), 0);
-    add_normals(to, OF_BECKMANN, method_beckmann_newton(), 0);
-    add_normals(to, OF_BECKMANN, method_beckmann_all_normals(), 1);
-    add_ours(to, OF_BECKMANN, vndf_beckmann(), closed_name, METHOD_SAMPLE, METHOD_SAMPLE);
-    add_ours(to, OF_BECKMANN, vndf_beckmann(), closed_name, METHOD_DIAGONAL, METHOD_TWO_LOBES);
+    const char *name = table_sizes[size].name;
+    for (method_call call = METHOD_SAMPLE; call <= last; call++)
+        for (size_t i = 0; i < SETS; i++) {
+            method m = method_ours(NULL, name, call, sets[i]);
+            if (!m.each || !is_wanted(to, &m, s->name))
+                continue;
+            const vndf_distribution *d = subject_table(s, size, to->plan, to->error);
+            if (!d)
+                return to->error->status;
+            add_normals(to, of, method_ours(d, name, call, sets[i]), 0);
+        }
+    if (last == METHOD_SAMPLE)
+        return VNDF_OK;
+    const method exported = method_exported(NULL, name);
+    if (is_wanted(to, &exported, s->name) && !subject_table(s, size, to->plan, to->error))
+        return to->error->status;
+    if (s->table[size])
+        add_normals(to, of, method_exported(s->table[size], name), 0);
+    return VNDF_OK;
 }
 
-/* The published ways for any D. */
-static method (*const any_methods[])(const method_reference *) = {method_any_all_normals, method_inverse_tables,
-                                                                  method_warp};
-
-enum { ANY_METHODS = sizeof any_methods / sizeof *any_methods };
-
-/* Whether any row of a table, by whatever call and set of instructions, is asked for. */
-static int table_wanted(const char *only, const char *subject_name, size_t i, int has_calls)
-{
-    char names[200];
-    snprintf(names, sizeof names, "%s, batch, exported C%s", table_sizes[i].name,
-             has_calls ? ": weight: pdf: invert: ndf: lambda: diagonal: affine: mixture" : "");
-    return is_in(names, only) || is_in(subject_name, only) || is_in("scalar portable avx2 avx512", only);
-}
-
-static int any_wanted(const evidence_plan *plan)
-{
-    int is_wanted = 0;
-    for (size_t i = 0; i < SIZES; i++)
-        is_wanted |= table_wanted(plan->only, plan->at_hand->name, i, i == SIZE_DEFAULT);
-    for (size_t i = 0; i < ANY_METHODS; i++)
-        is_wanted |= is_in(any_methods[i](NULL).name, plan->only);
-    return is_wanted;
-}
-
-/* The tables that are wanted, and the fine one, which stands for D. */
+/* The tables that are wanted, the published ways for any D, and the fine table, which stands for D. */
 static vndf_status add_at_hand(const maker *to)
 {
     subject *s = to->plan->at_hand;
+    size_t before = to->list->count;
+    const method warp = method_warp(NULL);
     for (size_t i = 0; i < SIZES; i++) {
-        if (i != SIZE_FINE && !table_wanted(to->plan->only, s->name, i, i == SIZE_DEFAULT))
-            continue;
-        const vndf_distribution *d = subject_table(s, i, to->plan, to->error);
-        if (!d)
+        method_call last = i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE;
+        if (add_table(to, AT_HAND, s, i, last) != VNDF_OK)
             return to->error->status;
-        add_ours(to, AT_HAND, d, table_sizes[i].name, METHOD_SAMPLE,
-                 i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE);
-        if (i == SIZE_DEFAULT)
-            add_normals(to, AT_HAND, method_exported(d, table_sizes[i].name), 0);
     }
+    if (to->list->count == before && !is_wanted(to, &warp, s->name))
+        return VNDF_OK;
+    if (!subject_table(s, SIZE_FINE, to->plan, to->error))
+        return to->error->status;
     method_reference *reference = &to->list->reference[AT_HAND];
     *reference = method_reference_of(s->table[SIZE_FINE]);
-    for (size_t i = 0; i < ANY_METHODS; i++)
-        add_normals(to, AT_HAND, any_methods[i](reference), i == 0);
+    add_normals(to, AT_HAND, method_all_normals(reference), 1);
+    add_normals(to, AT_HAND, method_warp(reference), 0);
     return VNDF_OK;
 }
 
 static vndf_status add_beside(const maker *to)
 {
     subject *s = &to->list->student;
-    if (strcmp(to->plan->at_hand->name, student) == 0 || !table_wanted(to->plan->only, student, SIZE_DEFAULT, 0))
+    if (strcmp(to->plan->at_hand->name, student) == 0)
         return VNDF_OK;
     vndf_source *source = vndf_source_family(student, to->error);
     if (!source)
         return to->error->status;
     subject_begin(s, source, student);
-    const vndf_distribution *d = subject_table(s, SIZE_DEFAULT, to->plan, to->error);
-    if (!d)
-        return to->error->status;
-    to->list->reference[BESIDE] = method_reference_of(d);
-    add_ours(to, BESIDE, d, table_sizes[SIZE_DEFAULT].name, METHOD_SAMPLE, METHOD_SAMPLE);
-    return VNDF_OK;
+    vndf_status status = add_table(to, BESIDE, s, SIZE_DEFAULT, METHOD_SAMPLE);
+    if (s->table[SIZE_DEFAULT])
+        to->list->reference[BESIDE] = method_reference_of(s->table[SIZE_DEFAULT]);
+    return status;
 }
 
 static vndf_status make_normals(const maker *to)
 {
     evidence_list *list = to->list;
-    list->reference[OF_GGX] = method_reference_of(vndf_ggx());
-    list->reference[OF_BECKMANN] = method_reference_of(vndf_beckmann());
-    add_closed(to);
-    vndf_status status = any_wanted(to->plan) ? add_at_hand(to) : VNDF_OK;
+    add_normals(to, OF_GGX, method_ggx_caps(), 1);
+    for (size_t i = 1; i < SETS; i++)
+        add_normals(to, OF_GGX, method_ggx_caps_batch(sets[i]), 0);
+    add_closed(to, OF_GGX, vndf_ggx());
+    add_normals(to, OF_BECKMANN, method_beckmann_newton(), 0);
+    add_closed(to, OF_BECKMANN, vndf_beckmann());
+    vndf_status status = add_at_hand(to);
     if (status == VNDF_OK)
         status = add_beside(to);
-    for (size_t i = 0; i < list->count; i++) {
-        entry *e = &list->entry[i];
+    for (entry *e = list->entry; e < list->entry + list->count; e++) {
         const method_reference *r = &list->reference[e->of];
-        e->law = (block_law){r->canonical.distribution, 0.05f / r->scale, 0.95f / r->scale, NAN, 0, 0};
-        e->beside = find(list, 0, method_ggx_caps().name, "scalar");
-        e->visible = find(list, 0, "all normals", "scalar");
-        while (e->visible != NO_ENTRY && list->entry[e->visible].of != e->of)
-            e->visible = find(list, (size_t)e->visible + 1, "all normals", "scalar");
+        e->law = (block_law){r->canonical.distribution, 0.05f / r->scale, 0.95f / r->scale, NAN, 0};
+        e->beside = &list->entry[0];
+        for (const entry *n = list->entry; n < list->entry + list->count; n++)
+            if (n->of == e->of && strncmp(n->m.name, "all normals", 11) == 0)
+                e->normals = n;
     }
     return status;
 }
@@ -243,109 +213,60 @@ static vndf_status make_normals(const maker *to)
 /* ---- materials ----------------------------------------------------------------------------------- */
 
 /* Whether a set that is wanted is compared with this one. */
-static int is_yardstick(const effect_set *set, const char *only)
+static int is_yardstick(const maker *to, const effect_set *set)
 {
+    const char *only = to->plan->only;
     for (size_t i = 0; i < effect_set_count; i++)
         if (effect_sets[i].visible && strcmp(effect_sets[i].visible, set->name) == 0 &&
-            is_in(effect_sets[i].name, only))
+            (!only || strstr(effect_sets[i].name, only)))
             return 1;
     return set == &effect_sets[EFFECT_BARE];
 }
 
-static vndf_status add_material(const maker *to, size_t of, const effect_set *set, float ax, float ay,
-                                double theta, int is_needed)
-{
-    const char *name = to->plan->of[of].name;
-    const vndf_surface surface = {to->plan->of[of].distribution, ax, ay};
-    if (!is_needed && !is_in(set->name, to->plan->only) && !is_in(name, to->plan->only))
-        return VNDF_OK;
-    method m = method_effect(set, &surface, to->error);
-    if (!m.each)
-        return to->error->status;
-    entry *e = add(to, m, name, 1);
-    if (!e)
-        return VNDF_OK;
-    e->law = effect_law(set, theta);
-    e->worth_theta = isnan(theta) ? to->plan->theta : theta;
-    e->row.number[COL_ALPHA_X] = (double)ax;
-    e->row.number[COL_ALPHA_Y] = (double)ay;
-    e->row.number[COL_THETA] = theta;
-    return VNDF_OK;
-}
-
-/* The cost of each set over directions of the whole hemisphere. */
-static vndf_status add_costs(const maker *to, size_t of)
+/* The sets of effects of one distribution. */
+static vndf_status add_materials(const maker *to, const char *name, const vndf_surface *surface)
 {
     size_t first = to->list->count;
-    for (size_t i = 0; i < effect_set_count; i++) {
-        const effect_set *set = &effect_sets[i];
-        if (set->kind == EFFECT_BY_CAPS && to->plan->of[of].distribution != vndf_ggx())
+    for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
+        method m = {.instructions = ""};
+        snprintf(m.name, sizeof m.name, "%s", set->name);
+        if (!is_wanted(to, &m, name) && !is_yardstick(to, set))
             continue;
-        vndf_status status = add_material(to, of, set, to->plan->alpha_x, to->plan->alpha_y, NAN,
-                                          is_yardstick(set, to->plan->only));
-        if (status != VNDF_OK)
-            return status;
+        m = method_effect(set, surface, to->error);
+        if (!m.each)
+            return to->error->status;
+        entry *e = add(to, m, name, 1);
+        if (!e)
+            continue;
+        e->law = effect_law(set, NAN);
+        e->row.number[COL_ALPHA_X] = (double)surface->alpha_x;
+        e->row.number[COL_ALPHA_Y] = (double)surface->alpha_y;
     }
-    for (size_t i = first; i < to->list->count; i++) {
-        entry *e = &to->list->entry[i];
-        const effect_set *set = effect_find(e->m.name);
-        e->beside = find(to->list, first, effect_sets[EFFECT_BARE].name, "scalar");
-        e->visible = find(to->list, first, set->visible, "scalar");
-    }
-    return VNDF_OK;
-}
-
-/* The worth of bounded normals beside visible ones, by roughness and angle. */
-static vndf_status add_variance(const maker *to, size_t of)
-{
-    static const float alphas[] = {0.2f, 0.5f, 1.0f};
-    static const double thetas[] = {0, 30, 60, 85};
-    const effect_set *bounded = effect_find("bounded normals");
-    int is_wanted = is_in(variance, to->plan->only) || is_in(bounded->name, to->plan->only) ||
-                    is_in(to->plan->of[of].name, to->plan->only);
-    for (size_t i = 0; is_wanted && i < 12; i++) {
-        float alpha = alphas[i / 4];
-        vndf_status status = add_material(to, of, &effect_sets[EFFECT_BARE], alpha, alpha, thetas[i % 4], 1);
-        if (status == VNDF_OK)
-            status = add_material(to, of, bounded, alpha, alpha, thetas[i % 4], 1);
-        if (status != VNDF_OK)
-            return status;
-        entry *last = &to->list->entry[to->list->count - 1];
-        last[0].visible = (int)to->list->count - 2;
-        last[0].is_shown = last[-1].is_shown = 1;
+    for (entry *e = to->list->entry + first; e < to->list->entry + to->list->count; e++) {
+        e->beside = find(to->list, first, effect_sets[EFFECT_BARE].name);
+        e->normals = find(to->list, first, effect_find(e->m.name)->visible);
     }
     return VNDF_OK;
-}
-
-static vndf_status make_materials(const maker *to)
-{
-    vndf_status status = VNDF_OK;
-    for (size_t i = 0; i < to->plan->count && status == VNDF_OK; i++) {
-        status = add_costs(to, i);
-        if (status == VNDF_OK)
-            status = add_variance(to, i);
-    }
-    return status;
 }
 
 /* ---- all of it ----------------------------------------------------------------------------------- */
 
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error)
 {
-    *list = (evidence_list){.count = 0};
-    *error = (vndf_error){VNDF_OK, ""};
     const maker to = {list, plan, error};
-    vndf_status status = plan->at_hand ? make_normals(&to) : make_materials(&to);
-    if (status != VNDF_OK || error->status != VNDF_OK) /* the error is that of an entry without room */
-        return error->status;
+    vndf_status status = plan->at_hand ? make_normals(&to) : VNDF_OK;
+    for (size_t i = 0; i < plan->count && status == VNDF_OK; i++) {
+        const vndf_surface surface = {plan->of[i].distribution, plan->alpha_x, plan->alpha_y};
+        status = add_materials(&to, plan->of[i].name, &surface);
+    }
+    if (status != VNDF_OK)
+        return status;
     for (size_t i = 0; i < list->count; i++)
         if (list->entry[i].is_shown)
             return VNDF_OK;
     error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(error->message, sizeof error->message,
-             "no %s, distribution or instruction set has '%s' in its name%s",
-             plan->at_hand ? "method" : "set of effects", plan->only,
-             plan->at_hand ? "" : ", and it is no part of 'variance'");
+    snprintf(error->message, sizeof error->message, "no %s, distribution or instruction set has '%s' in its name",
+             plan->at_hand ? "method" : "set of effects", plan->only);
     return VNDF_ERROR_ARGUMENT;
 }
 
@@ -353,7 +274,6 @@ void evidence_list_free(evidence_list *list)
 {
     for (size_t i = 0; i < list->count; i++)
         method_release(&list->entry[i].m);
-    free(list->entry);
     subject_free(&list->student);
-    *list = (evidence_list){.count = 0};
+    list->count = 0;
 }

@@ -41,7 +41,6 @@ typedef struct block_law {
     float low, high;               /* of alpha */
     double theta;                  /* incident angle; NaN: directions uniform over the hemisphere */
     vndf_lobes lobes;              /* sides that wo is on */
-    int inside;                    /* wi comes from below */
 } block_law;
 
 /* Everything is a function of the seed, so that all methods of a turn have the same inputs. */
@@ -50,8 +49,8 @@ void block_fill(block *b, const block_law *law, uint64_t seed);
 /* One direction and roughness for all. */
 void block_aim(block *b, vndf_vec3 wi, float alpha);
 
-/* Hammersley's points, shifted by two random numbers of the stream, in the place of random numbers. */
-void block_spread(block *b, uint64_t seed);
+/* Scrambled Sobol' points in the place of random numbers. */
+void block_spread(block *b, uint32_t seed);
 
 /* Copies the arrays into in[]. */
 void block_pack(block *b);
@@ -71,7 +70,6 @@ typedef enum method_call {
     METHOD_INVERT,
     METHOD_NDF,
     METHOD_LAMBDA,
-    METHOD_DIAGONAL,
     METHOD_AFFINE,
     METHOD_TWO_LOBES,
     METHOD_CALLS
@@ -91,7 +89,6 @@ struct method {
     method_run *each, *shared;  /* a direction each; the first one for all, or NULL */
     method_run *eval, *density; /* values and densities of materials, the first direction for all */
     method_run *same_bits;      /* what `each` must equal to the bit, or NULL */
-    int biased;                 /* it draws with another density than it tells */
     int turned;                 /* some normals face away from wi */
 };
 
@@ -107,26 +104,65 @@ void method_release(method *m);
 
 /* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
 
-/* GGX and Beckmann, from the publications; the batch by one of the three instruction sets, and moving its
- * bytes. */
+/* GGX and Beckmann, from the publications; the batch by one of the three instruction sets. */
 method method_ggx_caps(void);
-method method_ggx_all_normals(void);
-method method_beckmann_newton(void);
-method method_beckmann_all_normals(void);
 method method_ggx_caps_batch(vndf_instructions set);
-method method_move(vndf_instructions set);
+method method_beckmann_newton(void);
 
 /* Any D, from the publications. Without a reference the method has only a name. */
-method method_any_all_normals(const method_reference *reference);
-method method_inverse_tables(const method_reference *reference);
+method method_all_normals(const method_reference *reference);
 method method_warp(const method_reference *reference);
 
-/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. A diagonal matrix has no batch of its own. */
+/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. Without a distribution it has only its names. */
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit);
 
 /* The exported kernel in C, with the numbers of a table, or its GGX. */
 method method_exported(const vndf_distribution *d, const char *name);
 
 const char *method_instructions_name(vndf_instructions set);
+
+/* ---- sets of effects of vndf_bsdf.h, each a method that scatters light ---------------------------- */
+
+typedef enum effect_kind {
+    EFFECT_LIBRARY, /* vndf_bsdf_at */
+    EFFECT_ROUGH,   /* vndf_bsdf_rough, a roughness for each hit */
+    EFFECT_BATCH,   /* vndf_bsdf_sample_n and the like */
+    EFFECT_BY_HAND  /* bare reflection written over vndf.h */
+} effect_kind;
+
+typedef struct effect_set {
+    const char *name;
+    effect_kind kind;
+    vndf_effects effects;
+    int stretched;       /* alpha_y is a quarter of alpha_x */
+    const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
+} effect_set;
+
+enum { EFFECT_BARE = 1 }; /* bare reflection, which the others are compared with */
+
+extern const effect_set effect_sets[];
+extern const size_t effect_set_count;
+
+/* The set of that name, or NULL. */
+const effect_set *effect_find(const char *name);
+
+/* A set made ready for one distribution and roughness, the state of its method. It stays where it was made: hits
+ * point to its material. */
+typedef struct effect_case {
+    const effect_set *set;
+    vndf_surface surface;
+    vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
+    vndf_albedo *albedo;  /* owned; NULL unless energy is compensated */
+    vndf_material material;
+} effect_case;
+
+/* A method without `each` and an error if the set cannot be made. */
+method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
+
+/* How blocks of a set are filled, from an incident angle or (NaN) from everywhere. */
+block_law effect_law(const effect_set *set, double theta);
+
+/* The cosine of w that goes with values: to the normal of the mean plane. */
+double effect_cosine(const effect_case *of, vndf_vec3 w);
 
 #endif

@@ -17,31 +17,24 @@ static const struct {
 } columns[COLUMNS] = {
     [COL_ALPHA_X] = {"alpha_x", "alpha", "%.3g", 1, NUMBER},
     [COL_ALPHA_Y] = {"alpha_y", NULL, NULL, 1, NUMBER},
-    [COL_THETA] = {"theta", "theta", "%.3g", 1, NUMBER},
     [COL_MEMORY] = {"memory", "memory", NULL, 1, BYTES | WIDE},
     [COL_FILE] = {"file_bytes", "file", NULL, 1, BYTES | WIDE},
     [COL_MOMENTS] = {"moments", NULL, NULL, 1, NUMBER},
     [COL_WRONG] = {"wrong", NULL, NULL, 1, NUMBER},
     [COL_NS] = {"ns", "ns", NULL, 1, TIME},
-    [COL_NS_LOW] = {"ns_low", NULL, NULL, 1, NUMBER},
-    [COL_NS_HIGH] = {"ns_high", NULL, NULL, 1, NUMBER},
     [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER | WIDE},
+    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER},
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
     [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME | WIDE},
-    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER | WIDE},
-    [COL_TO_BARE] = {"to_bare_ns", "to bare", "%+.1f", 1, NUMBER},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
-    [COL_TV_THETA] = {"tv_theta", NULL, NULL, 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
     [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER},
     [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER | WIDE},
     [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER | WIDE},
     [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER | WIDE},
-    [COL_BIAS_60] = {"bias_60", "bias 60", "%+.2g%%", 100, NUMBER | WIDE},
-    [COL_BIAS_85] = {"bias_85", "bias 85", "%+.2g%%", 100, NUMBER | WIDE},
     [COL_MEAN] = {"mean", "mean", "%.4f", 1, NUMBER | WIDE},
     [COL_NOISE] = {"noise", NULL, NULL, 1, NUMBER},
     [COL_LOST] = {"lost", "lost", "%.2f%%", 100, NUMBER | WIDE},
@@ -52,17 +45,16 @@ static const struct {
 static const char legend_normals[] =
     "set: of instructions. memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); shared: 256 samples of one direction; latency: each waits for the last; ratio: to spherical caps.\n"
+    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction; latency: each waits for the last.\n"
     "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
     "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
     "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"
-    "under a small light; bias: of that albedo, where it is beyond its noise.\n";
+    "under a small light.\n";
 
 static const char legend_effects[] =
-    "ns: hit and sample, a direction each (median of turns; spread: half of what lies between quartiles); to bare: ns\n"
-    "more than bare reflection in the same turn; shared, eval, pdf: one hit for 256. Of the weights from one\n"
-    "direction: the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the same with\n"
-    "visible normals.\n";
+    "ns: hit and sample, a direction each (median of turns; spread: half of what lies between quartiles); ratio: to\n"
+    "bare reflection; shared, eval, pdf: one hit for 256. Of the weights from one direction: the largest, mean, part\n"
+    "of samples lost, variance; eff: 1/(variance ns) over that of the same with visible normals.\n";
 
 void rows_free(evidence_rows *of)
 {
@@ -86,12 +78,12 @@ static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
         table_number(t, heading, fabs(x) < 1e-9 ? "%.0f" : columns[c].format, x);
 }
 
-static int is_filled(const evidence_rows *all, evidence_column c, int is_wide)
+/* Whether a reader is shown the column: some row has a number in it. */
+static int is_shown(const evidence_rows *all, evidence_column c, int is_wide)
 {
-    int takes_room = (columns[c].style & WIDE) || (c == COL_SHARED && all->row[0].kind == ROW_EFFECT);
     for (size_t i = 0; i < all->count; i++)
         if (!isnan(all->row[i].number[c]))
-            return columns[c].heading && (is_wide || !takes_room);
+            return columns[c].heading && (is_wide || !(columns[c].style & WIDE));
     return 0;
 }
 
@@ -101,12 +93,11 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
     for (size_t i = 0; i < all->count; i++) {
         const evidence_row *r = &all->row[i];
         table_row(&t);
-        table_text(&t, "distribution", r->kind == ROW_MOVE ? "yardstick" : r->distribution);
+        table_text(&t, "distribution", r->distribution);
         table_text(&t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
-        if (all->row[0].kind != ROW_EFFECT)
-            table_word(&t, "set", r->instructions);
+        table_word(&t, "set", r->instructions);
         for (evidence_column c = 0; c < COLUMNS; c++)
-            if (is_filled(all, c, form != table_print_text))
+            if (is_shown(all, c, form != table_print_text))
                 put_cell(&t, r, c);
     }
     int good = form(file, &t);
@@ -114,84 +105,11 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
     return good;
 }
 
-static int print_legend(FILE *file, const evidence_rows *all)
-{
-    int is_effects = all->count && all->row[0].kind == ROW_EFFECT;
-    return fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
-}
-
-int evidence_print_html(FILE *file, const evidence_rows *all)
-{
-    return print_shown(file, all, table_print_html);
-}
-
-/* ---- distributions side by side ------------------------------------------------------------------ */
-
-static int is_cost(const evidence_row *r)
-{
-    return r->kind == ROW_EFFECT && isnan(r->number[COL_THETA]);
-}
-
-/* The row of that material for another distribution, or NULL. */
-static const evidence_row *beside(const evidence_rows *all, const char *called, const char *distribution)
-{
-    for (size_t i = 0; i < all->count; i++)
-        if (is_cost(&all->row[i]) && strcmp(all->row[i].method, called) == 0 &&
-            strcmp(all->row[i].distribution, distribution) == 0)
-            return &all->row[i];
-    return NULL;
-}
-
-/* The first row of its material, or (by distribution) of its distribution. */
-static int is_first(const evidence_rows *all, size_t i, int by_distribution)
-{
-    for (size_t k = 0; k < i; k++)
-        if (is_cost(&all->row[k]) &&
-            (by_distribution ? strcmp(all->row[k].distribution, all->row[i].distribution) == 0
-                             : strcmp(all->row[k].method, all->row[i].method) == 0))
-            return 0;
-    return is_cost(&all->row[i]);
-}
-
-/* A material's costs for each distribution in a row. */
-static void side_by_side(text_table *t, const evidence_rows *all, const char *effects)
-{
-    static const evidence_row nothing = {.number = {[COL_NS] = NAN, [COL_EVAL] = NAN, [COL_PDF] = NAN}};
-    table_row(t);
-    table_text(t, "effects", effects);
-    for (size_t i = 0; i < all->count; i++)
-        if (is_first(all, i, 1)) {
-            const evidence_row *r = beside(all, effects, all->row[i].distribution);
-            char heading[80];
-            snprintf(heading, sizeof heading, "%s: ns", all->row[i].distribution);
-            table_time(t, heading, (r ? r : &nothing)->number[COL_NS]);
-            put_cell(t, r ? r : &nothing, COL_EVAL);
-            put_cell(t, r ? r : &nothing, COL_PDF);
-        }
-}
-
-static int print_markdown(FILE *file, const evidence_rows *all)
-{
-    text_table t = {.rows = 0};
-    evidence_rows rest = {malloc((all->count + 1) * sizeof *rest.row), 0};
-    for (size_t i = 0; rest.row && i < all->count; i++) {
-        if (is_first(all, i, 0))
-            side_by_side(&t, all, all->row[i].method);
-        else if (!is_cost(&all->row[i]))
-            rest.row[rest.count++] = all->row[i];
-    }
-    int good = rest.row && (!t.rows || (table_print_markdown(file, &t) && fputc('\n', file) != EOF)) &&
-               (!rest.count || print_shown(file, &rest, table_print_markdown)) && print_legend(file, all);
-    table_free(&t);
-    free(rest.row);
-    return good;
-}
-
 /* ---- every number -------------------------------------------------------------------------------- */
 
 static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
 {
-    static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "move", "effects"};
+    static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
     text_table t = {.rows = 0};
     for (size_t i = 0; i < all->count; i++) {
         const evidence_row *r = &all->row[i];
@@ -208,12 +126,12 @@ static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, c
     return good;
 }
 
-int evidence_print(FILE *file, const void *all, figures_form form)
+int evidence_print(FILE *file, const void *of, figures_form form)
 {
-    switch (form) {
-    case FIGURES_CSV: return print_all(file, all, table_print_csv);
-    case FIGURES_JSON: return print_all(file, all, table_print_json);
-    case FIGURES_MARKDOWN: return print_markdown(file, all);
-    default: return print_shown(file, all, table_print_text) && print_legend(file, all);
-    }
+    const evidence_rows *all = of;
+    if (form == FIGURES_CSV || form == FIGURES_JSON)
+        return print_all(file, all, form == FIGURES_CSV ? table_print_csv : table_print_json);
+    int is_effects = all->count && all->row[0].kind == ROW_EFFECT;
+    return print_shown(file, all, form == FIGURES_MARKDOWN ? table_print_markdown : table_print_text) &&
+           fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
 }

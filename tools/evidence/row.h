@@ -14,38 +14,30 @@ typedef enum row_kind {
     ROW_TABLE,     /* our tables */
     ROW_EXPORTED,  /* the exported kernel in C */
     ROW_CALL,      /* other calls and surfaces of ours: times alone */
-    ROW_MOVE,      /* moving the bytes of a batch: times alone */
     ROW_EFFECT     /* a material: bare reflection and other sets of effects */
 } row_kind;
 
 typedef enum evidence_column {
-    COL_ALPHA_X, /* of materials: roughness and incident angle; NaN: any direction */
+    COL_ALPHA_X, /* of materials: roughness */
     COL_ALPHA_Y,
-    COL_THETA,
     COL_MEMORY, /* bytes that its tables take when loaded; 0 for closed forms */
     COL_FILE,   /* bytes of the file of a table of ours */
     COL_MOMENTS,
-    COL_WRONG, /* 1: its results failed verification, so nothing was timed */
-    COL_NS,    /* per sample, a direction each (view, sample, density; hit and sample): median of the turns */
-    COL_NS_LOW,
-    COL_NS_HIGH, /* quartiles */
-    COL_SPREAD,  /* half of what lies between them, over the median */
-    COL_SHARED,  /* SHARE samples, values, densities of one direction or hit */
+    COL_WRONG,  /* 1: its results failed verification, so nothing was timed */
+    COL_NS,     /* per sample, a direction each (view, sample, density; hit and sample): median of the turns */
+    COL_SPREAD, /* half of what lies between its quartiles, over the median */
+    COL_RATIO,  /* ns over that of scalar spherical caps, or of bare reflection, of the same run */
+    COL_SHARED, /* SHARE samples, values, densities of one direction or hit */
     COL_EVAL,
     COL_PDF,
-    COL_LATENCY, /* each sample's input depends on the last one's output */
-    COL_RATIO,   /* ns over that of scalar spherical caps of the same run */
-    COL_TO_BARE, /* ns more than bare reflection in the same turn */
-    COL_TV,      /* largest total variation to the true visible normals from above the horizon */
-    COL_TV_THETA,
+    COL_LATENCY,  /* each sample's input depends on the last one's output */
+    COL_TV,       /* largest total variation to the true visible normals from above the horizon */
     COL_TV_BELOW, /* of tables of ours: from all directions */
-    COL_WEIGHT, /* largest true/drawn density that was met, infinite at a hole; of materials the largest weight */
+    COL_WEIGHT,   /* largest true/drawn density that was met; of materials the largest weight */
     COL_SOBOL,  /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of caps (measure/stratified.h) */
     COL_EFF_60, /* 1/(variance time) over that of all normals: albedo of gold at 60 and 85 degrees, a small light */
     COL_EFF_85,
     COL_EFF_LIGHT,
-    COL_BIAS_60, /* relative error of these albedos; 0 if within the noise */
-    COL_BIAS_85,
     COL_MEAN, /* of weights of a material from one direction: mean, its standard error, part of samples lost */
     COL_NOISE,
     COL_LOST,
@@ -70,11 +62,8 @@ typedef struct evidence_rows {
 
 void rows_free(evidence_rows *of);
 
-/* A rows_printer. Text and Markdown are for people, without the columns that no row has; as Markdown materials
- * have their distributions side by side. CSV and JSON have every number of every row. */
+/* A rows_printer. Text and Markdown are for people, without the columns that no row has. CSV and JSON have every
+ * number of every row. */
 int evidence_print(FILE *file, const void *of, figures_form form);
-
-/* Into a page, as text. */
-int evidence_print_html(FILE *file, const evidence_rows *of);
 
 #endif

@@ -1,6 +1,5 @@
 /* Time: all methods take turns, so that all of them meet the machine in the same mood, each turn with new random
- * inputs, and the median over the turns counts. A difference of two methods is taken within a turn. The first
- * turn warms up the machine and is not counted. */
+ * inputs, and the median over the turns counts. The first turn warms up the machine and is not counted. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -8,7 +7,7 @@
 #include "cli/sort.h"
 #include "evidence/evidence.h"
 
-enum { EACH, SHARED, EVAL, DENSITY, LATENCY, BEYOND, SERIES };
+enum { EACH, SHARED, EVAL, DENSITY, LATENCY, SERIES };
 enum { TURNS_LEAST = 7, TURNS_MOST = 501 };
 
 static const double shortest = 20e-6; /* seconds: a shorter run is repeated, for the clock's sake */
@@ -66,39 +65,28 @@ static int take_turn(const evidence_list *list, const evidence_plan *plan, block
         if (e->row.number[COL_WRONG] > 0)
             continue;
         block_fill(b, &e->law, 1000 + turn);
-        int is_pair = !isnan(e->law.theta); /* of bounded beside visible normals: no further times are asked */
         ns[EACH] = time_run(&e->m, e->m.each, b, BLOCK);
-        ns[SHARED] = time_run(&e->m, is_pair ? NULL : e->m.shared, b, SHARE);
-        ns[EVAL] = time_run(&e->m, is_pair ? NULL : e->m.eval, b, SHARE);
-        ns[DENSITY] = time_run(&e->m, is_pair ? NULL : e->m.density, b, SHARE);
+        ns[SHARED] = time_run(&e->m, e->m.shared, b, SHARE);
+        ns[EVAL] = time_run(&e->m, e->m.eval, b, SHARE);
+        ns[DENSITY] = time_run(&e->m, e->m.density, b, SHARE);
         ns[LATENCY] = time_run(&e->m, e->m.one ? run_in_a_row : NULL, b, BLOCK);
         if (i % 8 == 0 && !evidence_go_on(plan, "taking turns"))
             return 0;
     }
-    for (size_t i = 0; i < list->count; i++)
-        if (list->entry[i].beside != NO_ENTRY)
-            number[i * SERIES + BEYOND] =
-                number[i * SERIES + EACH] - number[(size_t)list->entry[i].beside * SERIES + EACH];
     return 1;
 }
 
 /* The series of one entry are `turns` numbers, SERIES x count apart; `of` has room for them. */
 static void conclude(entry *e, const double *number, size_t stride, size_t turns, double *of)
 {
-    static const evidence_column medians[SERIES] = {COL_NS,  COL_SHARED,  COL_EVAL,
-                                                    COL_PDF, COL_LATENCY, COL_TO_BARE};
-    double *to = e->row.number;
+    static const evidence_column medians[SERIES] = {COL_NS, COL_SHARED, COL_EVAL, COL_PDF, COL_LATENCY};
     for (int way = 0; way < SERIES; way++) {
         for (size_t turn = 0; turn < turns; turn++)
             of[turn] = number[turn * stride + (size_t)way];
         sort_numbers(of, turns);
-        if (way != BEYOND || e->m.kind == ROW_EFFECT)
-            to[medians[way]] = of[turns / 2];
-        if (way == EACH) {
-            to[COL_NS_LOW] = of[turns / 4];
-            to[COL_NS_HIGH] = of[3 * turns / 4];
-            to[COL_SPREAD] = 0.5 * (to[COL_NS_HIGH] - to[COL_NS_LOW]) / to[COL_NS];
-        }
+        e->row.number[medians[way]] = of[turns / 2];
+        if (way == EACH)
+            e->row.number[COL_SPREAD] = 0.5 * (of[3 * turns / 4] - of[turns / 4]) / of[turns / 2];
     }
 }
 

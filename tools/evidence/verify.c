@@ -27,11 +27,8 @@ static int sample_good(const method *m, const block *b, size_t i)
 static int outputs_good(const method *m, const block *b)
 {
     for (size_t i = 0; i < BLOCK; i++) {
-        if (m->kind == ROW_MOVE && (b->x[i] != b->wi[0][i] || b->pdf[i] != b->u[0][i] + b->u[1][i]))
-            return 0;
-        if (m->kind == ROW_CALL && !(isfinite(b->pdf[i]) && isfinite(b->x[i]) && isfinite(b->y[i])))
-            return 0;
-        if (m->kind != ROW_MOVE && m->kind != ROW_CALL && !sample_good(m, b, i))
+        int is_finite = isfinite(b->pdf[i]) && isfinite(b->x[i]) && isfinite(b->y[i]);
+        if (!(m->kind == ROW_CALL ? is_finite : sample_good(m, b, i)))
             return 0;
     }
     return 1;
@@ -76,18 +73,17 @@ static void gather(const method *m, block *b, size_t first, size_t count)
 }
 
 /* Directions are unit and on the side of their lobe, weights and densities finite and not negative. */
-static int is_sane(const effect_case *of, const vndf_scattered *s, float side_of_wi)
+static int is_sane(const effect_case *of, const vndf_scattered *s)
 {
     vndf_vec3 w = s->wo;
     float length2 = w.x * w.x + w.y * w.y + w.z * w.z;
-    double side = (double)side_of_wi * effect_cosine(of, w);
     if (s->lobe == VNDF_LOBE_NONE)
         return s->weight[0] == 0.0f;
     for (int i = 0; i < 3; i++)
         if (!(s->weight[i] >= 0.0f && s->weight[i] < INFINITY))
             return 0;
     return fabsf(length2 - 1.0f) < 4e-6f && s->density > 0.0f && s->density < INFINITY &&
-           (s->lobe == VNDF_LOBE_REFLECTION) == (side > 0);
+           (s->lobe == VNDF_LOBE_REFLECTION) == (effect_cosine(of, w) > 0);
 }
 
 static int is_near(double a, double b, double tolerance)
@@ -134,13 +130,14 @@ static int share_agrees(const method *m, block *b, size_t first, double toleranc
 static int material_good(const method *m, block *b)
 {
     const effect_set *set = ((const effect_case *)m->state)->set;
-    int by_hand = set->kind == EFFECT_BY_HAND || set->kind == EFFECT_BY_CAPS, good = 1;
+    double tolerance = set->kind == EFFECT_BY_HAND ? tolerance_by_hand : tolerance_ours;
+    int good = 1;
     m->each(m, b, 0, BLOCK);
     gather(m, b, 0, BLOCK);
     for (size_t i = 0; i < BLOCK; i++)
-        good = good && is_sane(m->state, &b->out[i], b->in[i].wi.z < 0.0f ? -1.0f : 1.0f);
+        good = good && is_sane(m->state, &b->out[i]);
     for (size_t first = 0; first < BLOCK && set->effects.scattering != VNDF_SCATTERING_MULTIPLE; first += SHARE)
-        good = good && share_agrees(m, b, first, by_hand ? tolerance_by_hand : tolerance_ours);
+        good = good && share_agrees(m, b, first, tolerance);
     return good;
 }
 

@@ -207,13 +207,22 @@ typedef struct vndf_mixture {
     float weight[VNDF_LOBES];
 } vndf_mixture;
 
-/* Seen from wi: each lobe has a share of the visible area. */
+/* Seen from wi: each lobe has a share of the area that is drawn. */
 typedef struct vndf_mixture_view {
     int count;
     vndf_view lobe[VNDF_LOBES];
+    float weight[VNDF_LOBES]; /* of sum 1 */
     float share[VNDF_LOBES];
-    float area;
 } vndf_mixture_view;
+
+/* The area of what a view draws. */
+HERE float drawn_area(vndf_view view)
+{
+    float area = view.unit_area;
+    if (view.surface.distribution >= 0)                                   /* only table */
+        area = law_drawn_area(view.v, view.below) * frame_reach(view.at); /* only table */
+    return area * view.at.size;
+}
 
 /* The weights, of sum 1. Copies, here and below, since some languages index no parameter. Loops have a constant
  * end, so that a GPU unrolls them: what is indexed by a variable lies in local memory. */
@@ -239,18 +248,19 @@ HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     vndf_mixture_view view;
+    float area = 0.0f;
     view.count = lobes.count;
-    view.area = 0.0f;
     for (int i = 0; i < VNDF_LOBES; i++)
         if (i < lobes.count) {
             view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
-            view.share[i] = lobes.weight[i] * vndf_projected_area(view.lobe[i]);
-            view.area = view.area + view.share[i];
+            view.weight[i] = lobes.weight[i];
+            view.share[i] = lobes.weight[i] * drawn_area(view.lobe[i]);
+            area = area + view.share[i];
         }
     for (int j = 0; j < VNDF_LOBES; j++)
         if (j < lobes.count) {
-            if (view.area > 1.17549435e-38f)
-                view.share[j] = view.share[j] / view.area;
+            if (area > 1.17549435e-38f)
+                view.share[j] = view.share[j] / area;
             else
                 view.share[j] = lobes.weight[j];
         }
@@ -278,10 +288,17 @@ HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
 HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
-    float density = 0.0f;
+    float density = 0.0f, area = 0.0f;
     for (int i = 0; i < VNDF_LOBES; i++)
         if (i < lobes.count)
-            density = density + lobes.share[i] * vndf_visible(lobes.lobe[i], wm);
+            area = area + lobes.weight[i] * vndf_projected_area(lobes.lobe[i]);
+    for (int j = 0; j < VNDF_LOBES; j++)
+        if (j < lobes.count) {
+            float share = lobes.weight[j];
+            if (area > 1.17549435e-38f)
+                share = share * vndf_projected_area(lobes.lobe[j]) / area;
+            density = density + share * vndf_visible(lobes.lobe[j], wm);
+        }
     return least(density, 3.4028234e38f);
 }
 

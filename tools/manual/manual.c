@@ -7,16 +7,6 @@
 #include "command.h"
 #include "vndf.h"
 
-/* All commands, and the mode of one that has a help of its own. */
-static void take_all(form_taker *take, FILE *to)
-{
-    for (size_t i = 0; i < subcommand_count; i++) {
-        take_form(subcommands[i].run, take, to);
-        if (subcommands[i].run == command_bench)
-            take_form(command_bench_effects, take, to);
-    }
-}
-
 /* ---- the manual page, in the macros that man and mandoc share ------------------------------------ */
 
 /* With what troff reads otherwise escaped. */
@@ -90,15 +80,10 @@ static void put_help(FILE *to, const char *help)
     fputs(at == LITERAL ? ".fi\n" : "", to);
 }
 
-static void put_command(const command_form *form, void *to)
-{
-    put_heading(to, form->command, strlen(form->command));
-    put_help(to, form->help);
-}
-
 void manual_write_man(FILE *to, const char *head)
 {
     static const char *const sections[] = {"exit status: ", "files: ", "figures: "};
+    static char help[HELP_MAX];
     const char *purpose = strstr(head, " - ") + 3;
     fputs(".\\\" Made by `vndf help --man`.\n.TH VNDF 1 \"\" \"vndf " VNDF_VERSION
           "\" \"User Commands\"\n.nh\n.ad l\n"
@@ -109,12 +94,17 @@ void manual_write_man(FILE *to, const char *head)
         ".SH SYNOPSIS\n\\fBvndf\\fP \\fICOMMAND\\fP ...\n.br\n\\fBvndf\\fP \\fICOMMAND\\fP \\fB\\-\\-help\\fP\n.br\n"
         "\\fBvndf \\-\\-version\\fP\n.SH COMMANDS\n",
         to);
-    for (size_t i = 0; i < subcommand_count; i++) {
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        const char *name = (*c)->name + strlen("vndf ");
         fputs(".TP\n.B ", to);
-        put_text(to, subcommands[i].name, strlen(subcommands[i].name));
-        put_text(to, subcommands[i].purpose, strlen(subcommands[i].purpose));
+        put_text(to, name, strlen(name));
+        put_text(to, (*c)->purpose, strlen((*c)->purpose));
     }
-    take_all(put_command, to);
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        command_help_text(*c, help);
+        put_heading(to, (*c)->name, strlen((*c)->name));
+        put_help(to, help);
+    }
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) { /* paragraphs "files: ..." of the head */
         const char *at = strstr(head, sections[i]);
         size_t title = strlen(sections[i]);
@@ -126,26 +116,26 @@ void manual_write_man(FILE *to, const char *head)
 
 /* ---- completion ---------------------------------------------------------------------------------- */
 
-static void put_completion(const command_form *form, void *to)
-{
-    fprintf(to, "    '%s') words='", form->command + strlen("vndf "));
-    for (size_t i = 0; i < form->option_count; i++)
-        fprintf(to, "%s ", form->options[i].name);
-    fputs("--help' ;;\n", to);
-}
-
 void manual_write_bash(FILE *to)
 {
+    static char help[HELP_MAX];
     fputs(
         "# bash completion for vndf; made by `vndf help --completion bash`: commands, their options, and files.\n"
         "_vndf()\n{\n    local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words='' files=-f\n"
         "    [[ $command == bench && ${COMP_WORDS[2]} == effects ]] && command='bench effects'\n"
         "    if ((COMP_CWORD == 1)) || [[ $command == help ]]; then\n        files='' words='",
         to);
-    for (size_t i = 0; i < subcommand_count; i++)
-        fprintf(to, "%s ", subcommands[i].name);
+    for (const subcommand *const *c = subcommands; *c; c++)
+        fprintf(to, "%s ", (*c)->name + strlen("vndf "));
     fputs("--help --version'\n    fi\n    [[ $current == -* ]] && case $command in\n", to);
-    take_all(put_completion, to);
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        option_term term;
+        command_help_text(*c, help);
+        fprintf(to, "    '%s') words='", (*c)->name + strlen("vndf "));
+        for (const char *at = help; next_option(&at, &term);)
+            fprintf(to, "%.*s ", (int)term.name_length, term.name);
+        fputs("--help' ;;\n", to);
+    }
     fputs("    esac\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
           "complete -o filenames -F _vndf vndf\n",
           to);

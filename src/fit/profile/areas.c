@@ -14,8 +14,8 @@ static const double FAR = 16;
 
 static const double KERNEL_OPERATIONS = 2; /* of one point: a root and an arc tangent */
 
-/* Less than this part of a sum changes no bit of it. */
-static const double LOST = 0x1p-55;
+/* What adds less than this part to a sum is taken as if it were far out, which errs by a tenth of it. */
+static const double LITTLE = 1e-10;
 
 /* Adds P r dr = weight at r: the three integrals over rho, 1 and 1. */
 static void add_point(vndf_area *sum, double r, double rho, double weight)
@@ -59,20 +59,27 @@ static int is_near(const vndf_panel *p, double rho)
     return p->r - rho < 0.3 * (p[1].r - p->r);
 }
 
-/* Adds a panel: anew near rho; one that is slim beside its distance by its mean slope, which errs by 1e-6 of it. */
-static void add_panel(vndf_area *sum, const vndf_profile *profile, size_t i, double rho)
+/* Adds a panel, anew near rho, or several that are slim together beside their distance, by their mean slope, which errs
+ * by 1e-6 of them; returns the next. */
+static size_t add_panels(vndf_area *sum, const vndf_profile *profile, size_t i, double rho)
 {
     const double slim = 0.01;
-    const vndf_panel *p = &profile->panel[i];
+    const vndf_panel *p = &profile->panel[i], *end = p + 1;
     const vndf_profile_point *point = p->point;
+    double most = p->r + slim * (p->r - rho), m0 = p->m0, m1 = p->m1;
     if (is_near(p, rho))
-        add_near(sum, profile, rho, fmax(p->r, rho), p[1].r);
-    else if (p[1].r - p->r < slim * (p->r - rho)) {
-        if (p->m0 > 0)
-            add_point(sum, p->r + p->m1 / p->m0, rho, p->m0);
+        add_near(sum, profile, rho, fmax(p->r, rho), end->r);
+    else if (end->r < most) {
+        for (; end < profile->panel + profile->count && end[1].r < most; end++) {
+            m0 += end->m0;
+            m1 += end->m1 + (end->r - p->r) * end->m0;
+        }
+        if (m0 > 0)
+            add_point(sum, p->r + m1 / m0, rho, m0);
     } else
         for (int k = 0; k < VNDF_GAUSS; k++)
             add_point(sum, point[k].r, rho, point[k].weight);
+    return (size_t)(end - profile->panel);
 }
 
 vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
@@ -83,8 +90,8 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
     size_t count = profile->count, i = vndf_last_before(&p->r, sizeof *p, count, rho), first = i;
     if (!(s > 0.0) || rho >= p[count].r)
         return sum;
-    for (; i < count && p[i].r < FAR * rho && !(2 * (p[i].s + p[i].r * p[i].t0) < LOST * sum.below); i++)
-        add_panel(&sum, profile, i, rho);
+    for (; i < count && p[i].r < FAR * rho && !(2 * (p[i].s + p[i].r * p[i].t0) < LITTLE * sum.below);)
+        i = add_panels(&sum, profile, i, rho);
     add_far(&sum, &p[i], rho);
     vndf_guard_spend(profile->guard, KERNEL_OPERATIONS * VNDF_GAUSS * (double)(i - first + 1));
     sum.below *= 2 * s;

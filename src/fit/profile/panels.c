@@ -13,7 +13,7 @@
 enum { DEPTH_BOUNDED = 1, DEPTH_SAMPLED = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
 static const double PANEL_TOLERANCE = 1e-10;
-static const double NEGLIGIBLE = 1e-45; /* of the peak: for views deep below the horizon */
+static const double NEGLIGIBLE = 1e-34; /* of both peaks: less than numbers of tables tell from nothing */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
 static const double SAME_EDGE = 1e-13;  /* of a slope: below the width that resolve() calls a jump */
 static const double ROUNDED = 4e-16;    /* of a slope: the error of points */
@@ -180,10 +180,11 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     if (vndf_profile_stopped(profile))
         return;
     double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
-    if (depth >= DEPTH_ROUGH)
-        slack += roughness(profile, r0, r1);
-    int seen = depth >= (profile->source->reach ? DEPTH_BOUNDED : DEPTH_SAMPLED);
-    int good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);
+    int seen = depth >= (profile->source->reach ? DEPTH_BOUNDED : DEPTH_SAMPLED), good = 0;
+    for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
+        slack += rough ? roughness(profile, r0, r1) : 0;
+        good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);
+    }
     if (good ? simple || seen : depth >= DEPTH_MAX) {
         push(profile, r0, m0, m1, whole->point);
         return;
@@ -199,16 +200,16 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
 
 /* ---- all panels ---- */
 
-double vndf_panels_peak(const vndf_profile *profile)
+vndf_peak vndf_panels_peak(const vndf_profile *profile)
 {
-    double most = 0.0;
+    vndf_peak most = {0, 0};
     for (int i = -16 * VNDF_OCTAVES; i < 16 * VNDF_OCTAVES && !vndf_profile_stopped(profile); i++) {
-        double r = exp2(i / 16.0);
-        most = fmax(most, vndf_profile_p22(profile, r) * r * r);
+        double r = exp2(i / 16.0), f = vndf_profile_p22(profile, r) * r * r;
+        most = (vndf_peak){fmax(most.mass, f), fmax(most.along, f * r)};
     }
     for (size_t i = 0; i < profile->edge_count && !vndf_profile_stopped(profile); i++) {
-        double r = profile->edge[i];
-        most = fmax(most, vndf_profile_p22(profile, r) * r * r);
+        double r = profile->edge[i], f = vndf_profile_p22(profile, r) * r * r;
+        most = (vndf_peak){fmax(most.mass, f), fmax(most.along, f * r)};
     }
     return most;
 }
@@ -236,13 +237,15 @@ static double *make_edges(const vndf_profile *profile, size_t *count)
     return edge;
 }
 
-void vndf_panels_fill(vndf_profile *profile, double peak)
+void vndf_panels_fill(vndf_profile *profile, vndf_peak peak)
 {
     size_t edges;
-    double least = fmax(NEGLIGIBLE * profile->normalization * peak, LEAST), *edge = make_edges(profile, &edges);
+    double *edge = make_edges(profile, &edges);
     profile->count = 0;
     profile->guard->starved |= !edge;
     for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++) {
+        double part = profile->normalization * fmin(peak.mass, peak.along / edge[i + 1]);
+        double least = fmax(NEGLIGIBLE * part, LEAST);
         estimate whole = estimate_of(profile, edge[i], edge[i + 1]);
         int simple = is_nothing(profile, edge[i], edge[i + 1], &whole, least);
         resolve(profile, edge[i], edge[i + 1], &whole, 0, least, simple);

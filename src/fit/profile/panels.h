@@ -20,11 +20,14 @@ static const double VNDF_REACH_OPERATIONS = 12;
 /* Whether the guard or the limit of panels stops the work. */
 int vndf_profile_stopped(const vndf_profile *profile);
 
-/* The largest P r^2 at a few thousand slopes, to see what is negligible. */
-double vndf_panels_peak(const vndf_profile *profile);
+/* The largest P r^2 and P r^3 at a few thousand slopes, to see what is negligible. */
+typedef struct vndf_peak {
+    double mass, along;
+} vndf_peak;
+vndf_peak vndf_panels_peak(const vndf_profile *profile);
 
-/* Makes the panels with their points, unless something stops it. `peak`: of P r^2. */
-void vndf_panels_fill(vndf_profile *profile, double peak);
+/* Makes the panels with their points, unless something stops it. */
+void vndf_panels_fill(vndf_profile *profile, vndf_peak peak);
 
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);

@@ -85,13 +85,13 @@ static vndf_status measure(vndf_profile *profile, vndf_error *error)
 {
     profile->normalization = profile->scale = 1.0;
     profile->f0 = 0.0;
-    double peak = vndf_panels_peak(profile);
-    if (peak >= LEAST_PEAK)
-        profile->normalization = 1.0 / peak;
+    vndf_peak peak = vndf_panels_peak(profile);
+    if (peak.mass >= LEAST_PEAK)
+        profile->normalization = 1.0 / peak.mass;
     vndf_panels_fill(profile, peak);
     if (!vndf_profile_stopped(profile))
         vndf_panels_sum(profile);
-    vndf_status status = check_values(profile, peak, error);
+    vndf_status status = check_values(profile, peak.mass, error);
     return status == VNDF_OK ? check_ends(profile, error) : status;
 }
 

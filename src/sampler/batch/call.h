@@ -11,6 +11,7 @@ typedef enum vndf_task {
     VNDF_TASK_INVERT,
     VNDF_TASK_NDF,
     VNDF_TASK_AREA,
+    VNDF_TASK_DRAWN_AREA, /* of lobes, for their shares */
     VNDF_TASK_LAMBDA,
     VNDF_TASK_G1
 } vndf_task;

@@ -74,6 +74,7 @@ static void one(const vndf_call *c, size_t i)
         c->write[1][i] = numbers[1];
         break;
     case VNDF_TASK_NDF: *to = vndf_affine_ndf(&surface, wm); break;
+    case VNDF_TASK_DRAWN_AREA: break; /* lanes alone ask for it */
     case VNDF_TASK_AREA: *to = vndf_affine_projected_area(&surface, wi); break;
     case VNDF_TASK_LAMBDA: *to = vndf_affine_lambda(&surface, wi); break;
     case VNDF_TASK_G1: *to = vndf_affine_g1(&surface, wi); break;
@@ -130,6 +131,7 @@ static void one_mixture(const vndf_mixture_call *c, size_t i)
             c->drawn[i] = lobe;
         break;
     case VNDF_TASK_NDF: *to = vndf_mixture_ndf(&m, wm); break;
+    case VNDF_TASK_DRAWN_AREA: break; /* lanes alone ask for it */
     case VNDF_TASK_AREA: *to = vndf_mixture_projected_area(&m, wi); break;
     case VNDF_TASK_LAMBDA: *to = vndf_mixture_lambda(&m, wi); break;
     case VNDF_TASK_G1: *to = vndf_mixture_g1(&m, wi); break;

@@ -334,12 +334,15 @@ HERE void invert_side(table t, int groups, side *s, const int below)
     }
 }
 
-HERE void area_side(table t, int groups, side *s, const int below)
+HERE void area_side(table t, int groups, side *s, const int law_alone, const int below)
 {
     seen v[GROUPS];
     real area[GROUPS];
     see_side(t, groups, s, v, below);
-    find_areas(t, groups, v, area, below);
+    for (int g = 0; law_alone && g < groups; g++)
+        area[g] = law_drawn_area(v[g], below);
+    if (!law_alone)
+        find_areas(t, groups, v, area, below);
     for (int g = 0; g < groups; g++)
         store(s->write[RESULT_A] + g * LANES, area[g]);
 }
@@ -389,12 +392,22 @@ STEP void invert_below(table t, int groups, side *s)
 
 STEP void area_above(table t, int groups, side *s)
 {
-    area_side(t, groups, s, 0);
+    area_side(t, groups, s, 0, 0);
 }
 
 STEP void area_below(table t, int groups, side *s)
 {
-    area_side(t, groups, s, 1);
+    area_side(t, groups, s, 0, 1);
+}
+
+STEP void drawn_above(table t, int groups, side *s)
+{
+    area_side(t, groups, s, 1, 0);
+}
+
+STEP void drawn_below(table t, int groups, side *s)
+{
+    area_side(t, groups, s, 1, 1);
 }
 
 /* Some elements of a block, to be put together: which, how many, and in how many groups. */
@@ -770,8 +783,10 @@ HERE void areas(const block *b, float *to, const vndf_kind kind)
         } else
             area[g] = kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz);
     }
-    if (kind == VNDF_KIND_TABLE)
-        take_sides(b, &s, GIVEN_A, RESULT_B, area_above, area_below);
+    if (kind == VNDF_KIND_TABLE) {
+        int alone = b->call->task == VNDF_TASK_DRAWN_AREA;
+        take_sides(b, &s, GIVEN_A, RESULT_B, alone ? drawn_above : area_above, alone ? drawn_below : area_below);
+    }
     for (int g = 0; g < b->groups; g++) {
         real all = area[g];
         if (kind == VNDF_KIND_TABLE)

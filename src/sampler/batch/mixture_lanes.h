@@ -124,8 +124,9 @@ HERE void set_weights(mixed *m, real projection[GROUPS])
     }
 }
 
-/* Of valid surfaces: the areas over their sum; the weights where no lobe sees an area that a float can hold. */
-HERE void set_shares(mixed *m)
+/* Of valid surfaces: the areas, drawn or true, over their sum; the weights where no lobe sees an area that a float can
+ * hold. */
+HERE void set_shares(mixed *m, vndf_task area)
 {
     const int n = m->call->lobes;
     real sum[GROUPS], total[GROUPS];
@@ -135,7 +136,7 @@ HERE void set_shares(mixed *m)
         block b;
         copies c;
         float *const to[VNDF_WRITES] = {m->share[l]};
-        enter_lobe(m, l, VNDF_TASK_AREA, &b, &c);
+        enter_lobe(m, l, area, &b, &c);
         set_valid(&b, &c);
         run_block(&b, to);
         for (int g = 0; g < m->groups; g++) {
@@ -325,7 +326,7 @@ STEP void block_of_mixtures(mixed *m, float *const to[VNDF_WRITES])
         whole_mixtures(m, projection, to[0]);
         return;
     }
-    set_shares(m);
+    set_shares(m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
     if (task == VNDF_TASK_SAMPLE)
         sample_mixtures(m, to);
     else if (task == VNDF_TASK_INVERT)

@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "core/nearest.h"
 #include "source/formula/expression.h"
 #include "source/source.h"
 #include "source/words.h"

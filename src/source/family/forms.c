@@ -11,11 +11,12 @@
  *   sgd           exp(-x)/x^p, x = alpha + r^2/alpha         Bagher et al., CGF 31(4), 2012
  *   hyper-cauchy  (2 + r^2/sigma^2)^-q                       Wellems et al., J. Opt. A 8, 2006
  *   phong         D ~ cos^N                                  Blinn 1977, from Phong 1975
+ *   charlie       D ~ sin^(1/a)                              Estevez & Kulla, SIGGRAPH course 2017
  *
  * Powers are formed as exp(-n log1p(x)), which keeps its digits for large n and small x. sgd is divided by its value
  * at r = 0, exp(-alpha)/alpha^p, which would underflow; gtr is multiplied by alpha^(2 gamma); 1 - cos is
  * r^2/(q + sqrt q), q = 1 + r^2, without cancellation. hyper-cauchy is published with a factor for which its mass is 1.
- */
+ * charlie is 0 at r = 0. Its paper fits a Lambda of its own; ours is Smith's of D, as of all families. */
 #include "source/family/family.h"
 #include "source/words.h"
 #include "vndf_build.h"
@@ -46,6 +47,8 @@ static const vndf_family_form forms[] = {
       "exp(-a*log1p(r/b*(r/b)/2))", "2*pi*b*b/(a-1)" },
     { "phong", "phong:N", 1, 1, { { "N", 0, 1e9, 0, 0 } }, "N = 0 is a constant D",
       "exp(-(a+4)/2*log1p(r*r))", "2*pi/(a+2)" },
+    { "charlie", "charlie:A", 1, 1, { { "A", 0.05, 1, 0, 0 } }, "the smaller, the narrower the rim of sheen",
+      "pow(r/sqrt(1+r*r),1/a)/((1+r*r)*(1+r*r))", "2*pi*a/(1+2*a)" },
 };
 /* clang-format on */
 
@@ -80,6 +83,8 @@ const char *vndf_family_help(void)
            "hyper-cauchy:Q[,SIGMA]    1.5 < Q <= 1e9, 1e-9 <= SIGMA <= 1e9 (1 if not given); "
            "P22 ~ (2 + r^2/SIGMA^2)^-Q (Wellems et al. 2006)\n"
            "phong:N                   0 <= N <= 1e9; D ~ cos^N (Blinn 1977)\n"
+           "charlie:A                 0.05 <= A <= 1; D ~ sin^(1/A) (Estevez & Kulla 2017), masked by Smith's Lambda "
+           "of this D, not by the fit of that paper\n"
            "mix:(W,S,FAMILY)+(W,S,FAMILY)  two of the above, each normalised, its slopes scaled by S "
            "(1e-9 <= S <= 1e9), weighted by W (0 < W <= 1e12)\n";
 }

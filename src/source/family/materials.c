@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "source/family/family.h"
+#include "core/nearest.h"
 #include "source/words.h"
 #include "vndf_build.h"
 

@@ -63,30 +63,70 @@ double statistics_chi_square_p(double statistic, size_t dof)
     return dof == 0 ? 1 : statistics_gamma_q((double)dof / 2, statistic / 2);
 }
 
-/* Small arguments use the theta-transformed series, which converges where the other does not. */
-static double kolmogorov_tail(double x)
-{
-    const double pi = acos(-1.0);
-    double sum = 0;
-    if (x <= 0)
-        return 1;
-    if (x < 1.18) {
-        for (int k = 1; k <= 7; k += 2)
-            sum += exp(-k * k * pi * pi / (8 * x * x));
-        return 1 - sqrt(2 * pi) / x * sum;
-    }
-    for (int k = 1; k <= 6; k++)
-        sum += (k % 2 ? 2 : -2) * exp(-2.0 * k * k * x * x);
-    return sum;
-}
-
-double statistics_kolmogorov_p(double distance, size_t n)
-{
-    double root = sqrt((double)n);
-    return n == 0 ? 1 : kolmogorov_tail(distance * (root + 0.12 + 0.11 / root));
-}
-
 double statistics_sidak(double level, size_t n)
 {
     return n == 0 ? level : -expm1(log1p(-level) / (double)n);
+}
+
+/* ---- Pearson ------------------------------------------------------------------------------------- */
+
+/* Bins that expect little go together with their neighbours, so that a deviation in a tail is not drowned by the
+ * rest of it. The newest class is kept open, since what is left at the end joins it. */
+typedef struct class_sum {
+    double expected, observed, variance;
+} class_sum;
+
+typedef struct pooling {
+    class_sum open; /* bins that expect little, being added up */
+    class_sum last; /* the newest whole class */
+    pearson found;  /* the statistic is that of the classes before it */
+} pooling;
+
+static void add_up(class_sum *sum, class_sum more)
+{
+    sum->expected += more.expected;
+    sum->observed += more.observed;
+    sum->variance += more.variance;
+}
+
+static double deviation(class_sum sum)
+{
+    double difference = sum.observed - sum.expected;
+    return difference * difference / sum.variance;
+}
+
+static void close_class(pooling *state, class_sum sum)
+{
+    if (state->found.classes)
+        state->found.statistic += deviation(state->last);
+    state->last = sum;
+    state->found.classes++;
+}
+
+static void add_bin(pooling *state, class_sum bin, double least)
+{
+    if (bin.expected >= least) {
+        close_class(state, bin);
+        return;
+    }
+    state->found.pooled++;
+    add_up(&state->open, bin);
+    if (state->open.expected >= least) {
+        close_class(state, state->open);
+        state->open = (class_sum){0, 0, 0};
+    }
+}
+
+pearson pearson_of(const double *expected, const double *observed, const double *variance, size_t bins,
+                   double least)
+{
+    pooling state = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0, 0}};
+    for (size_t i = 0; i < bins; i++)
+        add_bin(&state, (class_sum){expected[i], observed[i], variance ? variance[i] : expected[i]}, least);
+    if (!state.found.classes)
+        return state.found;
+    add_up(&state.last, state.open);
+    state.found.statistic += deviation(state.last);
+    state.found.p = statistics_chi_square_p(state.found.statistic, state.found.classes - 1);
+    return state.found;
 }

@@ -1,5 +1,6 @@
-/* Probabilities that decide a test: regularised incomplete gamma, chi-square and Kolmogorov-Smirnov
- * p-values, and the level that each of several tests gets. Values only, no input or output. */
+/* Probabilities that decide a test: regularised incomplete gamma, chi-square p-values, and the level that each of
+ * several tests gets; and Pearson's chi-square: counts of samples in bins against what is expected there. The one
+ * place that pools bins and decides; `vndf check` and all tests that bin use it. Values only, no input or output. */
 #ifndef TOOLS_EVIDENCE_MEASURE_STATISTICS_H
 #define TOOLS_EVIDENCE_MEASURE_STATISTICS_H
 
@@ -12,12 +13,22 @@ double statistics_gamma_q(double a, double x);
 /* The chance that chi-square with dof degrees of freedom exceeds the statistic. 1 if dof is 0. */
 double statistics_chi_square_p(double statistic, size_t dof);
 
-/* The chance that the Kolmogorov-Smirnov distance of n samples exceeds `distance`, which is 0 to 1: the asymptotic
- * series with Stephens' correction for finite n, within 2e-3 for n >= 20. 1 if n is 0. */
-double statistics_kolmogorov_p(double distance, size_t n);
-
 /* The level of each of n independent tests, so that all of them together err with probability `level`, which is
  * 0 to 1 (Sidak). */
 double statistics_sidak(double level, size_t n);
+
+typedef struct pearson {
+    double statistic; /* sum of (observed - expected)^2 / expected */
+    double p;         /* the chance of a larger one if the samples follow what is expected; 0 without a class */
+    size_t classes;   /* classes - 1 degrees of freedom */
+    size_t pooled;    /* bins that expect less than `least` */
+} pearson;
+
+/* The bins have to be all there is: both sums are the number of samples. A bin that expects `least` or more is a
+ * class; the others are added up in their order until they expect as much, and what is left at the end joins the
+ * last class. variance: by what a squared difference is divided, for expectations that are estimates; NULL: by
+ * what is expected. */
+pearson pearson_of(const double *expected, const double *observed, const double *variance, size_t bins,
+                   double least);
 
 #endif

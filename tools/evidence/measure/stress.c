@@ -2,9 +2,14 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "cli/random.h"
+#include "cli/sort.h"
 #include "cli/subject.h"
+
+/* Below it certificates do not measure either: the whole lobe is the far end of a tail. */
+static const float least_area = 1e-12f;
 
 static const stress_property properties[STRESS_COUNT] = {
     {"unit", "|length - 1| in ulps of 2^-23", 4},
@@ -38,12 +43,13 @@ int stress_note(stress_result *result, stress_id id, double value, const stress_
 
 /* ---- samples ------------------------------------------------------------------------------------- */
 
-double stress_length(vndf_vec3 w)
+static double length_of(vndf_vec3 w)
 {
     return sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y + (double)w.z * (double)w.z);
 }
 
-double stress_turned_away(vndf_vec3 wi, vndf_vec3 wm)
+/* How far a normal is turned away from wi, in 2^-24. */
+static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
     double x = (double)wi.x * (double)wm.x, y = (double)wi.y * (double)wm.y, z = (double)wi.z * (double)wm.z;
     double size = fabs(x) + fabs(y) + fabs(z);
@@ -63,9 +69,9 @@ static void measure_sample(const vndf_view *view, const stress_point *at, stress
     int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_pdf(view, wm));
     result->samples++;
     vndf_invert(view, wm, &u1, &u2);
-    stress_note(result, STRESS_UNIT, fabs(stress_length(wm) - 1) * 0x1p23, at);
+    stress_note(result, STRESS_UNIT, fabs(length_of(wm) - 1) * 0x1p23, at);
     stress_note(result, STRESS_ABOVE, -(double)wm.z, at);
-    stress_note(result, STRESS_FACING, blind ? 0 : stress_turned_away(at->wi, wm), at);
+    stress_note(result, STRESS_FACING, blind ? 0 : turned_away(at->wi, wm), at);
     stress_note(result, STRESS_POSITIVE, !dense, at);
     stress_note(result, STRESS_RETURNED, !(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1), at);
 }
@@ -105,7 +111,7 @@ static void measure_direction(const stress_point *at, stress_result *result)
 {
     const vndf_affine *m = &at->surface;
     vndf_vec3 back = {-at->wi.x, -at->wi.y, -at->wi.z};
-    double cosine = (double)at->wi.z / stress_length(at->wi), up = fmax(cosine, 0);
+    double cosine = (double)at->wi.z / length_of(at->wi), up = fmax(cosine, 0);
     float a = vndf_affine_projected_area(m, at->wi), b = vndf_affine_projected_area(m, back);
     float lambda = vndf_affine_lambda(m, at->wi), mirrored = vndf_affine_lambda(m, back);
     double area = (double)a, largest = fmax(area, (double)b), miss = fabs(area - (double)b - cosine);
@@ -211,15 +217,22 @@ static double log_even(random_stream *stream, double low, double high)
     return low * pow(high / low, random_double(stream));
 }
 
+/* A distribution's median slope, which divides its roughness: 1 where that is unknown. */
+static double scale_of(const vndf_distribution *d)
+{
+    double scale = vndf_distribution_info(d).scale;
+    return scale > 0 ? scale : 1;
+}
+
 /* R(a) diag(most, least) R(b), one in two mirrored, divided by the scale of the distribution. */
 static vndf_affine random_surface(const vndf_distribution *d, random_stream *stream)
 {
     double most = log_even(stream, 1e-5, 10), least = most / log_even(stream, 1, fmin(1e4, most / 1e-5));
     double a = turn * random_double(stream), b = turn * random_double(stream), c = turn * random_double(stream);
-    double side = random_bits(stream) & 1 ? 1 : -1, scale = vndf_distribution_info(d).scale;
+    double side = random_bits(stream) & 1 ? 1 : -1, scale = scale_of(d);
     double mean = random_bits(stream) % 8 == 0 ? 0 : 2 * random_double(stream);
-    most /= scale > 0 ? scale : 1;
-    least *= side / (scale > 0 ? scale : 1);
+    most /= scale;
+    least *= side / scale;
     return (vndf_affine){d,
                          (float)(cos(a) * most * cos(b) - sin(a) * least * sin(b)),
                          (float)(-cos(a) * most * sin(b) - sin(a) * least * cos(b)),
@@ -255,4 +268,92 @@ stress_result stress_run(const vndf_distribution *distribution, size_t every, si
         run_view(&at, &stream, 0, &result);
     }
     return result;
+}
+
+/* ---- agreement ----------------------------------------------------------------------------------- */
+
+/* A sample of a view with two roughnesses, from 0.02 to 1 of the median slope. */
+typedef struct draw {
+    vndf_surface surface;
+    vndf_view view;
+    vndf_vec3 wi, wm;
+    double alpha_x, alpha_y; /* times the scale */
+    float u1, u2, pdf;
+} draw;
+
+/* Angles uniform, not the sphere: grazing and steep directions are where things break. */
+static draw draw_normal(const vndf_distribution *d, double scale, random_stream *stream)
+{
+    draw it;
+    double theta = 180 * random_double(stream), phi = 360 * random_double(stream);
+    it.alpha_x = pow(0.02, random_double(stream));
+    it.alpha_y = pow(0.02, random_double(stream));
+    it.u1 = random_float(stream);
+    it.u2 = random_float(stream);
+    it.surface = (vndf_surface){d, (float)(it.alpha_x / scale), (float)(it.alpha_y / scale)};
+    it.wi = direction_from(theta, phi);
+    it.view = vndf_view_from(&it.surface, it.wi);
+    it.wm = vndf_sample(&it.view, it.u1, it.u2, &it.pdf);
+    return it;
+}
+
+/* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has
+ * some 20 for d log P22 / d log r. */
+static int is_steep(const draw *it)
+{
+    const float up = 1.01f, down = 0.99f;
+    float x = it->wm.x / it->wm.z, y = it->wm.y / it->wm.z;
+    double high = (double)vndf_p22(&it->surface, up * x, up * y),
+           low = (double)vndf_p22(&it->surface, down * x, down * y);
+    return !(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 0.02);
+}
+
+/* The distance of the normal and that of its numbers, slopes over roughness; 0 if the numbers themselves are back. */
+static double invert_difference(const draw *it)
+{
+    const double steps = 8 * 0x1p-24;
+    float u1, u2;
+    vndf_invert(&it->view, it->wm, &u1, &u2);
+    if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
+        return INFINITY;
+    if (fabs((double)u1 - (double)it->u1) <= steps && fabs((double)u2 - (double)it->u2) <= steps)
+        return 0;
+    const vndf_vec3 normal[2] = {it->wm, vndf_sample(&it->view, u1, u2, NULL)};
+    double w[2][3], apart = 0;
+    for (int k = 0; k < 2; k++) {
+        double x = (double)normal[k].x / it->alpha_x, y = (double)normal[k].y / it->alpha_y,
+               z = (double)normal[k].z;
+        double length = sqrt(x * x + y * y + z * z);
+        w[k][0] = x / length, w[k][1] = y / length, w[k][2] = z / length;
+    }
+    for (int i = 0; i < 3; i++)
+        apart += (w[1][i] - w[0][i]) * (w[1][i] - w[0][i]);
+    return isnan(apart) ? INFINITY : sqrt(apart);
+}
+
+int stress_agree(const vndf_distribution *distribution, size_t points, uint64_t seed,
+                 stress_agreement found[STRESS_AGREEMENTS])
+{
+    double scale = scale_of(distribution), *room = malloc(STRESS_AGREEMENTS * points * sizeof *room);
+    random_stream stream = random_from(seed);
+    for (int k = 0; k < STRESS_AGREEMENTS; k++)
+        found[k] = (stress_agreement){.measured = 0};
+    for (size_t i = 0; room && i < points; i++) {
+        draw it = draw_normal(distribution, scale, &stream);
+        int side = it.wi.z >= 0 ? STRESS_ABOVE_HORIZON : STRESS_BELOW_HORIZON;
+        if (vndf_projected_area(&it.surface, it.wi) < least_area)
+            continue;
+        room[STRESS_INVERTED * points + found[STRESS_INVERTED].measured++] = invert_difference(&it);
+        if (!is_steep(&it))
+            room[(size_t)side * points + found[side].measured++] =
+                fabs((double)vndf_pdf(&it.view, it.wm) / (double)it.pdf - 1);
+    }
+    for (size_t k = 0; room && k < STRESS_AGREEMENTS; k++) {
+        double *of = room + k * points, last = (double)found[k].measured - 1;
+        sort_numbers(of, found[k].measured);
+        found[k].usual = last >= 0 ? of[(size_t)(0.999 * last)] : 0;
+        found[k].rare = last >= 0 ? of[(size_t)(0.9999 * last)] : 0;
+    }
+    free(room);
+    return room != NULL;
 }

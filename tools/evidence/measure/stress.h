@@ -68,8 +68,26 @@ stress_result stress_run(const vndf_distribution *distribution, size_t every, si
 /* Notes a number for a property; returns whether it is within the limit. */
 int stress_note(stress_result *result, stress_id id, double value, const stress_point *at);
 
-/* The length of a vector; how far a normal is turned away from wi, in 2^-24. */
-double stress_length(vndf_vec3 w);
-double stress_turned_away(vndf_vec3 wi, vndf_vec3 wm);
+/* Do sample, pdf and invert agree? At random views - incident directions over the whole sphere, roughness from
+ * 0.02 to 1 of the median slope along each axis, projected area above 1e-12 - and random numbers. */
+typedef enum stress_pair {
+    /* |pdf(sample) / density returned - 1|, where D is no steeper than a lobe a tenth of its slope wide */
+    STRESS_ABOVE_HORIZON,
+    STRESS_BELOW_HORIZON,
+    /* distance of unit normals, slopes over alpha, between a normal and sample(invert(normal)); 0 if the u's
+     * come back within 8 steps of 2^-24: near the ends of heavy tails one such step moves the normal farther */
+    STRESS_INVERTED,
+    STRESS_AGREEMENTS
+} stress_pair;
+
+/* What 99.9% and 99.99% of the differences do not exceed. */
+typedef struct stress_agreement {
+    size_t measured;
+    double usual, rare;
+} stress_agreement;
+
+/* Returns 0 if there is no memory. */
+int stress_agree(const vndf_distribution *distribution, size_t points, uint64_t seed,
+                 stress_agreement found[STRESS_AGREEMENTS]);
 
 #endif

@@ -1,12 +1,11 @@
 /* Effect by effect: the sets, from bare reflection upward, the materials made of them, and the loops over
  * vndf_bsdf.h, which do the work of a renderer at a hit. The line of a set says how it differs from bare
  * reflection. */
-#include "evidence/effects.h"
-
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "evidence/methods/vector.h"
 
 static const float index_ratio = 1.5f; /* of surfaces that transmit */
 
@@ -18,7 +17,6 @@ static const float gold_k[3] = {3.5f, 2.35f, 1.9f};
 static const float schlick_f0[3] = {0.04f, 0.04f, 0.04f};
 
 const effect_set effect_sets[] = {
-    {.name = "by hand, without the library", .kind = EFFECT_BY_CAPS},
     {.name = "by hand, over vndf.h", .kind = EFFECT_BY_HAND},
     {.name = bare},
     {.name = "separable masking", .effects = {.masking = VNDF_MASKING_SEPARABLE}},
@@ -44,9 +42,6 @@ const effect_set effect_sets[] = {
     {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes, separable",
      .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC, .masking = VNDF_MASKING_SEPARABLE}},
-    {.name = "both lobes, from inside",
-     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC},
-     .inside = 1},
     {.name = "batch: bare reflection", .kind = EFFECT_BATCH},
     {.name = "batch: conductor Fresnel", .kind = EFFECT_BATCH, .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
     {.name = "batch: both lobes",
@@ -76,8 +71,7 @@ const effect_set *effect_find(const char *name)
 /* Directions wo are on the side that the set scatters to. */
 block_law effect_law(const effect_set *set, double theta)
 {
-    return (block_law){
-        .low = 0.5f, .high = 1.5f, .theta = theta, .lobes = set->effects.lobes, .inside = set->inside};
+    return (block_law){.low = 0.5f, .high = 1.5f, .theta = theta, .lobes = set->effects.lobes};
 }
 
 /* ---- hits one by one ----------------------------------------------------------------------------- */
@@ -180,6 +174,91 @@ static void batch_density(const method *m, block *b, size_t first, size_t count)
     vndf_bsdf_pdf_n(&batch, wo_of(b, first), b->pdf + first);
 }
 
+/* ---- by hand ------------------------------------------------------------------------------------- */
+
+/* Bare reflection over vndf.h, as someone would write it who wants nothing else: a visible normal, wi mirrored at
+ * it, and G2/G1 of height-correlated masking; with A the projected area, cosines of wi and wo and `true` over
+ * drawn density,
+ *
+ *     weight = true/drawn A(wi) cos_o/(cos_o A(wi) + cos_i (A(wo) - cos_o)).
+ *
+ * vndf_bsdf.h handles special cases that this does not, above all smooth surfaces, whose roughness is below the
+ * rounding of a direction. */
+
+/* G2/(cos_i cos_o). */
+static inline float masking(const vndf_surface *s, vndf_vec3 wi, float area, vndf_vec3 wo)
+{
+    return 1.0f / (wo.z * area + wi.z * (vndf_projected_area(s, wo) - wo.z));
+}
+
+static inline vndf_vec3 half_of(vndf_vec3 wi, vndf_vec3 wo)
+{
+    return method_unit(wi.x + wo.x, wi.y + wo.y, wi.z + wo.z);
+}
+
+/* The view is not part of a struct with wi and the area: the processor would wait for the copy. */
+static inline void sample_by_hand(const vndf_surface *s, const vndf_view *view, vndf_vec3 wi, float area,
+                                  const float u[3], vndf_scattered *out)
+{
+    float pdf, weight;
+    vndf_vec3 wm = vndf_sample_weight(view, u[0], u[1], &pdf, &weight);
+    float facing = method_dot(wi, wm), twice = 2.0f * facing;
+    vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+    if (!(wo.z > 0.0f)) {
+        *out = (vndf_scattered){.wo = {0, 0, 1}};
+        return;
+    }
+    weight *= area * wo.z * masking(s, wi, area, wo);
+    *out = (vndf_scattered){wo, {weight, weight, weight}, pdf / (4.0f * facing), VNDF_LOBE_REFLECTION, wm};
+}
+
+static const vndf_surface *surface_of(const method *m)
+{
+    return &((const effect_case *)m->state)->surface;
+}
+
+/* (A copy of wi would be stored by floats and loaded whole, for which the processor waits: method.h.) */
+static void hand_each(const method *m, block *b, size_t first, size_t count)
+{
+    const vndf_surface *s = surface_of(m);
+    for (size_t i = first; i < first + count; i++) {
+        vndf_view view = vndf_view_from(s, b->in[i].wi);
+        sample_by_hand(s, &view, b->in[i].wi, vndf_projected_area(s, b->in[i].wi), b->in[i].u, &b->out[i]);
+    }
+}
+
+static void hand_shared(const method *m, block *b, size_t first, size_t count)
+{
+    const vndf_surface *s = surface_of(m);
+    vndf_vec3 wi = b->in[first].wi;
+    vndf_view view = vndf_view_from(s, wi);
+    float area = vndf_projected_area(s, wi);
+    for (size_t i = first; i < first + count; i++)
+        sample_by_hand(s, &view, wi, area, b->in[i].u, &b->out[i]);
+}
+
+static void hand_eval(const method *m, block *b, size_t first, size_t count)
+{
+    const vndf_surface *s = surface_of(m);
+    vndf_vec3 wi = b->in[first].wi;
+    float area = vndf_projected_area(s, wi);
+    for (size_t i = first; i < first + count; i++) {
+        vndf_vec3 wo = b->in[i].given;
+        float f = 0.25f * vndf_ndf(s, half_of(wi, wo)) * masking(s, wi, area, wo);
+        b->out[i].weight[0] = b->out[i].weight[1] = b->out[i].weight[2] = f;
+    }
+}
+
+static void hand_density(const method *m, block *b, size_t first, size_t count)
+{
+    vndf_vec3 wi = b->in[first].wi;
+    vndf_view view = vndf_view_from(surface_of(m), wi);
+    for (size_t i = first; i < first + count; i++) {
+        vndf_vec3 wm = half_of(wi, b->in[i].given);
+        b->out[i].density = vndf_pdf(&view, wm) / (4.0f * method_dot(wi, wm));
+    }
+}
+
 /* ---- materials ----------------------------------------------------------------------------------- */
 
 /* The roughness of the surface at an angle, with a mean slope, and a second lobe three times as wide. */
@@ -229,27 +308,28 @@ static void release(void *state)
 
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error)
 {
+    static const struct {
+        method_run *each, *shared, *eval, *density;
+    } loops[] = {{each, shared, eval, density},
+                 {each, shared, eval, density},
+                 {batch_each, batch_shared, batch_eval, batch_density},
+                 {hand_each, hand_shared, hand_eval, hand_density}};
     effect_case *of = calloc(1, sizeof *of);
     method m = {.instructions = "scalar", .kind = ROW_EFFECT, .state = of, .release = release};
     snprintf(m.name, sizeof m.name, "%s", set->name);
-    if (!of) {
+    if (!of)
         *error = (vndf_error){VNDF_ERROR_MEMORY, "no memory"};
-    } else if (make(of, set, surface, error) != VNDF_OK) {
+    if (!of || make(of, set, surface, error) != VNDF_OK) {
         method_release(&m);
-    } else if (set->kind == EFFECT_BATCH) {
-        m.instructions = method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
-        m.limit = vndf_instructions_used(VNDF_INSTRUCTIONS_BEST);
-        m.each = batch_each;
-        m.shared = batch_shared;
-        m.eval = batch_eval;
-        m.density = batch_density;
-    } else if (set->kind == EFFECT_BY_HAND || set->kind == EFFECT_BY_CAPS) {
-        method_by_hand(&m);
-    } else {
-        m.each = each;
-        m.shared = shared;
-        m.eval = eval;
-        m.density = density;
+        return m;
     }
+    if (set->kind == EFFECT_BATCH) {
+        m.limit = vndf_instructions_used(VNDF_INSTRUCTIONS_BEST);
+        m.instructions = method_instructions_name(m.limit);
+    }
+    m.each = loops[set->kind].each;
+    m.shared = loops[set->kind].shared;
+    m.eval = loops[set->kind].eval;
+    m.density = loops[set->kind].density;
     return m;
 }

@@ -1,39 +1,13 @@
 /* All normals, not only the visible ones: B. Walter et al., "Microfacet Models for Refraction through Rough
- * Surfaces", EGSR 2007, eq. 28 and 35. The density is D(wm) cos(theta_m), a radial law and an azimuth. GGX
- * (tan^2 = alpha^2 u/(1-u)) and Beckmann (tan^2 = -alpha^2 log(1-u)) have closed forms. No draw reads wi.
+ * Surfaces", EGSR 2007, eq. 28 and 35. The density is D(wm) cos(theta_m), a radial law and an azimuth. No draw
+ * reads wi.
  *
- * Any other D has a radial CDF. At the scale where the median slope is 1, y = sin^2(theta_m) has the density pi
- * D(y) in [0, 1]. The CDF has cells of equal mass with a constant D in each, so that the density told is the
- * density drawn and a coarse table only costs variance. Roughness stretches. */
+ * The radial law is a CDF, so that it serves any D. At the scale where the median slope is 1, y = sin^2(theta_m)
+ * has the density pi D(y) in [0, 1]. The CDF has cells of equal mass with a constant D in each, so that the
+ * density told is the density drawn and a coarse table only costs variance. Roughness stretches. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "evidence/methods/vector.h"
-
-/* The normal for slope^2 over alpha^2, the density of slopes there times pi alpha^2, and an azimuth. */
-static inline vndf_vec3 normal_from(float slope2, float p22, float alpha, float u1, float *pdf)
-{
-    float phi = 2 * method_pi * u1, z2 = 1.0f / (1.0f + alpha * alpha * slope2), z = sqrtf(z2);
-    float across = alpha * sqrtf(slope2) * z;
-    *pdf = p22 / (method_pi * alpha * alpha * z2 * z);
-    return (vndf_vec3){across * cosf(phi), across * sinf(phi), z};
-}
-
-static inline vndf_vec3 draw_ggx(const method *m, const method_input *in, float *pdf)
-{
-    (void)m;
-    float rest = 1.0f - in->u[1];
-    return normal_from(in->u[1] / rest, rest * rest, in->alpha, in->u[0], pdf);
-}
-
-static inline vndf_vec3 draw_beckmann(const method *m, const method_input *in, float *pdf)
-{
-    (void)m;
-    float rest = 1.0f - in->u[1];
-    return normal_from(-logf(rest), rest, in->alpha, in->u[0], pdf);
-}
-
-/* ---- any D ------------------------------------------------------------------------------------- */
 
 enum { CELLS = 1024, FINE = 1 << 15 };
 
@@ -42,15 +16,21 @@ typedef struct radial_cdf {
     float scale;
 } radial_cdf;
 
-static inline vndf_vec3 draw_any(const method *m, const method_input *in, float *pdf)
+static inline vndf_vec3 draw(const method *m, const method_input *in, float *pdf)
 {
     const radial_cdf *t = m->state;
-    float place = in->u[1] * CELLS, width;
+    float place = in->u[1] * CELLS, alpha = in->alpha * t->scale, phi = 2 * method_pi * in->u[0];
     int j = (int)place;
     j = j < CELLS ? j : CELLS - 1;
-    width = t->y[j + 1] - t->y[j];
-    float y = fminf(t->y[j] + (place - (float)j) * width, 1 - 0x1p-24f), z2 = 1.0f - y;
-    return normal_from(y / z2, z2 * z2 / ((float)CELLS * width), in->alpha * t->scale, in->u[0], pdf);
+    float width = t->y[j + 1] - t->y[j], y = fminf(t->y[j] + (place - (float)j) * width, 1 - 0x1p-24f);
+    float rest = 1.0f - y, slope = alpha * sqrtf(y / rest), z2 = 1.0f / (1.0f + slope * slope), z = sqrtf(z2);
+    *pdf = rest * rest / ((float)CELLS * width) / (method_pi * alpha * alpha * z2 * z);
+    return (vndf_vec3){slope * z * cosf(phi), slope * z * sinf(phi), z};
+}
+
+static void each(const method *m, block *b, size_t first, size_t count)
+{
+    method_loop(draw, m, b, first, count);
 }
 
 static double ndf_at(const method_reference *reference, double y)
@@ -94,60 +74,22 @@ static void fill_cdf(radial_cdf *t, const double *mass, int top)
         t->y[cell] = (float)edge_of(top);
 }
 
-/* ---- loops ------------------------------------------------------------------------------------- */
-
-static void each_ggx(const method *m, block *b, size_t first, size_t count)
+method method_all_normals(const method_reference *reference)
 {
-    method_loop(draw_ggx, m, b, first, count);
-}
-
-static void each_beckmann(const method *m, block *b, size_t first, size_t count)
-{
-    method_loop(draw_beckmann, m, b, first, count);
-}
-
-static void each_any(const method *m, block *b, size_t first, size_t count)
-{
-    method_loop(draw_any, m, b, first, count);
-}
-
-static method all_normals(method_one *one, method_run *each)
-{
-    return (method){.name = "all normals (2007)",
-                    .instructions = "scalar",
-                    .kind = ROW_PUBLISHED,
-                    .one = one,
-                    .each = each,
-                    .turned = 1};
-}
-
-method method_ggx_all_normals(void)
-{
-    return all_normals(draw_ggx, each_ggx);
-}
-
-method method_beckmann_all_normals(void)
-{
-    return all_normals(draw_beckmann, each_beckmann);
-}
-
-method method_any_all_normals(const method_reference *reference)
-{
-    method m = all_normals(draw_any, NULL);
-    memcpy(m.name, "all normals (2007), radial CDF", 31);
-    m.memory = sizeof(radial_cdf);
-    m.release = free;
-    if (!reference)
-        return m;
-    radial_cdf *t = malloc(sizeof *t);
-    double *mass = malloc((FINE + 1) * sizeof *mass);
-    if (t && mass) {
+    radial_cdf *t = reference ? malloc(sizeof *t) : NULL;
+    double *mass = t ? malloc((FINE + 1) * sizeof *mass) : NULL;
+    method m = {.name = "all normals (2007)",
+                .instructions = "scalar",
+                .kind = ROW_PUBLISHED,
+                .memory = sizeof *t,
+                .state = t,
+                .release = free,
+                .one = draw,
+                .turned = 1};
+    if (mass) {
         t->scale = reference->scale;
         fill_cdf(t, mass, accumulate(reference, mass));
-        m.state = t;
-        m.each = each_any;
-    } else {
-        free(t);
+        m.each = each;
     }
     free(mass);
     return m;

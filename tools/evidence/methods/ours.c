@@ -121,7 +121,7 @@ static inline vndf_affine oblique(const method *m, float alpha)
 
 static inline vndf_vec3 one_affine(const method *m, const method_input *in, float *pdf)
 {
-    vndf_affine surface = m->call == METHOD_DIAGONAL ? straight(m, in->alpha) : oblique(m, in->alpha);
+    vndf_affine surface = oblique(m, in->alpha);
     vndf_view view = vndf_affine_view_from(&surface, in->wi);
     return vndf_sample(&view, in->u[0], in->u[1], pdf);
 }
@@ -191,14 +191,13 @@ static const struct {
     [METHOD_INVERT] = {": invert", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_NDF] = {": ndf", NULL, each_call, NULL, batch_call, NULL},
     [METHOD_LAMBDA] = {": lambda", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_DIAGONAL] = {": diagonal", one_affine, each_affine, NULL, NULL, NULL},
     [METHOD_AFFINE] = {": affine", one_affine, each_affine, NULL, batch_affine, NULL},
     [METHOD_TWO_LOBES] = {": mixture", one_lobes, each_lobes, NULL, batch_lobes, NULL},
 };
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
 {
-    vndf_info info = vndf_distribution_info(d);
+    vndf_info info = d ? vndf_distribution_info(d) : (vndf_info){.memory = 0};
     method m = {.instructions = method_instructions_name(limit),
                 .kind = call != METHOD_SAMPLE ? ROW_CALL
                         : info.memory         ? ROW_TABLE

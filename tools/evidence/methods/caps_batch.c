@@ -1,0 +1,138 @@
+/* GGX by spherical caps in a batch: the cost of the best closed form, to compare our batches with. Dupuy & Benyoub
+ * 2023 as in ggx.c, in loops that the compiler makes vectors of, for three instruction sets in turn: this file is
+ * compiled with -O3 -ffast-math (CMakeLists.txt), hence with the machine's approximate reciprocals and roots, each
+ * with a Newton step, within 3 ulps of 2^-24. But
+ *
+ * - the stretched direction w is left as long as it is, and the cap is as large, so that no root is divided by;
+ * - with h = cap point + w the density needs no dot product: mirrored directions are uniform on a cap of 2 pi (|w|
+ *   + w.z)/|w|, the half vector's unit density is |h|/(pi (|w| + w.z)), and stretching by alpha divides by alpha^2
+ *   and multiplies by (|stretched h|/|h|)^3;
+ * - azimuth 2 pi (u1 - 1/2), by polynomials within 5e-8 that need no reduction: with y = 1/4 - |u1 - 1/2| the
+ *   cosine is sin(2 pi y), the sine cos(2 pi y) with a sign;
+ * - only for incident directions above the horizon. */
+#include <math.h>
+
+#include "evidence/method.h"
+
+#if defined(__GNUC__)
+#  define INLINED static inline __attribute__((always_inline))
+#else
+#  define INLINED static inline
+#endif
+
+/* The direction in the unit problem, its length, and pi alpha^2 (length + z). */
+typedef struct caps {
+    float x, y, z, alpha, length2, top, cap;
+} caps;
+
+INLINED caps caps_view(const block *b, size_t i)
+{
+    float alpha = b->alpha[i], x = alpha * b->wi[0][i], y = alpha * b->wi[1][i], z = b->wi[2][i];
+    float length2 = x * x + y * y + z * z, top = z + sqrtf(length2);
+    return (caps){x, y, z, alpha, length2, top, 3.14159265f * alpha * alpha * top};
+}
+
+INLINED void caps_draw(const caps v, block *b, size_t i)
+{
+    float turn = b->u[0][i] - 0.5f, y = 0.25f - fabsf(turn), q = y * y;
+    float sine = y * (6.28318528f + q * (-41.3416806f + q * (81.6024764f + q * (-76.5811726f + q * 39.7598271f))));
+    float cosine = 0.999999953f + q * (-19.7391712f + q * (64.9345727f + q * (-85.2398703f + q * 56.2387004f)));
+    float up = (1.0f - b->u[1][i]) * v.top, z = up - v.z, s = sqrtf(fmaxf(v.length2 - z * z, 1e-30f));
+    float hx = s * sine + v.x, hy = s * copysignf(cosine, turn) + v.y, across = hx * hx + hy * hy;
+    float mm = fmaxf(v.alpha * v.alpha * across + up * up, 1e-30f), area = (across + up * up) * v.cap;
+    float share = 1.0f / (sqrtf(mm) * area), per = share * area; /* one reciprocal for both */
+    b->x[i] = hx * v.alpha * per;
+    b->y[i] = hy * v.alpha * per;
+    b->z[i] = up * per;
+    b->pdf[i] = mm * mm * share;
+}
+
+INLINED void caps_each(block *b, size_t first, size_t count)
+{
+    for (size_t i = first; i < first + count; i++)
+        caps_draw(caps_view(b, i), b, i);
+}
+
+INLINED void caps_shared(block *b, size_t first, size_t count)
+{
+    const caps v = caps_view(b, first);
+    for (size_t i = first; i < first + count; i++)
+        caps_draw(v, b, i);
+}
+
+/* ---- the instruction sets ------------------------------------------------------------------------ */
+
+#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
+#  define FOR_AVX2 __attribute__((target("avx2,fma")))
+#  if defined(__clang__)
+#    define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma"), min_vector_width(512)))
+#  else
+#    define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512")))
+#  endif
+static int has(vndf_instructions set)
+{
+    return set == VNDF_INSTRUCTIONS_AVX512
+               ? __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                     __builtin_cpu_supports("avx512vl")
+               : set == VNDF_INSTRUCTIONS_PORTABLE ||
+                     (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
+}
+#else
+#  define FOR_AVX2
+#  define FOR_AVX512
+static int has(vndf_instructions set)
+{
+    return set == VNDF_INSTRUCTIONS_PORTABLE;
+}
+#endif
+
+static void each_portable(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_each(b, first, count);
+}
+
+static void shared_portable(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_shared(b, first, count);
+}
+
+FOR_AVX2 static void each_avx2(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_each(b, first, count);
+}
+
+FOR_AVX2 static void shared_avx2(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_shared(b, first, count);
+}
+
+FOR_AVX512 static void each_avx512(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_each(b, first, count);
+}
+
+FOR_AVX512 static void shared_avx512(const method *m, block *b, size_t first, size_t count)
+{
+    (void)m;
+    caps_shared(b, first, count);
+}
+
+method method_ggx_caps_batch(vndf_instructions set)
+{
+    int is_512 = set == VNDF_INSTRUCTIONS_AVX512, is_256 = set == VNDF_INSTRUCTIONS_AVX2;
+    method m = {.name = "spherical caps (2023), batch",
+                .instructions = method_instructions_name(set),
+                .kind = ROW_PUBLISHED,
+                .limit = set,
+                .shared = is_512   ? shared_avx512
+                          : is_256 ? shared_avx2
+                                   : shared_portable};
+    if (has(set))
+        m.each = is_512 ? each_avx512 : is_256 ? each_avx2 : each_portable;
+    return m;
+}
