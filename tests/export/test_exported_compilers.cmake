@@ -1,8 +1,8 @@
 # The exported C is C99 and the exported C++ is C++11, for every compiler of both that is here: no warning with
 # -Wall -Wextra -Wpedantic -Wshadow -Wconversion; answers are the library's, bit for bit, and near them with
-# -ffast-math, as renderers compile. Each program has two kernels, with prefixes of their own: normals, whose numbers it embeds and
-# whose file it includes twice, and a BSDF, which reads its numbers and scatters as the library does. A family of tables
-# at a parameter is the library's mixture.
+# -ffast-math, as renderers compile. Each program has two kernels, with prefixes of their own: normals, whose numbers
+# it embeds and whose file it includes twice, and a BSDF, which reads its numbers and scatters as the library does. A
+# family of tables at a parameter is the library's mixture.
 cmake_minimum_required(VERSION 3.16)
 
 if(SANITIZE)
