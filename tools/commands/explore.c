@@ -1,7 +1,7 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
  * file that draws in WebGL2. tools/export/page/explorer.html is the frame. A line of it that is {{file}} stands for
- * that file, and {{choices}}, {{numbers}}, {{kernel}} and {{shaders}} for what differs from page to page. A letter after
- * a file's name is its $. */
+ * that file, and {{choices}}, {{numbers}}, {{kernel}} and {{shaders}} for what differs from page to page. A letter
+ * after a file's name is its $. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>

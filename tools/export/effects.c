@@ -5,7 +5,7 @@
 
 enum { CHOICES_MAX = 4 };
 
-/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more of them than files. */
+/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more than files have. */
 static const struct key {
     const char *name, *choice[CHOICES_MAX + 1], *why;
 } keys[] = {

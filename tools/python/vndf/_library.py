@@ -119,7 +119,7 @@ vndf_description = _struct(
 )
 vndf_material = _struct(
     "vndf_material",
-    "vndf_description is; pointer routines specular single normals fresnel masking; vndf_affine surface; "
+    "vndf_description is; pointer routines specular single; vndf_affine surface; "
     "float cos_rotation sin_rotation; double per_wavelength; float reflectance0[4] reflectance[4]; int two_sided",
 )
 vndf_bsdf_batch = _struct(

@@ -177,24 +177,28 @@ class _Hit:
         views = [law.view(x, y, w) for law, (x, y, _) in zip(self._laws, self._shapes)]
         return views, sum(weight * view.area for weight, view in zip(self._weights, views))
 
-    def sample(self, views: list[Any], area: Any, u1: Any, u2: Any) -> tuple[Any, Any]:
+    def _shares(self, views: list[Any]) -> list[Any]:
+        parts = [weight * view.drawn for weight, view in zip(self._weights, views)]
+        total = sum(parts)
+        return [dr.select(total > 0.0, part / total, 0.0) for part in parts]
+
+    def sample(self, views: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal, and the density of all lobes together."""
         if len(views) == 1:
             return self._laws[0].sample(views[0], u1, u2)
         before: Any = 0.0
         wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (law, view, weight) in enumerate(zip(self._laws, views, self._weights)):
-            share = dr.select(area > 0.0, weight * view.area / area, 0.0)
+        for i, (law, view, share) in enumerate(zip(self._laws, views, self._shares(views))):
             last = i + 1 == len(views)
             here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
             u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
             wm = dr.select(here, law.sample(view, u, u2)[0], wm)
             before = before + share
-        return wm, self.pdf(views, area, wm)
+        return wm, self.pdf(views, wm)
 
-    def pdf(self, views: list[Any], area: Any, wm: Any) -> Any:
-        parts = zip(self._laws, views, self._weights)
-        return sum(weight * view.area * law.pdf(view, wm) for law, view, weight in parts) / area
+    def pdf(self, views: list[Any], wm: Any) -> Any:
+        parts = zip(self._laws, views, self._shares(views))
+        return sum(share * law.pdf(view, wm) for law, view, share in parts)
 
     def ndf(self, wm: Any) -> Any:
         parts = zip(self._laws, self._shapes, self._weights)
@@ -268,7 +272,7 @@ def register() -> None:
             hit = _Hit(self._surface, si, active)
             wi = hit.turned(si.wi)
             views, area = hit.seen_from(_up(wi))
-            wm, density = hit.sample(views, area, sample2.x, sample2.y)
+            wm, density = hit.sample(views, sample2.x, sample2.y)
             wm = dr.mulsign(wm, wi.z)  # on the side of wi
             facing = dr.dot(wi, wm)
             optics = self._optics(ctx, si, facing, active)
@@ -322,7 +326,7 @@ def register() -> None:
             facing = dr.dot(wi, wm)
             active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
             value, per_wm = self._shape(ctx, hit, wi, wo, wm, self._optics(ctx, si, facing, active), area, reflects)
-            return value & active, dr.select(active, hit.pdf(views, area, _up(wm)) * per_wm, 0.0)
+            return value & active, dr.select(active, hit.pdf(views, _up(wm)) * per_wm, 0.0)
 
         def _eta_from(self, wi: Any) -> Any:
             return mi.Float(1.0)
