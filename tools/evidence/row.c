@@ -27,7 +27,6 @@ static const struct {
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
-    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME | WIDE},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
@@ -45,7 +44,7 @@ static const struct {
 static const char legend_normals[] =
     "set: of instructions. memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction; latency: each waits for the last.\n"
+    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction.\n"
     "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
     "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
     "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"
@@ -87,7 +86,7 @@ static int is_shown(const evidence_rows *all, evidence_column c, int is_wide)
     return 0;
 }
 
-static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
+static int print_shown(FILE *file, const evidence_rows *all, figures_form form)
 {
     text_table t = {.rows = 0};
     for (size_t i = 0; i < all->count; i++) {
@@ -97,17 +96,17 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
         table_text(&t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
         table_word(&t, "set", r->instructions);
         for (evidence_column c = 0; c < COLUMNS; c++)
-            if (is_shown(all, c, form != table_print_text))
+            if (is_shown(all, c, form != FIGURES_TEXT))
                 put_cell(&t, r, c);
     }
-    int good = form(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }
 
 /* ---- every number -------------------------------------------------------------------------------- */
 
-static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
+static int print_all(FILE *file, const evidence_rows *all, figures_form form)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
     text_table t = {.rows = 0};
@@ -121,7 +120,7 @@ static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, c
         for (evidence_column c = 0; c < COLUMNS; c++)
             table_value(&t, columns[c].key, r->number[c]);
     }
-    int good = form(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }
@@ -130,8 +129,7 @@ int evidence_print(FILE *file, const void *of, figures_form form)
 {
     const evidence_rows *all = of;
     if (form == FIGURES_CSV || form == FIGURES_JSON)
-        return print_all(file, all, form == FIGURES_CSV ? table_print_csv : table_print_json);
+        return print_all(file, all, form);
     int is_effects = all->count && all->row[0].kind == ROW_EFFECT;
-    return print_shown(file, all, form == FIGURES_MARKDOWN ? table_print_markdown : table_print_text) &&
-           fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
+    return print_shown(file, all, form) && fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
 }
