@@ -15,7 +15,7 @@ typedef struct setting {
 
 static const setting SETTINGS[] = {{0.3f, 0.3f, 0.8f, 0.4f, 1.5f},    {1, 1, -0.5f, 2, 1.33f},
                                    {0.5f, 0.15f, 0.1f, 1, 2.4f},      {0.1f, 0.1f, 1, 0, 1 / 1.5f},
-                                   {1, 0.4f, -0.05f, 4, 1 / 2.4f},    {0.7f, 0.7f, 0.6f, 5, 1.001f},
+                                   {1, 0.4f, -0.05f, 4, 1 / 2.4f},    {0.7f, 0.7f, 0.6f, 5, 1.1f},
                                    {0.05f, 0.05f, 0.5f, 3, 1 / 1.33f}};
 enum { SETTING_COUNT = 7, KIND_COUNT = 3 };
 
