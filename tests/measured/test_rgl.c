@@ -3,8 +3,6 @@
  * Noticed: a fit to points in the place of the light, a warp that is turned, noise. */
 #include "measured/measured_case.h"
 
-#include "measured/grid.h"
-#include "measured/model.h"
 #include "measured/brdf.h"
 #include "measured/tensor.h"
 
