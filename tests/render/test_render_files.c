@@ -113,14 +113,14 @@ static void refuse_meshes(void)
         {"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "x.obj:4: the file ends here without a triangle"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        geometry g = {NULL, 0, 0, NULL};
+        geometry g = {0};
         char message[256];
         if (!(TEST(!read_text(&g, bad[i].text, &as_it_is, message)) & TEST_HAS(message, bad[i].says) &
               TEST(g.count == 0)))
             fprintf(stderr, "    %s    says %s\n", bad[i].text, message);
         geometry_free(&g);
     }
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     TEST(!obj_read_text(&g, "x.obj", "v 0\0 0", 6, &as_it_is, 0, message, sizeof message));
     TEST_HAS(message, "x.obj:1: the file has a byte 0");
@@ -130,7 +130,7 @@ static void refuse_meshes(void)
 
 static void test_square(const char *text)
 {
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     if (!TEST(read_text(&g, text, &as_it_is, message)) || !TEST(g.count == 2 && geometry_build(&g))) {
         fprintf(stderr, "    %s    says %s\n", text, message);
@@ -152,7 +152,7 @@ static void test_square(const char *text)
 static void test_placement(void)
 {
     const placement where = {2, 90, {10, 20, 30}};
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     TEST(read_text(&g, "v 0 0 1\nv 0 0 2\nv 0 1 1\nvn 0 0 3\nf 1//1 2//1 3//1\n", &where, message) &&
          g.count == 1);

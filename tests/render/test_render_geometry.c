@@ -46,7 +46,7 @@ static double nearest_of_all(const geometry *g, const ray *r)
 {
     double nearest = HUGE_VAL;
     for (size_t i = 0; i < g->count; i++) {
-        geometry one = {NULL, 0, 0, NULL};
+        geometry one = {0};
         hit h;
         if (geometry_add(&one, &g->shapes[i]) && geometry_build(&one) && geometry_hit(&one, r, &h))
             nearest = fmin(nearest, h.distance);
@@ -58,7 +58,7 @@ static double nearest_of_all(const geometry *g, const ray *r)
 static void test_nearest(vec3 origin, double exactness)
 {
     unsigned long long state = 3;
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     if (!TEST(add_shapes(&g, &state, origin) && geometry_build(&g)))
         return;
     for (int i = 0; i < 300; i++) {
@@ -108,7 +108,7 @@ static int add_globe(geometry *g)
 static void test_closed(void)
 {
     unsigned long long state = 8;
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     int left = 0, met_again = 0;
     if (!TEST(add_globe(&g) && geometry_build(&g)))
         return;
