@@ -129,7 +129,8 @@ static void test_warp(void)
     TEST(!warp_make(&to, nothing, 2, 2));
 }
 
-/* A function that ends within cells, at x + y = 1.3: what interpolates the grid has its light and, nearly, its values. */
+/* A function that ends within cells, at x + y = 1.3: what interpolates the grid has its light and, nearly, its
+ * values. */
 static void test_fit(void)
 {
     enum { SIDE = 9, POINTS = 4, FINE = (SIDE - 1) * POINTS };
