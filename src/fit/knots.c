@@ -263,22 +263,17 @@ static int jumps_at(const vndf_profile *profile, double r, int *up)
 
 enum { JUMPS_MAX = 16 };
 
-/* A jump or a pole made panels narrow, or is a break of the source, where a panel begins. Returns how many there are,
- * after a 0. */
+/* A jump or a pole made panels narrow. Returns how many there are, after a 0. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-10, same = 1e-12, apart = 0x1p-21; /* of a slope */
-    const vndf_source *source = profile->source;
+    const double narrow = 1e-10, apart = 0x1p-21; /* of a slope */
     const vndf_panel *p = profile->panel;
     size_t n = 1;
     jump[0] = 0;
-    for (size_t i = 1, next = 0; i < profile->count && n <= JUMPS_MAX; i++) {
-        double r = p[i].r, own = r * profile->scale;
+    for (size_t i = 1; i < profile->count && n <= JUMPS_MAX; i++) {
+        double r = p[i].r;
         int up;
-        while (next < source->break_count && source->breaks[next] < own * (1 - same))
-            next++;
-        int is_break = next < source->break_count && source->breaks[next] < own * (1 + same);
-        if ((!is_break && fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r) || r < KNOT_LEAST || r > KNOT_MOST ||
+        if (fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r || r < KNOT_LEAST || r > KNOT_MOST ||
             !jumps_at(profile, r, &up))
             continue;
         float knot = (float)r;

@@ -33,7 +33,7 @@ static double value_of(double r)
 {
     vndf_points variables[1] = {{r}};
     double value;
-    vndf_expression_run(&expression, expression.count, variables, 1, &value, NULL);
+    vndf_expression_run(&expression, variables, 1, &value);
     return value;
 }
 

@@ -44,7 +44,7 @@ typedef struct vndf_reference {
     double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
     double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     int rough;               /* needs more panels than the limit */
-    double *edge;            /* slopes in the source's unit where panels end, beside its own breaks */
+    double *edge;            /* slopes in the source's unit where panels end */
     size_t edge_count;
     double hidden; /* a bound of the missed part of the mass, or of the area at grazing incidence; 1 if */
     double finest; /* this is not 0: then the relative width down to which the source was sampled */

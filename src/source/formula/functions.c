@@ -1,4 +1,4 @@
-/* The functions of formulas: of each its value, its bounds, and where it is not smooth. Every function lets NaN pass,
+/* The functions of formulas: of each its value and its bounds. Every function lets NaN pass,
  * so that the builder can say where a formula has no value; fmin and fmax of the C library would hide it. */
 #include <math.h>
 
@@ -212,17 +212,14 @@ static double larger(double x, double y)
 /* ---- the list ---- */
 
 static const vndf_function functions[] = {
-    [EXP] = {"exp", exp, NULL, VNDF_KINK_NONE},        [LOG] = {"log", log, NULL, VNDF_KINK_NONE},
-    [LOG1P] = {"log1p", log1p, NULL, VNDF_KINK_NONE},  [SQRT] = {"sqrt", sqrt, NULL, VNDF_KINK_NONE},
-    [SIN] = {"sin", sin, NULL, VNDF_KINK_NONE},        [COS] = {"cos", cos, NULL, VNDF_KINK_NONE},
-    [TAN] = {"tan", tan, NULL, VNDF_KINK_NONE},        [ASIN] = {"asin", asin, NULL, VNDF_KINK_NONE},
-    [ACOS] = {"acos", acos, NULL, VNDF_KINK_NONE},     [ATAN] = {"atan", atan, NULL, VNDF_KINK_NONE},
-    [SINH] = {"sinh", sinh, NULL, VNDF_KINK_NONE},     [COSH] = {"cosh", cosh, NULL, VNDF_KINK_NONE},
-    [TANH] = {"tanh", tanh, NULL, VNDF_KINK_NONE},     [ERF] = {"erf", erf, NULL, VNDF_KINK_NONE},
-    [ERFC] = {"erfc", erfc, NULL, VNDF_KINK_NONE},     [LGAMMA] = {"lgamma", lgamma, NULL, VNDF_KINK_NONE},
-    [GAMMA] = {"gamma", tgamma, NULL, VNDF_KINK_NONE}, [ABS] = {"abs", fabs, NULL, VNDF_KINK_ZERO},
-    [MIN] = {"min", NULL, smaller, VNDF_KINK_EQUAL},   [MAX] = {"max", NULL, larger, VNDF_KINK_EQUAL},
-    [POW] = {"pow", NULL, pow, VNDF_KINK_NONE},        [STEP] = {"step", step, NULL, VNDF_KINK_ZERO},
+    [EXP] = {"exp", exp, NULL},          [LOG] = {"log", log, NULL},        [LOG1P] = {"log1p", log1p, NULL},
+    [SQRT] = {"sqrt", sqrt, NULL},       [SIN] = {"sin", sin, NULL},        [COS] = {"cos", cos, NULL},
+    [TAN] = {"tan", tan, NULL},          [ASIN] = {"asin", asin, NULL},     [ACOS] = {"acos", acos, NULL},
+    [ATAN] = {"atan", atan, NULL},       [SINH] = {"sinh", sinh, NULL},     [COSH] = {"cosh", cosh, NULL},
+    [TANH] = {"tanh", tanh, NULL},       [ERF] = {"erf", erf, NULL},        [ERFC] = {"erfc", erfc, NULL},
+    [LGAMMA] = {"lgamma", lgamma, NULL}, [GAMMA] = {"gamma", tgamma, NULL}, [ABS] = {"abs", fabs, NULL},
+    [MIN] = {"min", NULL, smaller},      [MAX] = {"max", NULL, larger},     [POW] = {"pow", NULL, pow},
+    [STEP] = {"step", step, NULL},
 };
 
 static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
