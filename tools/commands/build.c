@@ -1,5 +1,5 @@
-/* vndf build: a table from what the user brings, or a family of tables along a parameter. Reads the options, makes
- * the source, calls the builder, saves, prints what came out. */
+/* vndf build: a table from what the user brings, or a family of tables along a parameter. Reads the options, makes the
+ * source, calls the builder, saves, prints what came out. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
