@@ -136,8 +136,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
  * escapes it: all hidden features together, however narrow they are, down to the spacing of doubles. It resolves
  * anything larger, or refuses the source and names the slope (VNDF_ERROR_DISTRIBUTION). A formula that cannot be
- * bounded is refused, or sampled if `finest` is given. A callback can only be sampled: features narrower than
- * `finest` of their slope may escape.
+ * bounded, as one with gamma or lgamma of the slope, is refused, or sampled if `finest` is given. A callback can
+ * only be sampled: features narrower than `finest` of their slope may escape.
  *
  * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the
  * slope there. `finest` costs 280/finest evaluations. */

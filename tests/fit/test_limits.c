@@ -10,36 +10,6 @@
 
 /* ---- texts ---- */
 
-static int takes_parameters(size_t count, size_t name_length, vndf_error *error)
-{
-    static char names[VNDF_LIMIT_PARAMETERS + 1][VNDF_LIMIT_PARAMETER_NAME + 2];
-    vndf_parameter parameters[VNDF_LIMIT_PARAMETERS + 1];
-    char text[VNDF_LIMIT_EXPRESSION_LENGTH + 1] = "exp(-r)";
-    for (size_t i = 0; i < count; i++) {
-        memset(names[i], 'a', name_length);
-        names[i][name_length] = '\0';
-        names[i][0] = (char)('A' + i % 26);
-        names[i][1] = (char)('a' + i / 26);
-        parameters[i] = (vndf_parameter){names[i], 1.0};
-        strcat(strcat(text, "*"), names[i]);
-    }
-    vndf_source *source = vndf_source_slope_expression(text, parameters, count, error);
-    vndf_source_free(source);
-    return source != NULL;
-}
-
-static void test_parameters(void)
-{
-    vndf_error error = {VNDF_OK, ""};
-    TEST(
-        takes_parameters(VNDF_LIMIT_PARAMETERS, VNDF_LIMIT_PARAMETER_NAME - 4, &error)); /* as long as a formula */
-    TEST(takes_parameters(1, VNDF_LIMIT_PARAMETER_NAME, &error));
-    TEST(!takes_parameters(VNDF_LIMIT_PARAMETERS + 1, 4, &error) && error.status == VNDF_ERROR_ARGUMENT);
-    TEST_HAS(error.message, "at most 64");
-    TEST(!takes_parameters(1, VNDF_LIMIT_PARAMETER_NAME + 1, &error) && error.status == VNDF_ERROR_ARGUMENT);
-    TEST_HAS(error.message, "at most 64");
-}
-
 static double laplace(double r, void *user)
 {
     (void)user;
@@ -138,7 +108,6 @@ static void test_operations(void)
 
 int main(void)
 {
-    test_parameters();
     test_names();
     test_long_files();
     test_stated_size();

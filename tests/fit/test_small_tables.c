@@ -1,7 +1,7 @@
 /* The total variation of a table is at most 1e-3 above the horizon and 3e-2 below it at the default size, 3e-3 and 5e-2
  * at 2 KiB, for smooth D, jumps, rings, poles, needles and heavy tails; and fewer moments cost what is known of them:
- * 6.5e-2, 4.7e-3 and 7.2e-4 bound the weights above the horizon. Every measured fit keeps 1e-3 (some of them, or all 312:
- * long_small_tables). A knot that is misplaced, or shares that are not the best, exceed these. */
+ * 6.5e-2, 4.7e-3 and 7.2e-4 bound the weights above the horizon. Every measured fit keeps 1e-3: some of them, or all
+ * 312 (long_small_tables). A knot that is misplaced, or shares that are not the best, exceed these. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
 #include "source/family/family.h"

@@ -158,17 +158,28 @@ static void test_parameters(void)
         {{"k", 1}, "parameter 'k': the formula 'c' has no 'k'"},
         {{"exp", 1}, "has no 'exp'"},
     };
-    vndf_parameter many[65];
+    static char names[65][66], text[6000] = "r";
+    vndf_parameter many[65], twice[] = {{"a", 1}, {"a", 1}};
     vndf_error error = {VNDF_OK, ""};
-    for (int i = 0; i < 65; i++)
-        many[i] = (vndf_parameter){"a", 1};
+    for (size_t i = 0; i < 65; i++) { /* names of 64 characters, and one more */
+        memset(names[i], 'a', 64 + (i == 64));
+        names[i][0] = (char)('A' + i % 26);
+        names[i][1] = (char)('a' + i / 26);
+        many[i] = (vndf_parameter){names[i], 1};
+    }
+    for (size_t i = 0; i < 60; i++)
+        strcat(strcat(text, "*"), names[i]);
+    vndf_source_free(made(vndf_source_slope_expression(text, many, 60, &error), &error, "60 parameters"));
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
         refused(vndf_source_ndf_expression("c", &bad[i].is, 1, &error), &error, VNDF_ERROR_ARGUMENT,
                 bad[i].message);
-    refused(vndf_source_slope_expression("a", many, 2, &error), &error, VNDF_ERROR_ARGUMENT,
+    refused(vndf_source_slope_expression("a", twice, 2, &error), &error, VNDF_ERROR_ARGUMENT,
             "'a': the name is taken");
+    refused(vndf_source_slope_expression("a", &many[64], 1, &error), &error, VNDF_ERROR_ARGUMENT,
+            "digits or _; at most 64");
     refused(vndf_source_slope_expression("a", NULL, 1, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
-    refused(vndf_source_slope_expression("a", many, 65, &error), &error, VNDF_ERROR_ARGUMENT, "at most 64");
+    refused(vndf_source_slope_expression("a", many, 65, &error), &error, VNDF_ERROR_ARGUMENT,
+            "65 parameters; at most 64");
 }
 
 /* count times piece, then "r", then as many parentheses. */

@@ -75,7 +75,7 @@ void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf
         point[i] = (vndf_profile_point){r[i], vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i]};
 }
 
-double vndf_panels_exponent(const vndf_profile *profile, double r0, double r1)
+double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1)
 {
     double p0 = vndf_profile_p22(profile, r0), p1 = vndf_profile_p22(profile, r1);
     return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
@@ -242,7 +242,7 @@ void vndf_panels_fill(vndf_profile *profile, vndf_peak peak)
 static void measure_tail(vndf_profile *profile)
 {
     double end = profile->panel[profile->count].r, p = vndf_profile_p22(profile, end),
-           n = vndf_panels_exponent(profile, end / 4, end);
+           n = vndf_profile_exponent(profile, end / 4, end);
     profile->tail_m0 = profile->tail_m1 = 0.0;
     if (p > 0.0 && n > 3.0 + VNDF_POWER_MARGIN && n < HUGE_VAL) {
         profile->tail_m0 = p * end * end / (n - 2);

@@ -42,8 +42,8 @@ static vndf_status check_values(const vndf_profile *profile, double peak, vndf_e
 /* Checks that both ends are integrable, and that little lies beyond the panels. */
 static vndf_status check_ends(const vndf_profile *profile, vndf_error *error)
 {
-    double tail = vndf_panels_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
-    double pole = vndf_panels_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
+    double tail = vndf_profile_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
+    double pole = vndf_profile_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
     const vndf_panel *p = profile->panel;
     size_t n = profile->count;
     if (pole < HUGE_VAL && pole >= 2.0 - VNDF_POWER_MARGIN)

@@ -62,6 +62,9 @@ double vndf_profile_p22(const vndf_profile *profile, double r);
 /* The same at up to VNDF_SOURCE_MANY slopes. */
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22);
 
+/* -d log P / d log r between two slopes; infinite if P vanishes there. */
+double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1);
+
 /* The points of the rule over [from, to], even in log r. */
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS]);
 
