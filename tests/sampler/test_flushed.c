@@ -60,8 +60,7 @@ static void test_calls(const vndf_distribution *d, const char *name)
     set_flushing(0);
     for (int id = 0; id < STRESS_COUNT; id++)
         if (!(TEST(result.found[id].failed == 0) & TEST(result.found[id].checked > 0)))
-            fprintf(stderr, "  %s, %s: worst %g\n", name, stress_property_of((stress_id)id)->name,
-                    result.found[id].worst);
+            fprintf(stderr, "  %s, %s: worst %g\n", name, stress_properties[id].name, result.found[id].worst);
 }
 
 static void test_subject(const subject *of, size_t index)
