@@ -32,8 +32,8 @@ typedef struct vndf_words {
 vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *error);
 void vndf_words_free(vndf_words *words);
 
-/* A part of a text; the column of its first character, from 1. vndf_cut takes what is before the first separator off the
- * rest, or all if there is none. */
+/* A part of a text; the column of its first character, from 1. vndf_cut takes what is before the first separator off
+ * the rest, or all if there is none. */
 typedef struct vndf_span {
     const char *text;
     size_t size, column;

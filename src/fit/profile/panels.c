@@ -1,6 +1,6 @@
 /* Panels: P22 cut into pieces on which ten points resolve it, and sums over them. The recursion halves every octave
  * once, and merges two halves where the whole is as good. What the points have missed is found by proof.c. */
-#include "fit/profile/panels.h"
+#include "fit/profile/profile.h"
 
 #include <float.h>
 #include <math.h>
