@@ -80,7 +80,7 @@ macro(build_mutant folder target)
     endif()
 endmacro()
 
-# "walk_eval 0" is the program test_walk_eval with the argument 0.
+# "walk 0" is the program test_walk with the argument 0.
 macro(run_check program)
     string(REGEX MATCHALL "[^ ]+" words "${check}")
     list(POP_FRONT words)

@@ -69,7 +69,7 @@ int page_data_end(html_page *page, const char *what)
 int page_data(html_page *page, const char *name, const char *what, text_table t)
 {
     FILE *data = page_file_begin(page, name);
-    int good = data && table_print_csv(data, &t);
+    int good = data && table_print(data, &t, FIGURES_CSV);
     table_free(&t);
     return good && page_data_end(page, what);
 }

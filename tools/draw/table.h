@@ -14,6 +14,8 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/figures.h"
+
 enum { TABLE_COLUMNS_MAX = 48 };
 
 typedef enum table_kind { TABLE_TEXT, TABLE_WORD, TABLE_NUMBER } table_kind;
@@ -61,15 +63,12 @@ void table_row_mark(text_table *t, const char *mark);
 
 /* ---- printing; 0 if there was no memory ---- */
 
-/* The rows in groups of equal first cells, which stand in the heading; columns as wide as they have to be. */
-int table_print_text(FILE *file, const text_table *t);
-int table_print_markdown(FILE *file, const text_table *t);
-int table_print_csv(FILE *file, const text_table *t);
-int table_print_json(FILE *file, const text_table *t); /* an array of objects */
-int table_print_html(FILE *file, const text_table *t);
+/* For a terminal in groups of equal first cells, which stand in the heading, columns as wide as they have to be;
+ * as JSON an array of objects; not FIGURES_NONE. */
+int table_print(FILE *file, const text_table *t, figures_form form);
 
-/* A field of CSV between quotes. */
-void table_quote(FILE *file, const char *text);
+/* Into a page. */
+int table_print_html(FILE *file, const text_table *t);
 
 /* "16 KiB", "1 MiB", "25.8 KiB", to 3%: files stay a little below a power of two. */
 enum { TABLE_BYTES = 16 };

@@ -36,22 +36,18 @@ int report_times(html_page *page, const report *r)
     page_section(
         page, "time", "What a sample costs",
         "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
-        "methods run one after the other, one thread, data in cache. Time hardly depends on D. In brackets: "
-        "many samples of one direction. Efficiency: 1/(variance x time) over that of all normals, for the "
-        "albedo of gold at 60 and 85 degrees.");
+        "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
+        "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.");
     for (const evidence_row *of = r->rows.row; of < r->rows.row + r->rows.count; of++) {
-        static const evidence_row none = {.number = {[COL_NS] = NAN, [COL_SHARED] = NAN}};
         const evidence_row *batch = batch_of(r, of);
         if (strcmp(of->instructions, "scalar") != 0)
             continue;
-        batch = batch ? batch : &none;
         table_row(&t);
         table_text(&t, "distribution", of->distribution);
         table_text(&t, "method", of->method);
         table_time(&t, "one by one", of->number[COL_NS]);
-        table_number(&t, "", "(%.3g)", of->number[COL_SHARED]);
-        table_time(&t, "in a batch", batch->number[COL_NS]);
-        table_number(&t, "", "(%.3g)", batch->number[COL_SHARED]);
+        table_time(&t, "of one direction", of->number[COL_SHARED]);
+        table_time(&t, "in a batch", batch ? batch->number[COL_NS] : (double)NAN);
         table_time(&t, "waiting for the last", of->number[COL_LATENCY]);
         table_number(&t, "efficiency, 60", "%.3g", of->number[COL_EFF_60]);
         table_number(&t, "85", "%.3g", of->number[COL_EFF_85]);
