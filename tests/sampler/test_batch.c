@@ -2,8 +2,8 @@
  * every instruction set, counts that fill no register, arrays without alignment, shared roughness, directions and
  * weights, matrices that are absent, results in the place of inputs, inputs at the edge of what is valid or beyond,
  * for surfaces directions of length 1e-37 to 3e38 and roughness 1e-18 to 1e18, also where denormals are flushed to
- * zero. It notices a lane that goes another way than one alone, and a block's end. With the argument avx2 or avx512 that set
- * alone. */
+ * zero. It notices a lane that goes another way than one alone, and a block's end. With the argument avx2 or avx512
+ * that set alone. */
 #include "sampler/seen.h"
 
 enum { MOST = 300 };
