@@ -12,8 +12,7 @@ static void test_subject(const subject *of, size_t index)
     set_flushing(0);
     for (int id = 0; id < STRESS_COUNT; id++)
         if (!(TEST(result.found[id].failed == 0) & TEST(result.found[id].checked > 0)))
-            fprintf(stderr, "  %s, %s: worst %g\n", of->name, stress_property_of((stress_id)id)->name,
-                    result.found[id].worst);
+            fprintf(stderr, "  %s, %s: worst %g\n", of->name, stress_properties[id].name, result.found[id].worst);
 }
 
 int main(int arguments, char **argument)

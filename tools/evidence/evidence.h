@@ -122,6 +122,6 @@ double worth_fresnel(double cosine, double n, double k);
 
 /* Fills the times of all entries that are not wrong: turns until the plan's seconds are spent, some at least.
  * VNDF_ERROR_ARGUMENT: stopped. */
-vndf_status evidence_time(evidence_list *list, const evidence_plan *plan);
+vndf_status evidence_time(evidence_list *list, const evidence_plan *plan, block *b);
 
 #endif
