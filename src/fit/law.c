@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "math/ascending.h"
+#include "table/file.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -136,13 +137,6 @@ unsigned vndf_laws_cell(const vndf_laws *laws, double r)
 
 /* ---- directions ---- */
 
-/* The rho from which a knot is the switch. */
-static double turn_of(const vndf_laws *laws, unsigned i)
-{
-    double here = laws->cell[i].r, before = laws->cell[i - 1].r;
-    return i == 1 ? 0.75 * here : fmin(here, fmax(1.18 * before, sqrt(before * here)));
-}
-
 /* The part of rho by which the run time finds the switch (table.h). */
 static int part_of(double rho)
 {
@@ -154,7 +148,7 @@ static int part_of(double rho)
 static unsigned first_above(const vndf_laws *laws, double rounded)
 {
     unsigned i = vndf_laws_cell(laws, rounded);
-    return i < laws->cells && turn_of(laws, i + 1) <= rounded ? i + 1 : i;
+    return i < laws->cells && vndf_table_turn(laws->draft, i + 1) <= rounded ? i + 1 : i;
 }
 
 vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)

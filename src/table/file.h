@@ -32,4 +32,7 @@ int vndf_table_fill(vndf_distribution *table, const vndf_table_draft *draft, con
 /* Bytes of memory that it takes, all allocations together. */
 size_t vndf_table_memory(const vndf_distribution *table);
 
+/* The rho from which on the law of k~ begins at knot i. */
+double vndf_table_turn(const vndf_table_draft *draft, size_t i);
+
 #endif

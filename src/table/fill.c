@@ -69,8 +69,7 @@ static const char *draft_invalid(const vndf_table_draft *d)
     return NULL;
 }
 
-/* The rho from which on the law of k~ begins at knot i. */
-static double turn_at(const vndf_table_draft *d, size_t i)
+double vndf_table_turn(const vndf_table_draft *d, size_t i)
 {
     if (i == 0)
         return 0.0;
@@ -92,7 +91,7 @@ static void fill_cell(vndf_distribution *table, const vndf_table_draft *d, size_
     double r = d->knot[i], z = 1 / (1 + r), h = ldexp(z, (int)d->squarings);
     if (i < d->cells)
         h = (d->knot[i + 1] - r) * z / (1 + (double)d->knot[i + 1]);
-    put(row(table, VNDF_KNOT, i), r, z, h, turn_at(d, i));
+    put(row(table, VNDF_KNOT, i), r, z, h, vndf_table_turn(d, i));
     put(row(table, VNDF_LAW, i), d->g0[i], d->g1[i], d->m0[i], d->m1[i]);
     put(row(table, VNDF_MORE, i), d->m2[i], d->cubes ? d->cubes[i] : 0.0, d->b0[i], d->b1[i]);
 }
