@@ -30,17 +30,19 @@ set(subs_bsdf walk)
 set(subs_source interval formula family)
 set(subs_fit profile)
 
-set(rooms_tools cli draw evidence render export measured manual commands)
+set(rooms_tools cli draw evidence render export measured judge manual commands)
 set(below_cli "")
 set(below_draw cli)
 set(below_evidence cli draw)
 set(below_render cli draw)
 set(below_export draw)
 set(below_measured cli render)
+set(below_judge cli evidence)
 set(below_manual cli)
-set(below_commands cli draw evidence render export measured manual)
+set(below_commands cli draw evidence render export measured judge manual)
 
 set(subs_evidence measure methods page)
+set(subs_judge examples)
 set(subs_commands parts)
 
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
