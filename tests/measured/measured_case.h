@@ -1,5 +1,5 @@
-/* What tests of measured files share: files in memory, what is noted of them, why they are refused, and surfaces whose
- * law of slopes is known. */
+/* What tests of measured files share: files in memory, what is noted of them, why they are refused, and surfaces
+ * whose law of slopes is known. */
 #ifndef TESTS_MEASURED_MEASURED_CASE_H
 #define TESTS_MEASURED_MEASURED_CASE_H
 
@@ -49,61 +49,11 @@ static inline double case_normal(unsigned long long *state)
     return sqrt(-2 * log(1 - u)) * cos(2 * PI * v);
 }
 
-static inline void case_blur(float *line, size_t stride, int count, double sigma)
+/* P22 of GGX. */
+static inline double case_ggx(double r, double alpha)
 {
-    enum { REACH = 40 };
-    float *copy = malloc((size_t)count * sizeof *copy);
-    for (int i = 0; i < count; i++) {
-        double sum = 0;
-        for (int k = -REACH; k <= REACH; k++)
-            sum += (double)line[(size_t)((i + k + count) % count) * stride] * exp(-k * k / (2 * sigma * sigma));
-        copy[i] = (float)sum;
-    }
-    for (int i = 0; i < count; i++)
-        line[(size_t)i * stride] = copy[i];
-    free(copy);
-}
-
-/* White noise blurred along x and y, periodic, scaled to a slope along x of that rms: slopes are Gaussian, so that P22
- * is Beckmann's with alpha = sqrt 2 times the rms of the slope along one axis. */
-static inline height_field case_gaussian(int side, double sigma_x, double sigma_y, double rms)
-{
-    height_field made;
-    data_file file = {.name = "made"};
-    unsigned long long state = 9;
-    double square = 0;
-    size_t n = (size_t)side;
-    if (!TEST(heights_make(&made, side, side, &file)))
-        exit(1);
-    for (size_t i = 0; i < n * n; i++)
-        made.z[i] = (float)case_normal(&state);
-    for (size_t i = 0; i < n; i++)
-        case_blur(made.z + i * n, 1, side, sigma_x);
-    for (size_t i = 0; i < n; i++)
-        case_blur(made.z + i, n, side, sigma_y);
-    for (size_t i = 0; i < n * n; i++)
-        if (i % n > 0 && i % n < n - 1) {
-            double s = ((double)made.z[i + 1] - (double)made.z[i - 1]) / 2;
-            square += s * s / (double)(n * (n - 2));
-        }
-    for (size_t i = 0; i < n * n; i++)
-        made.z[i] = (float)((double)made.z[i] * rms / sqrt(square));
-    return made;
-}
-
-/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1. */
-static inline double case_from_beckmann(const profile *rows, double alpha)
-{
-    data_file file = {.name = "made"};
-    vndf_source *source = profile_source(rows, &file);
-    double mass = slope_mass(source, 0, alpha) + slope_mass(source, alpha, INFINITY), off = 0;
-    const double step = alpha / 200;
-    for (double r = step / 2; r < 12 * alpha; r += step) {
-        double beckmann = exp(-r * r / (alpha * alpha)) / (PI * alpha * alpha);
-        off += fabs(vndf_source_p22(source, r) / mass - beckmann) * 2 * PI * r * step / 2;
-    }
-    vndf_source_free(source);
-    return off;
+    double q = 1 + r * r / (alpha * alpha);
+    return 1 / (PI * alpha * alpha * q * q);
 }
 
 #endif

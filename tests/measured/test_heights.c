@@ -1,38 +1,110 @@
-/* The slopes of a Gaussian height field give Beckmann's distribution with alpha = sqrt 2 times the rms of the slope,
- * a stretched one the same under its matrix, and both say how sure that is; the curve ends where slopes end abruptly;
- * a cut-off halves waves of its length; what has no law of slopes is refused, and what has a strange one is named.
- * Noticed: differences over one step in the place of two, errors that say too little. */
-#include "measured/measured_case.h"
+/* Surfaces become laws of slopes. The slopes of a Gaussian height field give Beckmann's distribution with alpha =
+ * sqrt 2 times the rms of the slope, a stretched one the same under its matrix, and both say how sure that is; the
+ * curve ends where slopes end abruptly; a cut-off halves waves of its length. The same heights come out of every kind
+ * of file, and normal maps have the slopes of the heights that they were made of. What has no law of slopes, or is no
+ * such file, is refused with the place, and what has a strange one is named. Noticed: differences over one step in
+ * the place of two, errors that say too little, rows from the wrong end, a scale in another's place, the wrong byte
+ * first. */
+#include "measured_case.h"
 
-static void law_of(const height_field *field, data_file *file, profile *rows)
+static height_field field_of(int width, int height)
+{
+    height_field made;
+    data_file file = {.name = "made"};
+    if (!TEST(heights_make(&made, width, height, &file)))
+        exit(1);
+    return made;
+}
+
+static void blur(float *line, size_t stride, int count, double sigma)
+{
+    enum { REACH = 40 };
+    float *copy = malloc((size_t)count * sizeof *copy);
+    for (int i = 0; i < count; i++) {
+        double sum = 0;
+        for (int k = -REACH; k <= REACH; k++)
+            sum += (double)line[(size_t)((i + k + count) % count) * stride] * exp(-k * k / (2 * sigma * sigma));
+        copy[i] = (float)sum;
+    }
+    for (int i = 0; i < count; i++)
+        line[(size_t)i * stride] = copy[i];
+    free(copy);
+}
+
+/* White noise blurred along x and y, periodic, scaled to a slope along x of that rms: slopes are Gaussian, so that
+ * P22 is Beckmann's with alpha = sqrt 2 times the rms of the slope along one axis. */
+static height_field gaussian(int side, double sigma_x, double sigma_y, double rms)
+{
+    height_field made = field_of(side, side);
+    unsigned long long state = 9;
+    double square = 0;
+    size_t n = (size_t)side;
+    for (size_t i = 0; i < n * n; i++)
+        made.z[i] = (float)case_normal(&state);
+    for (size_t i = 0; i < n; i++)
+        blur(made.z + i * n, 1, side, sigma_x);
+    for (size_t i = 0; i < n; i++)
+        blur(made.z + i, n, side, sigma_y);
+    for (size_t i = 0; i < n * n; i++)
+        if (i % n > 0 && i % n < n - 1)
+            square += pow(((double)made.z[i + 1] - (double)made.z[i - 1]) / 2, 2) / (double)(n * (n - 2));
+    for (size_t i = 0; i < n * n; i++)
+        made.z[i] = (float)((double)made.z[i] * rms / sqrt(square));
+    return made;
+}
+
+/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1; frees them.
+ */
+static double from_beckmann(profile *rows, double alpha)
+{
+    data_file file = {.name = "made"};
+    vndf_source *source = profile_source(rows, &file);
+    double mass = slope_mass(source, 0, alpha) + slope_mass(source, alpha, INFINITY), off = 0;
+    const double step = alpha / 200;
+    for (double r = step / 2; r < 12 * alpha; r += step) {
+        double beckmann = exp(-r * r / (alpha * alpha)) / (PI * alpha * alpha);
+        off += fabs(vndf_source_p22(source, r) / mass - beckmann) * 2 * PI * r * step / 2;
+    }
+    printf("TV from Beckmann %.4f\n", off);
+    vndf_source_free(source);
+    profile_free(rows);
+    return off;
+}
+
+static profile law_of(slope_set *slopes, data_file *file, int is_there)
+{
+    profile rows;
+    if (!case_read(is_there && slopes_law(slopes, file, &rows), file))
+        exit(1);
+    printf("%s\n", file->notes);
+    return rows;
+}
+
+static profile law_of_field(const height_field *field, data_file *file)
 {
     slope_set slopes;
     *file = (data_file){.name = "made"};
-    if (!case_read(heights_slopes(field, 1, &slopes, file) && slopes_law(&slopes, file, rows), file))
-        exit(1);
-    printf("%s\n", file->notes);
+    int is_there = heights_slopes(field, 1, &slopes, file);
+    profile rows = law_of(&slopes, file, is_there);
     slopes_free(&slopes);
+    return rows;
 }
 
 static void test_gaussian(void)
 {
     data_file file;
-    profile rows;
-    height_field field = case_gaussian((int)test_amount(400, 700, 700), 3, 3, 0.2);
-    law_of(&field, &file, &rows);
-    double alpha = sqrt(2) * case_number(&file, "rms_slope "), off = case_from_beckmann(&rows, alpha);
-    double error = case_number(&file, "+- ");
-    printf("TV from Beckmann %.4f\n", off);
+    height_field field = gaussian((int)test_amount(400, 700, 700), 3, 3, 0.2);
+    profile rows = law_of_field(&field, &file);
+    double alpha = sqrt(2) * case_number(&file, "rms_slope "), error = case_number(&file, "+- ");
     TEST_RELATIVE(alpha, sqrt(2) * 0.2, 0.02);
-    TEST(off < 0.015);
+    TEST(from_beckmann(&rows, alpha) < 0.015);
     TEST(case_number(&file, "anisotropy ") - 1 < 5 * error && error < 0.02);
     TEST(case_number(&file, "residual_isotropy ") < 0.05);
     TEST(fabs(case_number(&file, "tilt ")) < 0.01);
     TEST(case_number(&file, "p22_error_99 ") < 0.1);
     TEST(strstr(file.notes, "matrix") == NULL && strstr(file.notes, "implausible") == NULL);
-    profile_free(&rows);
     field.step_x = field.step_y = 1e-6; /* heights in micrometres, steps in metres */
-    law_of(&field, &file, &rows);
+    rows = law_of_field(&field, &file);
     TEST_HAS(file.notes, "implausible median slope 2.3e+05: are heights and steps in the same unit?");
     profile_free(&rows);
     heights_free(&field);
@@ -42,39 +114,36 @@ static void test_gaussian(void)
 static void test_stretched(void)
 {
     data_file file;
-    profile rows;
-    height_field field = case_gaussian((int)test_amount(400, 700, 700), 3, 6, 0.2);
-    law_of(&field, &file, &rows);
-    double xx = 0, xy = 0, yy = 0,
-           alpha = sqrt(2) * 0.2 / sqrt(2); /* the geometric mean of 0.2 and 0.1, times sqrt 2 */
+    height_field field = gaussian((int)test_amount(400, 700, 700), 3, 6, 0.2);
+    profile rows = law_of_field(&field, &file);
+    double xx = 0, xy = 0, yy = 0;
     const char *matrix = strstr(file.notes, "\nmatrix ");
     TEST(matrix && sscanf(matrix, "\nmatrix %lf,%lf,%*f,%lf", &xx, &xy, &yy) == 3);
     TEST_NEAR(case_number(&file, "anisotropy "), 2, 5 * case_number(&file, "+- "));
     TEST_NEAR(xx * yy - xy * xy, 1, 1e-5);
     TEST_NEAR(xx / yy, 2, 0.15);
     TEST_NEAR(xy, 0, 0.05);
-    TEST(case_from_beckmann(&rows, alpha) < 0.04);
-    profile_free(&rows);
+    TEST(from_beckmann(&rows, 0.2) < 0.04); /* the geometric mean of 0.2 and 0.1, times sqrt 2 */
     heights_free(&field);
 }
 
-/* ---- ends ---------------------------------------------------------------------------------------- */
+/* ---- slopes that are drawn ----------------------------------------------------------------------- */
 
 typedef double slope_of_part(double u);
 
+static double whole_beckmann(double u)
+{
+    return 0.3 * sqrt(-log1p(-u));
+}
+
 static double cut_beckmann(double u)
 {
-    return 0.3 * sqrt(-log1p(-0.95 * u));
+    return whole_beckmann(0.95 * u);
 }
 
 static double whole_ggx(double u)
 {
     return 0.3 * sqrt(u / (1 - u));
-}
-
-static double whole_beckmann(double u)
-{
-    return 0.3 * sqrt(-log1p(-u));
 }
 
 static slope_set drawn(slope_of_part *slope_of, size_t count, data_file *file)
@@ -91,21 +160,17 @@ static slope_set drawn(slope_of_part *slope_of, size_t count, data_file *file)
 }
 
 /* Slopes that end abruptly give a curve that ends there; a tail has the mass of few slopes beyond the longest. */
-static void ends_at(slope_of_part *slope_of, int has_end, double most, const char *name)
+static void ends_at(slope_of_part *slope_of, int has_end, double most)
 {
     enum { COUNT = 1 << 16 };
     double longest = 0;
     data_file file;
-    profile rows;
     slope_set slopes = drawn(slope_of, COUNT, &file);
-    if (!case_read(slopes_law(&slopes, &file, &rows), &file))
-        exit(1);
+    profile rows = law_of(&slopes, &file, 1);
     for (int i = 0; i < COUNT; i++)
         longest = fmax(longest, hypot((double)slopes.x[i], (double)slopes.y[i]));
-    double end = rows.x[rows.count - 1], last = rows.value[rows.count - 1],
-           beyond = case_number(&file, "mass_beyond ");
-    printf("%s: longest slope %.4f, last row at %.4f: %.3g, %.2g of the mass is beyond\n", name, longest, end,
-           last, beyond);
+    double end = rows.x[rows.count - 1], last = rows.value[rows.count - 1];
+    double beyond = case_number(&file, "mass_beyond ");
     TEST(beyond * COUNT < most);
     TEST(has_end ? last == 0 && end > longest && end < 1.002 * longest : last > 0);
     vndf_source *source = profile_source(&rows, &file);
@@ -119,18 +184,14 @@ static void ends_at(slope_of_part *slope_of, int has_end, double most, const cha
 static void test_heavy_tail(void)
 {
     data_file file;
-    profile rows;
     double worst = 0;
     slope_set slopes = drawn(whole_ggx, 1 << 17, &file);
     slopes.count -= 2;
     slopes_add(&slopes, 1e6, 0, 0);
     slopes_add(&slopes, -1e6, 0, 1);
-    if (!case_read(slopes_law(&slopes, &file, &rows), &file))
-        return;
-    for (size_t i = 0; i < rows.count; i++) {
-        double q = 1 + rows.x[i] * rows.x[i] / 0.09;
-        worst = fmax(worst, fabs(rows.value[i] * PI * 0.09 * q * q - 1));
-    }
+    profile rows = law_of(&slopes, &file, 1);
+    for (size_t i = 0; i < rows.count; i++)
+        worst = fmax(worst, fabs(rows.value[i] / case_ggx(rows.x[i], 0.3) - 1));
     printf("slopes of GGX: rows up to %.3g off by %.3f at most\n", rows.x[rows.count - 1], worst);
     TEST(worst < 0.4 && strstr(file.notes, "matrix") == NULL);
     slopes_free(&slopes);
@@ -142,19 +203,15 @@ static void test_heavy_tail(void)
 /* A wave along x: its amplitude is halved at the cut-off, kept where it is long, gone where it is short. */
 static void test_cutoff(void)
 {
-    static const double lengths[3] = {8, 16, 32};
-    for (int i = 0; i < 3; i++) {
-        height_field field;
-        data_file file = {.name = "made"};
+    for (double wave = 8; wave <= 32; wave *= 2) {
+        height_field field = field_of(512, 64);
         double most = 0;
-        if (!TEST(heights_make(&field, 512, 64, &file)))
-            return;
         for (int k = 0; k < 512 * 64; k++)
-            field.z[k] = (float)cos(2 * PI * (k % 512) / lengths[i]);
+            field.z[k] = (float)cos(2 * PI * (k % 512) / wave);
         TEST(heights_smooth(&field, 16));
         for (int x = 128; x < 384; x++)
             most = fmax(most, fabs((double)field.z[32 * 512 + x]));
-        TEST_NEAR(most, pow(0.5, 256 / (lengths[i] * lengths[i])), 0.003);
+        TEST_NEAR(most, pow(0.5, 256 / (wave * wave)), 0.003);
         heights_free(&field);
     }
 }
@@ -162,45 +219,179 @@ static void test_cutoff(void)
 /* Places without a height take their neighbours' slopes with them, and nothing else. */
 static void test_gaps(void)
 {
-    height_field field = case_gaussian(200, 3, 3, 0.2);
+    height_field field = gaussian(200, 3, 3, 0.2);
     data_file file = {.name = "made"};
     slope_set slopes;
-    field.z[50 * 200 + 60] = NAN;
-    field.z[50 * 200 + 61] = NAN;
-    TEST(heights_slopes(&field, 1, &slopes, &file));
-    TEST(slopes.count == 198 * 198 - 8);
+    field.z[50 * 200 + 60] = field.z[50 * 200 + 61] = NAN;
+    TEST(heights_slopes(&field, 1, &slopes, &file) && slopes.count == 198 * 198 - 8);
     slopes_free(&slopes);
     TEST(heights_smooth(&field, 10));
     TEST(isnan(field.z[50 * 200 + 60]) && isfinite(field.z[50 * 200 + 62]));
     heights_free(&field);
 }
 
-static void refused(const height_field *field, int margin, const char *reason)
+static double along_x(int x)
 {
-    slope_set slopes;
-    profile rows = {0};
-    data_file file = case_file("", 0);
-    int good = heights_slopes(field, margin, &slopes, &file) && slopes_law(&slopes, &file, &rows);
-    TEST(rows.x == NULL);
-    case_refused(good, &file, reason);
-    slopes_free(&slopes);
+    return x;
+}
+
+static double wave_along_x(int x)
+{
+    return sin(x * 1.3);
+}
+
+static double nowhere(int x)
+{
+    return x < 0 ? x : (double)NAN;
 }
 
 static void test_refusals(void)
 {
-    height_field field = case_gaussian(100, 3, 3, 0.2);
-    refused(&field, 45, "100 slopes; at least 1000 are needed");
-    refused(&field, 50, "nothing is left inside a rim of 50");
-    for (int i = 0; i < 10000; i++)
-        field.z[i] = (float)(i % 100);
-    refused(&field, 1, "9604 of 9604 slopes are the same: this is a plane");
-    for (int i = 0; i < 10000; i++)
-        field.z[i] = (float)sin(i % 100 * 1.3);
-    refused(&field, 1, "the slopes lie on a line");
-    for (int i = 0; i < 10000; i++)
-        field.z[i] = NAN;
-    refused(&field, 1, "0 slopes; at least 1000");
+    static const struct {
+        double (*height)(int x); /* NULL: Gaussian */
+        int margin;
+        const char *reason;
+    } cases[] = {
+        {NULL, 45, "100 slopes; at least 1000 are needed"},
+        {NULL, 50, "nothing is left inside a rim of 50"},
+        {along_x, 1, "9604 of 9604 slopes are the same: this is a plane"},
+        {wave_along_x, 1, "the slopes lie on a line"},
+        {nowhere, 1, "0 slopes; at least 1000"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        height_field field = gaussian(100, 3, 3, 0.2);
+        slope_set slopes;
+        profile rows = {0};
+        data_file file = case_file("", 0);
+        for (int k = 0; k < 10000 && cases[i].height; k++)
+            field.z[k] = (float)cases[i].height(k % 100);
+        int good = heights_slopes(&field, cases[i].margin, &slopes, &file) && slopes_law(&slopes, &file, &rows);
+        TEST(rows.x == NULL);
+        case_refused(good, &file, cases[i].reason);
+        slopes_free(&slopes);
+        heights_free(&field);
+    }
+}
+
+/* ---- files --------------------------------------------------------------------------------------- */
+
+#define BYTES(literal) literal, sizeof literal - 1
+
+/* 0 to 8 in three rows, times a scale, but where nan says that there is none. */
+static void test_kinds(void)
+{
+    static const struct {
+        const char *bytes;
+        size_t size;
+        double scale;
+    } cases[] = {
+        {BYTES("\xEF\xBB\xBF# heights\r\n\n0 1\t 2\r\n3 nan 5  # end\n6 7 8e0"), 1},
+        {BYTES("P5\n# a map\n3 3 # sides\n8\n\0\1\2\3\4\5\6\7\10"), 1.0 / 8},
+        {BYTES("P5\n3 3\n2048\n\0\0\1\0\2\0\3\0\4\0\5\0\6\0\7\0\10\0"), 1.0 / 8},
+        {BYTES("Pf\n3 3\n1\n\x40\xc0\0\0\x40\xe0\0\0\x41\0\0\0\x40\x40\0\0\x40\x80\0\0\x40\xa0\0\0"
+               "\0\0\0\0\x3f\x80\0\0\x40\0\0\0"),
+         1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        height_field field;
+        data_file file = case_file(cases[i].bytes, cases[i].size);
+        if (!case_read(heights_read(&file, &field), &file))
+            continue;
+        TEST(field.width == 3 && field.height == 3 && field.step_x == 1 && field.step_y == 1);
+        for (int k = 0; k < 9; k++)
+            TEST(i == 0 && k == 4 ? isnan(field.z[k]) : field.z[k] == (float)(k * cases[i].scale));
+        heights_free(&field);
+        case_free(&file);
+    }
+}
+
+static size_t put_float(char *at, double value)
+{
+    float as_float = (float)value;
+    uint32_t bits;
+    memcpy(&bits, &as_float, sizeof bits);
+    for (int i = 0; i < 4; i++)
+        at[i] = (char)(bits >> 8 * i & 255);
+    return 4;
+}
+
+/* Heights of a Gaussian surface as normals, of bytes or floats; the law is that of the heights. */
+static void test_normals(void)
+{
+    enum { SIDE = 256 };
+    static char text[SIDE * SIDE * 12 + 64];
+    static const char *const said_of[3] = {"n/2 + 1/2, whole numbers", "n, floats", "n/2 + 1/2, floats"};
+    height_field field = gaussian(SIDE, 3, 3, 0.2);
+    for (int kind = 0; kind < 3; kind++) {
+        size_t at = (size_t)sprintf(text, "%s\n%d %d\n%s\n", kind ? "PF" : "P6", SIDE, SIDE, kind ? "-1" : "255");
+        for (int i = 0; i < SIDE * SIDE; i++) {
+            int x = i % SIDE, y = kind ? SIDE - 1 - i / SIDE : i / SIDE, left = (x + SIDE - 1) % SIDE;
+            int above = (y + SIDE - 1) % SIDE, below = (y + 1) % SIDE;
+            double n[3] = {(double)field.z[y * SIDE + left] - (double)field.z[y * SIDE + (x + 1) % SIDE],
+                           (double)field.z[above * SIDE + x] - (double)field.z[below * SIDE + x], 2};
+            double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+            for (int k = 0; k < 3; k++) {
+                double value = kind == 1 ? n[k] / length : n[k] / length / 2 + 0.5;
+                if (kind)
+                    at += put_float(text + at, value);
+                else
+                    text[at++] = (char)(int)floor(value * 255 + 0.5);
+            }
+        }
+        slope_set slopes;
+        data_file file = case_file(text, at);
+        int is_there = normals_slopes(&file, &slopes);
+        profile rows = law_of(&slopes, &file, is_there);
+        TEST_HAS(file.notes, said_of[kind]);
+        TEST_HAS(file.notes, "left_out 0\n");
+        double rms = case_number(&file, "rms_slope ");
+        TEST_RELATIVE(rms, 0.2, 0.02);
+        TEST(from_beckmann(&rows, sqrt(2) * rms) < (kind ? 0.015 : 0.04)); /* bytes are coarse */
+        slopes_free(&slopes);
+        case_free(&file);
+    }
     heights_free(&field);
+}
+
+/* As heights, or as a normal map. */
+static void refused(const char *bytes, size_t size, int is_map, const char *reason)
+{
+    height_field field = {0};
+    slope_set slopes = {0};
+    data_file file = case_file(bytes, size);
+    int good = is_map ? normals_slopes(&file, &slopes) : heights_read(&file, &field);
+    TEST(field.z == NULL && slopes.x == NULL);
+    case_refused(good, &file, reason);
+}
+
+static void test_refused_files(void)
+{
+    static const char image[] = "P5\n3 3\n255\n123456789";
+    static const struct {
+        const char *bytes;
+        size_t size;
+        int is_map;
+        const char *reason;
+    } cases[] = {
+        {BYTES(""), 0, "0 x 0 heights; both sides must be from 3"},
+        {BYTES("1 2 3\n4 5 6\n"), 0, "3 x 2 heights; both sides must be from 3"},
+        {BYTES("1 2 3\n4 5\n"), 0, "line 2: 2 numbers, and 3 in the lines before"},
+        {BYTES("1 2 3\n\n# no\n4 5 x6\n"), 0, "line 4: 'x6' is no height"},
+        {BYTES("1 2 3\n4 5 inf\n"), 0, "line 2: 'inf' is no height"},
+        {BYTES("1,2,3\n"), 0, "line 1: '1,2,3' is no height; numbers between blanks"},
+        {BYTES("1 2 1e31\n"), 0, "line 1: '1e31' is no height"},
+        {BYTES("P2\n3 3\n255\n"), 0, "it would begin with PF, Pf, P5 or P6"},
+        {BYTES("P5\n3 3\n255\n12345678"), 0, "3 x 3 pixels take 9 bytes after the head, and there are 8"},
+        {BYTES("P6\n1 1\n255\n123"), 0, "a PPM has colours"},
+        {BYTES(""), 1, "it would begin with PF, Pf, P5 or P6"},
+        {BYTES("P5\n1 1\n255\n1"), 1, "an image of one channel"},
+        {BYTES("P6\n1 2\n255\n\0\0\0\0\0\0"), 1, "2 of 2 pixels are no normals"},
+        {BYTES("P6\n1 2\n255\n\x7f\x7f\0\x7f\x7f\1"), 1, "2 of 2 pixels are no normals with z above 0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+        refused(cases[i].bytes, cases[i].size, cases[i].is_map, cases[i].reason);
+    for (size_t cut = 0; cut + 1 < sizeof image; cut++)
+        refused(image, cut, 0, "");
 }
 
 int main(void)
@@ -208,11 +399,14 @@ int main(void)
     test_gaussian();
     test_stretched();
     test_heavy_tail();
-    ends_at(cut_beckmann, 1, 1, "Beckmann, cut off");
-    ends_at(whole_ggx, 0, 4, "GGX");
-    ends_at(whole_beckmann, 0, 4, "Beckmann");
+    ends_at(cut_beckmann, 1, 1);
+    ends_at(whole_ggx, 0, 4);
+    ends_at(whole_beckmann, 0, 4);
     test_cutoff();
     test_gaps();
     test_refusals();
+    test_kinds();
+    test_normals();
+    test_refused_files();
     return test_done();
 }

@@ -24,7 +24,7 @@ static void test_round_trip(void)
     rewind(file);
     size_t size = fread(bytes, 1, sizeof bytes, file);
     TEST(size == strlen("PF\n3 2\n-1.0\n") + sizeof values && memcmp(bytes, "PF\n3 2\n-1.0\n", 12) == 0);
-    if (TEST(image_read_pfm_bytes(&back, "x", bytes, size, &error)))
+    if (TEST(image_read_bytes(&back, "x", bytes, size, &error)))
         TEST(back.width == 3 && back.height == 2 && memcmp(back.rgb, values, sizeof values) == 0);
     image_free(&back);
     image_free(&made);
@@ -37,10 +37,10 @@ static void test_forms(void)
                       grey[] = "Pf\r\n1 2\r\n-1\r\n\0\0\x80\x3f\0\0\0\x40";
     image made;
     image_error error;
-    if (TEST(image_read_pfm_bytes(&made, "x", big, sizeof big - 1, &error)))
+    if (TEST(image_read_bytes(&made, "x", big, sizeof big - 1, &error)))
         TEST(made.rgb[0] == 1.0f && made.rgb[1] == 2.0f && made.rgb[2] == -2.0f);
     image_free(&made);
-    if (TEST(image_read_pfm_bytes(&made, "x", grey, sizeof grey - 1, &error)))
+    if (TEST(image_read_bytes(&made, "x", grey, sizeof grey - 1, &error)))
         TEST(made.rgb[0] == 2.0f && made.rgb[2] == 2.0f && made.rgb[3] == 1.0f && made.rgb[5] == 1.0f);
     image_free(&made);
 }
@@ -53,10 +53,12 @@ static void refuse_images(void)
         size_t size;
         const char *says;
     } bad[] = {
-        {"", 0, "x: this is no PFM image"},
-        {"P6\n1 1\n255\n", 11, "x: this is no PFM image"},
-        {"PFx\n1 1\n-1\n", 11, "x: this is no PFM image"},
-        {"PF\n1 1\n", 7, "the head of the PFM is not whole"},
+        {"", 0, "x: this is no PFM, PGM or PPM image"},
+        {"P4\n1 1\n255\n", 11, "x: this is no PFM, PGM or PPM image"},
+        {"PFx\n1 1\n-1\n", 11, "x: this is no PFM, PGM or PPM image"},
+        {"PF\n1 1\n", 7, "the head of the image is not whole: after PF come width, height, a scale and a blank"},
+        {"P6\n1 1\n65536\n123", 15, "the largest value is '65536'; it must be from 1 to 65535"},
+        {"P5\n1 2\n256\n\0\0\1", 14, "1 x 2 pixels take 4 bytes after the head, and there are 3"},
         {"Pf\n0 1\n-1\n" PIXEL, 14, "width 0 and height 1: both must be whole numbers"},
         {"Pf\n1 1.5\n-1\n" PIXEL, 16, "both must be whole numbers from 1 to 16384"},
         {"Pf\n16384 16384\n-1\n" PIXEL, 22, "16384 x 16384 pixels are more than"},
@@ -69,7 +71,7 @@ static void refuse_images(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         image made;
         image_error error = {""};
-        if (!(TEST(!image_read_pfm_bytes(&made, "x", bad[i].bytes, bad[i].size, &error) && !made.rgb) &
+        if (!(TEST(!image_read_bytes(&made, "x", bad[i].bytes, bad[i].size, &error) && !made.rgb) &
               TEST_HAS(error.message, bad[i].says)))
             fprintf(stderr, "    says %s\n", error.message);
     }
@@ -185,23 +187,26 @@ static const struct {
     {"film width 16384 height 16384\n", ":1:6: 16384 x 16384 pixels are more than"},
     {"integrator depth 0\n", ":1:18: depth is 0, it must be from 1 to 10000"},
     {"environment scale 2\n", ":1:1: 'environment' needs one of 'constant R G B' and 'image NAME'"},
-    {"environment constant 1 1 1 turn 3\n", ":1:28: 'turn' is of an image"},
+    {"environment constant 1 1 1 turn 3\n", ":1:28: 'turn' stands beside 'image' only"},
     {"environment image sky\n",
      ":1:19: 'sky' is no image that is defined before this; it must be one of: (none yet)"},
     {"image a pattern tils\n", ":1:17: there is no pattern 'tils'; did you mean tiles"},
     {"image a pattern tiles width 0\n", ":1:29: width is 0, it must be from 1 to 16384"},
     {"image a file none.pfm\n", "none.pfm: No such file"},
-    {"image a file none.pfm width 3\n", ":1:23: 'width' is of a pattern; a file has its own"},
-    {"image a pattern tiles\nimage a pattern grid\n", ":2:7: there is an image 'a' already"},
+    {"image a file none.pfm width 3\n", ":1:23: 'width' stands beside 'pattern' only"},
+    {"image a pattern tiles\nimage a pattern grid\n", ":2:7: there is another image 'a' already"},
     {"image a\n", ":1:1: 'image' needs a name and what it is"},
-    {GOLD GOLD, ":2:10: there is a material 'm' already"},
+    {GOLD GOLD, ":2:10: there is another material 'm' already"},
     {"material m metal of gold\n",
      ":1:12: 'metal' is no kind of material; it must be one of: conductor, dielectric"},
     {"material m matte\n", ":1:12: 'matte' needs 'colour R G B'"},
     {"material m matte colour 1 1 2\n", ":1:29: colour is 2, it must be from 0 to 1"},
-    {"material m matte colour 1 1 1 alpha 2\n", ":1:31: 'alpha' does not go with 'matte'"},
-    {"material m conductor distribution ggx alpha 1\n", ":1:12: 'conductor' needs 'of METAL', or 'eta R G B'"},
-    {"material m conductor of gold k 1 1 1 distribution ggx alpha 1\n", ":1:12: 'conductor' needs 'of METAL'"},
+    {"material m matte colour 1 1 1 alpha 2\n",
+     ":1:31: 'alpha' is no clause here; it must be one of: colour, colour-map"},
+    {"material m conductor distribution ggx alpha 1\n",
+     ":1:12: 'conductor' needs one of 'of METAL' and 'eta R G B'"},
+    {"material m conductor of gold k 1 1 1 distribution ggx alpha 1\n",
+     ":1:12: 'conductor' needs one of 'k R G B' and 'of METAL'"},
     {"material m conductor of glod distribution ggx alpha 1\n", ":1:25: 'glod' is no metal; did you mean 'gold'?"},
     {"material m conductor eta 0 0 0 k 0 0 0 distribution ggx alpha 1\n", ":1:10: "},
     {"material m dielectric distribution ggx alpha 1\n", ":1:12: 'dielectric' needs 'index N'"},
@@ -222,7 +227,7 @@ static const struct {
     {GOLD "sphere centre 0 0 0 radius 0 material m\n", ":2:28: radius is 0, it must be from 1e-06"},
     {GOLD "rectangle corner 0 0 0 edge-u 1 0 0 edge-v 1 1 0 material m\n",
      "right angles; these are at 45 degrees"},
-    {GOLD "rectangle corner 0 0 0 edge-u 0 0 0 edge-v 1 1 0 material m\n", ":2:24: 'edge-u' has no length"},
+    {GOLD "rectangle corner 0 0 0 edge-u 0 0 0 edge-v 1 1 0 material m\n", ":2:24: this edge has no length"},
     {GOLD "mesh file none.obj material m\n", ":2:11: "},
     {"material l light radiance 1 1 1\nmesh file none.obj material l\n",
      ":2:29: a light is a sphere or a rectangle"},

@@ -52,19 +52,19 @@ static void test_verdict(double lamp, double alpha, uint64_t samples, verdict wa
 static void test_figures(void)
 {
     film f = render(30, 0.2, 64, 1), other = render(30, 0.2, 128, 2);
-    comparison c = {.way = {{.film = f}, {.film = other}}, .count = 2};
     noise of_f, of_other;
     film all;
     f.processor = 2;
     other.processor = 3;
+    comparison c = {.way = {{.film = f}, {.film = other}}, .count = 2};
     if (TEST(comparison_mean(&c, &all) && noise_of(&f, &all, &of_f) && noise_of(&other, &all, &of_other))) {
         TEST_NEAR(of_other.all.value / of_f.all.value, 0.5, 0.05);
         TEST(of_f.trimmed.value < of_f.all.value && of_f.all.spread > 0);
-        TEST_RELATIVE(samples_ratio(of_f.all, of_other.all, &f, &other).value,
-                      2 * of_other.all.value / of_f.all.value, 1e-12);
-        TEST_RELATIVE(efficiency(of_f.all, of_other.all, &f, &other).value,
-                      2 * of_f.all.value / (3 * of_other.all.value), 1e-12);
-        TEST(samples_ratio(of_f.all, of_f.all, &f, &f).spread == 0);
+        const noise both[2] = {of_f, of_other};
+        const gain g = gain_of(&c, both, 1);
+        TEST_RELATIVE(g.samples.value, 2 * of_other.all.value / of_f.all.value, 1e-12);
+        TEST_RELATIVE(g.efficiency.value, 2 * of_f.all.value / (3 * of_other.all.value), 1e-12);
+        TEST(gain_of(&c, both, 0).samples.spread == 0);
     }
     film_free(&all);
     film_free(&f);

@@ -4,10 +4,10 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "command.h"
+#include "draw/table.h"
 #include "render/compare.h"
 
 static const char name[] = "vndf render";
@@ -44,99 +44,82 @@ static const char *const help[] = {
     "         vndf render tools/scenes/metal.scene --compare visible,all --width 240 -o sheet.png\n",
     NULL};
 
-typedef struct render_choice {
-    unsigned long long spp, threads, seed, width;
+/* What was asked for, and what comes of it. */
+typedef struct render_work {
+    comparison ways; /* one of them is no comparison */
+    unsigned long long spp, width;
     double exposure;
-    const char *output, *format, *against; /* NULL: none */
-    int compares, has_json, is_quiet;
-} render_choice;
+    const char *output, *against; /* NULL: none */
+    int is_pfm, has_json, is_quiet;
+    film other; /* what the films are held against: that in a file, or zeroed: the first */
+} render_work;
 
 /* ---- words ---- */
 
-static int read_sampler(const char *what, const char *word, size_t letters, comparison *c)
-{
-    char copy[32];
-    snprintf(copy, sizeof copy, "%.*s", (int)(letters < sizeof copy ? letters : sizeof copy - 1), word);
-    for (size_t i = 0; i < SAMPLERS; i++) {
-        if (strcmp(copy, path_sampler_names[i]) != 0)
-            continue;
-        for (size_t k = 0; k < c->count; k++)
-            if (c->way[k].sampler == (path_sampler)i)
-                return complain(name, "%s: '%s' stands there twice", what, copy), 0;
-        c->way[c->count++].sampler = (path_sampler)i;
-        return 1;
-    }
-    const char *hint = nearest_word(copy, path_sampler_names, SAMPLERS);
-    complain(name, "%s: '%s' is none of visible, all and perfect%s%s%s", what, copy,
-             hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : "");
-    return 0;
-}
-
-/* A list separated by commas, or one word. */
+/* One sampler, or a list separated by commas. */
 static int read_samplers(const arguments *given, comparison *c)
 {
     const char *list = option_value(given, "--compare"), *one = option_value(given, "--sampler");
+    const char *what = list ? "--compare" : "--sampler", *at = list ? list : one ? one : "visible";
     if (list && one)
         return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
     if (option_value(given, "--equal") && !list)
         return complain(name, "--equal goes with --compare"), 0;
     c->has_equal_time = option_choice(given, "--equal", 0) == 0;
-    if (!list)
-        return read_sampler("--sampler", one ? one : "visible", strlen(one ? one : "visible"), c);
-    for (const char *at = list;; at++) {
+    for (;; at++) {
+        char copy[32];
         size_t letters = strcspn(at, ",");
-        if (!read_sampler("--compare", at, letters, c))
+        snprintf(copy, sizeof copy, "%.*s", (int)(letters < sizeof copy ? letters : sizeof copy - 1), at);
+        int sampler = word_among(name, what, copy, path_sampler_names);
+        if (sampler < 0)
             return 0;
+        for (size_t k = 0; k < c->count; k++)
+            if (c->way[k].sampler == (path_sampler)sampler)
+                return complain(name, "%s: '%s' stands there twice", what, copy), 0;
+        c->way[c->count++].sampler = (path_sampler)sampler;
         at += letters;
         if (!*at)
-            return c->count > 1 || (complain(name, "--compare takes two samplers at least"), 0);
+            break;
     }
+    return !list == (c->count == 1) ||
+           (complain(name, list ? "--compare takes two samplers at least" : "--sampler takes one; see --compare"),
+            0);
 }
 
-static int read_choice(const arguments *given, render_choice *r, comparison *c)
-{
-    *r = (render_choice){.threads = film_processors(),
-                         .output = option_value(given, "-o"),
-                         .format = option_value(given, "--format"),
-                         .against = option_value(given, "--against"),
-                         .compares = option_value(given, "--compare") != NULL,
-                         .has_json = option_value(given, "--json") != NULL,
-                         .is_quiet = option_value(given, "-q") != NULL};
-    *c = (comparison){.count = 0};
-    return option_count(given, "--spp", 1, 1e9, &r->spp) &&
-           option_count(given, "--threads", 1, 256, &r->threads) &&
-           option_count(given, "--seed", 0, 0x1p53, &r->seed) &&
-           option_count(given, "--width", 1, IMAGE_SIDE_MAX, &r->width) &&
-           option_number(given, "--exposure", 1e-6, 1e6, &r->exposure) && read_samplers(given, c);
-}
-
-/* Whether OUT is a PNG (0) or a PFM (1); -1 after a complaint. */
-static int form_of(const render_choice *r)
+/* All words, before anything is read or rendered. */
+static int read_words(const arguments *given, render_work *w)
 {
     static const char *const forms[] = {"png", "pfm", NULL};
-    return output_form(name, r->output, r->format, forms);
-}
-
-/* Before anything is read or rendered; 0 after a complaint. */
-static int is_output_usable(const render_choice *r)
-{
-    if (!r->output)
-        return r->compares || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
-    if (output_is_stdout(r->output) && (r->compares || r->against || r->has_json))
+    unsigned long long threads = film_processors(), seed = 0;
+    *w = (render_work){.output = option_value(given, "-o"),
+                       .against = option_value(given, "--against"),
+                       .has_json = option_value(given, "--json") != NULL,
+                       .is_quiet = option_value(given, "-q") != NULL};
+    if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
+        !option_count(given, "--seed", 0, 0x1p53, &seed) ||
+        !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
+        !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure) || !read_samplers(given, &w->ways))
+        return 0;
+    w->ways.threads = (unsigned)threads;
+    w->ways.seed = seed;
+    if (!w->output)
+        return w->ways.count > 1 || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
+    if (output_is_stdout(w->output) && (w->ways.count > 1 || w->against || w->has_json))
         return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
-    return form_of(r) >= 0 && output_replaceable(name, r->output);
+    w->is_pfm = output_form(name, w->output, option_value(given, "--format"), forms);
+    return w->is_pfm >= 0 && output_replaceable(name, w->output);
 }
 
 /* ---- figures ---- */
 
-static void print_film(const film *f, const render_choice *r, int is_whole)
+static void print_film(const film *f, const comparison *c, int is_whole)
 {
     double rays = (double)(f->counts.segments + f->counts.shadow_rays), seconds = fmax(f->seconds, 1e-9);
     double paths = (double)f->counts.paths;
     printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
            is_whole ? "" : " (interrupted)");
-    printf("%.3g s on %llu thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
-           seconds, r->threads, r->threads == 1 ? "" : "s", paths / seconds, rays / seconds,
+    printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
+           seconds, c->threads, c->threads == 1 ? "" : "s", paths / seconds, rays / seconds,
            (double)f->counts.segments / paths, (double)f->counts.shadow_rays / paths);
     if (f->counts.lost)
         printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
@@ -154,75 +137,55 @@ static void print_agreement(const char *what, const char *with, const agreement 
                a->mean_square, a->worst, a->x, a->y);
 }
 
-static void print_ways(const comparison *c, const noise *noises)
+static void add_figure(text_table *t, const char *heading, const char *format, measured m, double trimmed)
 {
-    const film *first = &c->way[0].film;
-    printf("%-8s %8s %8s %18s %25s %25s\n", "sampler", "samples", "seconds", "noise (trimmed)",
-           "samples needed (trimmed)", "efficiency (trimmed)");
+    char text[64];
+    snprintf(text, sizeof text, format, m.value, m.spread, trimmed);
+    table_figure(t, heading, isfinite(m.value) ? text : "no variance");
+}
+
+/* A row for each picture: what --compare is about for people, all of it in JSON. */
+static int print_rows(const render_work *w, const noise *noises, const agreement *agrees, int is_whole)
+{
+    const comparison *c = &w->ways;
+    text_table t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
-        char text[3][64];
-        const measured of[4] = {samples_ratio(noises[0].all, noises[i].all, first, f),
-                                samples_ratio(noises[0].trimmed, noises[i].trimmed, first, f),
-                                efficiency(noises[0].all, noises[i].all, first, f),
-                                efficiency(noises[0].trimmed, noises[i].trimmed, first, f)};
-        printf("%-8s %8llu %8.2f", path_sampler_names[c->way[i].sampler], (unsigned long long)f->samples,
-               f->processor);
-        if (f->samples < 2) {
-            puts("  one sample a pixel has no variance");
+        const gain g = gain_of(c, noises, i);
+        const double noise_of_all = sqrt(noises[i].all.value), trimmed = sqrt(noises[i].trimmed.value);
+        table_row(&t);
+        table_text(&t, "equal", c->has_equal_time ? "equal time" : "equal samples");
+        table_word(&t, "sampler", path_sampler_names[c->way[i].sampler]);
+        table_number(&t, "samples", "%.0f", (double)f->samples);
+        table_number(&t, "seconds", "%.3g", f->processor);
+        if (!w->has_json) {
+            const measured percent = {100 * noise_of_all, 100 * trimmed};
+            add_figure(&t, "noise (trimmed)", "%.2f%% (%.2f%%)", percent, 0);
+            add_figure(&t, "samples needed (trimmed)", "%.3f +- %.3f (%.3f)", g.samples, g.samples_trimmed);
+            add_figure(&t, "efficiency (trimmed)", "%.3f +- %.3f (%.3f)", g.efficiency, g.efficiency_trimmed);
             continue;
         }
-        snprintf(text[0], sizeof text[0], "%.2f%% (%.2f%%)", 100 * sqrt(noises[i].all.value),
-                 100 * sqrt(noises[i].trimmed.value));
-        for (size_t k = 0; k < 2; k++)
-            snprintf(text[1 + k], sizeof text[1 + k], "%.3f +- %.3f (%.3f)", of[2 * k].value, of[2 * k].spread,
-                     of[2 * k + 1].value);
-        printf(" %18s %25s %25s\n", text[0], text[1], text[2]);
+        const double numbers[] = {noise_of_all,    trimmed,         g.samples.value,       g.efficiency.value,
+                                  agrees[i].ratio, agrees[i].whole, agrees[i].worst,       agrees[i].mean_square,
+                                  f->width,        f->height,       (double)f->counts.lost};
+        static const char *const headings[] = {
+            "noise",       "noise_trimmed", "samples_needed", "efficiency", "light_ratio", "deviations",
+            "worst_block", "mean_square",   "width",          "height",     "lost"};
+        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
+            table_number(&t, headings[k], "%.9g", numbers[k]);
+        table_word(&t, "verdict", i || w->against ? verdict_names[agrees[i].is] : "");
+        table_word(&t, "interrupted", is_whole ? "no" : "yes");
     }
-    printf("noise: of a pixel, beside its light; samples needed for the noise of %s, in its own;\n"
-           "efficiency: one over squared noise and seconds of processors; trimmed: without the worst\n"
-           "thousandth of the pixels\n",
-           path_sampler_names[c->way[0].sampler]);
+    int good = w->has_json ? table_print_json(stdout, &t) : table_print_text(stdout, &t);
+    table_free(&t);
+    return good;
 }
 
-static void print_json(const comparison *c, const noise *noises, const agreement *agrees, int has_agreement,
-                       int is_whole)
+/* What the films say; STATUS_NO if one shows something else. */
+static int tell(const render_work *w, int is_whole)
 {
-    const film *first = &c->way[0].film;
-    figures to = {.file = stdout, .form = FIGURES_JSON};
-    figures_number(&to, "width", 9, first->width, "pixels");
-    figures_number(&to, "height", 9, first->height, "pixels");
-    figures_truth(&to, "interrupted", !is_whole);
-    figures_list(&to, "pictures");
-    for (size_t i = 0; i < c->count; i++) {
-        const film *f = &c->way[i].film;
-        const agreement *a = &agrees[i];
-        figures_record(&to);
-        figures_text(&to, "sampler", path_sampler_names[c->way[i].sampler]);
-        figures_number(&to, "samples", 9, (double)f->samples, "");
-        figures_number(&to, "seconds", 9, f->seconds, "s");
-        figures_number(&to, "processor_seconds", 9, f->processor, "s");
-        figures_number(&to, "lost", 9, (double)f->counts.lost, "");
-        figures_number(&to, "noise", 9, sqrt(noises[i].all.value), "");
-        figures_number(&to, "noise_trimmed", 9, sqrt(noises[i].trimmed.value), "");
-        figures_number(&to, "samples_needed", 9, samples_ratio(noises[0].all, noises[i].all, first, f).value, "");
-        figures_number(&to, "efficiency", 9, efficiency(noises[0].all, noises[i].all, first, f).value, "");
-        if (!has_agreement && !i)
-            continue;
-        figures_text(&to, "verdict", verdict_names[a->is]);
-        figures_number(&to, "light_ratio", 9, a->ratio, "");
-        figures_number(&to, "deviations", 9, a->whole, "");
-        figures_number(&to, "worst_block", 9, a->worst, "");
-        figures_number(&to, "mean_square", 9, a->mean_square, "");
-    }
-    figures_list_end(&to);
-    figures_end(&to);
-}
-
-/* What the films say; STATUS_NO if one shows something else. `against` may be NULL. */
-static int tell(const comparison *c, const render_choice *r, const film *against, int is_whole)
-{
-    const film *other = against ? against : &c->way[0].film;
+    const comparison *c = &w->ways;
+    const film *first = &c->way[0].film, *other = w->against ? &w->other : first;
     noise noises[SAMPLERS];
     agreement agrees[SAMPLERS];
     film all;
@@ -230,27 +193,25 @@ static int tell(const comparison *c, const render_choice *r, const film *against
     for (size_t i = 0; i < c->count && good; i++) {
         const film *f = &c->way[i].film;
         good = noise_of(f, &all, &noises[i]);
-        agrees[i] = agreement_between(f, other, against != NULL);
+        agrees[i] = agreement_between(f, other, w->against != NULL);
         if (agrees[i].is == VERDICT_DIFFERS && f != other)
             status = STATUS_NO;
     }
     film_free(&all);
-    if (!good)
-        return complain(name, "no memory for figures");
-    if (r->is_quiet)
+    if (good && w->is_quiet)
         return status;
-    if (r->has_json) {
-        print_json(c, noises, agrees, against != NULL, is_whole);
-        return status;
-    }
-    if (r->compares)
-        print_ways(c, noises);
-    else
-        print_film(&c->way[0].film, r, is_whole);
-    for (size_t i = against ? 0 : 1; i < c->count; i++)
+    if (good && !w->has_json && c->count == 1)
+        print_film(first, c, is_whole);
+    else if (good)
+        good = print_rows(w, noises, agrees, is_whole);
+    if (good && c->count > 1 && !w->has_json)
+        puts("seconds: of processors; noise: of a pixel, beside its light; trimmed: without the worst\n"
+             "thousandth of the pixels; efficiency: one over squared noise and seconds");
+    for (size_t i = w->against ? 0 : 1; i < c->count && good && !w->has_json; i++)
         print_agreement(path_sampler_names[c->way[i].sampler],
-                        against ? r->against : path_sampler_names[c->way[0].sampler], &agrees[i], against != NULL);
-    return status;
+                        w->against ? w->against : path_sampler_names[c->way[0].sampler], &agrees[i],
+                        w->against != NULL);
+    return good ? status : complain(name, "no memory for figures");
 }
 
 /* ---- rendering ---- */
@@ -259,120 +220,107 @@ static int tell(const comparison *c, const render_choice *r, const film *against
 static int render_ways(comparison *c, const scene *s, int is_quiet)
 {
     progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
+    int is_whole = 1;
     line.tells_left = 1;
     c->progress = progress_tell;
     c->user = &line;
-    int is_whole = 1;
     for (size_t i = 0; i < c->count && is_whole; i++)
         is_whole = film_make(&c->way[i].film, s->width, s->height);
-    const film_run run = {
-        .samples = c->samples, .threads = c->threads, .seed = c->seed, .progress = progress_tell, .user = &line};
-    if (is_whole)
-        is_whole = c->count > 1 ? comparison_run(c) : film_render(&c->way[0].film, c->way[0].plan, &run);
+    is_whole = is_whole && comparison_run(c);
     progress_end(&line);
     return is_whole;
 }
 
-static int save(output_file *output, const comparison *c, const render_choice *r, float exposure)
+static int save(output_file *output, const render_work *w, float exposure)
 {
+    const comparison *c = &w->ways;
     image made;
-    const int is_pfm = form_of(r) == 1;
-    const float scale_by = r->exposure > 0 ? (float)r->exposure : exposure;
-    if (!(c->count > 1 ? comparison_image(c, is_pfm ? 1.0f : scale_by, &made)
-                       : film_image(&c->way[0].film, &made)))
+    const float by = w->exposure > 0 ? (float)w->exposure : exposure;
+    if (!(c->count > 1 ? comparison_image(c, w->is_pfm ? 1.0f : by, &made) : film_image(&c->way[0].film, &made)))
         return output_give_up(output, "no memory for the picture");
-    int is_written = is_pfm ? image_write_pfm(output->file, &made)
-                            : image_write_png(output->file, &made, c->count > 1 ? 1.0f : scale_by);
+    int is_written = w->is_pfm ? image_write_pfm(output->file, &made)
+                               : image_write_png(output->file, &made, c->count > 1 ? 1.0f : by);
     image_free(&made);
-    if (is_written || ferror(output->file)) /* which is told by closing */
-        return output_commit(output);
-    return output_give_up(output, "no memory for the picture");
+    return is_written || ferror(output->file) /* which is told by closing */
+               ? output_commit(output)
+               : output_give_up(output, "no memory for the picture");
 }
 
-/* Figures alone: no file is open, and signals wait for the end of a pass. */
-static int render_figures(comparison *c, const render_choice *r, const scene *s, const film *against)
+/* With a picture or figures alone: then no file is open, and signals wait for the end of a pass. */
+static int render(render_work *w, const scene *s)
 {
-    output_hold_signals();
+    output_file output;
+    const int compares = w->ways.count > 1;
+    if (w->output && !output_open(&output, name, w->output))
+        return STATUS_USE;
+    if (!w->output)
+        output_hold_signals();
+    const int is_whole = render_ways(&w->ways, s, w->is_quiet);
     int status = STATUS_USE;
-    if (render_ways(c, s, r->is_quiet))
-        status = tell(c, r, against, 1);
-    else
-        complain(name, output_stopping() ? "interrupted; nothing was written" : "no memory for the films");
-    output_release_signals();
+    if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
+        const char *why = !output_stopping() ? "no memory for the films"
+                          : compares         ? "interrupted; nothing was written"
+                                             : "interrupted before every pixel had a sample";
+        status = w->output ? output_give_up(&output, why) : complain(name, "%s", why);
+    } else {
+        status = w->output && !output.path ? STATUS_GOOD : tell(w, is_whole);
+        fflush(stdout); /* a signal that waits ends the program when the picture is saved */
+        const int saved = w->output ? save(&output, w, s->exposure) : STATUS_GOOD;
+        status = saved != STATUS_GOOD ? saved : status;
+    }
+    if (!w->output)
+        output_release_signals();
     return status;
 }
 
-static int render_picture(comparison *c, const render_choice *r, const scene *s, const film *against)
-{
-    output_file output;
-    if (!output_open(&output, name, r->output))
-        return STATUS_USE;
-    const int is_whole = render_ways(c, s, r->is_quiet);
-    if (!is_whole && (r->compares || !c->way[0].film.samples))
-        return output_give_up(&output, !output_stopping() ? "no memory for the films"
-                                       : r->compares      ? "interrupted; nothing was written"
-                                                          : "interrupted before every pixel had a sample");
-    const int verdict_is = output.path ? tell(c, r, against, is_whole) : STATUS_GOOD;
-    fflush(stdout); /* a signal that waits ends the program when the picture is saved */
-    const int saved = save(&output, c, r, s->exposure);
-    return saved != STATUS_GOOD ? saved : verdict_is;
-}
-
-static int read_against(const render_choice *r, const scene *s, film *made)
+static int read_against(render_work *w, const scene *s)
 {
     image_error error;
     image of;
-    if (!image_read_pfm(&of, r->against, &error))
+    if (!image_read_pfm(&of, w->against, &error))
         return complain(name, "--against: %s", error.message), 0;
     int fits = of.width == s->width && of.height == s->height;
     if (!fits)
-        complain(name, "--against: %s has %d x %d pixels, this picture has %d x %d", r->against, of.width,
+        complain(name, "--against: %s has %d x %d pixels, this picture has %d x %d", w->against, of.width,
                  of.height, s->width, s->height);
-    else if (!film_from_image(made, &of))
-        fits = (complain(name, "no memory for %s", r->against), 0);
+    else if (!film_from_image(&w->other, &of))
+        fits = (complain(name, "no memory for %s", w->against), 0);
     image_free(&of);
     return fits;
 }
 
-static int render_scene(comparison *c, const render_choice *r, scene *s)
+static int render_scene(render_work *w, scene *s)
 {
     char message[640];
-    film against = {.sum = NULL};
-    if (r->width && !scene_resize(s, (int)r->width, message, sizeof message))
+    comparison *c = &w->ways;
+    if (w->width && !scene_resize(s, (int)w->width, message, sizeof message))
         return complain(name, "--width: %s", message);
-    c->samples = r->spp ? r->spp : s->samples;
-    c->threads = (unsigned)r->threads;
-    c->seed = r->seed;
+    c->samples = w->spp ? w->spp : s->samples;
     for (size_t i = 0; i < c->count; i++)
         if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
             return complain(name, "%s", message);
-    if (r->against && !read_against(r, s, &against))
-        return STATUS_USE;
-    const film *other = r->against ? &against : NULL;
-    int status = r->output ? render_picture(c, r, s, other) : render_figures(c, r, s, other);
-    film_free(&against);
-    return status;
+    return w->against && !read_against(w, s) ? STATUS_USE : render(w, s);
 }
 
 static int run(const arguments *given)
 {
     char message[1024];
-    render_choice r;
-    comparison c;
+    render_work w;
     if (option_value(given, "--grammar"))
         return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
     if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
-    if (!read_choice(given, &r, &c) || !is_output_usable(&r))
+    if (!read_words(given, &w))
         return STATUS_USE;
     scene *s = scene_read(given->positional.item[0], message, sizeof message);
     if (!s)
         return complain(name, "%s", message);
-    int status = render_scene(&c, &r, s);
-    for (size_t i = 0; i < c.count; i++) {
-        path_free(c.way[i].plan);
-        film_free(&c.way[i].film);
+    int status = render_scene(&w, s);
+    for (size_t i = 0; i < w.ways.count; i++) {
+        path_free(w.ways.way[i].plan);
+        film_free(&w.ways.way[i].film);
     }
+    film_free(&w.other);
     scene_free(s);
     return status;
 }

@@ -24,15 +24,11 @@
 
 #define RGL_ANISOTROPY_MOST 0.05
 
-/* D over theta, the mean of `ndf` over azimuths, smoothed within its noise. A material whose D strays from that mean by
- * more than RGL_ANISOTROPY_MOST is refused with the measure. Noted is how well that D explains what else the file
- * holds: how far `sigma` is from its area, at most, up to 85 degrees; the F0 and F90 of the mean of all channels whose
- * model (measured/model.h) is nearest, and the part of the light that it has elsewhere. */
+/* D over theta, the mean of `ndf` over azimuths, smoothed within its noise. A material whose D strays from that mean
+ * by more than RGL_ANISOTROPY_MOST is refused with the measure. Noted is how well that D explains what else the file
+ * holds: the F0 and F90 of the mean of all channels whose model (measured/model.h) is nearest, and the part of the
+ * light that it has elsewhere. */
 int rgl_read(data_file *file, profile *rows);
-
-/* The same of an anisotropic material, as an isotropic D under a matrix: slopes are drawn evenly from `ndf`, and their
- * law is that of measured/slopes.h, which notes the matrix. */
-int rgl_read_matrix(data_file *file, profile *rows);
 
 enum { RGL_CHANNELS = 16 };
 
@@ -59,20 +55,21 @@ int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form 
  *
  * D comes from what the surface sends back to where the light came from, by power iteration (J. Dupuy, E. Heitz,
  * J.-C. Iehl, P. Poulin, V. Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with
- * Power Iterations", EGSR 2015). There m = wi = wo, and the model (measured/model.h) has f = F0 D(w) / (4 cos (2 A(w) -
- * cos)). Now 2 A(w) - cos is the integral of |w.m| D(m) dm, so that
+ * Power Iterations", EGSR 2015). There m = wi = wo, and the model (measured/model.h) has f = F0 D(w) / (4 cos (2 A(w)
+ * - cos)). Now 2 A(w) - cos is the integral of |w.m| D(m) dm, so that
  *
  *     F0 D(w) = 4 cos f(w) integral |w.m| D(m) dm:
  *
- * D is an eigenvector, and F0 its eigenvalue, where D has the integral 1 over the projected hemisphere. (The paper has
- * the positive part of w.m in the place of |w.m|: it takes masking along the way in and along the same way out as one
- * event. Which of the two holds is a property of the surface; this is the one that the model of all files here has.) */
+ * D is an eigenvector, and F0 its eigenvalue, where D has the integral 1 over the projected hemisphere. (The paper
+ * has the positive part of w.m in the place of |w.m|: it takes masking along the way in and along the same way out as
+ * one event. Which of the two holds is a property of the surface; this is the one that the model of all files here
+ * has.) */
 
 typedef enum merl_channel { MERL_RED, MERL_GREEN, MERL_BLUE, MERL_LUMINANCE } merl_channel;
 
-/* D over theta of one channel, by the light that goes back less a constant, the diffuse part, chosen so that D explains
- * all of the file best. Noted are that part (pi f, an albedo), F0 and F90 of Schlick's F, the part of the light that
- * the model has elsewhere, and F0 of each channel by itself, diffuse light counted in. */
+/* D over theta of one channel, by the light that goes back less a constant, the diffuse part, chosen so that D
+ * explains all of the file best. Noted are that part (pi f, an albedo), F0 and F90 of Schlick's F, the part of the
+ * light that the model has elsewhere, and F0 of each channel by itself, diffuse light counted in. */
 int merl_read(data_file *file, merl_channel channel, profile *rows);
 
 /* The fixed point for f[] at the bins of *l, from any D there, and its F0; negative where nothing is known: D is that

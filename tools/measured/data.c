@@ -7,8 +7,6 @@
 
 #include "cli/sort.h"
 
-enum { REACH_MOST = 256 }; /* values on each side that smoothing looks at */
-
 int refuse(data_file *file, const char *format, ...)
 {
     int length = snprintf(file->refused, sizeof file->refused, "%.300s: ", file->name);
@@ -30,7 +28,7 @@ void note(data_file *file, const char *format, ...)
     memcpy(file->notes + used + (fits ? (size_t)length : 0), fits ? "\n" : "", fits ? 2 : 1);
 }
 
-/* ---- numbers and words --------------------------------------------------------------------------- */
+/* ---- numbers ------------------------------------------------------------------------------------- */
 
 uint64_t little_whole(const unsigned char *at, size_t bytes)
 {
@@ -60,60 +58,6 @@ void put_little(FILE *file, uint64_t value, size_t bytes)
 {
     for (size_t i = 0; i < bytes; i++)
         fputc((int)(value >> 8 * i & 255), file);
-}
-
-scan scan_from(const data_file *file)
-{
-    int is_marked = file->size >= 3 && memcmp(file->bytes, "\xEF\xBB\xBF", 3) == 0;
-    return (scan){file->bytes, file->size, is_marked ? 3 : 0, 1};
-}
-
-static int is_blank(const scan *from)
-{
-    unsigned char c = from->bytes[from->at];
-    return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
-}
-
-int scan_word(scan *from, char word[WORD_MAX])
-{
-    size_t length = 0;
-    while (from->at < from->size && is_blank(from))
-        from->at++;
-    if (from->at < from->size && from->bytes[from->at] == '#')
-        return 0;
-    for (; from->at < from->size && !is_blank(from) && from->bytes[from->at] != '\n'; from->at++)
-        if (length < WORD_MAX - 1) {
-            unsigned char c = from->bytes[from->at];
-            word[length++] = c > ' ' && c <= '~' ? (char)c : '?';
-        }
-    word[length] = '\0';
-    return length > 0;
-}
-
-int scan_line(scan *from)
-{
-    while (from->at < from->size && from->bytes[from->at] != '\n')
-        from->at++;
-    if (from->at == from->size)
-        return 0;
-    from->at++;
-    from->line++;
-    return from->at < from->size;
-}
-
-int scan_word_anywhere(scan *from, char word[WORD_MAX])
-{
-    while (!scan_word(from, word))
-        if (!scan_line(from))
-            return 0;
-    return 1;
-}
-
-int word_number(const char *word, double *value)
-{
-    char *end;
-    *value = strtod(word, &end);
-    return end != word && *end == '\0' && !isinf(*value);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
@@ -153,65 +97,40 @@ int profile_write(FILE *file, const profile *from, const char *title)
     return fflush(file) == 0 && !ferror(file);
 }
 
-/* ---- noise --------------------------------------------------------------------------------------- */
-
-/* Of logarithms, from their fourth differences, which a curve that is smooth at these steps hardly has: noise of one
- * deviation gives them sqrt(70). The median does not see jumps. */
-static double noise_of(const double *value, size_t count, double *room)
+/* Noise is seen in the fourth differences of logarithms, which a curve that is smooth at these steps hardly has: one
+ * deviation gives them sqrt(70), and their median does not see jumps. Passes of (1 2 1)/4 smooth until the next one
+ * would move the values by more than that. */
+int profile_smooth(profile *p, data_file *file)
 {
+    enum { PASSES_MOST = 1 << 14 };
     size_t n = 0;
-    for (size_t i = 2; i + 2 < count; i++)
-        room[n++] = fabs(value[i - 2] - 4 * value[i - 1] + 6 * value[i] - 4 * value[i + 1] + value[i + 2]);
-    if (n == 0)
-        return 0;
-    sort_numbers(room, n);
-    return room[n / 2] / (0.6745 * sqrt(70));
-}
-
-/* Means over `reach` values on both sides, fewer at the ends, which keep straight lines; returns the root of the mean
- * square by which values moved. */
-static double smoothed(const double *value, size_t count, size_t reach, double *to)
-{
-    double square = 0;
-    for (size_t i = 0; i < count; i++) {
-        size_t near = i < count - 1 - i ? i : count - 1 - i, wide = near < reach ? near : reach;
-        double sum = 0, whole = 0;
-        for (size_t k = i - wide; k <= i + wide; k++) {
-            double away = ((double)k - (double)i) / (double)(wide + 1), weight = 1 - away * away;
-            sum += weight * value[k];
-            whole += weight;
-        }
-        to[i] = sum / whole;
-        square += (to[i] - value[i]) * (to[i] - value[i]) / (double)count;
+    double noise = 0;
+    while (n < p->count && p->value[n] > 0)
+        n++;
+    double *given = malloc((3 * n + 1) * sizeof *given), *now = given + n, *next = now + n;
+    if (!given)
+        return refuse(file, "there is no memory for %zu rows", p->count);
+    for (size_t i = 0; i < n; i++)
+        now[i] = given[i] = log(p->value[i]);
+    for (size_t i = 4; i < n; i++)
+        next[i - 4] = fabs(now[i - 4] - 4 * now[i - 3] + 6 * now[i - 2] - 4 * now[i - 1] + now[i]);
+    if (n > 4) {
+        sort_numbers(next, n - 4);
+        noise = next[(n - 4) / 2] / (0.6745 * sqrt(70));
     }
-    return sqrt(square);
-}
-
-/* `value` are logarithms; the widest smoothing that moves them by no more than the noise. */
-static double smooth(double *value, size_t count, double *room, double *best)
-{
-    double noise = noise_of(value, count, room);
-    memcpy(best, value, count * sizeof *best);
-    for (size_t reach = 1; reach < REACH_MOST && reach < count / 4 && smoothed(value, count, reach, room) <= noise;
-         reach += 1 + reach / 4)
-        memcpy(best, room, count * sizeof *best);
-    memcpy(value, best, count * sizeof *best);
-    return noise;
-}
-
-int profile_smooth(profile *changed, data_file *file)
-{
-    size_t count = 0;
-    while (count < changed->count && changed->value[count] > 0)
-        count++;
-    double *value = malloc((count + 1) * 3 * sizeof *value);
-    if (!value)
-        return refuse(file, "there is no memory for %zu rows", changed->count);
-    for (size_t i = 0; i < count; i++)
-        value[i] = log(changed->value[i]);
-    note(file, "noise %.2g", smooth(value, count, value + count, value + 2 * count));
-    for (size_t i = 0; i < count; i++)
-        changed->value[i] = exp(value[i]);
-    free(value);
+    note(file, "noise %.2g", noise);
+    for (int pass = 0; pass < PASSES_MOST && n > 4; pass++) {
+        double square = 0;
+        for (size_t i = 0; i < n; i++) {
+            next[i] = i + 1 == n ? now[i] : (now[i ? i - 1 : 1] + 2 * now[i] + now[i + 1]) / 4;
+            square += (next[i] - given[i]) * (next[i] - given[i]) / (double)n;
+        }
+        if (!(sqrt(square) <= noise))
+            break;
+        memcpy(now, next, n * sizeof *now);
+    }
+    for (size_t i = 0; i < n; i++)
+        p->value[i] = exp(now[i]);
+    free(given);
     return 1;
 }

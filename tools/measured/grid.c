@@ -59,75 +59,29 @@ void warp_sample(const warp *of, double s_x, double s_y, double *x, double *y)
     *y = (row + v) / (h - 1);
 }
 
-/* ---- least squares ------------------------------------------------------------------------------- */
-
-enum { SWEEPS = 80, NEIGHBOURS = 9 };
-
-static const double SMOOTH = 1e-4; /* of a cell's weight: what ties a point to its neighbours */
-
-/* The normal equations: a row for each point, over it and its neighbours. */
-typedef struct equations {
-    int side;
-    double matrix[FIT_SIDE_MAX * FIT_SIDE_MAX][NEIGHBOURS], right[FIT_SIDE_MAX * FIT_SIDE_MAX];
-} equations;
-
-/* A known value at (u, v) in a cell, whose corners are numbered 0 to 3 along u first. */
-static void add_value(equations *e, int row, int column, double v, double u, double value, double weight)
+void grid_fit(const float *value, const float *is_known, int side, int points, int steps, double *grid)
 {
-    const double hat[4] = {(1 - v) * (1 - u), (1 - v) * u, v * (1 - u), v * u};
-    for (int i = 0; i < 4; i++) {
-        int point = (row + i / 2) * e->side + column + i % 2;
-        e->right[point] += weight * hat[i] * value;
-        for (int k = 0; k < 4; k++) /* corner k as a neighbour of corner i */
-            e->matrix[point][(k / 2 - i / 2 + 1) * 3 + k % 2 - i % 2 + 1] += weight * hat[i] * hat[k];
-    }
-}
-
-/* The point that is neighbour k, or -1 outside. */
-static int neighbour(const equations *e, int row, int column, int k)
-{
-    int y = row + k / 3 - 1, x = column + k % 3 - 1;
-    return y < 0 || x < 0 || y >= e->side || x >= e->side ? -1 : y * e->side + x;
-}
-
-/* Every point is tied to those beside it, above it and below it. */
-static void tie(equations *e)
-{
-    for (int point = 0; point < e->side * e->side; point++)
-        for (int k = 1; k < NEIGHBOURS; k += 2)
-            if (neighbour(e, point / e->side, point % e->side, k) >= 0) {
-                e->matrix[point][4] += SMOOTH;
-                e->matrix[point][k] -= SMOOTH;
-            }
-}
-
-/* By sweeps of Gauss and Seidel. */
-static void solve(const equations *e, double *grid)
-{
-    for (int i = 0; i < SWEEPS; i++)
-        for (int point = 0; point < e->side * e->side; point++) {
-            double sum = e->right[point];
-            for (int k = 0; k < NEIGHBOURS; k++) {
-                int other = neighbour(e, point / e->side, point % e->side, k);
-                if (k != 4 && other >= 0)
-                    sum -= e->matrix[point][k] * grid[other];
-            }
-            grid[point] = sum / e->matrix[point][4];
-        }
-}
-
-void grid_fit(const float *value, const float *is_known, int side, int points, double *grid)
-{
-    equations e;
-    memset(&e, 0, sizeof e);
-    e.side = side;
+    double sum[FIT_SIDE_MAX * FIT_SIDE_MAX], whole[FIT_SIDE_MAX * FIT_SIDE_MAX];
     int fine = (side - 1) * points;
-    double share = 1.0 / (points * points);
-    for (int y = 0; y < fine; y++)
-        for (int x = 0; x < fine; x++)
-            add_value(&e, y / points, x / points, (y % points + 0.5) / points, (x % points + 0.5) / points,
-                      (double)value[y * fine + x], share * (double)is_known[y * fine + x]);
-    tie(&e);
     memset(grid, 0, (size_t)(side * side) * sizeof *grid);
-    solve(&e, grid);
+    for (int step = 0; step < steps; step++) {
+        memset(sum, 0, sizeof sum);
+        memset(whole, 0, sizeof whole);
+        for (int i = 0; i < fine * fine; i++) {
+            int y = i / fine, x = i % fine, corner = y / points * side + x / points;
+            double v = (y % points + 0.5) / points, u = (x % points + 0.5) / points, left = (double)value[i];
+            const int at[4] = {corner, corner + 1, corner + side, corner + side + 1};
+            const double hat[4] = {(1 - v) * (1 - u), (1 - v) * u, v * (1 - u), v * u};
+            if (is_known && !(is_known[i] > 0))
+                continue;
+            for (int k = 0; k < 4; k++)
+                left -= hat[k] * grid[at[k]];
+            for (int k = 0; k < 4; k++) {
+                sum[at[k]] += hat[k] * left;
+                whole[at[k]] += hat[k];
+            }
+        }
+        for (int i = 0; i < side * side; i++)
+            grid[i] += whole[i] > 0 ? sum[i] / whole[i] : 0;
+    }
 }

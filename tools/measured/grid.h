@@ -20,10 +20,11 @@ void warp_sample(const warp *of, double s_x, double s_y, double *x, double *y);
 
 enum { FIT_SIDE_MAX = 64 };
 
-/* The function on a grid of side^2 numbers that is nearest, by least squares, to `value` in the middles of points x
- * points parts of each cell, where `is_known` is above 0; value and is_known are ((side - 1) points)^2 numbers.
- * Interpolating the function at the points of the grid would halve it in the cells where it ends: here it may go on
- * beyond its end as it likes. Points that nothing known is near go on smoothly from their neighbours. */
-void grid_fit(const float *value, const float *is_known, int side, int points, double *grid);
+/* The function on a grid of side^2 numbers that is near `value` in the middles of points x points parts of each cell,
+ * ((side - 1) points)^2 numbers. The first step gives each point of the grid the mean of the parts around it, weighed
+ * by its hat; more steps add the means of what is left, which comes to least squares in the limit. After any step the
+ * grid has the integral of `value`. Parts where is_known (NULL: everywhere) is 0 do not count: where a function ends,
+ * interpolation between points would halve it in the cells of its end; here it goes on beyond as it likes. */
+void grid_fit(const float *value, const float *is_known, int side, int points, int steps, double *grid);
 
 #endif

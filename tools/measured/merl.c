@@ -153,31 +153,27 @@ static double try_diffuse(search *s, double diffuse)
     return fmin(s->fitted.residual, 1);
 }
 
-/* By the golden section, from 0 to the least light that comes back anywhere within 70 degrees; 0 if that is as good. */
+/* On ever finer steps about the best so far, from 0 to the least light that comes back anywhere within 70 degrees; 0
+ * if that is as good. */
 static double find_diffuse(search *s)
 {
-    static const double golden = 0.6180339887498949;
-    double low = 0, high = INFINITY;
+    double most = INFINITY, best = 0, none = try_diffuse(s, 0), least = none;
     for (int i = 0; i < HALVES && s->law.theta[i] < 70 * pi / 180; i++)
-        high = s->back[i] < 0 ? high : fmin(high, s->back[i]);
-    high = isfinite(high) ? high : 0;
-    double most = high, a = high - golden * high, b = golden * high;
-    double at_a = try_diffuse(s, a), at_b = try_diffuse(s, b);
-    while (high - low > 1e-3 * most) {
-        if (at_a <= at_b) {
-            high = b;
-            b = a;
-            at_b = at_a;
-            at_a = try_diffuse(s, a = high - golden * (high - low));
-        } else {
-            low = a;
-            a = b;
-            at_a = at_b;
-            at_b = try_diffuse(s, b = low + golden * (high - low));
+        most = s->back[i] < 0 ? most : fmin(most, s->back[i]);
+    most = isfinite(most) ? most : 0;
+    for (double step = most / 8; step > 1e-4 * most; step /= 8) {
+        double middle = best;
+        for (int i = -8; i <= 8; i++) {
+            double diffuse = middle + i * step, residual = 1;
+            if (i != 0 && diffuse > 0 && diffuse <= most)
+                residual = try_diffuse(s, diffuse);
+            if (residual < least) {
+                least = residual;
+                best = diffuse;
+            }
         }
     }
-    double best = try_diffuse(s, (low + high) / 2);
-    return try_diffuse(s, 0) <= 1.01 * best + 1e-5 ? 0 : (low + high) / 2;
+    return none <= 1.01 * least + 1e-5 ? 0 : best;
 }
 
 static int search_file(data_file *file, search *s)
@@ -189,43 +185,26 @@ static int search_file(data_file *file, search *s)
     double diffuse = find_diffuse(s);
     if (try_diffuse(s, diffuse) >= 1 || !(s->f0 > 0))
         return refuse(file, "no light comes back to where it came from, or D explains nothing of the file");
-    note(file, "angles_without_light %d", s->missing);
-    note(file, "diffuse %.4g", diffuse * pi);
-    note(file, "f0 %.4g", s->fitted.f0);
-    note(file, "f90 %.4g", s->fitted.f90);
-    note(file, "residual_reflectance %.3g", s->fitted.residual);
+    note(file, "angles_without_light %d\ndiffuse %.4g\nf0 %.4g\nf90 %.4g\nresidual_reflectance %.3g", s->missing,
+         diffuse * pi, s->fitted.f0, s->fitted.f90, s->fitted.residual);
     return 1;
 }
 
-/* F0 of each channel by itself, with its own D; diffuse light counts in. */
-static void note_channels(data_file *file, search *s)
-{
-    static const char *const names[3] = {"f0_red", "f0_green", "f0_blue"};
-    for (int i = 0; i < 3; i++) {
-        s->channel = (merl_channel)i;
-        read_back(s);
-        if (merl_iterate(&s->law, s->back, &s->f0))
-            note(file, "%s %.4g", names[i], s->f0);
-    }
-}
-
+/* The number of azimuths, or 0 and the reason. */
 static int open_file(data_file *file)
 {
-    uint64_t side[3] = {0, 0, 0};
+    unsigned long side[3];
     if (file->size < HEAD)
-        return refuse(file, file->size == 0
-                                ? "the file is empty"
-                                : "this is no MERL file: it ends within the head, three numbers of 4 bytes");
+        return refuse(file, "this is no MERL file: its head of three numbers of 4 bytes is not whole");
     for (size_t i = 0; i < 3; i++)
-        side[i] = little_whole(file->bytes + 4 * i, 4);
+        side[i] = (unsigned long)little_whole(file->bytes + 4 * i, 4);
     if (side[0] != HALVES || side[1] != DIFFERENCES || (side[2] != HALF_TURN && side[2] != 2 * HALF_TURN))
-        return refuse(file, "this is no MERL file: it begins with %lu %lu %lu in the place of 90 90 180",
-                      (unsigned long)side[0], (unsigned long)side[1], (unsigned long)side[2]);
+        return refuse(file, "this is no MERL file: it begins with %lu %lu %lu in the place of 90 90 180", side[0],
+                      side[1], side[2]);
     size_t want = HEAD + (size_t)HALVES * DIFFERENCES * (size_t)side[2] * 3 * 8;
-    if (file->size != want)
-        return refuse(file, "a MERL file of 90 x 90 x %lu has %zu bytes, and there are %zu",
-                      (unsigned long)side[2], want, file->size);
-    return (int)side[2];
+    return file->size == want ? (int)side[2]
+                              : refuse(file, "a MERL file of 90 x 90 x %lu has %zu bytes, and there are %zu",
+                                       side[2], want, file->size);
 }
 
 int merl_read(data_file *file, merl_channel channel, profile *rows)
@@ -242,7 +221,14 @@ int merl_read(data_file *file, merl_channel channel, profile *rows)
     if (good) {
         memcpy(rows->x, s->law.theta, HALVES * sizeof *rows->x);
         memcpy(rows->value, s->law.ndf, HALVES * sizeof *rows->value);
-        note_channels(file, s);
+    }
+    for (int i = 0; i < 3 && good;
+         i++) { /* F0 of each channel by itself, with its own D; diffuse light counts in */
+        static const char *const names[3] = {"red", "green", "blue"};
+        s->channel = (merl_channel)i;
+        read_back(s);
+        if (merl_iterate(&s->law, s->back, &s->f0))
+            note(file, "f0_%s %.4g", names[i], s->f0);
     }
     free(s);
     return good;

@@ -91,19 +91,10 @@ double law_of_source(law *made, const vndf_source *source)
 
 double law_ndf(const law *of, double theta)
 {
-    int low = 0, high = of->count - 1;
-    if (theta <= of->theta[0])
-        return of->ndf[0];
-    if (theta >= of->theta[high])
-        return of->ndf[high];
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        *(of->theta[middle] <= theta ? &low : &high) = middle;
-    }
-    double part = (theta - of->theta[low]) / (of->theta[high] - of->theta[low]);
-    if (of->ndf[low] > 0 && of->ndf[high] > 0)
-        return exp((1 - part) * log(of->ndf[low]) + part * log(of->ndf[high]));
-    return (1 - part) * of->ndf[low] + part * of->ndf[high];
+    double place = fmin(fmax(sqrt(theta / (pi / 2)) * of->count - 0.5, 0), of->count - 1);
+    int at = place < of->count - 2 ? (int)place : of->count - 2;
+    double low = of->ndf[at], high = of->ndf[at + 1], part = place - at;
+    return low > 0 && high > 0 ? exp((1 - part) * log(low) + part * log(high)) : (1 - part) * low + part * high;
 }
 
 double law_area(const law *of, double theta)

@@ -37,15 +37,15 @@ double model_area(const vndf_surface *surface, double theta);
 
 enum { LAW_ANGLES = 256, LAW_AREAS = 181 };
 
-/* D at angles theta[i], the middles of bins from 0 to 90 degrees with the solid angles 2 pi share[i], and its projected
- * area every half degree. 400 KB. */
+/* D at angles theta[i], the middles of bins from 0 to 90 degrees that are even in sqrt(theta), as MERL files have
+ * them; their solid angles are 2 pi share[i]. Its projected area every half degree. 400 KB. */
 typedef struct law {
     int count; /* at most LAW_ANGLES */
     double theta[LAW_ANGLES], share[LAW_ANGLES], ndf[LAW_ANGLES], area[LAW_AREAS];
     double both_sides[LAW_AREAS][LAW_ANGLES]; /* what a bin with D = 1 adds to the integral of |w.m| D(m) dm */
 } law;
 
-/* Bins that are even in sqrt(theta), as MERL files have them. */
+/* The bins, with D = 0. */
 void law_even(law *made, int count);
 
 /* Scales D to the integral 1 over the projected hemisphere and finds its areas; returns what the integral was. */
@@ -54,7 +54,7 @@ double law_normalise(law *changed);
 /* D of a curve, normalised; returns what its integral was. */
 double law_of_source(law *made, const vndf_source *source);
 
-/* Between the bins: of D logarithms where they can be, on theta. */
+/* Between the middles of bins: of D logarithms, where they can be. */
 double law_ndf(const law *of, double theta);
 double law_area(const law *of, double theta);
 

@@ -1,10 +1,11 @@
 /* The law of slopes of a surface that was measured: P22 over the slope length, whether it is isotropic, and how sure
  * all that is.
  *
- * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s s^T
- * / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
- * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken as
- * isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this matrix.
+ * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s
+ * s^T / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
+ * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken
+ * as isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this
+ * matrix.
  *
  * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
  * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
@@ -30,34 +31,12 @@ int slopes_make(slope_set *made, size_t room, data_file *file);
 void slopes_free(slope_set *freed);
 void slopes_add(slope_set *to, double x, double y, int part);
 
-/* Moves the slopes to mean 0, notes what was found, and makes rows of P22 over |u|. Refused are fewer than SLOPES_LEAST
+/* Turns the slopes into u, notes what was found, and makes rows of P22 over |u|. Refused are fewer than SLOPES_LEAST
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
 
-enum { BINS_MOST = 96 };
-
-/* The part of the slopes that lies between two lengths, and how sure that is. */
-typedef struct slope_bins {
-    size_t count;
-    double edge[BINS_MOST + 1]; /* edge[count] is infinite, or where slopes end abruptly */
-    double mass[BINS_MOST];
-    double middle[BINS_MOST]; /* a row's place */
-    double error[BINS_MOST];  /* relative, of the mass: one standard deviation */
-    double longest;           /* of all slopes */
-    size_t samples;
-} slope_bins;
-
-/* The bin in which a length lies. */
-size_t slope_bin_of(const slope_bins *b, double r);
-
-/* Bins of the lengths r[] of the slopes, in their order. 0 and the reason if too few lengths can be told apart. */
-int slope_bins_make(slope_bins *made, const slope_set *slopes, const double *r, data_file *file);
-
-/* Rows whose curve has the masses of the bins; notes by how much it misses them, and what it has beyond the longest
- * slope. 0 and the reason if there is no such curve. */
-int slope_rows_make(slope_bins *b, data_file *file, profile *rows);
-
-/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given. */
+/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given.
+ */
 double slope_mass(const vndf_source *source, double from, double to);
 
 #endif

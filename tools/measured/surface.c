@@ -30,27 +30,45 @@ void heights_free(height_field *freed)
     *freed = (height_field){0};
 }
 
-/* ---- texts --------------------------------------------------------------------------------------- */
+/* ---- heights ------------------------------------------------------------------------------------- */
+
+enum { WORD_MAX = 64 };
+
+/* The next word of a line, which ends before `stop` or with a comment; 0 where there is none. It is cut after
+ * WORD_MAX - 1 letters; what is no ASCII becomes '?'. */
+static int next_word(const unsigned char **at, const unsigned char *stop, char word[WORD_MAX])
+{
+    size_t letters = 0;
+    while (*at < stop && (**at == ' ' || (**at >= '\t' && **at <= '\r')))
+        ++*at;
+    for (; *at < stop && **at != ' ' && !(**at >= '\t' && **at <= '\r') && (letters || **at != '#'); ++*at)
+        if (letters < WORD_MAX - 1)
+            word[letters++] = **at > ' ' && **at <= '~' ? (char)**at : '?';
+    word[letters] = '\0';
+    return letters > 0;
+}
 
 /* Numbers between blanks, a line for each row. */
 static int read_rows(data_file *file, height_field *made)
 {
-    scan text = scan_from(file);
-    char word[WORD_MAX];
+    const unsigned char *at = file->bytes, *end = at + file->size;
+    char word[WORD_MAX], *behind;
     size_t count = 0, room = 0;
     int width = 0, height = 0;
-    do {
+    if (file->size >= 3 && memcmp(at, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8, from spreadsheets */
+        at += 3;
+    for (size_t line = 1; at < end; line++) {
+        const unsigned char *stop = memchr(at, '\n', (size_t)(end - at));
         int here = 0;
-        for (; scan_word(&text, word); here++, count++) {
-            double z;
-            if (!word_number(word, &z) || fabs(z) > 1e30)
-                return refuse(
-                    file,
-                    "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there is "
-                    "none",
-                    text.line, word);
+        for (stop = stop ? stop : end; next_word(&at, stop, word); here++, count++) {
+            double z = strtod(word, &behind);
+            if (*behind || fabs(z) > 1e30)
+                return refuse(file,
+                              "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there "
+                              "is none",
+                              line, word);
             if (count == SURFACE_MAX)
-                return refuse(file, "line %zu: more than %d heights", text.line, SURFACE_MAX);
+                return refuse(file, "line %zu: more than %d heights", line, SURFACE_MAX);
             if (count == room) {
                 room = 2 * room + 4096;
                 float *larger = realloc(made->z, room * sizeof *larger);
@@ -61,103 +79,35 @@ static int read_rows(data_file *file, height_field *made)
             made->z[count] = (float)z;
         }
         if (here > 0 && height++ > 0 && here != width)
-            return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many",
-                          text.line, here, width);
+            return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many", line,
+                          here, width);
         width = here > 0 ? here : width;
-    } while (scan_line(&text));
+        at = stop < end ? stop + 1 : end;
+    }
     *made = (height_field){width, height, 1, 1, 0, made->z};
     return heights_fit(made, file);
 }
 
-/* ---- images -------------------------------------------------------------------------------------- */
-
-/* PGM and PPM, binary, of 8 or 16 bits (a line P5 or P6, then width, height and the largest
- * value, with comments from # to the end of a line; one blank; rows from the top, the greater byte first), and PFM. */
-typedef struct raster {
-    int width, height, channels; /* 1 or 3 */
-    size_t stride;               /* numbers a pixel */
-    double quantum;              /* 1 over the largest value; 0 of floats */
-    float *value;                /* owned; 0 to 1 of PGM and PPM */
-} raster;
-
-static int read_pfm(data_file *file, raster *made)
+static int read_image(data_file *file, image *made)
 {
-    image picture;
     image_error error = {""};
-    if (!image_read_pfm_bytes(&picture, file->name, file->bytes, file->size, &error)) {
-        memcpy(file->refused, error.message, sizeof file->refused);
-        return 0;
-    }
-    *made = (raster){picture.width, picture.height, file->bytes[1] == 'F' ? 3 : 1, 3, 0, picture.rgb};
-    if ((size_t)made->width * (size_t)made->height <= SURFACE_MAX)
+    if (image_read_bytes(made, file->name, file->bytes, file->size, &error))
         return 1;
-    free(made->value);
-    return refuse(file, "%d x %d pixels are more than %d", made->width, made->height, SURFACE_MAX);
+    memcpy(file->refused, error.message, sizeof file->refused);
+    return 0;
 }
 
-/* A whole number from 1 to `most` in the head of an image; 0 where there is none. */
-static int read_side(scan *head, int most)
+static int read_heights_image(data_file *file, height_field *made)
 {
-    char word[WORD_MAX];
-    double value;
-    int is_number = scan_word_anywhere(head, word) && word_number(word, &value);
-    return is_number && value >= 1 && value <= most && value == (int)value ? (int)value : 0;
-}
-
-static int read_grey(data_file *file, raster *made)
-{
-    scan head = scan_from(file);
-    head.at = 2;
-    *made = (raster){read_side(&head, SURFACE_SIDE_MAX), read_side(&head, SURFACE_SIDE_MAX), 0, 0, 0, NULL};
-    int most = read_side(&head, 65535);
-    if (made->width == 0 || made->height == 0 || most == 0 || head.at == file->size)
-        return refuse(
-            file,
-            "the head of the image is not whole: width and height up to %d, the largest value up to 65535, "
-            "and a blank",
-            SURFACE_SIDE_MAX);
-    if ((size_t)made->width * (size_t)made->height > SURFACE_MAX)
-        return refuse(file, "%d x %d pixels are more than %d", made->width, made->height, SURFACE_MAX);
-    made->channels = file->bytes[1] == '6' ? 3 : 1;
-    made->stride = (size_t)made->channels;
-    made->quantum = 1.0 / most;
-    size_t count = (size_t)made->width * (size_t)made->height * made->stride, each = most > 255 ? 2 : 1;
-    const unsigned char *b = file->bytes + head.at + 1;
-    if (file->size - head.at - 1 != count * each)
-        return refuse(file, "%d x %d pixels take %zu bytes after the head, and there are %zu", made->width,
-                      made->height, count * each, file->size - head.at - 1);
-    made->value = malloc(count * sizeof *made->value);
-    if (!made->value)
-        return refuse(file, "there is no memory for %zu numbers", count);
-    for (size_t i = 0; i < count; i++)
-        made->value[i] = (float)((each == 2 ? b[2 * i] << 8 | b[2 * i + 1] : b[i]) * made->quantum);
-    return 1;
-}
-
-static int read_raster(data_file *file, raster *made)
-{
-    const unsigned char *b = file->bytes;
-    *made = (raster){0};
-    if (file->size >= 2 && b[0] == 'P' && (b[1] == 'F' || b[1] == 'f'))
-        return read_pfm(file, made);
-    if (file->size < 2 || b[0] != 'P' || (b[1] != '5' && b[1] != '6'))
-        return refuse(file, "of PGM and PPM the binary ones are read, which begin with P5 or P6");
-    return read_grey(file, made);
-}
-
-static int read_image(data_file *file, height_field *made)
-{
-    raster from;
-    if (!read_raster(file, &from))
+    image from;
+    if (!read_image(file, &from))
         return 0;
     int good = from.channels == 1 || from.quantum == 0 || refuse(file, "a PPM has colours; heights are a PGM, P5");
     good = good && heights_make(made, from.width, from.height, file);
-    for (size_t i = 0; good && i < (size_t)from.width * (size_t)from.height; i++) {
-        float z = from.value[from.stride * i];
-        made->z[i] = fabs((double)z) <= 1e30 ? z : NAN;
-    }
+    for (size_t i = 0; good && i < (size_t)from.width * (size_t)from.height; i++)
+        made->z[i] = fabsf(from.rgb[3 * i]) <= 1e30f ? from.rgb[3 * i] : NAN;
     made->quantum = from.quantum;
-    free(from.value);
+    image_free(&from);
     return good;
 }
 
@@ -165,11 +115,13 @@ int heights_read(data_file *file, height_field *made)
 {
     const unsigned char *b = file->bytes;
     *made = (height_field){0};
-    if (file->size >= 2 && b[0] == 'P' ? read_image(file, made) : read_rows(file, made))
+    if (file->size >= 2 && b[0] == 'P' ? read_heights_image(file, made) : read_rows(file, made))
         return 1;
     heights_free(made);
     return 0;
 }
+
+/* ---- normals ------------------------------------------------------------------------------------- */
 
 /* A map of bytes cannot hold 0: 127 and 128 are both half a step away. What is nearer to flat than that is flat. */
 static int is_usable(const double n[3])
@@ -184,19 +136,19 @@ static int part_of(int width, int height, int x, int y)
     return (int)((long)y * 8 / height) * 8 + (int)((long)x * 8 / width);
 }
 
-static int add_normals(data_file *file, const raster *map, slope_set *made)
+static int add_normals(data_file *file, const image *map, slope_set *made)
 {
     size_t count = (size_t)map->width * (size_t)map->height, left_out = 0;
     int is_signed = 0;
     for (size_t i = 0; i < 3 * count && map->quantum == 0; i++)
-        is_signed |= map->value[i] < 0;
+        is_signed |= map->rgb[i] < 0;
     if (!slopes_make(made, count, file))
         return 0;
     made->quantum = 2 * map->quantum;
     for (size_t i = 0; i < count; i++) {
         double n[3];
         for (size_t k = 0; k < 3; k++)
-            n[k] = is_signed ? (double)map->value[3 * i + k] : 2 * (double)map->value[3 * i + k] - 1;
+            n[k] = is_signed ? (double)map->rgb[3 * i + k] : 2 * (double)map->rgb[3 * i + k] - 1;
         int x = (int)(i % (size_t)map->width), y = (int)(i / (size_t)map->width);
         if (is_usable(n))
             slopes_add(made, -n[0] / n[2], -n[1] / n[2], part_of(map->width, map->height, x, y));
@@ -216,13 +168,13 @@ static int add_normals(data_file *file, const raster *map, slope_set *made)
 
 int normals_slopes(data_file *file, slope_set *made)
 {
-    raster map;
+    image map;
     *made = (slope_set){0};
-    if (!read_raster(file, &map))
+    if (!read_image(file, &map))
         return 0;
     int good = map.channels == 3 || refuse(file, "an image of one channel; a normal map has three, P6 or PF");
     good = good && add_normals(file, &map, made);
-    free(map.value);
+    image_free(&map);
     return good;
 }
 

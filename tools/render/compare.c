@@ -12,12 +12,13 @@ const char *const verdict_names[3] = {"same", "differs", "unknown"};
 
 /* ---- rendering ---- */
 
-/* How far all ways are, whatever is done of a pass. */
+/* How far all ways are, whatever is done of a pass of one of several. */
 static int tell(double done, void *user)
 {
     const comparison *c = user;
     double whole = 0;
-    (void)done;
+    if (c->count == 1)
+        return c->progress ? c->progress(done, c->user) : 0;
     for (size_t i = 0; i < c->count; i++)
         whole += fmin((double)c->way[i].film.samples / (double)c->samples, 1) / (double)c->count;
     return c->progress ? c->progress(whole, c->user) : 0;
@@ -34,7 +35,7 @@ static int render_some(comparison *c, way *one, uint64_t samples)
 int comparison_run(comparison *c)
 {
     way *first = &c->way[0];
-    const uint64_t part = c->samples < TURNS ? 1 : c->samples / TURNS;
+    const uint64_t part = c->count == 1 ? c->samples : c->samples < TURNS ? 1 : c->samples / TURNS;
     while (first->film.samples < c->samples) {
         const uint64_t left = c->samples - first->film.samples, step = part < left ? part : left;
         if (!render_some(c, first, step))
@@ -123,21 +124,19 @@ int noise_of(const film *f, const film *all, noise *made)
     return 1;
 }
 
-static measured ratio_of(measured a, measured b, double factor, int is_same)
+gain gain_of(const comparison *c, const noise *noises, size_t i)
 {
-    measured m = {a.value / b.value * factor, 0};
-    m.spread = is_same ? 0 : m.value * hypot(a.spread / a.value, b.spread / b.value);
-    return m;
-}
-
-measured samples_ratio(measured first, measured other, const film *of_first, const film *of_other)
-{
-    return ratio_of(other, first, (double)of_other->samples / (double)of_first->samples, of_first == of_other);
-}
-
-measured efficiency(measured first, measured other, const film *of_first, const film *of_other)
-{
-    return ratio_of(first, other, of_first->processor / of_other->processor, of_first == of_other);
+    const film *first = &c->way[0].film, *f = &c->way[i].film;
+    const noise *a = &noises[0], *b = &noises[i];
+    const double samples = (double)f->samples / (double)first->samples, time = first->processor / f->processor;
+    const double spread = i ? hypot(a->all.spread / a->all.value, b->all.spread / b->all.value) : 0;
+    gain g = {.samples = {b->all.value / a->all.value * samples, 0},
+              .efficiency = {a->all.value / b->all.value * time, 0}};
+    g.samples.spread = spread * g.samples.value;
+    g.efficiency.spread = spread * g.efficiency.value;
+    g.samples_trimmed = b->trimmed.value / a->trimmed.value * samples;
+    g.efficiency_trimmed = a->trimmed.value / b->trimmed.value * time;
+    return g;
 }
 
 /* ---- verdict ---- */

@@ -46,10 +46,14 @@ typedef struct noise {
  */
 int noise_of(const film *f, const film *all, noise *made);
 
-/* How often `other` needs the samples of `first` for the same noise: the mean square of an error falls as
- * 1/samples. And how much more it gets out of a second: 1 over noise and time. */
-measured samples_ratio(measured first, measured other, const film *of_first, const film *of_other);
-measured efficiency(measured first, measured other, const film *of_first, const film *of_other);
+/* How often way i needs the samples of the first for the same noise: the mean square of an error falls as 1/samples.
+ * And how much more it gets out of a second: 1 over noise and time. Both are of noises without fireflies as well. */
+typedef struct gain {
+    measured samples, efficiency;
+    double samples_trimmed, efficiency_trimmed;
+} gain;
+
+gain gain_of(const comparison *c, const noise *noises, size_t i);
 
 /* ---- verdict ---- */
 

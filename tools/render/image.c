@@ -1,9 +1,11 @@
 /* Images in memory, and their files.
  *
- * PFM is a line "PF" (colour) or "Pf" (grey), a line "WIDTH HEIGHT", a line with a scale, whose sign tells the
- * byte order (negative: the least byte first), and floats, rows from the bottom. The absolute value of the scale
- * has no agreed meaning and is not read. Floats are read and written byte by byte: the order of this machine's
- * bytes does not matter. */
+ * A file is a head of four words - "PF" (colour) or "Pf" (grey), "P6" or "P5", then width, height and a number - and
+ * one blank; from # on, a line of it is a comment. Of PFM the number is a scale, whose sign tells the byte order
+ * (negative: the least byte first) and whose absolute value has no agreed meaning and is not read; floats follow,
+ * rows from the bottom. Of PPM and PGM it is the largest value, and whole numbers of 8 or 16 bits follow, the greater
+ * byte first, rows from the top. Numbers are read and written byte by byte: the order of this machine's bytes does
+ * not matter. */
 #include "render/image.h"
 
 #include <math.h>
@@ -18,7 +20,7 @@
 
 int image_make(image *made, int width, int height)
 {
-    *made = (image){0, 0, NULL};
+    *made = (image){0};
     if (width < 1 || height < 1 || width > IMAGE_SIDE_MAX || height > IMAGE_SIDE_MAX)
         return 0;
     made->rgb = calloc((size_t)width * (size_t)height, 3 * sizeof *made->rgb);
@@ -32,7 +34,7 @@ int image_make(image *made, int width, int height)
 void image_free(image *freed)
 {
     free(freed->rgb);
-    *freed = (image){0, 0, NULL};
+    *freed = (image){0};
 }
 
 /* The pixel whose centre is before u of a row that repeats, the one after it, and the way between them. */
@@ -58,12 +60,15 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 
 /* ---- reading ---- */
 
-enum { HEAD_MAX = 128 }; /* bytes of the three lines */
+enum { HEAD_MAX = 1024 }; /* bytes of the head, with its comments */
 
-typedef struct pfm_head {
-    int channels, width, height, is_little;
-    size_t size; /* of the three lines */
-} pfm_head;
+typedef struct image_head {
+    char word[4][32];
+    int is_float, channels, width, height, is_little;
+    unsigned each; /* bytes a number */
+    double most;   /* of whole numbers */
+    size_t size;
+} image_head;
 
 PRINTF_LIKE(3, 4) static int refuse(image_error *error, const char *name, const char *format, ...)
 {
@@ -75,66 +80,93 @@ PRINTF_LIKE(3, 4) static int refuse(image_error *error, const char *name, const 
     return 0;
 }
 
-static int read_side(const char *word, int *side)
+/* Four words and the blank behind them; 0 if they are not there. */
+static int read_words(const char *bytes, size_t size, image_head *head)
+{
+    char text[HEAD_MAX + 1] = "";
+    const char *at = text;
+    memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
+    for (int i = 0; i < 4; i++) {
+        for (at += strspn(at, " \t\r\n"); *at == '#'; at += strspn(at, " \t\r\n"))
+            at += strcspn(at, "\n");
+        size_t letters = strcspn(at, " \t\r\n");
+        snprintf(head->word[i], sizeof head->word[i], "%.*s", (int)(letters < 32 ? letters : 31), at);
+        at += letters;
+    }
+    head->size = (size_t)(at - text) + (at[0] == '\r' && at[1] == '\n' ? 2 : 1);
+    return head->word[3][0] && *at;
+}
+
+/* A whole number from 1 to `most`, or 0. */
+static int read_side(const char *word, int most)
 {
     char *end;
     long value = strtol(word, &end, 10);
-    *side = value > 0 && value <= IMAGE_SIDE_MAX ? (int)value : 0;
-    return *end == '\0' && *side > 0;
+    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
 }
 
-static int read_head(const char *bytes, size_t size, pfm_head *head, const char *name, image_error *error)
+static int read_head(const char *bytes, size_t size, image_head *head, const char *name, image_error *error)
 {
-    char text[HEAD_MAX + 1] = "", kind[4] = "", width[32], height[32], order[32], *end;
-    int at = 0;
-    memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
-    int found = sscanf(text, "%3s%31s%31s%31s%n", kind, width, height, order, &at);
-    if (memcmp(text, kind, 2) != 0 || (strcmp(kind, "PF") != 0 && strcmp(kind, "Pf") != 0))
-        return refuse(error, name, "this is no PFM image; it would begin with PF or Pf");
-    if (found < 4 || !text[at] || !strchr(" \t\r\n", text[at]))
-        return refuse(error, name, "the head of the PFM is not whole: after %s come width, height and a scale",
-                      kind);
-    if (!read_side(width, &head->width) || !read_side(height, &head->height))
-        return refuse(error, name, "width %s and height %s: both must be whole numbers from 1 to %d", width,
-                      height, IMAGE_SIDE_MAX);
+    int is_whole = read_words(bytes, size, head);
+    const char *kind = head->word[0], *number = head->word[3];
+    char *end;
+    if (kind[0] != 'P' || !strchr("Ff56", kind[1]) || kind[1] == '\0' || kind[2] != '\0')
+        return refuse(error, name, "this is no PFM, PGM or PPM image: it would begin with PF, Pf, P5 or P6");
+    head->is_float = kind[1] == 'F' || kind[1] == 'f';
+    head->channels = kind[1] == 'F' || kind[1] == '6' ? 3 : 1;
+    if (!is_whole)
+        return refuse(error, name,
+                      "the head of the image is not whole: after %s come width, height, %s and a blank", kind,
+                      head->is_float ? "a scale" : "the largest value");
+    head->width = read_side(head->word[1], IMAGE_SIDE_MAX);
+    head->height = read_side(head->word[2], IMAGE_SIDE_MAX);
+    if (!head->width || !head->height)
+        return refuse(error, name, "width %s and height %s: both must be whole numbers from 1 to %d",
+                      head->word[1], head->word[2], IMAGE_SIDE_MAX);
     if ((int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
-        return refuse(error, name, "%s x %s pixels are more than %d", width, height, IMAGE_PIXELS_MAX);
-    double order_of = strtod(order, &end);
-    if (*end || !(fabs(order_of) > 0.0))
+        return refuse(error, name, "%d x %d pixels are more than %d", head->width, head->height, IMAGE_PIXELS_MAX);
+    double order = strtod(number, &end);
+    head->most = read_side(number, 65535);
+    if (head->is_float && (*end || !(fabs(order) > 0.0)))
         return refuse(error, name, "'%s' must be a number other than 0; negative: the least byte comes first",
-                      order);
-    head->channels = kind[1] == 'F' ? 3 : 1;
-    head->is_little = order_of < 0.0;
-    head->size = (size_t)at + (text[at] == '\r' && text[at + 1] == '\n' ? 2 : 1);
+                      number);
+    if (!head->is_float && !(head->most > 0))
+        return refuse(error, name, "the largest value is '%s'; it must be from 1 to 65535", number);
+    head->is_little = head->is_float && order < 0.0;
+    head->each = head->is_float ? 4 : head->most > 255 ? 2 : 1;
     return 1;
 }
 
-static float float_from(const unsigned char *b, int is_little)
+static float number_at(const unsigned char *b, const image_head *head)
 {
-    uint32_t bits = is_little ? (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0]
-                              : (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
+    uint32_t bits = 0;
     float value;
+    for (unsigned i = 0; i < head->each; i++)
+        bits = bits << 8 | b[head->is_little ? head->each - 1 - i : i];
     memcpy(&value, &bits, sizeof value);
-    return value;
+    return head->is_float ? value : (float)(bits / head->most);
 }
 
-int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error)
+int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error)
 {
-    pfm_head head = {0};
-    *made = (image){0, 0, NULL};
+    image_head head = {.is_float = 0};
+    *made = (image){0};
     if (!read_head(bytes, size, &head, name, error))
         return 0;
-    size_t want = (size_t)head.width * (size_t)head.height * (size_t)head.channels * 4, have = size - head.size;
-    if (have != want)
+    size_t pixel = (size_t)head.channels * head.each, want = (size_t)head.width * (size_t)head.height * pixel;
+    if (size - head.size != want)
         return refuse(error, name, "%d x %d pixels take %zu bytes after the head, and there are %zu", head.width,
-                      head.height, want, have);
+                      head.height, want, size - head.size);
     if (!image_make(made, head.width, head.height))
         return refuse(error, name, "there is no memory for %d x %d pixels", head.width, head.height);
+    made->channels = head.channels;
+    made->quantum = head.is_float ? 0 : 1 / head.most;
     const unsigned char *at = (const unsigned char *)bytes + head.size;
-    for (int y = made->height - 1; y >= 0; y--)
-        for (int x = 0; x < made->width; x++, at += 4 * head.channels)
-            for (int i = 0; i < 3; i++) {
-                float value = float_from(at + (head.channels == 3 ? 4 * i : 0), head.is_little);
+    for (int row = 0; row < made->height; row++)
+        for (int x = 0; x < made->width; x++, at += pixel)
+            for (unsigned i = 0; i < 3; i++) {
+                int y = head.is_float ? made->height - 1 - row : row;
+                float value = number_at(at + (head.channels == 3 ? i * head.each : 0), &head);
                 image_pixel(made, x, y)[i] = value;
                 if (isfinite(value))
                     continue;
@@ -149,13 +181,16 @@ int image_read_pfm(image *made, const char *path, image_error *error)
 {
     char reason[128];
     size_t size;
-    *made = (image){0, 0, NULL};
+    *made = (image){0};
     char *bytes = files_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, reason, sizeof reason);
     if (!bytes)
         return refuse(error, path, "%s", reason);
-    int good = image_read_pfm_bytes(made, path, bytes, size, error);
+    int good = image_read_bytes(made, path, bytes, size, error);
     free(bytes);
-    return good;
+    if (!good || made->quantum == 0)
+        return good;
+    image_free(made);
+    return refuse(error, path, "these are whole numbers, which are no linear light; a PFM is needed");
 }
 
 /* ---- writing ---- */

@@ -1,5 +1,5 @@
-/* Images of three floats a pixel, rows from the top, linear light: read from PFM, made by a named pattern, written
- * as PFM and as PNG (8 bits, sRGB). */
+/* Images of three floats a pixel, rows from the top: read from PFM, PGM or PPM, made by a named pattern, written as
+ * PFM and as PNG (8 bits, sRGB). */
 #ifndef TOOLS_RENDER_IMAGE_H
 #define TOOLS_RENDER_IMAGE_H
 
@@ -8,7 +8,9 @@
 
 typedef struct image {
     int width, height;
-    float *rgb; /* width * height * 3, owned */
+    float *rgb;     /* width * height * 3, owned */
+    int channels;   /* of the file: 1 or 3 */
+    double quantum; /* 1 over the largest whole number of the file; 0 of floats */
 } image;
 
 enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
@@ -30,10 +32,11 @@ static inline float *image_pixel(const image *of, int x, int y)
 /* Interpolates between the centres of pixels; u, v in [0, 1) from the left and the top, repeated outside. */
 void image_bilinear(const image *of, double u, double v, float rgb[3]);
 
-/* Reads a PFM, colour ("PF") or grey ("Pf"), of either byte order. Numbers must be finite. Returns 1, or 0 and an
- * error; bytes that are not trusted are safe. Errors call the file `name`. */
+/* Reads an image: PFM of either byte order, whose numbers must be finite; binary PGM and PPM of 8 or 16 bits, 0 to 1.
+ * A grey pixel has three equal numbers. Returns 1, or 0 and an error; bytes that are not trusted are safe. Errors
+ * call the file `name`. image_read_pfm takes a PFM alone: light is linear, and whole numbers are not. */
+int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
 int image_read_pfm(image *made, const char *path, image_error *error);
-int image_read_pfm_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
 
 /* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
 int image_make_pattern(image *made, const char *name, int width, int height, image_error *error);

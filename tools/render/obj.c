@@ -6,8 +6,8 @@
  *   f A B C ...       a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
  *                     v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
  *
- * Blanks separate words, # begins a comment; other lines are ignored. Triangles without an area are ignored. Where the
- * normals of a triangle contradict the order of its corners, the normals win. */
+ * Blanks separate words, # begins a comment; other lines are ignored. Triangles without an area are ignored. Where
+ * the normals of a triangle contradict the order of its corners, the normals win. */
 #include "render/geometry.h"
 
 #include <stdarg.h>

@@ -19,7 +19,7 @@
 
 enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
 
-const char *const path_sampler_names[SAMPLERS] = {"visible", "all", "perfect"};
+const char *const path_sampler_names[SAMPLERS + 1] = {"visible", "all", "perfect", NULL};
 
 struct path_plan {
     const scene *scene;

@@ -8,7 +8,7 @@
  */
 typedef enum path_sampler { SAMPLER_VISIBLE, SAMPLER_ALL, SAMPLER_PERFECT, SAMPLERS } path_sampler;
 
-extern const char *const path_sampler_names[SAMPLERS];
+extern const char *const path_sampler_names[SAMPLERS + 1]; /* NULL at the end */
 
 typedef struct path_plan path_plan;
 

@@ -111,7 +111,7 @@ int image_make_pattern(image *made, const char *name, int width, int height, ima
 {
     const char *names[PATTERNS];
     const pattern *p = NULL;
-    *made = (image){0, 0, NULL};
+    *made = (image){0};
     for (size_t i = 0; i < PATTERNS; i++) {
         names[i] = patterns[i].name;
         p = strcmp(name, names[i]) == 0 ? &patterns[i] : p;

@@ -1,4 +1,4 @@
-/* Reads a scene: the words of the file, statement after statement, then a look at the whole. */
+/* Reads a scene: the words of the file, statement after statement by the table of keys, then a look at the whole. */
 #include "render/scene.h"
 
 #include <stdio.h>
@@ -19,14 +19,64 @@ enum {
 
 static const double near = 1e-6; /* the least size */
 
+#define PLACE "X Y Z", NUMBERS, 3, 3, -1e6, 1e6
+#define NAME WORDS, 1, 1, 0, 0
+
+/* Of every statement, or of its kind; those of the three kinds of rough materials are of "rough", that of all shapes
+ * of "body". */
+static const key keys[] = {
+    {"film", "width", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
+    {"film", "height", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
+    {"camera", "from", PLACE, NEEDED, NULL},
+    {"camera", "to", PLACE, NEEDED, NULL},
+    {"camera", "up", PLACE, MAY_BE, NULL},
+    {"camera", "field", "DEGREES", NUMBERS, 1, 1, 1, 170, MAY_BE, NULL},
+    {"integrator", "depth", "N", WHOLE, 1, 1, 1, 10000, MAY_BE, NULL},
+    {"integrator", "samples", "N", WHOLE, 1, 1, 1, 1e9, MAY_BE, NULL},
+    {"integrator", "exposure", "F", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
+    {"environment", "constant", "R G B", NUMBERS, 3, 3, 0, 1e6, OR, "image"},
+    {"environment", "image", "NAME", NAME, MAY_BE, NULL},
+    {"environment", "scale", "F", NUMBERS, 1, 1, 0, 1e6, BESIDE, "image"},
+    {"environment", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, BESIDE, "image"},
+    {"image", "file", "PATH", NAME, OR, "pattern"},
+    {"image", "pattern", "NAME", NAME, MAY_BE, NULL},
+    {"image", "width", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, BESIDE, "pattern"},
+    {"image", "height", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, BESIDE, "pattern"},
+    {"conductor", "of", "METAL", NAME, OR, "eta"},
+    {"conductor", "eta", "R G B", NUMBERS, 3, 3, 0, 1000, MAY_BE, NULL},
+    {"conductor", "k", "R G B", NUMBERS, 3, 3, 0, 1000, OR, "of"},
+    {"dielectric", "index", "N", NUMBERS, 1, 1, 0.01, 100, NEEDED, NULL},
+    {"rough", "distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", WORDS, 1, 2, 0, 0,
+     NEEDED, NULL},
+    {"rough", "bytes", "COUNT", WHOLE, 1, 1, 2048, 1 << 20, MAY_BE, NULL},
+    {"rough", "alpha", "A or AX AY", NUMBERS, 1, 2, 1e-6, 1e3, MAY_BE, NULL},
+    {"rough", "alpha-map", "IMAGE", NAME, MAY_BE, NULL},
+    {"rough", "scattering", "single|multiple", NAME, MAY_BE, NULL},
+    {"rough", "colour", "R G B", NUMBERS, 3, 3, 0, 1, MAY_BE, NULL},
+    {"rough", "colour-map", "IMAGE", NAME, MAY_BE, NULL},
+    {"matte", "colour", "R G B", NUMBERS, 3, 3, 0, 1, NEEDED, NULL},
+    {"matte", "colour-map", "IMAGE", NAME, MAY_BE, NULL},
+    {"light", "radiance", "R G B", NUMBERS, 3, 3, 0, 1e6, NEEDED, NULL},
+    {"sphere", "centre", PLACE, NEEDED, NULL},
+    {"sphere", "radius", "R", NUMBERS, 1, 1, 1e-6, 1e6, NEEDED, NULL},
+    {"rectangle", "corner", PLACE, NEEDED, NULL},
+    {"rectangle", "edge-u", PLACE, NEEDED, NULL},
+    {"rectangle", "edge-v", PLACE, NEEDED, NULL},
+    {"mesh", "file", "PATH", NAME, OR, "pattern"},
+    {"mesh", "pattern", "knot", NAME, MAY_BE, NULL},
+    {"mesh", "scale", "FACTOR", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
+    {"mesh", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, MAY_BE, NULL},
+    {"mesh", "move", PLACE, MAY_BE, NULL},
+    {"body", "material", "NAME", NAME, NEEDED, NULL},
+    {NULL, NULL, NULL, NAME, MAY_BE, NULL},
+};
+
 typedef struct reader {
     scene_words words;
     scene *made;
-    const word *list; /* of the statement at hand; list[0] names it */
-    size_t count;
-    clause c[CLAUSES_MAX]; /* its clauses */
-    size_t folder;         /* the length of the folder in the name of the file, with its slash */
-    unsigned seen;         /* a bit for each statement */
+    statement s;   /* at hand; s.list[0] names it */
+    size_t folder; /* the length of the folder in the name of the file, with its slash */
+    unsigned seen; /* a bit for each statement */
     const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
     size_t pixels;                                                   /* of all images so far */
     struct made_table {
@@ -36,25 +86,28 @@ typedef struct reader {
     } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
 } reader;
 
-#define FORMS(forms) forms, sizeof(forms) / sizeof *(forms)
+#define REFUSE(r, at, ...) refuse_word(&(r)->words, at, __VA_ARGS__)
 
-static int clauses(reader *r, size_t from, const clause_form *forms, size_t n)
+/* ---- what clauses hold ---- */
+
+static double number_of(const reader *r, const char *name, double otherwise)
 {
-    return read_clauses(&r->words, r->list, r->count, from, forms, n, r->c);
+    const clause *c = clause_of(&r->s, name);
+    return c->at ? c->number[0] : otherwise;
 }
 
-static vec3 vector_of(const clause *c)
+static vec3 vector_of(const reader *r, const char *name)
 {
-    return vec(c->number[0], c->number[1], c->number[2]);
+    const double *n = clause_of(&r->s, name)->number;
+    return vec(n[0], n[1], n[2]);
 }
 
-static void set_three(float to[3], const clause *c)
+static void set_three(const reader *r, const char *name, float to[3])
 {
+    const clause *c = clause_of(&r->s, name);
     for (int i = 0; i < 3 && c->at; i++)
         to[i] = (float)c->number[i];
 }
-
-/* ---- names and paths ---- */
 
 /* The path relative to the working folder, noted as an input; to be freed. NULL after a refusal. */
 static char *path_of(reader *r, const word *at)
@@ -62,36 +115,57 @@ static char *path_of(reader *r, const word *at)
     size_t folder = at->text[0] == '/' ? 0 : r->folder, letters = strlen(at->text);
     char *path = letters ? malloc(folder + letters + 1) : NULL;
     if (!path)
-        return refuse_word(&r->words, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
+        return REFUSE(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
     memcpy(path, r->words.name, folder);
     memcpy(path + folder, at->text, letters + 1);
     const char *role = files_note(path, 0);
     if (!role)
         return path;
-    refuse_word(&r->words, at, "this file is %s as well", role);
+    REFUSE(r, at, "this file is %s as well", role);
     free(path);
     return NULL;
 }
 
 /* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
-static int new_name(reader *r, const char **names, size_t count, size_t most)
+static int new_name(reader *r, const char **names, size_t count, size_t most, const char *example)
 {
-    const char *what = r->list[0].text;
-    const int is_image = strcmp(what, "image") == 0;
-    if (r->count < 3)
-        return refuse_word(&r->words, &r->list[0], "'%s' needs a name and what it is, as in '%s'", what,
-                           is_image ? "image sky file sky.pfm" : "material wall matte colour 0.5 0.5 0.5");
-    const word *name = &r->list[1];
+    const char *what = r->s.list[0].text;
+    if (r->s.count < 3)
+        return REFUSE(r, &r->s.list[0], "'%s' needs a name and what it is, as in '%s'", what, example);
+    const word *name = &r->s.list[1];
     const size_t letters = strlen(name->text);
     if (!letters || letters >= SCENE_NAME)
-        return refuse_word(&r->words, name, "a name has 1 to %d letters", SCENE_NAME - 1);
+        return REFUSE(r, name, "a name has 1 to %d letters", SCENE_NAME - 1);
     for (size_t i = 0; i < count; i++)
         if (strcmp(names[i], name->text) == 0)
-            return refuse_word(&r->words, name, "there is %s '%s' already", is_image ? "an image" : "a material",
-                               name->text);
+            return REFUSE(r, name, "there is another %s '%s' already", what, name->text);
     if (count == most)
-        return refuse_word(&r->words, name, "these are more than %zu %ss", most, what);
+        return REFUSE(r, name, "these are more than %zu %ss", most, what);
     names[count] = name->text;
+    return 1;
+}
+
+/* The image that a clause names, if it is there: its first channels have to be within a range, since it is used as
+ * `what`. */
+static int find_image(reader *r, const char *name, const char *what, int channels, double low, double high,
+                      const image **found)
+{
+    const clause *c = clause_of(&r->s, name);
+    size_t chosen;
+    if (!c->at)
+        return 1;
+    if (!read_choice(&r->words, c->value, "image that is defined before this", r->images, r->made->image_count,
+                     &chosen))
+        return 0;
+    const image *map = *found = &r->made->images[chosen];
+    for (int i = 0; i < map->width * map->height * 3; i++) {
+        double value = (double)map->rgb[i];
+        if (i % 3 < channels && !(value >= low && value <= high))
+            return REFUSE(r, c->value,
+                          "as %s the image must be from %g to %g; it is %g in column %d of row %d (from the top, "
+                          "from 0)",
+                          what, low, high, value, i / 3 % map->width, i / 3 / map->width);
+    }
     return 1;
 }
 
@@ -99,142 +173,68 @@ static int new_name(reader *r, const char **names, size_t count, size_t most)
 
 static int read_film(reader *r)
 {
-    static const clause_form forms[] = {{"width", "PIXELS", CLAUSE_WHOLE, 1, 1, 1, 1, IMAGE_SIDE_MAX},
-                                        {"height", "PIXELS", CLAUSE_WHOLE, 1, 1, 1, 1, IMAGE_SIDE_MAX}};
-    if (!clauses(r, 1, FORMS(forms)))
-        return 0;
-    r->made->width = (int)r->c[0].number[0];
-    r->made->height = (int)r->c[1].number[0];
-    return r->c[0].number[0] * r->c[1].number[0] <= IMAGE_PIXELS_MAX ||
-           refuse_word(&r->words, r->c[0].at, "%d x %d pixels are more than %d", r->made->width, r->made->height,
-                       IMAGE_PIXELS_MAX);
+    scene *s = r->made;
+    s->width = (int)number_of(r, "width", 0);
+    s->height = (int)number_of(r, "height", 0);
+    return (int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
+           REFUSE(r, clause_of(&r->s, "width")->at, "%d x %d pixels are more than %d", s->width, s->height,
+                  IMAGE_PIXELS_MAX);
 }
 
 static int read_camera(reader *r)
 {
-    static const clause_form forms[] = {{"from", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"to", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"up", "X Y Z", CLAUSE_NUMBERS, 3, 3, 0, -1e6, 1e6},
-                                        {"field", "DEGREES", CLAUSE_NUMBERS, 1, 1, 0, 1, 170}};
     scene *s = r->made;
-    if (!clauses(r, 1, FORMS(forms)))
-        return 0;
-    s->from = vector_of(&r->c[0]);
-    s->to = vector_of(&r->c[1]);
-    if (r->c[2].at)
-        s->up = vector_of(&r->c[2]);
-    if (r->c[3].at)
-        s->field = r->c[3].number[0] * (PI / 180);
-    const vec3 forward = subtract(s->to, s->from), right = cross(forward, s->up);
+    const clause *up = clause_of(&r->s, "up");
+    s->from = vector_of(r, "from");
+    s->to = vector_of(r, "to");
+    s->up = up->at ? vector_of(r, "up") : s->up;
+    s->field = number_of(r, "field", 40) * (PI / 180);
+    const vec3 forward = subtract(s->to, s->from);
     if (!(length(forward) >= near))
-        return refuse_word(&r->words, r->c[1].at, "'from' and 'to' are the same place");
-    return length(right) >= 1e-6 * length(forward) * length(s->up) ||
-           refuse_word(&r->words, r->c[2].at ? r->c[2].at : &r->list[0], "'up' is the direction of the view");
+        return REFUSE(r, clause_of(&r->s, "to")->at, "'from' and 'to' are the same place");
+    return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
+           REFUSE(r, up->at ? up->at : &r->s.list[0], "'up' is the direction of the view");
 }
 
 static int read_integrator(reader *r)
 {
-    static const clause_form forms[] = {{"depth", "N", CLAUSE_WHOLE, 1, 1, 0, 1, 10000},
-                                        {"samples", "N", CLAUSE_WHOLE, 1, 1, 0, 1, 1e9},
-                                        {"exposure", "F", CLAUSE_NUMBERS, 1, 1, 0, 1e-6, 1e6}};
     scene *s = r->made;
-    if (!clauses(r, 1, FORMS(forms)))
-        return 0;
-    s->depth = r->c[0].at ? (unsigned)r->c[0].number[0] : s->depth;
-    s->samples = r->c[1].at ? (unsigned)r->c[1].number[0] : s->samples;
-    s->exposure = r->c[2].at ? (float)r->c[2].number[0] : s->exposure;
-    return 1;
-}
-
-/* ---- images ---- */
-
-static int find_image(reader *r, const clause *c, const image **found)
-{
-    size_t i;
-    if (!c->at)
-        return 1;
-    if (!read_choice(&r->words, c, "image that is defined before this", r->images, r->made->image_count, &i))
-        return 0;
-    *found = &r->made->images[i];
-    return 1;
-}
-
-/* Whether the first channels of a map are within a range. */
-static int check_map(reader *r, const clause *c, const image *map, const char *what, int channels, double low,
-                     double high)
-{
-    for (int y = 0; map && y < map->height; y++)
-        for (int x = 0; x < map->width; x++)
-            for (int i = 0; i < channels; i++) {
-                double value = (double)image_pixel(map, x, y)[i];
-                if (!(value >= low && value <= high))
-                    return refuse_word(
-                        &r->words, c->value,
-                        "as %s the image must be from %g to %g; it is %g in column %d of row %d (from "
-                        "the top, from 0)",
-                        what, low, high, value, x, y);
-            }
+    s->depth = (unsigned)number_of(r, "depth", s->depth);
+    s->samples = (unsigned)number_of(r, "samples", s->samples);
+    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
     return 1;
 }
 
 static int read_environment(reader *r)
 {
-    static const clause_form forms[] = {{"constant", "R G B", CLAUSE_NUMBERS, 3, 3, 0, 0, 1e6},
-                                        {"image", "NAME", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-                                        {"scale", "F", CLAUSE_NUMBERS, 1, 1, 0, 0, 1e6},
-                                        {"turn", "DEGREES", CLAUSE_NUMBERS, 1, 1, 0, -360, 360}};
     environment *e = &r->made->environment;
-    if (!clauses(r, 1, FORMS(forms)))
-        return 0;
-    if (!r->c[0].at == !r->c[1].at)
-        return refuse_word(&r->words, &r->list[0], "'environment' needs one of 'constant R G B' and 'image NAME'");
-    for (int i = 2; i < 4; i++)
-        if (r->c[0].at && r->c[i].at)
-            return refuse_word(&r->words, r->c[i].at, "'%s' is of an image", r->c[i].at->text);
-    set_three(e->constant, &r->c[0]);
-    e->scale = r->c[2].at ? (float)r->c[2].number[0] : 1.0f;
-    e->turn = r->c[3].number[0] / 360;
-    return find_image(r, &r->c[1], &e->map) && check_map(r, &r->c[1], e->map, "light from far away", 3, 0, 1e6);
-}
-
-static int make_image(reader *r, image *made)
-{
-    const clause *file = &r->c[0], *pattern = &r->c[1];
-    const word *at = file->at ? file->value : pattern->value;
-    int side[2] = {512, 512};
-    image_error error;
-    for (int i = 0; i < 2; i++)
-        side[i] = r->c[2 + i].at ? (int)r->c[2 + i].number[0] : side[i];
-    char *path = file->at ? path_of(r, at) : NULL;
-    if (file->at && !path)
-        return 0;
-    int good =
-        path ? image_read_pfm(made, path, &error) : image_make_pattern(made, at->text, side[0], side[1], &error);
-    free(path);
-    return good || refuse_word(&r->words, at, "%s", error.message);
+    set_three(r, "constant", e->constant);
+    e->scale = (float)number_of(r, "scale", 1);
+    e->turn = number_of(r, "turn", 0) / 360;
+    return find_image(r, "image", "light from far away", 3, 0, 1e6, &e->map);
 }
 
 static int read_image(reader *r)
 {
-    static const clause_form forms[] = {{"file", "PATH", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-                                        {"pattern", "NAME", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-                                        {"width", "PIXELS", CLAUSE_WHOLE, 1, 1, 0, 1, IMAGE_SIDE_MAX},
-                                        {"height", "PIXELS", CLAUSE_WHOLE, 1, 1, 0, 1, IMAGE_SIDE_MAX}};
     scene *s = r->made;
-    if (!new_name(r, r->images, s->image_count, SCENE_IMAGES_MAX) || !clauses(r, 2, FORMS(forms)))
+    if (!new_name(r, r->images, s->image_count, SCENE_IMAGES_MAX, "image sky file sky.pfm") ||
+        !read_clauses(&r->words, &r->s, 2, keys, "image", ""))
         return 0;
-    if (!r->c[0].at == !r->c[1].at)
-        return refuse_word(&r->words, &r->list[0], "'image' needs one of 'file PATH' and 'pattern NAME'");
-    for (int i = 2; i < 4; i++)
-        if (r->c[0].at && r->c[i].at)
-            return refuse_word(&r->words, r->c[i].at, "'%s' is of a pattern; a file has its own",
-                               r->c[i].at->text);
+    const word *file = clause_of(&r->s, "file")->value, *pattern = clause_of(&r->s, "pattern")->value;
     image *made = &s->images[s->image_count++];
-    if (!make_image(r, made))
+    image_error error;
+    char *path = file ? path_of(r, file) : NULL;
+    if (file && !path)
         return 0;
+    int good = path ? image_read_pfm(made, path, &error)
+                    : image_make_pattern(made, pattern->text, (int)number_of(r, "width", 512),
+                                         (int)number_of(r, "height", 512), &error);
+    free(path);
+    if (!good)
+        return REFUSE(r, file ? file : pattern, "%s", error.message);
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX ||
-           refuse_word(&r->words, &r->list[1], "all images together have more than %d pixels", PIXELS_MAX);
+           REFUSE(r, &r->s.list[1], "all images together have more than %d pixels", PIXELS_MAX);
 }
 
 /* ---- distributions ---- */
@@ -268,37 +268,35 @@ static int find_table(reader *r, size_t form, const word *text, unsigned bytes, 
                                   strcmp(r->tables[i].text, text->text) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
-        return refuse_word(&r->words, text, "these are more than %d tables", SCENE_TABLES_MAX);
+        return REFUSE(r, text, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
         if (!(s->tables[i] = make_table(r, form, text, bytes, &error))) /* else path_of has refused */
-            return error.message[0] ? refuse_word(&r->words, text, "%s", error.message) : 0;
+            return error.message[0] ? REFUSE(r, text, "%s", error.message) : 0;
         r->tables[s->table_count++] = (struct made_table){form, bytes, text->text};
     }
     *found = s->tables[i];
     return 1;
 }
 
-static int read_distribution(reader *r, const clause *c, const clause *bytes, const clause *alpha,
-                             const vndf_distribution **found)
+static int read_distribution(reader *r, const vndf_distribution **found)
 {
     static const char *const names[FORMS_OF_DISTRIBUTION] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
     static const char *const takes[FORMS_OF_DISTRIBUTION] = {
         "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
+    const clause *c = clause_of(&r->s, "distribution"), *bytes = clause_of(&r->s, "bytes");
     size_t form;
-    if (!read_choice(&r->words, c, "distribution", names, FORMS_OF_DISTRIBUTION, &form))
+    if (!read_choice(&r->words, c->value, "distribution", names, FORMS_OF_DISTRIBUTION, &form))
         return 0;
     if (bytes->at && form <= TABLE)
-        return refuse_word(&r->words, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
+        return REFUSE(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
     if (form > BECKMANN)
-        return c->count > 1
-                   ? find_table(r, form, &c->value[1], bytes->at ? (unsigned)bytes->number[0] : 4096, found)
-                   : refuse_word(&r->words, c->value, "'distribution %s' needs %s", names[form], takes[form]);
+        return c->count > 1 ? find_table(r, form, &c->value[1], (unsigned)number_of(r, "bytes", 4096), found)
+                            : REFUSE(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
     if (c->count > 1)
-        return refuse_word(&r->words, &c->value[1], "'distribution %s' takes nothing more", names[form]);
-    if (!alpha->at)
-        return refuse_word(&r->words, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
+        return REFUSE(r, &c->value[1], "'distribution %s' takes nothing more", names[form]);
     *found = form == GGX ? vndf_ggx() : vndf_beckmann();
-    return 1;
+    return clause_of(&r->s, "alpha")->at ||
+           REFUSE(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
 }
 
 /* ---- materials ---- */
@@ -319,246 +317,145 @@ static const float metals[METALS][2][3] = {
 enum { CONDUCTOR, DIELECTRIC, SHAPE, MATTE, LIGHT, KINDS };
 static const char *const kinds[KINDS] = {"conductor", "dielectric", "shape", "matte", "light"};
 
-enum {
-    OF,
-    ETA,
-    K,
-    INDEX,
-    DISTRIBUTION,
-    BYTES,
-    ALPHA,
-    ALPHA_MAP,
-    SCATTERING,
-    COLOUR,
-    COLOUR_MAP,
-    RADIANCE,
-    CLAUSES
-};
-
-static const clause_form material_forms[CLAUSES] = {
-    [OF] = {"of", "METAL", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-    [ETA] = {"eta", "R G B", CLAUSE_NUMBERS, 3, 3, 0, 0, 1000},
-    [K] = {"k", "R G B", CLAUSE_NUMBERS, 3, 3, 0, 0, 1000},
-    [INDEX] = {"index", "N", CLAUSE_NUMBERS, 1, 1, 0, 0.01, 100},
-    [DISTRIBUTION] = {"distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA",
-                      CLAUSE_WORDS, 1, 2, 0, 0, 0},
-    [BYTES] = {"bytes", "COUNT", CLAUSE_WHOLE, 1, 1, 0, 2048, 1 << 20},
-    [ALPHA] = {"alpha", "A or AX AY", CLAUSE_NUMBERS, 1, 2, 0, 1e-6, 1e3},
-    [ALPHA_MAP] = {"alpha-map", "IMAGE", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-    [SCATTERING] = {"scattering", "single|multiple", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-    [COLOUR] = {"colour", "R G B", CLAUSE_NUMBERS, 3, 3, 0, 0, 1},
-    [COLOUR_MAP] = {"colour-map", "IMAGE", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-    [RADIANCE] = {"radiance", "R G B", CLAUSE_NUMBERS, 3, 3, 0, 0, 1e6},
-};
-
-/* Bits of the clauses that a kind takes, and of those that it needs. */
-enum {
-    ROUGH = 1 << DISTRIBUTION | 1 << BYTES | 1 << ALPHA | 1 << ALPHA_MAP | 1 << SCATTERING | 1 << COLOUR |
-            1 << COLOUR_MAP
-};
-static const unsigned taken[KINDS] = {ROUGH | 1 << OF | 1 << ETA | 1 << K, ROUGH | 1 << INDEX, ROUGH,
-                                      1 << COLOUR | 1 << COLOUR_MAP, 1 << RADIANCE};
-static const unsigned needed[KINDS] = {1 << DISTRIBUTION, 1 << DISTRIBUTION | 1 << INDEX, 1 << DISTRIBUTION,
-                                       1 << COLOUR, 1 << RADIANCE};
-
-static int check_clauses(reader *r, size_t kind)
-{
-    for (int i = 0; i < CLAUSES; i++) {
-        const clause_form *f = &material_forms[i];
-        if (r->c[i].at && !(taken[kind] >> i & 1u))
-            return refuse_word(&r->words, r->c[i].at, "'%s' does not go with '%s'", f->keyword, kinds[kind]);
-        if (!r->c[i].at && needed[kind] >> i & 1u)
-            return refuse_word(&r->words, &r->list[2], "'%s' needs '%s %s'", kinds[kind], f->keyword, f->takes);
-    }
-    return 1;
-}
-
-static int read_metal(reader *r, vndf_description *is)
-{
-    const clause *of = &r->c[OF];
-    size_t chosen;
-    if (!of->at == !(r->c[ETA].at && r->c[K].at) || (of->at && (r->c[ETA].at || r->c[K].at)))
-        return refuse_word(&r->words, &r->list[2], "'conductor' needs 'of METAL', or 'eta R G B' and 'k R G B'");
-    set_three(is->conductor_eta, &r->c[ETA]);
-    set_three(is->conductor_k, &r->c[K]);
-    if (!of->at)
-        return 1;
-    if (!read_choice(&r->words, of, "metal", metal_names, METALS, &chosen))
-        return 0;
-    memcpy(is->conductor_eta, metals[chosen][0], sizeof metals[chosen][0]);
-    memcpy(is->conductor_k, metals[chosen][1], sizeof metals[chosen][1]);
-    return 1;
-}
-
 static int read_rough(reader *r, size_t kind, material *m)
 {
     static const char *const scatterings[] = {"single", "multiple"};
     static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_DIELECTRIC, VNDF_FRESNEL_NONE};
-    const clause *c = r->c, *alpha = &c[ALPHA];
+    const clause *of = clause_of(&r->s, "of"), *alpha = clause_of(&r->s, "alpha");
+    const clause *scattering = clause_of(&r->s, "scattering");
     vndf_description *is = &m->is;
     vndf_material resolved;
     vndf_error error = {VNDF_OK, ""};
-    size_t scattering = 0;
-    if ((kind == CONDUCTOR && !read_metal(r, is)) ||
-        !read_distribution(r, &c[DISTRIBUTION], &c[BYTES], alpha, &is->distribution) ||
-        !find_image(r, &c[ALPHA_MAP], &m->alpha_map) ||
-        (c[SCATTERING].at && !read_choice(&r->words, &c[SCATTERING], "scattering", scatterings, 2, &scattering)))
+    size_t metal = 0, order = 0;
+    if ((of->at && !read_choice(&r->words, of->value, "metal", metal_names, METALS, &metal)) ||
+        (scattering->at && !read_choice(&r->words, scattering->value, "scattering", scatterings, 2, &order)) ||
+        !read_distribution(r, &is->distribution))
         return 0;
-    is->alpha_x = alpha->at ? (float)alpha->number[0] : 1.0f;
+    memcpy(is->conductor_eta, metals[metal][0], sizeof is->conductor_eta[0] * 3);
+    memcpy(is->conductor_k, metals[metal][1], sizeof is->conductor_k[0] * 3);
+    set_three(r, "eta", is->conductor_eta);
+    set_three(r, "k", is->conductor_k);
+    is->alpha_x = (float)number_of(r, "alpha", 1);
     is->alpha_y = alpha->count > 1 ? (float)alpha->number[1] : is->alpha_x;
-    is->eta = (float)c[INDEX].number[0];
+    is->eta = (float)number_of(r, "index", 0);
     is->effects.fresnel = fresnel[kind];
     is->effects.lobes = kind == DIELECTRIC ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
-    is->effects.scattering = scattering ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
-    const double least = fmin((double)is->alpha_x, (double)is->alpha_y);
-    const double most = fmax((double)is->alpha_x, (double)is->alpha_y);
-    if (!check_map(r, &c[ALPHA_MAP], m->alpha_map, "roughness", 1, 1e-6 / least, 1e3 / most))
-        return 0;
-    return vndf_material_resolve(is, &resolved, &error) == VNDF_OK ||
-           refuse_word(&r->words, &r->list[1], "%s", error.message);
+    is->effects.scattering = order ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
+    const double least = 1e-6 / fmin((double)is->alpha_x, (double)is->alpha_y);
+    const double most = 1e3 / fmax((double)is->alpha_x, (double)is->alpha_y);
+    return find_image(r, "alpha-map", "roughness", 1, least, most, &m->alpha_map) &&
+           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK ||
+            REFUSE(r, &r->s.list[1], "%s", error.message));
 }
 
 static int read_material(reader *r)
 {
-    static const material_kind made_of[KINDS] = {MATERIAL_ROUGH, MATERIAL_ROUGH, MATERIAL_ROUGH, MATERIAL_MATTE,
-                                                 MATERIAL_LIGHT};
     scene *s = r->made;
+    material made = {.colour = {1.0f, 1.0f, 1.0f}};
     size_t kind;
-    if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX))
+    if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX, "material wall matte colour 0.5 0.5 0.5") ||
+        !read_choice(&r->words, &r->s.list[2], "kind of material", kinds, KINDS, &kind) ||
+        !read_clauses(&r->words, &r->s, 3, keys, kinds[kind], kind <= SHAPE ? "rough" : ""))
         return 0;
-    const clause what = {.value = &r->list[2]};
-    if (!read_choice(&r->words, &what, "kind of material", kinds, KINDS, &kind) ||
-        !clauses(r, 3, material_forms, CLAUSES) || !check_clauses(r, kind))
+    made.kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
+    set_three(r, kind == LIGHT ? "radiance" : "colour", made.colour);
+    if (!find_image(r, "colour-map", "colour", 3, 0, 1, &made.colour_map) ||
+        (kind <= SHAPE && !read_rough(r, kind, &made)))
         return 0;
-    material made = {.kind = made_of[kind], .colour = {1.0f, 1.0f, 1.0f}};
-    set_three(made.colour, &r->c[COLOUR]);
-    set_three(made.colour, &r->c[RADIANCE]);
-    if (!find_image(r, &r->c[COLOUR_MAP], &made.colour_map) ||
-        !check_map(r, &r->c[COLOUR_MAP], made.colour_map, "colour", 3, 0, 1) ||
-        (made.kind == MATERIAL_ROUGH && !read_rough(r, kind, &made)))
-        return 0;
-    strcpy(made.name, r->list[1].text);
+    strcpy(made.name, r->s.list[1].text);
     s->materials[s->material_count++] = made;
     return 1;
 }
 
 /* ---- shapes ---- */
 
-static int find_material(reader *r, const clause *c, int *found)
+/* Every shape has a material; a mesh does not emit. */
+static int find_material(reader *r, int *found)
 {
+    const clause *c = clause_of(&r->s, "material");
     size_t chosen;
-    const int is_known = read_choice(&r->words, c, "material that is defined before this", r->materials,
-                                     r->made->material_count, &chosen);
+    if (!read_choice(&r->words, c->value, "material that is defined before this", r->materials,
+                     r->made->material_count, &chosen))
+        return 0;
     *found = (int)chosen;
-    return is_known;
+    return r->made->materials[chosen].kind != MATERIAL_LIGHT || strcmp(r->s.list[0].text, "mesh") != 0 ||
+           REFUSE(r, c->value, "a light is a sphere or a rectangle, not a mesh");
 }
 
-static int add_shape(reader *r, const shape *made)
+static int no_memory_for_shape(reader *r)
 {
-    return geometry_add(&r->made->geometry, made) ||
-           refuse_word(&r->words, &r->list[0], "there is no memory for this shape");
+    return REFUSE(r, &r->s.list[0], "there is no memory for this shape");
 }
 
 static int read_sphere(reader *r)
 {
-    static const clause_form forms[] = {{"centre", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"radius", "R", CLAUSE_NUMBERS, 1, 1, 1, 1e-6, 1e6},
-                                        {"material", "NAME", CLAUSE_WORDS, 1, 1, 1, 0, 0}};
-    shape made = {.kind = SHAPE_SPHERE};
-    if (!clauses(r, 1, FORMS(forms)) || !find_material(r, &r->c[2], &made.material))
-        return 0;
-    made.corner = vector_of(&r->c[0]);
-    made.radius = r->c[1].number[0];
-    return add_shape(r, &made);
+    shape made = {.kind = SHAPE_SPHERE, .corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)};
+    return find_material(r, &made.material) && (geometry_add(&r->made->geometry, &made) || no_memory_for_shape(r));
 }
 
 /* The text has few digits, so that edges that are meant to be at right angles may be a little off: the second one
  * is corrected. */
 static int read_rectangle(reader *r)
 {
-    static const clause_form forms[] = {{"corner", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"edge-u", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"edge-v", "X Y Z", CLAUSE_NUMBERS, 3, 3, 1, -1e6, 1e6},
-                                        {"material", "NAME", CLAUSE_WORDS, 1, 1, 1, 0, 0}};
-    shape made = {.kind = SHAPE_RECTANGLE};
-    if (!clauses(r, 1, FORMS(forms)) || !find_material(r, &r->c[3], &made.material))
-        return 0;
-    const vec3 u = vector_of(&r->c[1]), v = vector_of(&r->c[2]);
-    for (int i = 1; i < 3; i++)
-        if (!(length(vector_of(&r->c[i])) >= near))
-            return refuse_word(&r->words, r->c[i].at, "'%s' has no length", r->c[i].at->text);
+    const vec3 u = vector_of(r, "edge-u"), v = vector_of(r, "edge-v");
     const double cosine = dot(u, v) / (length(u) * length(v));
+    shape made = {.kind = SHAPE_RECTANGLE, .corner = vector_of(r, "corner"), .edge_u = u};
+    for (int i = 0; i < 2; i++)
+        if (!(length(i ? v : u) >= near))
+            return REFUSE(r, clause_of(&r->s, i ? "edge-v" : "edge-u")->at, "this edge has no length");
     if (!(fabs(cosine) < 2e-3))
-        return refuse_word(&r->words, r->c[2].at,
-                           "the edges of a rectangle must be at right angles; these are at %.4g degrees",
-                           acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
-    made.corner = vector_of(&r->c[0]);
-    made.edge_u = u;
+        return REFUSE(r, clause_of(&r->s, "edge-v")->at,
+                      "the edges of a rectangle must be at right angles; these are at %.4g degrees",
+                      acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
     made.edge_v = along(v, -dot(u, v) / dot(u, u), u);
-    return add_shape(r, &made);
+    return find_material(r, &made.material) && (geometry_add(&r->made->geometry, &made) || no_memory_for_shape(r));
 }
 
 /* A file, or the knot. */
 static int read_mesh(reader *r)
 {
     static const char *const patterns[] = {"knot"};
-    static const clause_form forms[] = {{"file", "PATH", CLAUSE_WORDS, 1, 1, 0, 0, 0},
-                                        {"scale", "FACTOR", CLAUSE_NUMBERS, 1, 1, 0, 1e-6, 1e6},
-                                        {"turn", "DEGREES", CLAUSE_NUMBERS, 1, 1, 0, -360, 360},
-                                        {"move", "X Y Z", CLAUSE_NUMBERS, 3, 3, 0, -1e6, 1e6},
-                                        {"material", "NAME", CLAUSE_WORDS, 1, 1, 1, 0, 0},
-                                        {"pattern", "NAME", CLAUSE_WORDS, 1, 1, 0, 0, 0}};
-    const clause *file = &r->c[0], *pattern = &r->c[5];
+    const word *file = clause_of(&r->s, "file")->value, *pattern = clause_of(&r->s, "pattern")->value;
+    const placement where = {number_of(r, "scale", 1), number_of(r, "turn", 0), vector_of(r, "move")};
     char why[512];
     size_t which;
     int of;
-    if (!clauses(r, 1, FORMS(forms)) || !find_material(r, &r->c[4], &of))
+    if (!find_material(r, &of))
         return 0;
-    if (r->made->materials[of].kind == MATERIAL_LIGHT)
-        return refuse_word(&r->words, r->c[4].value, "a light is a sphere or a rectangle, not a mesh");
-    if (!file->at == !pattern->at)
-        return refuse_word(&r->words, &r->list[0], "'mesh' needs one of 'file PATH' and 'pattern knot'");
-    const placement where = {r->c[1].at ? r->c[1].number[0] : 1, r->c[2].number[0], vector_of(&r->c[3])};
-    if (pattern->at)
+    if (pattern)
         return read_choice(&r->words, pattern, "pattern of a mesh", patterns, 1, &which) &&
-               (knot_add(&r->made->geometry, &where, of) ||
-                refuse_word(&r->words, &r->list[0], "there is no memory for this shape"));
-    char *path = path_of(r, file->value);
-    int good = path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) ||
-                        refuse_word(&r->words, file->value, "%s", why));
+               (knot_add(&r->made->geometry, &where, of) || no_memory_for_shape(r));
+    char *path = path_of(r, file);
+    int good =
+        path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) || REFUSE(r, file, "%s", why));
     free(path);
     return good;
 }
 
 /* ---- all of it ---- */
 
-typedef struct statement {
-    const char *name;
-    int (*read)(reader *r);
-    int once;
-} statement;
+enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 
-enum { CAMERA = 1, STATEMENTS = 9 };
-static const statement statements[STATEMENTS] = {
-    {"film", read_film, 1},     {"camera", read_camera, 1},       {"integrator", read_integrator, 1},
-    {"image", read_image, 0},   {"material", read_material, 0},   {"environment", read_environment, 1},
-    {"sphere", read_sphere, 0}, {"rectangle", read_rectangle, 0}, {"mesh", read_mesh, 0},
-};
+/* Those before ONCE may be there once; those from there to NAMED have a name, and read their clauses themselves;
+ * those after it are shapes. */
+static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
+                                              "material", "sphere", "rectangle",  "mesh"};
+static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_camera,    read_integrator,
+                                                      read_environment, read_image,     read_material,
+                                                      read_sphere,      read_rectangle, read_mesh};
 
 static int read_statement(reader *r)
 {
-    const char *names[STATEMENTS];
-    const word *w = &r->list[0];
-    for (size_t i = 0; i < STATEMENTS; i++) {
-        names[i] = statements[i].name;
-        if (w->is_quoted || strcmp(w->text, names[i]) != 0)
-            continue;
-        if (statements[i].once && r->seen >> i & 1u)
-            return refuse_word(&r->words, w, "'%s' stands in this scene twice", w->text);
-        r->seen |= 1u << i;
-        return statements[i].read(r);
-    }
-    return refuse_unknown(&r->words, w, "statement", names, STATEMENTS);
+    const word *w = &r->s.list[0];
+    size_t i;
+    if (!read_choice(&r->words, w, "statement", names, STATEMENTS, &i))
+        return 0;
+    if (i < ONCE && r->seen >> i & 1u)
+        return REFUSE(r, w, "'%s' stands in this scene twice", w->text);
+    r->seen |= 1u << i;
+    return ((i >= ONCE && i < NAMED) ||
+            read_clauses(&r->words, &r->s, 1, keys, names[i], i >= NAMED ? "body" : "")) &&
+           readers[i](r);
 }
 
 /* Without light a scene is black, which nobody means. */
@@ -567,25 +464,24 @@ static int finish(reader *r)
     scene *s = r->made;
     const word first = {NULL, 1, 1, 0, 0}, *end = r->words.count ? &r->words.list[r->words.count - 1] : &first;
     if (!(r->seen >> CAMERA & 1u))
-        return refuse_word(&r->words, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
+        return REFUSE(r, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
     if (!geometry_build(&s->geometry))
-        return refuse_word(&r->words, end, "there is no memory for a hierarchy of its shapes");
+        return REFUSE(r, end, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return refuse_word(&r->words, end, "these are more than %d lights, or there is no memory",
-                           SCENE_LIGHTS_MAX);
+        return REFUSE(r, end, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
-           refuse_word(&r->words, end, "the scene ends without light: an environment, or a shape of a light");
+           REFUSE(r, end, "the scene ends without light: an environment, or a shape of a light");
 }
 
 static int read_statements(reader *r, char *text, size_t length)
 {
     if (!split_words(&r->words, text, length))
         return 0;
-    for (size_t at = 0; at < r->words.count; at += r->count) {
-        r->list = r->words.list + at;
-        for (r->count = 1; at + r->count < r->words.count && !r->list[r->count].begins;)
-            r->count++;
+    for (size_t at = 0; at < r->words.count; at += r->s.count) {
+        r->s.list = r->words.list + at;
+        for (r->s.count = 1; at + r->s.count < r->words.count && !r->s.list[r->s.count].begins;)
+            r->s.count++;
         if (!read_statement(r))
             return 0;
     }
@@ -595,24 +491,25 @@ static int read_statements(reader *r, char *text, size_t length)
 scene *scene_read_text(const char *name, char *text, size_t length, char *message, size_t size)
 {
     const char *slash = strrchr(name, '/');
-    scene *s = calloc(1, sizeof *s);
+    scene *s = malloc(sizeof *s);
+    material *materials = calloc(MATERIALS_MAX, sizeof *materials);
     reader r = {.words = {.name = name, .message = message, .size = size},
                 .made = s,
                 .folder = slash ? (size_t)(slash - name) + 1 : 0};
-    if (s)
-        s->materials = calloc(MATERIALS_MAX, sizeof *s->materials);
-    if (!s || !s->materials) {
+    if (!s || !materials) {
         snprintf(message, size, "%s: there is no memory", name);
+        free(materials);
         free(s);
         return NULL;
     }
-    s->up = vec(0, 1, 0);
-    s->field = 40 * (PI / 180);
-    s->width = 640;
-    s->height = 360;
-    s->depth = 12;
-    s->samples = 64;
-    s->exposure = s->environment.scale = 1.0f;
+    *s = (scene){.up = {0, 1, 0},
+                 .width = 640,
+                 .height = 360,
+                 .depth = 12,
+                 .samples = 64,
+                 .exposure = 1.0f,
+                 .environment = {.scale = 1.0f},
+                 .materials = materials};
     int good = read_statements(&r, text, length);
     free(r.words.list);
     if (good)

@@ -20,11 +20,15 @@ int refuse_word(scene_words *w, const word *at, const char *format, ...)
     return 0;
 }
 
-int refuse_unknown(scene_words *w, const word *at, const char *what, const char *const *names, size_t count)
+int read_choice(scene_words *w, const word *at, const char *what, const char *const *names, size_t count,
+                size_t *chosen)
 {
-    const char *near = nearest_word(at->text, names, count);
     char all[512] = "";
     size_t used = 0;
+    for (*chosen = 0; *chosen < count; ++*chosen)
+        if (strcmp(at->text, names[*chosen]) == 0)
+            return 1;
+    const char *near = nearest_word(at->text, names, count);
     if (near)
         return refuse_word(w, at, "'%.64s' is no %s; did you mean '%s'?", at->text, what, near);
     for (size_t i = 0; i < count && used < sizeof all; i++)
@@ -103,71 +107,81 @@ int split_words(scene_words *w, char *text, size_t length)
 
 /* ---- clauses ---- */
 
-static size_t find_form(const word *at, const clause_form *forms, size_t n)
+const clause *clause_of(const statement *s, const char *name)
 {
-    size_t i = 0;
-    while (i < n && (at->is_quoted || strcmp(at->text, forms[i].keyword) != 0))
-        i++;
-    return i;
+    static const clause none = {.at = NULL};
+    for (size_t i = 0; i < s->clauses; i++)
+        if (strcmp(s->clause[i].is->name, name) == 0)
+            return &s->clause[i];
+    return &none;
+}
+
+static int is_keyword(const statement *s, const word *at)
+{
+    return !at->is_quoted && clause_of(s, at->text)->is;
 }
 
 /* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
-static int read_number(scene_words *w, const clause_form *f, const word *at, double *number)
+static int read_number(scene_words *w, const key *k, const word *at, double *number)
 {
     char *end = at->text;
     if (strspn(at->text, "+-.0123456789eE") == strlen(at->text))
         *number = strtod(at->text, &end);
     if (end == at->text || *end)
-        return refuse_word(w, at, "'%.64s' is no number; it must be '%s %s'", at->text, f->keyword, f->takes);
-    if (!(*number >= f->low && *number <= f->high))
-        return refuse_word(w, at, "%s is %.9g, it must be from %.9g to %.9g", f->keyword, *number, f->low,
-                           f->high);
-    if (f->kind == CLAUSE_WHOLE && *number != floor(*number))
-        return refuse_word(w, at, "%s is %.9g, it must be a whole number", f->keyword, *number);
-    return 1;
+        return refuse_word(w, at, "'%.64s' is no number; it must be '%s %s'", at->text, k->name, k->takes);
+    if (!(*number >= k->low && *number <= k->high))
+        return refuse_word(w, at, "%s is %.9g, it must be from %.9g to %.9g", k->name, *number, k->low, k->high);
+    return k->kind != WHOLE || *number == floor(*number) ||
+           refuse_word(w, at, "%s is %.9g, it must be a whole number", k->name, *number);
 }
 
-int read_clauses(scene_words *w, const word *list, size_t count, size_t from, const clause_form *forms, size_t n,
-                 clause found[CLAUSES_MAX])
+/* The clause whose keyword is word *at, which moves behind its values. */
+static int read_clause(scene_words *w, statement *s, size_t *at)
 {
     const char *names[CLAUSES_MAX];
-    for (size_t i = 0; i < n; i++) {
-        names[i] = forms[i].keyword;
-        found[i] = (clause){NULL, NULL, 0, {0, 0, 0}};
+    size_t chosen;
+    for (size_t i = 0; i < s->clauses; i++)
+        names[i] = s->clause[i].is->name;
+    if (s->list[*at].is_quoted)
+        return refuse_word(w, &s->list[*at], "'%.64s' is no clause here, since it has quotes", s->list[*at].text);
+    if (!read_choice(w, &s->list[*at], "clause here", names, s->clauses, &chosen))
+        return 0;
+    clause *c = &s->clause[chosen];
+    if (c->at)
+        return refuse_word(w, &s->list[*at], "'%s' stands in this statement twice", c->is->name);
+    c->at = &s->list[(*at)++];
+    c->value = s->list + *at;
+    /* required values are taken as they are, since a name may look like a keyword */
+    for (; *at < s->count && c->count < c->is->most; ++*at, c->count++) {
+        const word *value = &s->list[*at];
+        if (c->count >= c->is->least && is_keyword(s, value))
+            break;
+        if (c->is->kind != WORDS && !read_number(w, c->is, value, &c->number[c->count]))
+            return 0;
     }
-    for (size_t at = from; at < count;) {
-        size_t i = find_form(&list[at], forms, n);
-        if (i == n)
-            return refuse_unknown(w, &list[at], "clause here", names, n);
-        const clause_form *f = &forms[i];
-        clause *c = &found[i];
-        if (c->at)
-            return refuse_word(w, &list[at], "'%s' stands in this statement twice", f->keyword);
-        c->at = &list[at++];
-        c->value = list + at;
-        /* required values are taken as they are, since a name may look like a keyword */
-        for (; at < count && c->count < f->most; at++, c->count++) {
-            if (c->count >= f->least && find_form(&list[at], forms, n) < n)
-                break;
-            if (f->kind != CLAUSE_WORDS && !read_number(w, f, &list[at], &c->number[c->count]))
-                return 0;
-        }
-        if (c->count < f->least)
-            return refuse_word(w, c->at, "the statement ends before all of '%s %s' was there", f->keyword,
-                               f->takes);
-    }
-    for (size_t i = 0; i < n; i++)
-        if (forms[i].is_needed && !found[i].at)
-            return refuse_word(w, &list[from - 1], "'%s' needs '%s %s'", list[from - 1].text, forms[i].keyword,
-                               forms[i].takes);
-    return 1;
+    return c->count >= c->is->least ||
+           refuse_word(w, c->at, "the statement ends before all of '%s %s' was there", c->is->name, c->is->takes);
 }
 
-int read_choice(scene_words *w, const clause *c, const char *what, const char *const *names, size_t count,
-                size_t *chosen)
+int read_clauses(scene_words *w, statement *s, size_t from, const key *keys, const char *of, const char *also)
 {
-    for (*chosen = 0; *chosen < count; ++*chosen)
-        if (strcmp(c->value[0].text, names[*chosen]) == 0)
-            return 1;
-    return refuse_unknown(w, &c->value[0], what, names, count);
+    for (s->clauses = 0; keys->name; keys++)
+        if (strcmp(keys->of, of) == 0 || strcmp(keys->of, also) == 0)
+            s->clause[s->clauses++] = (clause){.is = keys};
+    for (size_t at = from; at < s->count;)
+        if (!read_clause(w, s, &at))
+            return 0;
+    for (size_t i = 0; i < s->clauses; i++) {
+        const key *k = s->clause[i].is;
+        const word *at = s->clause[i].at;
+        const clause *other = k->other ? clause_of(s, k->other) : NULL;
+        if (k->rule == NEEDED && !at)
+            return refuse_word(w, &s->list[from - 1], "'%s' needs '%s %s'", of, k->name, k->takes);
+        if (k->rule == OR && !at == !other->at)
+            return refuse_word(w, &s->list[from - 1], "'%s' needs one of '%s %s' and '%s %s'", of, k->name,
+                               k->takes, k->other, other->is->takes);
+        if (k->rule == BESIDE && at && !other->at)
+            return refuse_word(w, at, "'%s' stands beside '%s' only", k->name, k->other);
+    }
+    return 1;
 }

@@ -1,5 +1,5 @@
-/* A scene file as words, and the clauses of a statement. Everything that reads returns 1, or 0 after a refusal
- * that names the place. */
+/* A scene file as words, and its statements as clauses. Everything that reads returns 1, or 0 after a refusal that
+ * names the place. */
 #ifndef TOOLS_RENDER_WORDS_H
 #define TOOLS_RENDER_WORDS_H
 
@@ -24,41 +24,54 @@ typedef struct scene_words {
 /* "NAME:LINE:COLUMN: ..."; returns 0. */
 int refuse_word(scene_words *w, const word *at, const char *format, ...) PRINTF_LIKE(3, 4);
 
-/* The same for a word that may not stand there; offers the nearest one that may, or all of them. `what`:
- * "pattern". */
-int refuse_unknown(scene_words *w, const word *at, const char *what, const char *const *names, size_t count);
+/* Which of the names a word is; a refusal offers the nearest one, or all of them. `what`: "pattern". */
+int read_choice(scene_words *w, const word *at, const char *what, const char *const *names, size_t count,
+                size_t *chosen);
 
-/* Splits the text, which has a 0 behind its bytes and is changed, into words. The list is to be freed in any case.
- */
+/* Splits the text, which has a 0 behind its bytes and is changed, into words. The list is to be freed in any case. */
 int split_words(scene_words *w, char *text, size_t length);
 
 /* ---- clauses ---- */
 
-enum { CLAUSES_MAX = 16 };
+typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
+typedef enum key_rule {
+    MAY_BE,
+    NEEDED,
+    OR,
+    BESIDE
+} key_rule; /* OR: one of it and `other`; BESIDE: only with that */
 
-typedef enum clause_kind { CLAUSE_WORDS, CLAUSE_NUMBERS, CLAUSE_WHOLE } clause_kind;
-
-/* A keyword with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
-typedef struct clause_form {
-    const char *keyword, *takes;
-    clause_kind kind;
+/* A keyword of a statement, with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
+typedef struct key {
+    const char *of, *name, *takes;
+    key_kind kind;
     size_t least, most;
-    int is_needed;
     double low, high;
-} clause_form;
+    key_rule rule;
+    const char *other;
+} key;
 
 typedef struct clause {
+    const key *is;
     const word *at, *value; /* the keyword and what is behind it; NULL if it is not there */
     size_t count;
     double number[3];
 } clause;
 
-/* Finds the clauses of the statement list[0], ..., list[count - 1] in its words from `from` on. */
-int read_clauses(scene_words *w, const word *list, size_t count, size_t from, const clause_form *forms, size_t n,
-                 clause found[CLAUSES_MAX]);
+enum { CLAUSES_MAX = 16 };
 
-/* Which of the names the first value of a clause is. */
-int read_choice(scene_words *w, const clause *c, const char *what, const char *const *names, size_t count,
-                size_t *chosen);
+typedef struct statement {
+    const word *list; /* its words */
+    size_t count;
+    clause clause[CLAUSES_MAX]; /* of all its keys */
+    size_t clauses;
+} statement;
+
+/* Finds the clauses in the words from `from` on: those of the keys of `of` and `also`. A key without a name ends
+ * them. */
+int read_clauses(scene_words *w, statement *s, size_t from, const key *keys, const char *of, const char *also);
+
+/* The clause with this name, with at == NULL if it is not there. */
+const clause *clause_of(const statement *s, const char *name);
 
 #endif

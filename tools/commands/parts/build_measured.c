@@ -25,7 +25,7 @@ static const struct {
     const char *with[3]; /* the options that go with it alone */
 } kinds[] = {
     {"--merl", read_merl, {"--channel"}},
-    {"--rgl", read_rgl, {"--matrix"}},
+    {"--rgl", read_rgl, {NULL}},
     {"--height", read_height, {"--step", "--cutoff"}},
     {"--normal-map", read_normal_map, {NULL}},
 };
@@ -114,7 +114,8 @@ static int read_normal_map(const arguments *given, data_file *file, profile *row
 
 static int read_rgl(const arguments *given, data_file *file, profile *rows)
 {
-    return option_value(given, "--matrix") ? rgl_read_matrix(file, rows) : rgl_read(file, rows);
+    (void)given;
+    return rgl_read(file, rows);
 }
 
 static int read_merl(const arguments *given, data_file *file, profile *rows)

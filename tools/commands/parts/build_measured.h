@@ -23,7 +23,6 @@ vndf_source *measured_source(const arguments *given, char found[MEASURED_NOTES])
   "surface that they are: vndf sample FILE --matrix XX,XY,YX,YY.\n"                                                 \
   "\n"                                                                                                              \
   "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"             \
-  "    --matrix      an anisotropic one as the matrix of an isotropic D, which is printed\n"                        \
   "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"  \
   "    --channel red|green|blue|luminance    (default luminance)\n"                                                 \
   "  --height FILE   heights of a surface: PFM, PGM, or numbers between blanks\n"                                   \

@@ -146,7 +146,12 @@ typedef struct panel {
     chart coordinate;
     double low, high; /* in it */
     double value[BINS_PHI], sum, error;
+    double change; /* from node to node, of the mass per log R */
 } panel;
+
+/* A normal is rounded by this part of its slope, and its density is that of a normal this far away (promise 2 of the
+ * library): the integral of what that adds is at most the change of the mass per log R, times this. */
+static const double ONE_ROUNDING = 0x1p-23;
 
 /* What is so narrow is left alone: normals are floats, which do not tell its slopes apart. */
 static const double narrowest = 0x1p-23;
@@ -155,11 +160,18 @@ static void measure(const view_of_bins *view, panel *of)
 {
     double middle = (of->low + of->high) / 2, half = (of->high - of->low) / 2;
     double at_slope[BINS_PHI], few[BINS_PHI] = {0};
+    double before = 0;
     for (size_t bin = 0; bin < BINS_PHI; bin++)
         of->value[bin] = 0;
+    of->change = 0;
     for (int i = 0; i < NODES; i++) {
-        place at = place_at(of->coordinate, middle + half * node[i]);
+        double x = middle + half * node[i], sum = 0;
+        place at = place_at(of->coordinate, x);
         integrate_turns(view, &at, at_slope);
+        for (size_t bin = 0; bin < BINS_PHI; bin++)
+            sum += at_slope[bin] * (of->coordinate == CHART_LOG_SLOPE ? 1 : x);
+        of->change += i > 0 ? fabs(sum - before) : 0;
+        before = sum;
         for (size_t bin = 0; bin < BINS_PHI; bin++) {
             of->value[bin] += half * kronrod[i] * at_slope[bin];
             few[bin] += half * lobatto[i] * at_slope[bin];
@@ -203,7 +215,8 @@ static size_t first_panels(const view_of_bins *view, const double slope[2], pane
     return count;
 }
 
-static void integrate_ring(const view_of_bins *view, const double slope[2], double probability[BINS_PHI])
+/* Returns how much the mass per log R changes on the way. */
+static double integrate_ring(const view_of_bins *view, const double slope[2], double probability[BINS_PHI])
 {
     panel all[PANELS_MAX];
     size_t count = first_panels(view, slope, all);
@@ -222,14 +235,19 @@ static void integrate_ring(const view_of_bins *view, const double slope[2], doub
         measure(view, &all[worst]);
         measure(view, &all[count++]);
     }
-    for (size_t bin = 0; bin < BINS_PHI; bin++) {
+    double change = 0;
+    for (size_t bin = 0; bin < BINS_PHI; bin++)
         probability[bin] = 0;
-        for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < count; i++) {
+        change += all[i].change;
+        for (size_t bin = 0; bin < BINS_PHI; bin++)
             probability[bin] += all[i].value[bin];
     }
+    return change;
 }
 
-void bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 wi, double probability[BINS_COUNT])
+double bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 wi,
+                      double probability[BINS_COUNT])
 {
     view_of_bins view = {.map = map, .wi = wi};
     view.batch = (vndf_batch){.distribution = surface->distribution,
@@ -242,6 +260,8 @@ void bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 w
     view.across = hypot(map->stretch_x * (double)wi.x, map->stretch_y * (double)wi.y);
     for (size_t bin = 0; bin < BINS_PHI; bin++)
         fill_turns(map, map->phi[bin], map->phi[bin + 1], view.whole[bin]);
+    double change = 0;
     for (size_t ring = 0; ring < BINS_THETA; ring++)
-        integrate_ring(&view, map->slope + ring, probability + ring * BINS_PHI);
+        change += integrate_ring(&view, map->slope + ring, probability + ring * BINS_PHI);
+    return ONE_ROUNDING * change;
 }

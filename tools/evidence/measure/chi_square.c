@@ -46,7 +46,7 @@ int chi_square_test(const vndf_surface *surface, vndf_vec3 wi, size_t samples, u
     vndf_view view = vndf_view_from(surface, wi);
     bin_map map = bins_for(surface, wi, seed ^ 0x5851F42D4C957F2Du); /* apart from the stream that is tested */
     *result = (chi_square){0};
-    bins_integrate(&map, surface, wi, probability);
+    result->mass_rounding = bins_integrate(&map, surface, wi, probability);
     draw_histogram(&map, &view, samples, seed, observed, &result->unclaimed);
     judge(probability, observed, samples, result);
     free(probability);

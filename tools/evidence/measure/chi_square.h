@@ -9,13 +9,14 @@
 #include "vndf.h"
 
 typedef struct chi_square {
-    double statistic; /* sum of (observed - expected)^2 / expected */
-    double p;         /* the chance of a larger one if the samples follow the density */
-    double mass;      /* the density integrated over the hemisphere; 1 is right */
-    size_t bins;      /* classes after pooling; bins - 1 degrees of freedom */
-    size_t pooled;    /* bins of expected count < 5, pooled with their neighbours into some of the classes */
-    size_t unclaimed; /* samples whose density was 0 or not finite; 0 is right */
-    int blind;        /* the view sees nothing (every density 0): there is nothing to test, and p is 1 */
+    double statistic;     /* sum of (observed - expected)^2 / expected */
+    double p;             /* the chance of a larger one if the samples follow the density */
+    double mass;          /* the density integrated over the hemisphere; 1 is right, */
+    double mass_rounding; /* within this, which rounding of normals may add to it */
+    size_t bins;          /* classes after pooling; bins - 1 degrees of freedom */
+    size_t pooled;        /* bins of expected count < 5, pooled with their neighbours into some of the classes */
+    size_t unclaimed;     /* samples whose density was 0 or not finite; 0 is right */
+    int blind;            /* the view sees nothing (every density 0): there is nothing to test, and p is 1 */
 } chi_square;
 
 /* Draws `samples` normals, at least 1, with pairs of 24-bit uniform numbers of stream `seed`. wi is a unit vector.
