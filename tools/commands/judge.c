@@ -16,8 +16,8 @@ static const char name[] = "vndf judge";
 static const char *const help[] = {
     "usage: vndf judge COMMAND [--ndf FILE|ggx|beckmann [--alpha A[,B]]] [--samples N] [--seed S]\n"
     "\n"
-    "Judges a sampler of visible normals in any language. COMMAND is one word for the shell, run some ten times; it\n"
-    "reads queries from stdin, one a line, to the end, and answers each by a line on stdout:\n"
+    "Judges a sampler of visible normals in any language. COMMAND is one word for the shell, which runs it some\n"
+    "ten times; it reads queries from stdin, one a line, to the end, and answers each by a line on stdout:\n"
     "\n"
     "  s wi.x wi.y wi.z u1 u2 u3        wm.x wm.y wm.z pdf     a normal drawn by uniform numbers in [0, 1)\n"
     "  p wi.x wi.y wi.z wm.x wm.y wm.z  pdf                    its density per steradian\n"
@@ -26,8 +26,7 @@ static const char *const help[] = {
     "\n"
     "  unit        samples have length 1 within 1e-4\n"
     "  facing      they face wi and the side of the surface, within a cosine of 1e-5\n"
-    "  positive    their densities are positive and finite\n"
-    "  valid       all densities asked for are finite and not negative\n"
+    "  valid       densities are finite and not negative, those of samples positive\n"
     "  agrees      the density of a sample is that asked for it, within 1e-3 for 99% of 1000\n"
     "  mass        the integral of the density over the hemisphere is 1 within 1e-3 and the error of quadrature\n"
     "  holes       no bin that expects 20 samples or more has none\n"
@@ -37,26 +36,22 @@ static const char *const help[] = {
     "\n"
     "and is told, without a verdict: the scatter of 64 x 64 stratified samples over the bins as a part of that of\n"
     "random ones (1: they are worth no more); with --ndf the total variation to the true visible normals and the\n"
-    "efficiency 1/integral Dv^2/p. Exit status 1: it fails, in what the last line names; 2: it cannot be judged, since\n"
+    "efficiency 1/integral Dv^2/p. Exit status 1: it fails, in what the last lines name; 2: it cannot be judged, since\n"
     "COMMAND does not run, ends with another status than 0, or answers what is no number or too few lines.\n"
     "\n"
     "  --ndf FILE       the distribution that is meant: a table, ggx or beckmann\n"
     "  --alpha A[,B]    its roughness along x and y (default 1)\n"
     "  --samples N      of each direction (default 100000); four times as many notice an error half as large\n"
-    "  --seed S         the stream of random numbers, a whole number (default 1)\n" FIGURES_HELP "\n"
+    "  --seed S         the stream of random numbers, a whole number (default 1)\n"
+    "\n"
     "example: cc -O2 tools/judge/examples/ggx_caps.c -lm -o ggx_caps\n"
     "         vndf judge './ggx_caps 0.3 0.1' --ndf ggx --alpha 0.3,0.1\n"
     "         vndf judge 'python3 tools/judge/examples/ggx_caps.py 0.3 0.1' --samples 20000\n",
     NULL};
 
 /* In the order of judge_id. */
-static const struct property {
-    const char *name;
-    double limit;
-} properties[JUDGE_NUMBERS] = {{"unit", 1e-4},   {"facing", 1e-5}, {"positive", 0}, {"valid", 0},
-                               {"agrees", 1e-3}, {"mass", 1e-3},   {"holes", 0},    {"covers", 1e-3}};
-
-static const double degrees = 180 / 3.14159265358979323846;
+static const char *const names[JUDGE_NUMBERS] = {"unit", "facing", "valid", "agrees", "mass", "holes", "covers"};
+static const double limits[JUDGE_NUMBERS] = {1e-4, 1e-5, 0, 1e-3, 1e-3, 0, 1e-3};
 
 static void print_views(figures *f, const judge_view *views, int has_truth)
 {
@@ -84,88 +79,78 @@ static void print_views(figures *f, const judge_view *views, int has_truth)
 static void print_holes(figures *f, const judge_view *views)
 {
     enum { SHOWN = 12 };
-    int shown = 0;
+    const double degrees = 180 / acos(-1);
     figures_list(f, "holes");
-    for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && shown < SHOWN; i++) {
+    for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && f->records < SHOWN; i++) {
         const judge_view *v = &views[i / JUDGE_BINS];
-        size_t bin = i % JUDGE_BINS;
-        if (!judge_is_hole(v, bin))
+        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SECTORS], *phi = &v->sector[i % JUDGE_SECTORS];
+        if (!judge_is_hole(v, i % JUDGE_BINS))
             continue;
-        shown++;
         figures_record(f);
         figures_number(f, "theta_of_wi", 3, v->theta, "degrees");
-        figures_number(f, "theta_from", 4, v->ring[bin / JUDGE_SECTORS] * degrees, "degrees");
-        figures_number(f, "theta_to", 4, v->ring[bin / JUDGE_SECTORS + 1] * degrees, "degrees");
-        figures_number(f, "phi_from", 4, (v->turn + v->sector[bin % JUDGE_SECTORS]) * degrees, "degrees");
-        figures_number(f, "phi_to", 4, (v->turn + v->sector[bin % JUDGE_SECTORS + 1]) * degrees, "degrees");
-        figures_number(f, "expected", 4, v->expected[bin], "samples");
+        figures_number(f, "theta_from", 4, theta[0] * degrees, "degrees");
+        figures_number(f, "theta_to", 4, theta[1] * degrees, "degrees");
+        figures_number(f, "phi_from", 4, (v->turn + phi[0]) * degrees, "degrees");
+        figures_number(f, "phi_to", 4, (v->turn + phi[1]) * degrees, "degrees");
+        figures_number(f, "expected", 4, v->expected[i % JUDGE_BINS], "samples");
     }
     figures_list_end(f);
 }
 
 /* A line of the verdict; what fails is added to the list. */
-static void print_property(figures *f, char failed[LISTED_LENGTH], const char *what, double found, double limit,
-                           double theta, int is_good)
+static void print_property(figures *f, char failed[LISTED_LENGTH], const char *what, double worst, double limit,
+                           int is_good)
 {
+    size_t used = strlen(failed);
     figures_record(f);
     figures_text(f, "of", what);
-    figures_number(f, "worst", 3, found, "");
+    figures_number(f, "worst", 3, worst, "");
     figures_number(f, "limit", 3, limit, "");
-    if (theta >= 0)
-        figures_number(f, "theta", 3, theta, "degrees");
     figures_truth(f, "good", is_good);
-    if (!is_good) {
-        size_t used = strlen(failed);
+    if (!is_good)
         snprintf(failed + used, LISTED_LENGTH - used, "%s%s", used ? ", " : "", what);
-    }
 }
 
-/* The least p of the bins of each direction, and of rings and sectors of all together. */
-static double least_p(const judge_view *views, double *theta)
+/* The least p of the bins of each direction, and of the rings and the sectors of all together. */
+static double least_p(const judge_view *views)
 {
-    double p = 2, statistic[2] = {0, 0};
+    double p = 1, statistic[2] = {0, 0};
     size_t dof[2] = {0, 0};
     for (int i = 0; i < JUDGE_VIEWS; i++) {
         const pearson *sums[] = {&views[i].rings, &views[i].sectors};
-        *theta = views[i].bins.p < p ? views[i].theta : *theta;
         p = fmin(p, views[i].bins.p);
         for (int k = 0; k < 2; k++) {
             statistic[k] += sums[k]->statistic;
             dof[k] += sums[k]->classes ? sums[k]->classes - 1 : 0;
         }
     }
-    for (int k = 0; k < 2; k++) {
-        double all = statistics_chi_square_p(statistic[k], dof[k]);
-        *theta = all < p ? -1 : *theta;
-        p = fmin(p, all);
-    }
+    for (int k = 0; k < 2; k++)
+        p = fmin(p, statistics_chi_square_p(statistic[k], dof[k]));
     return p;
 }
 
 static int print_verdict(const arguments *given, const judge_task *task, const judge_view *views)
 {
-    char failed[LISTED_LENGTH] = "", text[LISTED_LENGTH + 16] = "good";
-    double theta = 0, level = statistics_sidak(0.01, JUDGE_VIEWS + 2), p = least_p(views, &theta);
+    char failed[LISTED_LENGTH] = "";
+    double level = statistics_sidak(0.01, JUDGE_VIEWS + 2), p = least_p(views);
+    const int has_truth = task->surface.distribution != NULL;
     figures f = figures_begin(given);
     figures_text(&f, "command", task->command);
     figures_number(&f, "samples", 9, (double)task->samples, "of each direction");
-    print_views(&f, views, task->surface != NULL);
+    print_views(&f, views, has_truth);
     print_holes(&f, views);
     figures_list(&f, "verdict");
-    for (int id = 0; id < JUDGE_NUMBERS; id++) {
-        int at = 0;
-        for (int i = 1; i < JUDGE_VIEWS; i++)
-            at = views[i].found[id] > views[at].found[id] ? i : at;
-        double found = views[at].found[id], limit = properties[id].limit;
-        if (id != JUDGE_COVERS || task->surface)
-            print_property(&f, failed, properties[id].name, fmax(found, 0), limit, views[at].theta,
-                           found <= limit);
+    for (int id = 0; id < (has_truth ? JUDGE_NUMBERS : JUDGE_COVERS); id++) {
+        double worst = 0;
+        for (int i = 0; i < JUDGE_VIEWS; i++)
+            worst = fmax(worst, views[i].found[id]);
+        print_property(&f, failed, names[id], worst, limits[id], worst <= limits[id]);
     }
-    print_property(&f, failed, "chi-square", p, level, theta, p >= level);
+    print_property(&f, failed, "chi-square", p, level, p >= level);
     figures_list_end(&f);
     if (failed[0])
-        snprintf(text, sizeof text, "FAILED: %s", failed);
-    figures_text(&f, "result", text);
+        figures_text(&f, "fails", failed);
+    figures_text(&f, "result", failed[0] ? "FAILED" : "good");
     figures_end(&f);
     return failed[0] ? STATUS_NO : STATUS_GOOD;
 }
@@ -185,7 +170,7 @@ static int run(const arguments *given)
     if (ndf && !distribution_open(&chosen, name, ndf))
         return STATUS_USE;
     surface.distribution = chosen.distribution;
-    const judge_task task = {name, given->positional.item[0], (size_t)samples, seed, ndf ? &surface : NULL};
+    const judge_task task = {name, given->positional.item[0], (size_t)samples, seed, surface};
     progress bar = progress_begin(name, option_value(given, "-q") != NULL);
     int status = judge_views(&task, &bar, views) ? STATUS_GOOD : STATUS_USE;
     progress_end(&bar);
