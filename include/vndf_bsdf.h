@@ -242,9 +242,6 @@ typedef struct vndf_material {
     const struct vndf_routines *routines; /* made for its effects */
     const struct vndf_routines *specular; /* the same without retroreflection, */
     const struct vndf_routines *single;   /* and without compensation */
-    const struct vndf_normals_routine *normals;
-    const struct vndf_fresnel_routine *fresnel;
-    const struct vndf_masking_routine *masking;
     vndf_affine surface;                  /* of hits that bring none */
     float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
     double per_wavelength;                /* one over their number */

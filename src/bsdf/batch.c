@@ -12,11 +12,19 @@ static vndf_vec3 wi_at(const vndf_bsdf_batch *b, size_t i)
     return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
 }
 
-static vndf_roughness roughness_at(const vndf_bsdf_batch *b, size_t i)
+static void hit_at(const vndf_bsdf_batch *b, size_t i, vndf_bsdf *hit)
 {
     const vndf_material *m = b->material;
     size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
     vndf_roughness r = {m->is.alpha_x, m->is.alpha_y, m->cos_rotation, m->sin_rotation};
+    if (m->is.effects.shape == VNDF_SHAPE_MIXTURE) {
+        vndf_bsdf_mixture(hit, m, b->mixture ? b->mixture + at : NULL, wi_at(b, i));
+        return;
+    }
+    if (m->is.effects.shape > VNDF_SHAPE_ROTATED) {
+        vndf_bsdf_affine(hit, m, b->affine ? b->affine + at : NULL, wi_at(b, i));
+        return;
+    }
     if (b->alpha_x) {
         r.alpha_x = b->alpha_x[at];
         r.alpha_y = b->alpha_y[at];
@@ -25,26 +33,7 @@ static vndf_roughness roughness_at(const vndf_bsdf_batch *b, size_t i)
         r.cos_rotation = b->cos_rotation[at];
         r.sin_rotation = b->sin_rotation[at];
     }
-    return r;
-}
-
-static void hit_at(const vndf_bsdf_batch *b, size_t i, vndf_bsdf *hit)
-{
-    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
-    vndf_roughness r;
-    switch (b->material->is.effects.shape) {
-    case VNDF_SHAPE_ALIGNED:
-    case VNDF_SHAPE_ROTATED: break;
-    case VNDF_SHAPE_MATRIX:
-    case VNDF_SHAPE_AFFINE:
-        vndf_bsdf_affine(hit, b->material, b->affine ? b->affine + at : NULL, wi_at(b, i));
-        return;
-    case VNDF_SHAPE_MIXTURE:
-        vndf_bsdf_mixture(hit, b->material, b->mixture ? b->mixture + at : NULL, wi_at(b, i));
-        return;
-    }
-    r = roughness_at(b, i);
-    vndf_bsdf_rough(hit, b->material, &r, wi_at(b, i));
+    vndf_bsdf_rough(hit, m, &r, wi_at(b, i));
 }
 
 /* Makes hit i, unless all elements are one hit that is made. */

@@ -1,6 +1,6 @@
-/* What the files of this room share. A material is resolved to routines made for its set of effects, called
- * through pointers; at a hit no code asks whether an effect is wanted. The mathematics is kernel/lobes.h and
- * kernel/fresnel.h.
+/* What the files of this room share. A material is resolved to routines for its set of effects, called through
+ * pointers; of Fresnel's terms, masking and normals one switch each takes the one that is wanted (single.c). The
+ * mathematics is kernel/lobes.h and kernel/fresnel.h.
  *
  * The frame of a hit is turned about the origin, w to -w, where wi is below the mean plane: facets are then seen
  * from their other side, and their slopes stay what they are. So wi is above that plane, and the normal of a
@@ -32,28 +32,9 @@ typedef struct vndf_routines {
     void (*scatter)(const vndf_bsdf *bsdf, const vndf_drawn_normal *normal, float u3, vndf_scattered *scattered);
 } vndf_routines;
 
-/* How the normals of one surface are drawn; mixtures have visible normals alone. */
-typedef struct vndf_normals_routine {
-    vndf_drawn_normal (*draw)(const vndf_view *view, float u1, float u2);
-    float (*pdf)(const vndf_view *view, vndf_vec3 wm);
-} vndf_normals_routine;
-
-/* Reflectances at a microfacet. */
-typedef struct vndf_fresnel_routine {
-    void (*reflectance)(const vndf_description *is, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS]);
-} vndf_fresnel_routine;
-
-/* G, which stays finite where the cosines vanish. */
-typedef struct vndf_masking_routine {
-    double (*reflection)(const vndf_bsdf *bsdf, const event *e);
-    double (*transmission)(const vndf_bsdf *bsdf, const event *e);
-} vndf_masking_routine;
-
 /* One scattering event (single.c). */
-const vndf_normals_routine *vndf_normals_of(const vndf_effects *effects);
-const vndf_fresnel_routine *vndf_fresnel_of(const vndf_effects *effects);
-const vndf_masking_routine *vndf_masking_of(const vndf_effects *effects);
 const vndf_routines *vndf_single_of(const vndf_effects *effects);
+void vndf_reflectances(const vndf_material *material, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS]);
 
 /* Reflected light goes to where the half turn about z takes it (single.c). */
 extern const vndf_routines vndf_routines_retro;
@@ -62,6 +43,9 @@ extern const vndf_routines vndf_routines_retro;
  * (compensated.c). */
 extern const vndf_routines vndf_routines_turquin, vndf_routines_kulla_conty;
 void vndf_compensation_resolve(vndf_material *material);
+
+/* Multiple scattering; with an index ratio of 1 light meets no surface and goes straight on (walk.c). */
+extern const vndf_routines vndf_routines_walk, vndf_routines_unbent;
 
 /* Scatters nothing, in so many wavelengths, 0 being 3: a wrong description resolves to it, and a hit that sees no
  * surface has it. */
@@ -126,12 +110,6 @@ VNDF_INLINE int vndf_is_near_unit(vndf_vec3 w)
 {
     float square = vndf_dot(w, w);
     return 0.25f < square && square < 4.0f;
-}
-
-VNDF_INLINE void vndf_reflectance(const vndf_material *m, double cosine, double eta, double f[VNDF_WAVELENGTHS])
-{
-    double facing = cosine < 1.0 ? cosine : 1.0;
-    m->fresnel->reflectance(&m->is, (seen_cosine){facing, 1.0 - facing}, eta, f);
 }
 
 /* The part of the samples that is reflected: the mean over the wavelengths. */

@@ -26,12 +26,12 @@ enum { NODES = 512 };
 void vndf_compensation_resolve(vndf_material *m)
 {
     double f[VNDF_WAVELENGTHS], sum[VNDF_WAVELENGTHS] = {0.0};
-    vndf_reflectance(m, 1.0, m->is.eta, f);
+    vndf_reflectances(m, (seen_cosine){1.0, 0.0}, m->is.eta, f);
     for (int i = 0; i < m->is.wavelengths; i++)
         m->reflectance0[i] = (float)f[i];
     for (int n = 0; n < NODES; n++) {
         double mu = (n + 0.5) / NODES;
-        vndf_reflectance(m, mu, m->is.eta, f);
+        vndf_reflectances(m, (seen_cosine){mu, 1.0 - mu}, m->is.eta, f);
         for (int i = 0; i < m->is.wavelengths; i++)
             sum[i] += 2.0 * mu * f[i] / NODES;
     }
@@ -41,31 +41,28 @@ void vndf_compensation_resolve(vndf_material *m)
 
 /* ---- a hit ---- */
 
-/* The roughness to look up: the root of a determinant, which for two is sqrt(alpha_x alpha_y). */
-static void set_alpha(vndf_bsdf *b)
-{
-    const vndf_affine *s = &b->surface;
-    b->compensation.alpha = (float)sqrt(fabs((double)s->xx * s->yy - (double)s->xy * s->yx));
-}
-
 /* 1 - E of a direction, its z that of the frame of the hit. */
 static float lost_from(const vndf_bsdf *b, float z)
 {
     return 1.0f - vndf_albedo_directional(b->material->is.albedo, b->side * z, b->compensation.alpha);
 }
 
-/* ---- Turquin ---- */
-
-static void set_gain(vndf_bsdf *b, float lost)
+/* Sets the roughness to look up, the root of a determinant, which for two is sqrt(alpha_x alpha_y), and Turquin's
+ * gain; returns 1 - E(wi). */
+static float look_up(vndf_bsdf *b)
 {
-    float kept = lost < 0.999f ? 1.0f - lost : 1e-3f;
+    const vndf_affine *s = &b->surface;
+    b->compensation.alpha = (float)sqrt(fabs((double)s->xx * s->yy - (double)s->xy * s->yx));
+    float lost = lost_from(b, b->rise), kept = lost < 0.999f ? 1.0f - lost : 1e-3f;
     b->compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
+    return lost;
 }
+
+/* ---- Turquin ---- */
 
 static void prepare_turquin(vndf_bsdf *b)
 {
-    set_alpha(b);
-    set_gain(b, lost_from(b, b->rise));
+    look_up(b);
 }
 
 static void scale(const vndf_bsdf *b, float *value)
@@ -140,8 +137,7 @@ static void part_lobes(vndf_bsdf *b, float lost_average)
 static void prepare_kulla_conty(vndf_bsdf *b)
 {
     struct vndf_compensation *c = &b->compensation;
-    set_alpha(b);
-    float lost_average = average_lost(b, b->side), lost = lost_from(b, b->rise);
+    float lost = look_up(b), lost_average = average_lost(b, b->side);
     c->lost = lost > 0.0f ? lost : 0.0f;
     c->per = per_of(lost_average);
     if (has_both(b))
@@ -150,15 +146,8 @@ static void prepare_kulla_conty(vndf_bsdf *b)
         colour_reflection(b, lost_average);
     if (!(c->per > 0.0f))
         c->share = c->lost = 0.0f;
-    set_gain(b, lost);
     c->near = 0.01f * c->alpha + 1e-4f;
     c->per_log = (float)(1.0 / vndf_log(1.0 + 1.0 / c->near));
-}
-
-/* Whether there is a lobe; else single scattering is scaled. */
-static int has_lobe(const vndf_bsdf *b)
-{
-    return b->compensation.per > 0.0f;
 }
 
 /* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. Smooth surfaces lose along the
@@ -187,21 +176,14 @@ static float density_of(const vndf_bsdf *b, float single, const added *a)
     return (1.0f - b->compensation.share) * single + b->compensation.share * a->density;
 }
 
-/* The cosine of a sample: half of u draws it even in its square, half even in its logarithm. */
-static float draw_cosine(const struct vndf_compensation *c, float u)
-{
-    if (u < 0.5f)
-        return sqrtf(2.0f * u);
-    float z = c->near * (float)(vndf_exp((2.0 * u - 1.0) / c->per_log) - 1.0);
-    return z < 1.0f ? z : 1.0f;
-}
-
-/* On the side that is drawn. */
+/* On the side that is drawn: half of u[0] draws the cosine even in its square, half even in its logarithm. */
 static vndf_vec3 draw_added(const vndf_bsdf *b, const float u[3])
 {
     const struct vndf_compensation *c = &b->compensation;
-    float up = draw_cosine(c, vndf_clamp_unit(u[0])), across = sqrtf((1.0f - up) * (1.0f + up));
-    float side = u[2] < c->share * c->reflected ? b->side : -b->side;
+    float u1 = vndf_clamp_unit(u[0]), side = u[2] < c->share * c->reflected ? b->side : -b->side;
+    float up = u1 < 0.5f ? sqrtf(2.0f * u1) : c->near * (float)(vndf_exp((2.0 * u1 - 1.0) / c->per_log) - 1.0);
+    up = up < 1.0f ? up : 1.0f;
+    float across = sqrtf((1.0f - up) * (1.0f + up));
     double cosine, sine;
     vndf_turn_of(vndf_clamp_unit(u[1]), &cosine, &sine);
     return vndf_vec3_of(across * (float)cosine, across * (float)sine, side * up);
@@ -234,7 +216,7 @@ static void sample_kulla_conty(const vndf_bsdf *b, const float u[3], vndf_scatte
     }
     const float rest[3] = {u[0], u[1], share > 0.0f ? (u[2] - share) / (1.0f - share) : u[2]};
     b->material->single->sample(b, rest, s);
-    if (!has_lobe(b))
+    if (!(b->compensation.per > 0.0f)) /* no lobe: single scattering is scaled */
         scale(b, s->weight);
     if (s->lobe == VNDF_LOBE_NONE || !(share > 0.0f))
         return;
@@ -250,7 +232,7 @@ static void eval_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, fl
 {
     added a = added_towards(b, vndf_is_near_unit(wo) ? b->side * wo.z : 0.0f);
     b->material->single->eval(b, wo, seed, value, pdf);
-    if (value && !has_lobe(b))
+    if (value && !(b->compensation.per > 0.0f))
         scale(b, value);
     for (int i = 0; value && i < b->material->is.wavelengths; i++)
         value[i] = vndf_finite(value[i] + b->compensation.colour[i] * a.value);

@@ -1,5 +1,5 @@
 /* A description becomes a material. Nothing else looks at the effects. */
-#include "bsdf/walk/walk.h"
+#include "bsdf/bsdf.h"
 #include "core/error.h"
 #include "math/turn.h"
 
@@ -79,9 +79,6 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
     m->is.wavelengths = is->wavelengths ? is->wavelengths : 3;
     m->per_wavelength = 1.0 / m->is.wavelengths;
-    m->normals = vndf_normals_of(e);
-    m->fresnel = vndf_fresnel_of(e);
-    m->masking = vndf_masking_of(e);
     m->single = single_of(is);
     m->specular = specular_of(m->single, e->scattering);
     m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;

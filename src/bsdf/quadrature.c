@@ -1,6 +1,7 @@
 #include "bsdf/quadrature.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "bsdf/wide.h"
 #include "math/vector.h"
@@ -8,17 +9,17 @@
 
 /* ---- rules ---- */
 
-/* The panel borders in ascending order. */
-static void add_border(vndf_quadrature *q, double x)
+/* Keeps the borders ascending, and apart. */
+static void add_border(double *border, int *count, double x)
 {
-    int i = q->panels;
-    while (i > 0 && q->border[i - 1] > x)
+    int i = *count;
+    while (i > 0 && border[i - 1] > x)
         --i;
-    if (!(x >= 0.0 && x <= 1.0) || (i > 0 && !(x - q->border[i - 1] > 1e-7 * (1.0 - q->border[i - 1]))))
+    if (!(x >= 0.0 && x <= 1.0) || (i > 0 && !(x - border[i - 1] > 1e-7 * (1.0 - border[i - 1]))))
         return;
-    for (int j = q->panels++; j > i; j--)
-        q->border[j] = q->border[j - 1];
-    q->border[i] = x;
+    for (int j = (*count)++; j > i; j--)
+        border[j] = border[j - 1];
+    border[i] = x;
 }
 
 void vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distribution)
@@ -31,18 +32,17 @@ void vndf_quadrature_of(vndf_quadrature *q, const vndf_distribution *distributio
     double rest = 1.0 / 16.0;
     q->distribution = distribution;
     q->scale = info.scale;
-    q->panels = 0;
+    q->borders = 0;
     for (int j = 0; j <= VNDF_QUADRATURE_EVEN; j++)
-        add_border(q, (1.0 - rest) * j / VNDF_QUADRATURE_EVEN);
+        add_border(q->border, &q->borders, (1.0 - rest) * j / VNDF_QUADRATURE_EVEN);
     for (int j = 1, count = is_table ? VNDF_QUADRATURE_TAIL : 12; j < count; j++)
-        add_border(q, 1.0 - (rest *= 0.5));
+        add_border(q->border, &q->borders, 1.0 - (rest *= 0.5));
     for (int j = 1; is_table && j < VNDF_QUADRATURE_QUANTILES; j++) {
         vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)j / VNDF_QUADRATURE_QUANTILES, NULL);
         double slope = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y);
-        add_border(q, slope / (slope + q->scale * wm.z));
+        add_border(q->border, &q->borders, slope / (slope + q->scale * wm.z));
     }
-    add_border(q, 1.0);
-    --q->panels; /* one less than borders */
+    add_border(q->border, &q->borders, 1.0);
     vndf_gauss_rule_of(&q->radial, is_table ? 4 : 5);
     vndf_gauss_rule_of(&q->azimuth, 12);
 }
@@ -161,60 +161,38 @@ static double sum_panel(ring *g, double x0, double x1)
     return (x1 - x0) * sum;
 }
 
-/* Slopes where the range of azimuths begins to be limited, or is over, in R/(1 + R), ascending. */
-enum { BREAKS = 6 };
-
-static void add_break(double *breaks, int *count, double slope, double roughness)
+/* Adds the slopes where the range of azimuths begins to be limited, or is over: tan of the half angle between wi and
+ * the horizon, and of its complement; cot of theta_i; with total reflection, tan |theta_c - theta_i| and tan(theta_c +
+ * theta_i), which is below 0 beyond a right angle. */
+static void add_breaks(const ring *g, double *border, int *count)
 {
-    double x = slope / (slope + roughness);
-    int i = *count;
-    if (!(x > 0.0 && x < 1.0))
-        return;
-    for (; i > 0 && breaks[i - 1] > x; i--)
-        breaks[i] = breaks[i - 1];
-    breaks[i] = x;
-    ++*count;
-}
-
-/* tan of the half angle between wi and the horizon, and of its complement; cot of theta_i; with total reflection,
- * tan |theta_c - theta_i| and tan(theta_c + theta_i). */
-static int find_breaks(const ring *g, double breaks[BREAKS])
-{
-    int count = 0;
-    double half = g->cosine / (1.0 + g->sine);
-    add_break(breaks, &count, half, g->roughness);
-    add_break(breaks, &count, 1.0 / half, g->roughness);
+    double half = g->cosine / (1.0 + g->sine), slopes[5] = {half, 1.0 / half, 0.0, 0.0, 0.0};
     if (g->eta > 0.0 && g->sine > 0.0)
-        add_break(breaks, &count, g->cosine / g->sine, g->roughness);
+        slopes[2] = g->cosine / g->sine;
     if (g->eta > 0.0 && g->eta < 1.0) {
         double cosine = sqrt(1.0 - g->eta * g->eta), sine = g->eta;
         double less = sine * g->cosine - cosine * g->sine, more = sine * g->cosine + cosine * g->sine;
-        add_break(breaks, &count, fabs(less) / (cosine * g->cosine + sine * g->sine), g->roughness);
-        double sum = cosine * g->cosine - sine * g->sine;
-        if (sum > 0.0)
-            add_break(breaks, &count, more / sum, g->roughness);
+        slopes[3] = fabs(less) / (cosine * g->cosine + sine * g->sine);
+        slopes[4] = more / (cosine * g->cosine - sine * g->sine);
     }
-    return count;
+    for (int i = 0; i < 5; i++)
+        if (slopes[i] > 0.0)
+            add_border(border, count, slopes[i] / (slopes[i] + g->roughness));
 }
 
 double vndf_quadrature_albedo(const vndf_quadrature *q, double cosine, double alpha, double eta)
 {
-    double breaks[BREAKS], sum = 0.0, sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    double border[VNDF_QUADRATURE_BORDERS + 5], sum = 0.0, sine = sqrt((1.0 - cosine) * (1.0 + cosine));
+    int count = q->borders;
     ring g = {.q = q, .cosine = cosine, .sine = sine, .eta = eta};
     const vndf_surface surface = {q->distribution, (float)alpha, (float)alpha};
     const vndf_vec3 wi = {(float)sine, 0.0f, (float)cosine};
     g.view = vndf_view_from(&surface, wi);
     g.roughness = (double)(float)alpha * q->scale;
     g.area = vndf_view_area(&g.view, wi);
-    int count = find_breaks(&g, breaks), next = 0;
-    for (int j = 0; j < q->panels; j++) {
-        double from = q->border[j], end = q->border[j + 1];
-        for (; next < count && breaks[next] < end; next++)
-            if (breaks[next] > from) {
-                sum += sum_panel(&g, from, breaks[next]);
-                from = breaks[next];
-            }
-        sum += sum_panel(&g, from, end);
-    }
+    memcpy(border, q->border, sizeof q->border);
+    add_breaks(&g, border, &count);
+    for (int j = 0; j + 1 < count; j++)
+        sum += sum_panel(&g, border[j], border[j + 1]);
     return 2.0 * sum;
 }

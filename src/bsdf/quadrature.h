@@ -21,17 +21,18 @@
 #include "vndf.h"
 
 enum {
-    VNDF_QUADRATURE_EVEN = 24,     /* panels up to R/(1 + R) = 15/16, */
-    VNDF_QUADRATURE_TAIL = 20,     /* then by halves of the rest, */
-    VNDF_QUADRATURE_QUANTILES = 24 /* between quantiles of a table */
+    VNDF_QUADRATURE_EVEN = 24,      /* panels up to R/(1 + R) = 15/16, */
+    VNDF_QUADRATURE_TAIL = 20,      /* then by halves of the rest, */
+    VNDF_QUADRATURE_QUANTILES = 24, /* between quantiles of a table */
+    VNDF_QUADRATURE_BORDERS = VNDF_QUADRATURE_EVEN + VNDF_QUADRATURE_TAIL + VNDF_QUADRATURE_QUANTILES + 1
 };
 
 /* Rules for one distribution. */
 typedef struct vndf_quadrature {
     const vndf_distribution *distribution;
-    double scale; /* of the distribution: R = 1 is its median slope */
-    double border[VNDF_QUADRATURE_EVEN + VNDF_QUADRATURE_TAIL + VNDF_QUADRATURE_QUANTILES + 1]; /* of the panels */
-    int panels;
+    double scale;                           /* of the distribution: R = 1 is its median slope */
+    double border[VNDF_QUADRATURE_BORDERS]; /* of panels, ascending */
+    int borders;
     vndf_gauss_rule radial, azimuth;
 } vndf_quadrature;
 

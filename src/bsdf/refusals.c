@@ -59,65 +59,73 @@ static const char *combination_refused(const vndf_effects *e)
                "distribution without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE";
     if (is_retro && e->lobes == VNDF_LOBES_TRANSMISSION)
         return "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected";
-    if (is_retro && tilts)
-        return "reflection is VNDF_REFLECTION_RETRO, which is not reciprocal with mean slopes: shape must be "
-               "VNDF_SHAPE_ALIGNED, VNDF_SHAPE_ROTATED or VNDF_SHAPE_MATRIX";
-    if (tilts && e->normals != VNDF_NORMALS_VISIBLE)
-        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, so normals must be VNDF_NORMALS_VISIBLE";
-    if (tilts && e->masking == VNDF_MASKING_V_CAVITIES)
-        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, whose masking is Smith's: masking must not be "
-               "VNDF_MASKING_V_CAVITIES";
-    if (tilts && walks)
-        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, which no walk knows: scattering must be "
-               "VNDF_SCATTERING_SINGLE";
-    if (walks && e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
-        return "scattering is VNDF_SCATTERING_MULTIPLE, whose masking is Smith's by height: masking must be "
-               "VNDF_MASKING_HEIGHT_CORRELATED";
-    if (walks && e->normals != VNDF_NORMALS_VISIBLE)
-        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk over visible normals: normals must be "
-               "VNDF_NORMALS_VISIBLE";
-    if (walks && e->lobes == VNDF_LOBES_TRANSMISSION)
-        return "scattering is VNDF_SCATTERING_MULTIPLE and lobes is VNDF_LOBES_TRANSMISSION: a walk that transmits "
-               "also reflects, so lobes must be VNDF_LOBES_BOTH";
+    if (tilts &&
+        (e->normals != VNDF_NORMALS_VISIBLE || e->masking == VNDF_MASKING_V_CAVITIES || is_retro || walks))
+        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, a surface with a mean slope: normals must be "
+               "VNDF_NORMALS_VISIBLE, masking not VNDF_MASKING_V_CAVITIES, scattering VNDF_SCATTERING_SINGLE and "
+               "reflection VNDF_REFLECTION_SPECULAR";
+    if (walks && (e->masking != VNDF_MASKING_HEIGHT_CORRELATED || e->normals != VNDF_NORMALS_VISIBLE ||
+                  e->lobes == VNDF_LOBES_TRANSMISSION))
+        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk: masking must be VNDF_MASKING_HEIGHT_CORRELATED, "
+               "normals VNDF_NORMALS_VISIBLE and lobes VNDF_LOBES_REFLECTION or VNDF_LOBES_BOTH";
     return NULL;
 }
 
 /* ---- numbers ---- */
 
-static vndf_status check_number(const char *name, double x, double least, double most, vndf_error *error)
+/* False for NaN. */
+static int is_within(double x, double least, double most)
 {
-    if (x >= least && x <= most) /* false for NaN */
-        return VNDF_OK;
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s is %g, it must be in [%g, %g]", name, x, least, most);
+    return x >= least && x <= most;
 }
 
+static vndf_status check_numbers(const vndf_description *is, vndf_error *error)
+{
+    const vndf_effects *e = &is->effects;
+    int bends = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
+    const struct {
+        int is_read;
+        const char *name;
+        double value, least, most;
+    } numbers[] = {{1, "wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS},
+                   {bends, "eta", (double)is->eta, (double)0.01f, 100},
+                   {e->shape == VNDF_SHAPE_ROTATED, "rotation", (double)is->rotation, -1e4, 1e4}};
+    for (int i = 0; i < 3; i++)
+        if (numbers[i].is_read && !is_within(numbers[i].value, numbers[i].least, numbers[i].most))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s is %g, it must be in [%g, %g]", numbers[i].name,
+                             numbers[i].value, numbers[i].least, numbers[i].most);
+    if (e->scattering == VNDF_SCATTERING_MULTIPLE && e->lobes == VNDF_LOBES_BOTH &&
+        e->fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
+                         "since light that goes straight on has no density");
+    return VNDF_OK;
+}
+
+/* What each wavelength has. */
 static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 {
-    static const char *const names[VNDF_WAVELENGTHS] = {"f0[0]", "f0[1]", "f0[2]", "f0[3]"};
-    vndf_status status = VNDF_OK;
-    if (is->effects.lobes != VNDF_LOBES_REFLECTION || is->effects.fresnel == VNDF_FRESNEL_DIELECTRIC)
-        status = check_number("eta", is->eta, 0.01f, 100.0, error);
-    if (status == VNDF_OK && is->effects.scattering == VNDF_SCATTERING_MULTIPLE &&
-        is->effects.lobes == VNDF_LOBES_BOTH && is->effects.fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
-        status = vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                           "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
-                           "since light that goes straight on has no density");
-    if (status == VNDF_OK)
-        status = check_number("wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS, error);
-    for (int i = 0; i < (is->wavelengths ? is->wavelengths : 3) && status == VNDF_OK; i++) {
-        if (is->effects.fresnel == VNDF_FRESNEL_SCHLICK)
-            status = check_number(names[i], is->f0[i], 0.0, 1.0, error);
-        if (is->effects.fresnel != VNDF_FRESNEL_CONDUCTOR)
-            continue;
-        status = check_number("conductor_eta", is->conductor_eta[i], 0.0, 1000.0, error);
-        if (status == VNDF_OK)
-            status = check_number("conductor_k", is->conductor_k[i], 0.0, 1000.0, error);
-        if (status == VNDF_OK && !(is->conductor_eta[i] + is->conductor_k[i] > 0.0f))
-            status =
-                vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
+    vndf_fresnel fresnel = is->effects.fresnel;
+    for (int i = 0; i < (is->wavelengths ? is->wavelengths : 3); i++) {
+        float eta = is->conductor_eta[i], k = is->conductor_k[i];
+        const struct {
+            vndf_fresnel of;
+            const char *name;
+            double value, most;
+        } numbers[] = {{VNDF_FRESNEL_SCHLICK, "f0", (double)is->f0[i], 1},
+                       {VNDF_FRESNEL_CONDUCTOR, "conductor_eta", (double)eta, 1000},
+                       {VNDF_FRESNEL_CONDUCTOR, "conductor_k", (double)k, 1000}};
+        for (int n = 0; n < 3; n++)
+            if (fresnel == numbers[n].of && !is_within(numbers[n].value, 0, numbers[n].most))
+                return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s[%d] is %g, it must be in [0, %g]",
+                                 numbers[n].name, i, numbers[n].value, numbers[n].most);
+        if (fresnel == VNDF_FRESNEL_CONDUCTOR && !(eta + k > 0.0f))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
     }
-    return status;
+    return VNDF_OK;
 }
+
+/* ---- shapes ---- */
 
 /* Whether a view is valid: straight from above it then has the area 1. */
 static int is_visible(const vndf_affine *surface)
@@ -125,19 +133,6 @@ static int is_visible(const vndf_affine *surface)
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
     vndf_view view = vndf_affine_view_from(surface, up);
     return vndf_view_area(&view, up) > 0.0f;
-}
-
-static vndf_status check_roughness(const vndf_description *is, vndf_error *error)
-{
-    const vndf_affine surface = {is->distribution, is->alpha_x, 0.0f, 0.0f, is->alpha_y, 0.0f, 0.0f};
-    if (!(is->alpha_x > 0.0f && is->alpha_y > 0.0f && is_visible(&surface)))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
-                         "distribution within [1e-15, 1e15]",
-                         (double)is->alpha_x, (double)is->alpha_y);
-    if (is->effects.shape == VNDF_SHAPE_ROTATED)
-        return check_number("rotation", is->rotation, -1e4, 1e4, error);
-    return VNDF_OK;
 }
 
 /* Of the material or a lobe of its mixture; hits bring others, whose errors have a result. */
@@ -154,57 +149,47 @@ static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error 
                      (double)a->mean_y);
 }
 
-static vndf_status check_affine(const vndf_description *is, vndf_error *error)
-{
-    vndf_affine a = is->affine;
-    a.distribution = is->distribution;
-    if (is->effects.shape == VNDF_SHAPE_MATRIX) /* which does not read it */
-        a.mean_x = a.mean_y = 0.0f;
-    return check_map("affine", &a, error);
-}
-
-/* One lobe; its weight is added to the sum. */
-static vndf_status check_lobe(const vndf_mixture *mixture, int i, double *sum, vndf_error *error)
-{
-    char name[48];
-    const vndf_mixture_lobe *lobe = &mixture->lobe[i];
-    if (!(lobe->weight >= 0.0f && lobe->weight < HUGE_VALF))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "mixture->lobe[%d].weight is %g, it must be finite and at least 0", i,
-                         (double)lobe->weight);
-    *sum += lobe->weight;
-    snprintf(name, sizeof name, "mixture->lobe[%d].surface", i);
-    return lobe->weight > 0.0f ? check_map(name, &lobe->surface, error) : VNDF_OK;
-}
-
 static vndf_status check_mixture(const vndf_mixture *mixture, vndf_error *error)
 {
     double sum = 0.0;
-    vndf_status status = VNDF_OK;
-    if (!mixture)
-        return VNDF_OK;
     if (mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture->count is %d, it must be in [1, %d]", mixture->count,
                          VNDF_MIXTURE_LOBES);
-    for (int i = 0; i < mixture->count && status == VNDF_OK; i++)
-        status = check_lobe(mixture, i, &sum, error);
-    if (status == VNDF_OK && !(sum > 0.0))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture: the weights of all lobes are 0");
-    return status;
+    for (int i = 0; i < mixture->count; i++) {
+        const vndf_mixture_lobe *lobe = &mixture->lobe[i];
+        char name[48];
+        snprintf(name, sizeof name, "mixture->lobe[%d].surface", i);
+        if (!(lobe->weight >= 0.0f && lobe->weight < HUGE_VALF))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                             "mixture->lobe[%d].weight is %g, it must be finite and at least 0", i,
+                             (double)lobe->weight);
+        if (lobe->weight > 0.0f && check_map(name, &lobe->surface, error) != VNDF_OK)
+            return VNDF_ERROR_ARGUMENT;
+        sum += lobe->weight;
+    }
+    return sum > 0.0 ? VNDF_OK : vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture: the weights of all lobes are 0");
 }
 
 static vndf_status check_shape(const vndf_description *is, vndf_error *error)
 {
-    if (!is->distribution && is->effects.shape != VNDF_SHAPE_MIXTURE)
+    vndf_affine a = is->affine;
+    if (is->effects.shape == VNDF_SHAPE_MIXTURE)
+        return is->mixture ? check_mixture(is->mixture, error) : VNDF_OK;
+    if (!is->distribution)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "distribution is NULL");
-    switch (is->effects.shape) {
-    case VNDF_SHAPE_ALIGNED:
-    case VNDF_SHAPE_ROTATED: break;
-    case VNDF_SHAPE_MATRIX:
-    case VNDF_SHAPE_AFFINE: return check_affine(is, error);
-    case VNDF_SHAPE_MIXTURE: return check_mixture(is->mixture, error);
+    if (is->effects.shape <= VNDF_SHAPE_ROTATED) {
+        a = (vndf_affine){is->distribution, is->alpha_x, 0.0f, 0.0f, is->alpha_y, 0.0f, 0.0f};
+        if (is->alpha_x > 0.0f && is->alpha_y > 0.0f && is_visible(&a))
+            return VNDF_OK;
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "alpha_x is %g and alpha_y %g; both must be above 0, and times the scale of the "
+                         "distribution within [1e-15, 1e15]",
+                         (double)is->alpha_x, (double)is->alpha_y);
     }
-    return check_roughness(is, error);
+    a.distribution = is->distribution;
+    if (is->effects.shape == VNDF_SHAPE_MATRIX) /* which does not read it */
+        a.mean_x = a.mean_y = 0.0f;
+    return check_map("affine", &a, error);
 }
 
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error)
@@ -217,5 +202,7 @@ vndf_status vndf_description_check(const vndf_description *is, vndf_error *error
         status = check_shape(is, error);
     if (status == VNDF_OK && vndf_compensates(&is->effects))
         status = vndf_albedo_check(is, error);
+    if (status == VNDF_OK)
+        status = check_numbers(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;
 }

@@ -12,59 +12,24 @@ static void set_all(double f[VNDF_WAVELENGTHS], double value)
         f[i] = value;
 }
 
-static void reflect_schlick(const vndf_description *is, seen_cosine c, double eta, double *f)
+/* Where light may pass Schlick's term takes the cosine in the thinner medium, so that reflection is total where that
+ * has none, and the bare shape reflects what total reflection does. A conductor is seen from outside alone. */
+void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS])
 {
-    (void)eta;
-    for (int i = 0; i < is->wavelengths; i++)
-        f[i] = schlick(c.rest, is->f0[i]);
-}
-
-/* The cosine in the thinner medium: reflection is total where that has none. */
-static void reflect_schlick_thin(const vndf_description *is, seen_cosine c, double eta, double *f)
-{
-    c.rest = eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
-    reflect_schlick(is, c, eta, f);
-}
-
-static void reflect_dielectric(const vndf_description *is, seen_cosine c, double eta, double *f)
-{
-    (void)is;
-    set_all(f, dielectric(c.facing, eta));
-}
-
-/* From outside alone. */
-static void reflect_conductor(const vndf_description *is, seen_cosine c, double eta, double *f)
-{
-    (void)eta;
-    for (int i = 0; i < is->wavelengths; i++)
-        f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
-}
-
-static void reflect_all(const vndf_description *is, seen_cosine c, double eta, double *f)
-{
-    (void)is, (void)c, (void)eta;
-    set_all(f, 1.0);
-}
-
-static void reflect_nothing(const vndf_description *is, seen_cosine c, double eta, double *f)
-{
-    (void)is;
-    set_all(f, refracted_square(c.facing, eta) > 0.0 ? 0.0 : 1.0);
-}
-
-static const vndf_fresnel_routine total = {reflect_all};
-
-const vndf_fresnel_routine *vndf_fresnel_of(const vndf_effects *e)
-{
-    static const vndf_fresnel_routine by_schlick = {reflect_schlick}, by_schlick_thin = {reflect_schlick_thin},
-                                      by_dielectric = {reflect_dielectric}, by_conductor = {reflect_conductor},
-                                      nothing = {reflect_nothing};
-    int transmits = e->lobes != VNDF_LOBES_REFLECTION;
-    switch (e->fresnel) {
-    case VNDF_FRESNEL_SCHLICK: return transmits ? &by_schlick_thin : &by_schlick;
-    case VNDF_FRESNEL_DIELECTRIC: return &by_dielectric;
-    case VNDF_FRESNEL_CONDUCTOR: return &by_conductor;
-    default: return transmits ? &nothing : &total;
+    const vndf_description *is = &m->is;
+    int transmits = is->effects.lobes != VNDF_LOBES_REFLECTION;
+    switch (is->effects.fresnel) {
+    case VNDF_FRESNEL_SCHLICK:
+        c.rest = transmits && eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
+        for (int i = 0; i < is->wavelengths; i++)
+            f[i] = schlick(c.rest, is->f0[i]);
+        return;
+    case VNDF_FRESNEL_CONDUCTOR:
+        for (int i = 0; i < is->wavelengths; i++)
+            f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
+        return;
+    case VNDF_FRESNEL_DIELECTRIC: set_all(f, dielectric(c.facing, eta)); return;
+    case VNDF_FRESNEL_NONE: set_all(f, transmits && refracted_square(c.facing, eta) > 0.0 ? 0.0 : 1.0);
     }
 }
 
@@ -101,78 +66,62 @@ VNDF_INLINE double area_of(const vndf_bsdf *b, const event *e)
     return (double)vndf_hit_area(&b->view, up_of(e));
 }
 
-static double reflect_by_height(const vndf_bsdf *b, const event *e)
+static double by_height(const vndf_bsdf *b, const event *e, int reflects)
 {
-    return masked_by_height((double)b->rise, e->rise, (double)b->area, area_of(b, e));
+    double area = area_of(b, e);
+    return reflects ? masked_by_height((double)b->rise, e->rise, (double)b->area, area)
+                    : passed_by_height((double)b->rise, e->rise, (double)b->area, area);
 }
 
-static double transmit_by_height(const vndf_bsdf *b, const event *e)
+/* G of an event. */
+static double masked(const vndf_bsdf *b, const event *e, int reflects)
 {
-    return passed_by_height((double)b->rise, e->rise, (double)b->area, area_of(b, e));
-}
-
-static double mask_apart(const vndf_bsdf *b, const event *e)
-{
-    return masked_apart((double)b->area, area_of(b, e));
-}
-
-static double reflect_in_cavities(const vndf_bsdf *b, const event *e)
-{
-    return masked_in_cavities((double)b->rise, e->rise, e->facing, e->wm.z);
-}
-
-static double transmit_in_cavities(const vndf_bsdf *b, const event *e)
-{
-    return passed_in_cavities((double)b->rise, e->rise, e->facing, e->beyond, e->wm.z);
-}
-
-static double unmasked(const vndf_bsdf *b, const event *e)
-{
-    return 1.0 / ((double)b->rise * e->rise);
-}
-
-static const vndf_masking_routine by_height = {reflect_by_height, transmit_by_height};
-
-const vndf_masking_routine *vndf_masking_of(const vndf_effects *e)
-{
-    static const vndf_masking_routine apart = {mask_apart, mask_apart},
-                                      cavities = {reflect_in_cavities, transmit_in_cavities},
-                                      none = {unmasked, unmasked};
-    switch (e->masking) {
-    case VNDF_MASKING_SEPARABLE: return &apart;
-    case VNDF_MASKING_V_CAVITIES: return &cavities;
-    case VNDF_MASKING_NONE: return &none;
-    default: return &by_height;
+    double rise = (double)b->rise;
+    switch (b->material->is.effects.masking) {
+    case VNDF_MASKING_HEIGHT_CORRELATED: break;
+    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->area, area_of(b, e));
+    case VNDF_MASKING_V_CAVITIES:
+        return reflects ? masked_in_cavities(rise, e->rise, e->facing, e->wm.z)
+                        : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z);
+    case VNDF_MASKING_NONE: return 1.0 / (rise * e->rise);
     }
+    return by_height(b, e, reflects);
 }
 
 /* ---- normals ---- */
 
-const vndf_normals_routine *vndf_normals_of(const vndf_effects *e)
-{
-    static const vndf_normals_routine routines[VNDF_NORMALS_V_CAVITY + 1] = {
-        [VNDF_NORMALS_VISIBLE] = {vndf_sample_visible, vndf_pdf},
-        [VNDF_NORMALS_BOUNDED] = {vndf_sample_bounded, vndf_pdf_bounded},
-        [VNDF_NORMALS_ALL] = {vndf_sample_all, vndf_pdf_all},
-        [VNDF_NORMALS_V_CAVITY] = {vndf_sample_v_cavity, vndf_pdf_v_cavity}};
-    return &routines[e->normals];
-}
-
-VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
+VNDF_RARE vndf_drawn_normal draw_in_mixture(const vndf_bsdf *b, float u1, float u2)
 {
     vndf_drawn_normal n;
-    if (b->view.kind != VNDF_HIT_MIXTURE)
-        return b->material->normals->draw(&b->view.of.one, u1, u2);
     n.wm = vndf_mixture_sample(&b->view.of.mixture, u1, u2, &n.density, NULL);
     n.weight = n.density > 0.0f ? vndf_mixture_visible(&b->view.of.mixture, n.wm) / n.density : 0.0f;
     return n;
 }
 
-VNDF_INLINE float pdf_of(const vndf_bsdf *b, const event *e)
+VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
-    vndf_vec3 wm = vndf_vec3_of((float)e->wm.x, (float)e->wm.y, (float)e->wm.z);
-    return b->view.kind == VNDF_HIT_MIXTURE ? vndf_mixture_pdf(&b->view.of.mixture, wm)
-                                            : b->material->normals->pdf(&b->view.of.one, wm);
+    if (b->view.kind == VNDF_HIT_MIXTURE)
+        return draw_in_mixture(b, u1, u2);
+    switch (b->material->is.effects.normals) {
+    case VNDF_NORMALS_VISIBLE: break;
+    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->view.of.one, u1, u2);
+    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->view.of.one, u1, u2);
+    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->view.of.one, u1, u2);
+    }
+    return vndf_sample_visible(&b->view.of.one, u1, u2);
+}
+
+VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
+{
+    if (b->view.kind == VNDF_HIT_MIXTURE)
+        return vndf_mixture_pdf(&b->view.of.mixture, wm);
+    switch (b->material->is.effects.normals) {
+    case VNDF_NORMALS_VISIBLE: break;
+    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&b->view.of.one, wm);
+    case VNDF_NORMALS_ALL: return vndf_pdf_all(&b->view.of.one, wm);
+    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&b->view.of.one, wm);
+    }
+    return vndf_pdf(&b->view.of.one, wm);
 }
 
 /* ---- samples ---- */
@@ -200,15 +149,10 @@ VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, c
         s->weight[i] = f ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : bare;
 }
 
-VNDF_INLINE const double *reflectances(const vndf_bsdf *b, seen_cosine c, double f[VNDF_WAVELENGTHS])
-{
-    b->material->fresnel->reflectance(&b->material->is, c, b->eta, f);
-    return f;
-}
-
-/* The two lobes at a drawn normal. Reflection has the reflectances f, or forms them where there is `fresnel`. */
+/* The two lobes at a drawn normal. Bare reflection is height-correlated, without a Fresnel term; other reflection has
+ * the reflectances f, or forms them where f is NULL. */
 VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
-                         double part, int fresnel, const vndf_masking_routine *masking, vndf_scattered *s)
+                         double part, const int bare, vndf_scattered *s)
 {
     double own[VNDF_WAVELENGTHS];
     event e = reflected_at(vndf_direction(b->wi), vndf_direction(n->wm), c);
@@ -216,80 +160,71 @@ VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_co
         vndf_scatter_nothing(s);
         return;
     }
-    if (fresnel)
-        f = reflectances(b, c, own);
-    double masked = masking->reflection(b, &e);
-    set_scattered(b, n, &e, masked, f, part, VNDF_LOBE_REFLECTION, s);
+    if (!bare && !f) {
+        vndf_reflectances(b->material, c, b->eta, own);
+        f = own;
+    }
+    set_scattered(b, n, &e, bare ? by_height(b, &e, 1) : masked(b, &e, 1), f, part, VNDF_LOBE_REFLECTION, s);
 }
 
 VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
                           double part, vndf_scattered *s)
 {
     event e = refracted_at(vndf_direction(b->wi), vndf_direction(n->wm), c, b->eta);
-    e.rise = (double)vndf_hit_cosine(&b->view, up_of(&e));
-    if (!e.met || !(e.rise > 0.0)) {
+    if (!goes_up(b, &e) || !e.met) {
         vndf_scatter_nothing(s);
         return;
     }
-    double masked = b->carried * b->material->masking->transmission(b, &e);
-    set_scattered(b, n, &e, masked, f, part, b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION, s);
+    vndf_lobe lobe = b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
+    set_scattered(b, n, &e, b->carried * masked(b, &e, 0), f, part, lobe, s);
 }
 
-VNDF_INLINE seen_cosine seen(const vndf_bsdf *b, const vndf_drawn_normal *n)
-{
-    return seen_cosine_of(vndf_direction(b->wi), vndf_direction(n->wm));
-}
-
-/* Reflection without a Fresnel term, height-correlated. */
 static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
     const seen_cosine c = {dot_of(vndf_direction(b->wi), vndf_direction(n->wm)), 0.0};
     (void)u3;
-    reflect(b, n, c, NULL, 1.0, 0, &by_height, s);
-}
-
-static void scatter_reflected(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
-{
-    (void)u3;
-    reflect(b, n, seen(b, n), NULL, 1.0, 1, b->material->masking, s);
-}
-
-static void scatter_through(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
-{
-    double f[VNDF_WAVELENGTHS];
-    seen_cosine c = seen(b, n);
-    (void)u3;
-    reflectances(b, c, f);
-    transmit(b, n, c, f, 1.0, s);
+    reflect(b, n, c, NULL, 1.0, 1, s);
 }
 
 /* Numbers outside [0, 1] do not choose what never happens. */
-static void scatter_both(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
+static void scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    double f[VNDF_WAVELENGTHS];
-    seen_cosine c = seen(b, n);
-    reflectances(b, c, f);
-    double part = vndf_mean_of(b->material, f);
+    seen_cosine c = seen_cosine_of(vndf_direction(b->wi), vndf_direction(n->wm));
+    vndf_lobes lobes = b->material->is.effects.lobes;
+    double f[VNDF_WAVELENGTHS], part = 0.0;
+    if (lobes == VNDF_LOBES_REFLECTION) {
+        reflect(b, n, c, NULL, 1.0, 0, s);
+        return;
+    }
+    vndf_reflectances(b->material, c, b->eta, f);
+    if (lobes == VNDF_LOBES_BOTH)
+        part = vndf_mean_of(b->material, f);
     if ((part > 0.0 && u3 < part) || !(part < 1.0))
-        reflect(b, n, c, f, part, 0, b->material->masking, s);
+        reflect(b, n, c, f, part, 0, s);
     else
         transmit(b, n, c, f, 1.0 - part, s);
+}
+
+static void sample_bare(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+{
+    vndf_drawn_normal n = draw(b, u[0], u[1]);
+    scatter_bare(b, &n, u[2], s);
 }
 
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_drawn_normal n = draw(b, u[0], u[1]);
-    b->material->single->scatter(b, &n, u[2], s);
+    scatter(b, &n, u[2], s);
 }
 
 /* ---- values and densities ---- */
 
 /* f and the density towards a direction; the density is that of the lobe times the part of the samples that take
  * it. */
-VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *pdf, vndf_lobes lobes,
-                      const vndf_fresnel_routine *fresnel, const vndf_masking_routine *masking)
+VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *pdf, const int bare)
 {
     const vndf_material *m = b->material;
+    vndf_lobes lobes = bare ? VNDF_LOBES_REFLECTION : m->is.effects.lobes;
     vndf_vec3 wo = vndf_turned(given, b->side);
     float rise = vndf_hit_cosine(&b->view, wo);
     int reflects = rise > 0.0f;
@@ -302,57 +237,44 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
     if (!e.met)
         return;
     double f[VNDF_WAVELENGTHS];
+    vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
     e.rise = fabs((double)rise);
-    const seen_cosine c = {e.facing, reflects ? reflecting_rest(e, from, to) : e.rest};
-    if (value || lobes == VNDF_LOBES_BOTH)
-        fresnel->reflectance(&m->is, c, b->eta, f);
+    if (!bare && (value || lobes == VNDF_LOBES_BOTH)) {
+        const seen_cosine c = {e.facing, reflects ? reflecting_rest(e, from, to) : e.rest};
+        vndf_reflectances(m, c, b->eta, f);
+    }
     if (value) {
-        double masked = reflects ? masking->reflection(b, &e) : b->carried * masking->transmission(b, &e);
-        vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
-        double shape = (double)b->tilt * (double)vndf_hit_ndf(&b->view, wm) * e.facing * e.jacobian * masked;
+        double g = bare ? by_height(b, &e, 1) : reflects ? masked(b, &e, 1) : b->carried * masked(b, &e, 0);
+        double shape = (double)b->tilt * (double)vndf_hit_ndf(&b->view, wm) * e.facing * e.jacobian * g;
         for (int i = 0; i < m->is.wavelengths; i++)
-            value[i] = vndf_density_from(shape * (reflects ? f[i] : 1.0 - f[i]));
+            value[i] = vndf_density_from(bare ? shape : shape * (reflects ? f[i] : 1.0 - f[i]));
     }
     if (pdf) {
         double mean = lobes == VNDF_LOBES_BOTH ? vndf_mean_of(m, f) : 1.0;
         double part = reflects || lobes != VNDF_LOBES_BOTH ? mean : 1.0 - mean;
-        *pdf = vndf_density_from(part * ((double)pdf_of(b, &e) * e.jacobian));
+        *pdf = vndf_density_from(part * ((double)pdf_of(b, wm) * e.jacobian));
     }
 }
 
 static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     (void)seed;
-    look(b, wo, value, pdf, VNDF_LOBES_REFLECTION, &total, &by_height);
+    look(b, wo, value, pdf, 1);
 }
 
-static void eval_reflected(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     (void)seed;
-    look(b, wo, value, pdf, VNDF_LOBES_REFLECTION, b->material->fresnel, b->material->masking);
-}
-
-static void eval_through(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    (void)seed;
-    look(b, wo, value, pdf, VNDF_LOBES_TRANSMISSION, b->material->fresnel, b->material->masking);
-}
-
-static void eval_both(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    (void)seed;
-    look(b, wo, value, pdf, VNDF_LOBES_BOTH, b->material->fresnel, b->material->masking);
+    look(b, wo, value, pdf, 0);
 }
 
 const vndf_routines *vndf_single_of(const vndf_effects *e)
 {
-    static const vndf_routines bare = {NULL, sample, eval_bare, scatter_bare},
-                               reflection = {NULL, sample, eval_reflected, scatter_reflected},
-                               transmission = {NULL, sample, eval_through, scatter_through},
-                               lobes = {NULL, sample, eval_both, scatter_both};
-    if (e->lobes != VNDF_LOBES_REFLECTION)
-        return e->lobes == VNDF_LOBES_BOTH ? &lobes : &transmission;
-    return e->fresnel == VNDF_FRESNEL_NONE && e->masking == VNDF_MASKING_HEIGHT_CORRELATED ? &bare : &reflection;
+    static const vndf_routines bare = {NULL, sample_bare, eval_bare, scatter_bare},
+                               others = {NULL, sample, eval, scatter};
+    int is_bare = e->lobes == VNDF_LOBES_REFLECTION && e->fresnel == VNDF_FRESNEL_NONE &&
+                  e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
+    return is_bare ? &bare : &others;
 }
 
 /* ---- retroreflection ----

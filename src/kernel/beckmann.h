@@ -91,10 +91,11 @@ HERE real beckmann_exponent(beckmann_law v, real x, real d)
     return t * (t - 2.0f * v.around * v.bound);
 }
 
-/* The density of the slopes; no exponent is below -80. */
+/* The density of the slopes; 0 where it underflows, as P22 does: of nearly level normals the least float is times z^-3,
+ * which is much. */
 HERE real beckmann_slopes(beckmann_law v, real x, real y, real d)
 {
-    return 1.12837917f * exp_near(most(-(beckmann_exponent(v, x, d) + y * y), set(-80.0f))) * d / v.whole;
+    return 1.12837917f * exp_of(-(beckmann_exponent(v, x, d) + y * y)) * d / v.whole;
 }
 
 /* The factor K of a normal that faces w, facing = w.(x, y, z) > 0: never 0. */

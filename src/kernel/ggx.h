@@ -20,10 +20,10 @@ typedef struct ggx_view {
     real cosine, sine, half_sine, half_cosine, sine2, cosine2, area;
 } ggx_view;
 
-/* Of a direction: its azimuth, its length across z and L + |vz|, by which areas and half angles are sums. Closer than
- * 1e-10 to z a direction has no azimuth and that length: x is it. */
+/* Of a direction: its azimuth, its length across z, the square of that and L + |vz|, by which areas and half angles are
+ * sums. Closer than 1e-10 to z a direction has no azimuth and that length: x is it. */
 typedef struct ggx_direction {
-    real cosine, sine, across, around;
+    real cosine, sine, across, across2, around;
 } ggx_direction;
 
 HERE ggx_direction ggx_direction_of(real vx, real vy, real vz)
@@ -31,8 +31,19 @@ HERE ggx_direction ggx_direction_of(real vx, real vy, real vz)
     real across2 = vx * vx + vy * vy, across = most(root(across2), set(1e-10f)), per = 1.0f / across;
     mask leans = less(set(1e-20f), across2);
     const ggx_direction w = {pick(leans, vx * per, set(1.0f)), pick(leans, vy * per, set(0.0f)), across,
-                             root(across2 + vz * vz) + size(vz)};
+                             most(across2, set(1e-20f)), root(across2 + vz * vz) + size(vz)};
     return w;
+}
+
+/* The projected area without a difference: (L + vz)/2, below the horizon (L^2 - vz^2)/(2 (L - vz)). Measured: 3e-7. */
+HERE real ggx_area_of(ggx_direction w, real vz)
+{
+    return 0.5f * pick(less(vz, set(0.0f)), w.across2 / w.around, w.around);
+}
+
+HERE real ggx_area(real vx, real vy, real vz)
+{
+    return ggx_area_of(ggx_direction_of(vx, vy, vz), vz);
 }
 
 HERE ggx_view ggx_see(real vx, real vy, real vz)
@@ -40,16 +51,8 @@ HERE ggx_view ggx_see(real vx, real vy, real vz)
     ggx_direction w = ggx_direction_of(vx, vy, vz);
     mask below = less(vz, set(0.0f));
     real sine = pick(below, w.around, w.across), cosine = pick(below, w.across, w.around);
-    const ggx_view v = {
-        w.cosine, w.sine, sine, cosine, sine * sine, cosine * cosine, 0.5f * cosine * cosine / w.around};
+    const ggx_view v = {w.cosine, w.sine, sine, cosine, sine * sine, cosine * cosine, ggx_area_of(w, vz)};
     return v;
-}
-
-/* The projected area of w; measured: 3e-7. */
-HERE real ggx_area(real vx, real vy, real vz)
-{
-    ggx_view v = ggx_see(vx, vy, vz);
-    return v.area;
 }
 
 /* P22 of the slope over z^4: D = p22 len^4/|det M|. */

@@ -5,10 +5,18 @@
 #include "sampler/sampler.h"
 #include "sampler/state.h"
 
+/* wi.wm with all its digits: at grazing angles it is a small rest of its terms. */
+static double facing_of(const vndf_view *view, vndf_vec3 wm)
+{
+    vndf_vec3 wi = view->wi;
+    return ((double)wi.x * wm.x + (double)wi.y * wm.y) + (double)wi.z * wm.z;
+}
+
 /* The visible density over another one. */
 static float quotient(const vndf_view *view, vndf_vec3 wm, float density)
 {
-    return density > 0.0f ? vndf_visible(view, wm) / density : 0.0f;
+    float facing = most((float)facing_of(view, wm), 0.0f), area = most(vndf_view_own_area(view), 1e-37f);
+    return density > 0.0f ? vndf_view_ndf(view, wm) / density * (facing / area) : 0.0f;
 }
 
 static vndf_drawn_normal no_normal(void)
@@ -112,6 +120,21 @@ static int can_bound(const vndf_view *view)
     return view->distribution && view->wi.z > 0.0f && vndf_state_of(view)->f.uz > 0.0f;
 }
 
+/* At the edges of the square rounding may take wo to below the horizon: then wm is that of a wo just above it, and has
+ * the density of where it comes to. wo is twice (wi.wm) wm less wi, so wi + wo has its x and y, and z of wi. */
+static vndf_drawn_normal raised(const vndf_view *view, vndf_drawn_normal n)
+{
+    double facing = facing_of(view, n.wm);
+    if (2.0 * facing * n.wm.z > view->wi.z)
+        return n;
+    float x = 2.0f * (float)facing * n.wm.x, y = 2.0f * (float)facing * n.wm.y, z = view->wi.z + 1e-6f;
+    float per = 1.0f / root(x * x + y * y + z * z);
+    n.wm = (vndf_vec3){x * per, y * per, z * per};
+    n.density = vndf_pdf_bounded(view, n.wm);
+    n.weight = quotient(view, n.wm, n.density);
+    return n;
+}
+
 vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
 {
     if (!can_bound(view))
@@ -125,7 +148,7 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
     if (t.isotropic) {
         bounded_normal n =
             table_draw_bounded(table_of(view->distribution), s->of.table, t.alpha, t.slant, t.part, u1, u2);
-        return on_surface(view, &s->f, n.n);
+        return raised(view, on_surface(view, &s->f, n.n));
     }
     number_box b = box_of(view);
     vndf_drawn_normal d = vndf_sample_visible(view, b.begin1 + b.span1 * u1, b.begin2 + b.span2 * u2);
@@ -152,8 +175,7 @@ float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)
 {
     if (!can_bound(view) || !(wm.z >= 0.0f))
         return 0.0f;
-    float facing = view->wi.x * wm.x + view->wi.y * wm.y + view->wi.z * wm.z;
-    return 2.0f * facing * wm.z > view->wi.z
+    return 2.0 * facing_of(view, wm) * wm.z > view->wi.z
                ? frame_density(vndf_state_of(view)->f, vndf_pdf(view, wm) / part_kept(view, wm))
                : 0.0f;
 }

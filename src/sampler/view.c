@@ -195,8 +195,7 @@ VNDF_INLINE float unit_area(const vndf_distribution *d, const vndf_state *s)
 {
     if (d->kind == VNDF_KIND_TABLE)
         return law_area(table_of(d), s->of.table.v, vndf_is_below(s)) * frame_reach(s->f);
-    return d->kind == VNDF_KIND_GGX ? ggx_area(s->f.ux, s->f.uy, s->f.uz)
-                                    : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
+    return d->kind == VNDF_KIND_GGX ? s->of.ggx.area : beckmann_area(s->f.ux, s->f.uy, s->f.uz);
 }
 
 VNDF_INLINE float density(const vndf_view *view, unit_normal n)
@@ -350,8 +349,10 @@ float vndf_view_drawn_area(const vndf_view *view)
 
 float vndf_view_area(const vndf_view *view, vndf_vec3 w)
 {
-    vndf_mapped surface = {view->distribution, vndf_state_of(view)->f.m};
-    return look_along(surface, w).area;
+    if (!view->distribution)
+        return 0.0f;
+    frame f = frame_of(vndf_state_of(view)->f.m, w.x, w.y, w.z);
+    return area_along(view->distribution, &f) * f.size;
 }
 
 float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)

@@ -27,21 +27,24 @@ typedef struct sphere_result {
     size_t classes;
 } sphere_result;
 
-/* A frame about the mean normal. */
-static void sphere_turn(sphere_map *map, double mean_x, double mean_y)
-{
-    double per = 1 / sqrt(1 + mean_x * mean_x + mean_y * mean_y), along = 1 / sqrt(1 + mean_x * mean_x);
-    const double n[3] = {-mean_x * per, -mean_y * per, per}, x[3] = {along, 0, mean_x * along};
-    for (int i = 0; i < 3; i++) {
-        map->z[i] = n[i];
-        map->x[i] = x[i];
-        map->y[i] = n[(i + 1) % 3] * x[(i + 2) % 3] - n[(i + 2) % 3] * x[(i + 1) % 3];
-    }
-}
-
 static double along(const double axis[3], vndf_vec3 w)
 {
     return axis[0] * (double)w.x + axis[1] * (double)w.y + axis[2] * (double)w.z;
+}
+
+/* A frame about the mean normal, whose parts are the cosines of the axes. */
+static sphere_map sphere_map_of(const vndf_bsdf *bsdf, vndf_vec3 wi)
+{
+    sphere_map map = {.bsdf = bsdf};
+    for (int i = 0; i < 3; i++)
+        map.z[i] = (double)vndf_bsdf_cosine(bsdf, (vndf_vec3){(float)(i == 0), (float)(i == 1), (float)(i == 2)});
+    double per = 1 / hypot(map.z[0], map.z[2]);
+    map.x[0] = map.z[2] * per;
+    map.x[2] = -map.z[0] * per;
+    for (int i = 0; i < 3; i++)
+        map.y[i] = map.z[(i + 1) % 3] * map.x[(i + 2) % 3] - map.z[(i + 2) % 3] * map.x[(i + 1) % 3];
+    map.centre = atan2(-along(map.y, wi), -along(map.x, wi));
+    return map;
 }
 
 /* 0 if the sample is lost. */
@@ -59,12 +62,10 @@ static int sphere_draw(const sphere_map *map, unsigned long long *state, double 
 static double sphere_pdf(double z, double phi, const void *of)
 {
     const sphere_map *map = of;
-    double across = sqrt((1 - z) * (1 + z)), a = across * cos(map->centre + phi),
-           b = across * sin(map->centre + phi);
-    vndf_vec3 w = {(float)(a * map->x[0] + b * map->y[0] + z * map->z[0]),
-                   (float)(a * map->x[1] + b * map->y[1] + z * map->z[1]),
-                   (float)(a * map->x[2] + b * map->y[2] + z * map->z[2])};
-    return (double)vndf_bsdf_pdf(map->bsdf, w);
+    double across = sqrt((1 - z) * (1 + z)), a = across * cos(map->centre + phi), w[3];
+    for (int i = 0; i < 3; i++)
+        w[i] = a * map->x[i] + across * sin(map->centre + phi) * map->y[i] + z * map->z[i];
+    return (double)vndf_bsdf_pdf(map->bsdf, (vndf_vec3){(float)w[0], (float)w[1], (float)w[2]});
 }
 
 /* The surface itself is a border of z. */
@@ -88,11 +89,7 @@ static void sphere_place(grid *g, const sphere_map *map, unsigned long long *sta
 static sphere_result sphere_test(const vndf_bsdf *bsdf, vndf_vec3 wi, size_t samples, unsigned long long *state)
 {
     static grid g;
-    const vndf_vec3 x = {1, 0, 0}, y = {0, 1, 0}, z_axis = {0, 0, 1};
-    double up = (double)vndf_bsdf_cosine(bsdf, z_axis);
-    sphere_map map = {.bsdf = bsdf};
-    sphere_turn(&map, -(double)vndf_bsdf_cosine(bsdf, x) / up, -(double)vndf_bsdf_cosine(bsdf, y) / up);
-    map.centre = atan2(-along(map.y, wi), -along(map.x, wi));
+    sphere_map map = sphere_map_of(bsdf, wi);
     sphere_place(&g, &map, state);
     double mass = grid_expect(&g, sphere_pdf, &map, (double)samples, 0.02 / (double)samples), z, phi;
     for (size_t i = 0; i < samples; i++)

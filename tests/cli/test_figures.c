@@ -99,15 +99,9 @@ static const char *const of_table[] = {"tool",           "bytes",      "memory",
                                        "normalization",  "scale",      "tv",         "tv_theta",  "tv_above",
                                        "tv_above_theta", "max_weight", "area_error", "ndf_error", "weight_bounded",
                                        "consistency",    "hidden",     "finest",     "verdict",   "horizon_power"};
-static const char *const of_family[] = {"knots",
-                                        "low",
-                                        "high",
-                                        "linear_in",
-                                        "distance",
-                                        "grazing",
-                                        "tables_tv",
-                                        "knot at 1.8 parameter bytes",
-                                        "verdict mixtures within"};
+static const char *const of_family[] = {"knots",         "low",     "high",      "linear_in",
+                                        "distance",      "grazing", "tables_tv", "knot at 1.8 parameter bytes",
+                                        "verdict within"};
 
 static double number_behind(const char *text, const char *key)
 {
@@ -157,6 +151,29 @@ static void test_check(void)
     free(quiet);
 }
 
+/* Rows: from straight above GGX of alpha 1 keeps 1 - log 2; a file has a line for each angle and roughness. */
+static void test_albedo(void)
+{
+    char *text = PRINTED(NULL, "albedo", "ggx", "--alpha", "0,1", "--theta", "0,90");
+    char *csv =
+        PRINTED(NULL, "albedo", "ggx", "--eta", "1.5", "--alpha", "0.2,1", "--theta", "0,45,80", "-o", "-");
+    const char *row = strstr(text, "\n      0 ");
+    double first, second;
+    int lines = 0;
+    TEST_HAS(text, "ggx, mirror\n");
+    TEST(row && sscanf(row, " 0 %lf %lf", &first, &second) == 2);
+    TEST_NEAR(first, 1, 1e-4);
+    TEST_NEAR(second, 1 - log(2), 1e-3);
+    TEST_HAS(text, "\n     90   1.00000   1.00000\naverage");
+    for (const char *at = csv; *at; at += strcspn(at, "\n") + 1)
+        lines++;
+    TEST(lines == 13 &&
+         strncmp(csv, "distribution,eta,side,alpha,theta,albedo,average\n\"ggx\",1.5,1,0.2,0,", 66) == 0);
+    TEST_HAS(csv, "\n\"ggx\",1.5,-1,1,80,0.");
+    free(text);
+    free(csv);
+}
+
 int main(void)
 {
     char folder[] = "figures.XXXXXX", *built, *told, *csv;
@@ -190,6 +207,7 @@ int main(void)
     free(csv);
     test_verdicts();
     test_check();
+    test_albedo();
     TEST(remove("t") == 0 && remove("m") == 0 && remove("c") == 0 && remove("rows.csv") == 0);
     TEST(remove("two.vndfs") == 0);
     return run_end(folder);

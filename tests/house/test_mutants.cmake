@@ -1,10 +1,92 @@
-# A test of the tests: each defect of tests/house/mutants.txt, planted in a copy of the sources, makes the test fail
-# that is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text
-# that is no longer found exactly once is an error too: the list has to follow the sources.
+# A test of the tests: each defect of tests/house/mutants.txt, planted in a copy of its file, makes the test fail that
+# is named for it; without a defect that test passes. A defect that survives is a gap in the suite. A text that is no
+# longer found exactly once is an error too: the list has to follow the sources.
 #
-# The copy is configured once with -O1; a defect costs what depends on its file, and one test. Planted are those
-# that are marked `(always)`; with ALL, all of them.
+# Nothing is built twice: of the objects that the test's program takes from the libraries of this build, those that
+# depend on the file are compiled with the defect and linked in their place. Planted are the defects that are marked
+# `(always)`; with ALL, all of them.
 cmake_minimum_required(VERSION 3.16)
+
+set(commands ${BUILD}/compile_commands.json)
+if(NOT EXISTS ${commands} OR NOT EXISTS ${BUILD}/tests/CMakeFiles/test_invert.dir/link.txt)
+    message("SKIPPED: only builds by make tell how their programs are compiled and linked")
+    return()
+endif()
+file(REMOVE_RECURSE ${OUT})
+file(MAKE_DIRECTORY ${OUT})
+
+# Pairs of an object and the command that compiles it, separated by a blank.
+file(STRINGS ${commands} lines REGEX "\"(directory|command)\": ")
+set(compilations "")
+foreach(line IN LISTS lines)
+    string(REPLACE "\\\"" "\"" line "${line}") # JSON's
+    string(REPLACE "\\\\" "\\" line "${line}")
+    if(line MATCHES "\"directory\": \"(.*)\",")
+        set(directory ${CMAKE_MATCH_1})
+    elseif(line MATCHES "\"command\": \"(.* -o ([^ ]+\\.c\\.o) -c .*)\",")
+        list(APPEND compilations "${directory}/${CMAKE_MATCH_2} ${CMAKE_MATCH_1}")
+    endif()
+endforeach()
+
+# Links a program of the build's folder with these objects first, without `own` if that is not empty, as ${OUT}/TARGET;
+# sets status and output.
+macro(link folder target objects own)
+    file(READ ${folder}/CMakeFiles/${target}.dir/link.txt line)
+    string(REPLACE " ${own} " " " line "${line}")
+    string(REGEX REPLACE " -o [^ ]+ " " -o ${OUT}/${target} ${objects} " line "${line}")
+    separate_arguments(line UNIX_COMMAND "${line}")
+    execute_process(COMMAND ${line} ${ARGN} WORKING_DIRECTORY ${folder}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+endmacro()
+
+# Compiles what depends on ${file} of the program's objects, ${OUT}/copy before the sources, and links; sets status,
+# output and `objects`.
+macro(build_mutant folder target)
+    if(NOT DEFINED members_${target})
+        link(${folder} ${target} "" "" -Wl,-M)
+        string(REGEX MATCHALL "[^ /()\n]+\\.c\\.o" members_${target} "${output}")
+        list(REMOVE_DUPLICATES members_${target})
+    endif()
+    set(objects "")
+    set(own "")
+    set(status 0)
+    foreach(compilation IN LISTS compilations)
+        string(REGEX MATCH "^([^ ]+/([^ /]+)) (.*)$" all "${compilation}")
+        set(object ${CMAKE_MATCH_1})
+        set(line "${CMAKE_MATCH_3}")
+        if(NOT CMAKE_MATCH_2 IN_LIST members_${target} OR NOT status EQUAL 0)
+            continue()
+        endif()
+        file(READ ${object}.d depends)
+        string(FIND "${depends}" "/${file}" place)
+        if(place EQUAL -1)
+            continue()
+        endif()
+        string(REPLACE " -c ${SOURCE}/${file}" " -c ${OUT}/copy/${file}" line "${line}")
+        foreach(part src include tools tests)
+            string(REPLACE "-I${SOURCE}/${part} " "-I${OUT}/copy/${part} -I${SOURCE}/${part} " line "${line}")
+        endforeach()
+        string(MAKE_C_IDENTIFIER ${object} mutated)
+        string(REGEX REPLACE " -o [^ ]+ " " -O1 -w -o ${OUT}/${mutated}.o " line "${line}")
+        separate_arguments(line UNIX_COMMAND "${line}")
+        execute_process(COMMAND ${line} RESULT_VARIABLE status ERROR_VARIABLE output)
+        string(APPEND objects " ${OUT}/${mutated}.o")
+        if(object MATCHES "^${folder}/(CMakeFiles/${target}\\.dir/.*)$")
+            set(own ${CMAKE_MATCH_1})
+        endif()
+    endforeach()
+    if(status EQUAL 0)
+        link(${folder} ${target} "${objects}" "${own}")
+    endif()
+endmacro()
+
+# "walk 0" is the program test_walk with the argument 0.
+macro(run_check program)
+    string(REGEX MATCHALL "[^ ]+" words "${check}")
+    list(POP_FRONT words)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E env VNDF_TEST_QUICK=1 ${program} ${words}
+        WORKING_DIRECTORY ${OUT} TIMEOUT 120 RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+endmacro()
 
 file(READ ${SOURCE}/tests/house/mutants.txt text)
 # What separates and groups items of CMake's lists, out of the way.
@@ -14,120 +96,72 @@ string(REPLACE "]" "<close>" text "${text}")
 string(REGEX REPLACE "\n$" "" text "${text}")
 string(REPLACE "\n\n" ";" blocks "${text}")
 list(POP_FRONT blocks preface)
-
-function(unescape text result)
-    string(REPLACE "<semicolon>" ";" text "${text}")
-    string(REPLACE "<open>" "[" text "${text}")
-    string(REPLACE "<close>" "]" text "${text}")
-    set(${result} "${text}" PARENT_SCOPE)
-endfunction()
-
-# Sets check, always, defect, file, old and new of ${block}.
-macro(read_block)
-    if(NOT "${block}" MATCHES "^([^\n:(]+)( \\(always\\))?: ([^\n]+)\n([^\n]+)\n- ([^\n]+)\n\\+ ([^\n]+)$")
+list(LENGTH blocks count)
+if(count LESS 40)
+    message(FATAL_ERROR "tests/house/mutants.txt: ${count} defects are read")
+endif()
+foreach(block IN LISTS blocks)
+    if(NOT "${block}" MATCHES "^([^\n:(,]+)( \\(always\\))?, ([^:\n]+): ([^\n]+)\n- ([^\n]+)\n\\+ ([^\n]+)$")
         message(FATAL_ERROR "tests/house/mutants.txt: this is no defect:\n${block}")
     endif()
     set(check "${CMAKE_MATCH_1}")
     set(always "${CMAKE_MATCH_2}")
-    set(defect "${CMAKE_MATCH_3}")
-    set(file "${CMAKE_MATCH_4}")
-    set(old_text "${CMAKE_MATCH_5}")
-    set(new_text "${CMAKE_MATCH_6}")
-    unescape("${old_text}" old)
-    unescape("${new_text}" new)
-endmacro()
+    set(file "${CMAKE_MATCH_3}")
+    set(defect "${CMAKE_MATCH_4}")
+    set(old "${CMAKE_MATCH_5}")
+    set(new "${CMAKE_MATCH_6}")
+    foreach(text old new)
+        string(REPLACE "<semicolon>" ";" ${text} "${${text}}")
+        string(REPLACE "<open>" "[" ${text} "${${text}}")
+        string(REPLACE "<close>" "]" ${text} "${${text}}")
+    endforeach()
+    string(REGEX MATCH "^[^ ]+" name "${check}")
 
-set(chosen "")
-set(checks "")
-foreach(block IN LISTS blocks)
-    read_block()
     file(READ ${SOURCE}/${file} sound)
     string(FIND "${sound}" "${old}" first)
     string(FIND "${sound}" "${old}" last REVERSE)
     if(first EQUAL -1 OR NOT first EQUAL last)
         message(SEND_ERROR "tests/house/mutants.txt: '${defect}' does not find exactly once in ${file}:\n  ${old}")
-    elseif(ALL OR always)
-        list(APPEND chosen "${block}")
-        list(APPEND checks "${check}")
-    endif()
-endforeach()
-list(REMOVE_DUPLICATES checks)
-list(LENGTH chosen count)
-if(count LESS 5)
-    message(FATAL_ERROR "tests/house/mutants.txt: ${count} defects are read")
-endif()
-
-# ---- the copy -----------------------------------------------------------------------------------
-
-set(copy ${OUT}/copy)
-file(REMOVE_RECURSE ${copy})
-foreach(part CMakeLists.txt src include tools tests tables)
-    file(COPY ${SOURCE}/${part} DESTINATION ${copy})
-endforeach()
-execute_process(
-    COMMAND ${CMAKE_COMMAND} -S ${copy} -B ${copy}/build -G ${GENERATOR} -DCMAKE_C_COMPILER=${C_COMPILER}
-        -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS_RELEASE=-O1
-    RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-if(NOT status EQUAL 0)
-    message(FATAL_ERROR "the copy cannot be configured:\n${output}")
-endif()
-
-# "walk_eval 0" is the program test_walk_eval with the argument 0.
-macro(build_checks)
-    list(TRANSFORM ${ARGV0} REPLACE "^([^ ]+).*$" "test_\\1" OUTPUT_VARIABLE targets)
-    list(REMOVE_DUPLICATES targets)
-    execute_process(COMMAND ${CMAKE_COMMAND} --build ${copy}/build --target ${targets} --parallel 2
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-endmacro()
-
-macro(run_check)
-    separate_arguments(words UNIX_COMMAND "${check}")
-    list(POP_FRONT words name)
-    execute_process(COMMAND ${CMAKE_COMMAND} -E env VNDF_TEST_QUICK=1 ${copy}/build/tests/test_${name} ${words}
-        WORKING_DIRECTORY ${OUT} TIMEOUT 120
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-endmacro()
-
-# A test that cannot run on this machine says so, and its defects are not planted.
-set(skipped "")
-build_checks(checks)
-if(NOT status EQUAL 0)
-    message(FATAL_ERROR "the copy cannot be built:\n${output}")
-endif()
-foreach(check IN LISTS checks)
-    run_check()
-    if(NOT status EQUAL 0)
-        message(SEND_ERROR "without a defect '${check}' fails:\n${output}")
-        list(APPEND skipped "${check}")
-    elseif(output MATCHES "SKIPPED: [^\n]*")
-        message("not planted are the defects for ${check}: ${CMAKE_MATCH_0}")
-        list(APPEND skipped "${check}")
-    endif()
-endforeach()
-
-# ---- one defect at a time -----------------------------------------------------------------------
-
-foreach(block IN LISTS chosen)
-    read_block()
-    if("${check}" IN_LIST skipped)
+        continue()
+    elseif(NOT ALL AND NOT always)
         continue()
     endif()
-    file(READ ${SOURCE}/${file} sound)
+
+    string(MAKE_C_IDENTIFIER "passes_${check}" passes)
+    if(NOT DEFINED ${passes})
+        run_check(${BUILD}/tests/test_${name})
+        set(${passes} OFF)
+        if(NOT status EQUAL 0)
+            message(SEND_ERROR "without a defect '${check}' fails:\n${output}")
+        elseif(output MATCHES "SKIPPED: [^\n]*") # on this machine
+            message("not planted are the defects for ${check}: ${CMAKE_MATCH_0}")
+        else()
+            set(${passes} ON)
+        endif()
+    endif()
+    if(NOT ${passes})
+        continue()
+    endif()
+
     string(REPLACE "${old}" "${new}" unsound "${sound}")
-    file(WRITE ${copy}/${file} "${unsound}")
-    build_checks(check)
-    file(WRITE ${copy}/${file} "${sound}")
-    if(NOT status EQUAL 0)
-        message(SEND_ERROR "with '${defect}' the copy cannot be built:\n${output}")
+    file(WRITE ${OUT}/copy/${file} "${unsound}")
+    build_mutant(${BUILD}/tests test_${name})
+    set(changed "${objects}")
+    if(status EQUAL 0 AND compilations MATCHES "VNDF_PROGRAM=[^;]*/test_${name}\\.c(;|$)")
+        build_mutant(${BUILD} vndf_program)
+        string(APPEND changed "${objects}")
+        set(ENV{VNDF_PROGRAM} ${OUT}/vndf_program)
+    endif()
+    file(REMOVE_RECURSE ${OUT}/copy)
+    if(NOT changed OR NOT status EQUAL 0)
+        message(SEND_ERROR "with '${defect}' test_${name} cannot be built:\n${output}")
         continue()
     endif()
-    string(TIMESTAMP begin "%s")
-    run_check()
-    string(TIMESTAMP end "%s")
-    math(EXPR seconds "${end} - ${begin}")
+    run_check(${OUT}/test_${name})
+    unset(ENV{VNDF_PROGRAM})
     if(status EQUAL 0)
         message(SEND_ERROR "survives: ${defect}; '${check}' passes, where it has to fail")
     else()
-        message("noticed by ${check} (${seconds} s): ${defect}")
+        message("noticed by ${check}: ${defect}")
     endif()
 endforeach()

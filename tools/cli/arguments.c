@@ -109,30 +109,28 @@ static size_t choices_of(const option_term *term, char text[LISTED_LENGTH], cons
     return count;
 }
 
-/* `value` is the word behind it, or NULL. */
-static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
+/* `value` is what it was given, or the word behind it, or NULL. */
+static void refuse_option(const arguments *given, const char *word, size_t length, const char *value)
 {
-    char name[HINT_LENGTH + 1], known[WORDS_MAX][HINT_LENGTH];
-    const char *names[WORDS_MAX], *hint = NULL;
-    option_term term;
-    size_t count = 0;
-    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH, word);
-    for (const char *at = given->help; count < WORDS_MAX && next_option(&at, &term); count++) {
-        snprintf(known[count], HINT_LENGTH, "%.*s", (int)term.name_length, term.name);
-        names[count] = known[count];
-    }
-    hint = length > 2 ? nearest_word(name, names, count) : NULL;
+    char name[HINT_LENGTH];
+    option_term term, hint = {.name = NULL};
+    size_t least = vndf_word_slip(length);
+    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH - 1, word);
     const char letter = name[strspn(name, "-")];
-    if (isalpha((unsigned char)letter) && length <= 3) { /* "-a 0.3" or "--a=0.3" */
-        if (value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term))
-            return complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter,
-                            value);
-        for (size_t i = 0; i < count && !hint; i++)
-            hint = strncmp(names[i], "--", 2) == 0 && names[i][2] == letter ? names[i] : NULL;
+    const int is_letter = isalpha((unsigned char)letter) && length <= 3; /* "-a 0.3" or "--a=0.3" */
+    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term)) {
+        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
+        return;
     }
-    if (hint)
-        return complain(given->command, "there is no option '%s'; did you mean '%s'?", name, hint);
-    return complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
+    for (const char *at = given->help; next_option(&at, &term);)
+        if (is_letter ? !hint.name && term.name[1] == '-' && term.name[2] == letter
+                      : vndf_word_is_nearer(term.name, term.name_length, name, &least))
+            hint = term;
+    if (hint.name)
+        complain(given->command, "there is no option '%s'; did you mean '%.*s'?", name, (int)hint.name_length,
+                 hint.name);
+    else
+        complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
@@ -145,7 +143,7 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     option_term term, other;
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
     if (!find_option(given->help, word, length, &term))
-        return refuse_option(given, word, length, equals ? equals + 1 : next), 0;
+        return (refuse_option(given, word, length, equals ? equals + 1 : next), 0);
     snprintf(name, sizeof name, "%.*s", (int)length, word);
     if (!term.value && equals)
         return complain(given->command, "%s takes no value", name), 0;

@@ -33,6 +33,8 @@ void figures_json_text(FILE *file, const char *text)
     fputc('"', file);
 }
 
+enum { COLUMNS = 100 }; /* of a record; what is longer goes on below */
+
 static void note_unit(figures *f, const char *name, const char *unit)
 {
     for (int i = 0; i < f->units; i++)
@@ -47,8 +49,14 @@ static void put(figures *f, const char *name, const char *text, int is_word, con
 {
     const int is_first = f->in_object++ == 0;
     if (f->form == FIGURES_TEXT) {
-        fprintf(f->file, "%s%s %s%s%s", f->list ? " " : "", name, text, *unit ? " " : "", unit);
-        fputs(f->list ? "" : "\n", f->file);
+        char whole[COLUMNS];
+        int length = snprintf(whole, sizeof whole, " %s %s%s%s", name, text, *unit ? " " : "", unit);
+        if (f->list && f->column + length > COLUMNS) {
+            fputs("\n   ", f->file);
+            f->column = 3;
+        }
+        f->column += length;
+        fprintf(f->file, f->list ? " %s %s%s%s" : "%s %s%s%s\n", name, text, *unit ? " " : "", unit);
     } else if (f->form == FIGURES_JSON) {
         fprintf(f->file, "%s%s\"%s\": ", is_first ? f->list ? "" : "{" : ",",
                 f->list ? is_first ? "" : " " : "\n  ", name);
@@ -100,7 +108,7 @@ void figures_record(figures *f)
     if (f->form == FIGURES_JSON)
         fputs(f->records ? ",\n    {" : "\n    {", f->file);
     else if (f->form == FIGURES_TEXT)
-        fputs(f->list, f->file);
+        f->column = fprintf(f->file, "%s", f->list);
     f->records++;
     f->in_object = 0;
 }

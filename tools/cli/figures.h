@@ -20,6 +20,7 @@ typedef struct figures {
     const char *list; /* the list that is open, or NULL */
     int in_object;    /* figures that the object at hand has already */
     int records;      /* of the list */
+    int column;       /* where its text goes on */
     struct figures_unit {
         const char *list, *name, *unit;
     } unit[FIGURES_MAX]; /* for JSON, which has them at its end */
@@ -37,7 +38,8 @@ void figures_number(figures *f, const char *name, int digits, double x, const ch
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* A list of records: each is a line of text that begins with the name of the list. */
+/* A list of records: each is a line of text that begins with the name of the list, and goes on below after 100
+ * columns. */
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);

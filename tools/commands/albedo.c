@@ -92,10 +92,7 @@ static int print(FILE *file, const void *of, figures_form form)
         table_number(&t, "albedo", "%.9g", (double)at(r, side, theta, alpha));
         table_number(&t, "average", "%.9g", (double)vndf_albedo_average(r->albedo, (float)alpha, side ? -1 : 1));
     }
-    int good = form == FIGURES_TEXT       ? 1
-               : form == FIGURES_CSV      ? table_print_csv(file, &t)
-               : form == FIGURES_MARKDOWN ? table_print_markdown(file, &t)
-                                          : table_print_json(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }

@@ -211,14 +211,14 @@ static int check_chi_square(checking *c)
         figures_number(&c->to, "alpha_x", 3, (double)surface.alpha_x, "");
         figures_number(&c->to, "alpha_y", 3, (double)surface.alpha_y, "");
         figures_number(&c->to, "theta", 3, theta, "degrees");
-        figures_truth(&c->to, "blind", found.blind);
+        if (found.blind)
+            figures_truth(&c->to, "blind", 1);
         tell(c, "bins", (double)found.bins);
-        tell(c, "pooled", (double)found.pooled);
-        figures_number(&c->to, "statistic", 6, found.statistic, "");
         figures_number(&c->to, "p", 4, found.p, "");
         figures_number(&c->to, "mass_error", 2, found.blind ? 0 : found.mass - 1, "");
         figures_number(&c->to, "mass_limit", 2, mass_limit(&found), "");
-        tell(c, "unclaimed", (double)found.unclaimed);
+        if (found.unclaimed)
+            tell(c, "unclaimed", (double)found.unclaimed);
         judge(c, is_good(&found, &surface, wi));
     }
     figures_list_end(&c->to);

@@ -57,12 +57,6 @@ static const char head_end[] =
     "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all;\n"
     "every command takes both\n";
 
-/* What every command takes. */
-static const char every_help[] = "\n"
-                                 "in every command:\n"
-                                 "  --json           prints its figures as JSON\n"
-                                 "  -q               prints neither figures nor progress\n";
-
 void command_list_text(char text[HELP_MAX])
 {
     size_t at = (size_t)snprintf(text, HELP_MAX, "%s", head_begin);
@@ -72,12 +66,21 @@ void command_list_text(char text[HELP_MAX])
     snprintf(text + at, HELP_MAX - at, "%s", head_end);
 }
 
+/* What every command takes stands before its last example. */
 void command_help_text(const subcommand *of, char text[HELP_MAX])
 {
+    static const char every[] = "\n"
+                                "  --json           prints figures as JSON, here and in every command\n"
+                                "  -q               prints neither figures nor progress\n";
+    const size_t length = sizeof every - 1;
+    char *last = text;
     text[0] = '\0';
     for (const char *const *chapter = of->help; *chapter; chapter++)
-        strncat(text, *chapter, HELP_MAX - 1 - strlen(text));
-    strncat(text, every_help, HELP_MAX - 1 - strlen(text));
+        strncat(text, *chapter, HELP_MAX - length - 1 - strlen(text));
+    for (char *at = text; (at = strstr(at, "\nexample: ")) != NULL; at++)
+        last = at;
+    memmove(last + length, last, strlen(last) + 1);
+    memcpy(last, every, length);
 }
 
 /* `bench effects` is two words. */

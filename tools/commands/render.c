@@ -176,7 +176,7 @@ static int print_rows(const render_work *w, const noise *noises, const agreement
         table_word(&t, "verdict", i || w->against ? verdict_names[agrees[i].is] : "");
         table_word(&t, "interrupted", is_whole ? "no" : "yes");
     }
-    int good = w->has_json ? table_print_json(stdout, &t) : table_print_text(stdout, &t);
+    int good = table_print(stdout, &t, w->has_json ? FIGURES_JSON : FIGURES_TEXT);
     table_free(&t);
     return good;
 }

@@ -1,8 +1,6 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
  * thing after the other, and has the page written; evidence/page/report.h maps the rest. */
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
@@ -37,18 +35,6 @@ static const char student[] = "student-t:2.5";
 
 /* ---- what is measured ---------------------------------------------------------------------------- */
 
-const evidence_row *report_row(const report *r, const char *called, const char *distribution,
-                               const char *instructions)
-{
-    for (size_t i = 0; i < r->rows.count; i++) {
-        const evidence_row *of = &r->rows.row[i];
-        if (strcmp(of->method, called) == 0 && strcmp(of->distribution, distribution) == 0 &&
-            strcmp(of->instructions, instructions) == 0)
-            return of;
-    }
-    return NULL;
-}
-
 /* Takes the source, which may be NULL with an error; an exit status. */
 static int add_subject(report *r, vndf_source *source, const char *title, vndf_error *error)
 {
@@ -74,23 +60,6 @@ static int add_subjects(report *r, const arguments *given)
     return status;
 }
 
-/* Times of the tables of the distribution at hand, from its rows. */
-static void note_times(report *r)
-{
-    static const char *const sets[] = {"scalar", "portable", "avx2", "avx512"};
-    r->batch = sets[vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)];
-    for (size_t i = 0; i < SIZES; i++) {
-        char batch[64];
-        report_table *t = &r->subject[0].table[i];
-        snprintf(batch, sizeof batch, "%s, batch", table_sizes[i].name);
-        const evidence_row *one = report_row(r, table_sizes[i].name, r->subject[0].of.name, "scalar");
-        const evidence_row *many = report_row(r, batch, r->subject[0].of.name, r->batch);
-        t->ns = one ? one->number[COL_NS] : (double)NAN;
-        t->batch = many ? many->number[COL_NS] : (double)NAN;
-        t->shared = many ? many->number[COL_SHARED] : (double)NAN;
-    }
-}
-
 static int measure(report *r, const arguments *given, evidence_plan *plan)
 {
     vndf_error error = {VNDF_OK, ""};
@@ -100,10 +69,11 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
             status = complain(name, "%s: %s", r->subject[i].of.name, error.message);
     if (status != STATUS_GOOD)
         return status;
+    r->batch = method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
     plan->at_hand = &r->subject[0].of;
     if (evidence_run(plan, &r->rows, &error) != VNDF_OK)
         return complain(name, "%s", error.message);
-    note_times(r);
+    report_note_times(r);
     return STATUS_GOOD;
 }
 
@@ -150,10 +120,12 @@ static int run(const arguments *given)
     double seconds = 45;
     if (!option_number(given, "--seconds", 1, 3600, &seconds))
         return STATUS_USE;
-    page_place place = page_examine(name, path);
-    if (place == PAGE_REFUSED)
-        return STATUS_USE;
     output_hold_signals();
+    page_place place = page_examine(name, path);
+    if (place == PAGE_REFUSED) {
+        output_release_signals();
+        return STATUS_USE;
+    }
     progress p = progress_begin(name, is_quiet);
     evidence_plan plan = {.seconds = seconds, .progress = &p, .start = clock_seconds()};
     report *r = calloc(1, sizeof *r);
@@ -166,6 +138,8 @@ static int run(const arguments *given)
     if (r)
         rows_free(&r->rows);
     free(r);
+    if (status != STATUS_GOOD && place == PAGE_NEW)
+        remove(path); /* fails, and the folder stays, if a file was committed */
     output_release_signals();
     return status;
 }

@@ -5,7 +5,7 @@
 
 #include "draw/svg.h"
 
-static const double radius = 4, text_height = 12, glyph_width = 5.9, line_step = 15;
+static const double radius = 4, text_height = 12, glyph_width = 6.5;
 
 /* ---- colours ------------------------------------------------------------------------------------- */
 
@@ -50,7 +50,8 @@ void chart_style(FILE *file)
 
 /* ---- axes ---------------------------------------------------------------------------------------- */
 
-double chart_place(const chart_axis *axis, double value)
+/* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */
+static double place_of(const chart_axis *axis, double value)
 {
     if (axis->scale == CHART_LINEAR)
         return (value - axis->low) / (axis->high - axis->low);
@@ -105,7 +106,7 @@ typedef struct box {
     double left, top, right, bottom;
 } box;
 
-enum { BOXES_MAX = 1024, ENDS_MAX = 32 };
+enum { BOXES_MAX = 1024 };
 
 /* The inside of the frame, with the height of the band of zeros below; and what may not be written over. */
 typedef struct picture {
@@ -118,7 +119,7 @@ typedef struct picture {
 
 static double pixel_x(const picture *p, double x)
 {
-    return p->left + p->width * chart_place(&p->c->x, x);
+    return p->left + p->width * place_of(&p->c->x, x);
 }
 
 /* A zero lies in the band, if the chart has one. */
@@ -126,7 +127,7 @@ static double pixel_y(const picture *p, double y)
 {
     if (p->band > 0 && y == 0)
         return p->top + p->height + p->band / 2;
-    return p->top + p->height * (1 - chart_place(&p->c->y, y));
+    return p->top + p->height * (1 - place_of(&p->c->y, y));
 }
 
 static void write_line(FILE *file, const char *kind, double x1, double y1, double x2, double y2)
@@ -137,7 +138,7 @@ static void write_line(FILE *file, const char *kind, double x1, double y1, doubl
 static void draw_tick(picture *p, int is_y, double value, int is_named)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    double place = chart_place(axis, value), bottom = p->top + p->height + p->band;
+    double place = place_of(axis, value), bottom = p->top + p->height + p->band;
     const char *kind = is_named ? "grid" : "grid fine";
     char name[16] = "";
     if (!(place > -1e-9 && place < 1 + 1e-9))
@@ -203,13 +204,14 @@ static void take(picture *p, double x, double y, double around)
 
 static int is_inside(const picture *p, double x, double y)
 {
-    double across = chart_place(&p->c->x, x), up = chart_place(&p->c->y, y);
+    double across = place_of(&p->c->x, x), up = place_of(&p->c->y, y);
     return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (p->band > 0 && y == 0));
 }
 
+static const char *const dashes[] = {"", "", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""};
+
 static void draw_line(picture *p, const chart_series *s)
 {
-    static const char *const dashes[] = {"", "", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""};
     double last_x = NAN, last_y = NAN;
     fprintf(p->file, "<path class=\"line l%u\"%s d=\"", s->colour, dashes[s->line]);
     for (size_t i = 0; i < s->count; i++) {
@@ -256,7 +258,8 @@ static void draw_key(const picture *p)
         if (key->mark != CHART_NO_MARK)
             draw_mark(p->file, key->mark, key->colour, x + 6, y);
         else
-            fprintf(p->file, "<path class=\"line swatch l%u\" d=\"M%.1f %.1fh14\"/>\n", key->colour, x, y);
+            fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n",
+                    key->line == CHART_NO_LINE ? " swatch" : "", key->colour, dashes[key->line], x - 2, y);
         svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, key->text);
         x += 36 + text_width(key->text);
     }
@@ -269,13 +272,6 @@ static double overlap(const box *a, const box *b)
     double width = fmin(a->right, b->right) - fmax(a->left, b->left);
     double height = fmin(a->bottom, b->bottom) - fmax(a->top, b->top);
     return width > 0 && height > 0 ? width * height : 0;
-}
-
-static void write_name(FILE *file, double x, double y, unsigned colour, const char *text)
-{
-    char kind[16];
-    snprintf(kind, sizeof kind, "name t%u", colour);
-    svg_text(file, kind, SVG_START, x, y, text);
 }
 
 /* Tries places around the point, near ones first, and takes the one where the text covers least of the drawing;
@@ -308,48 +304,9 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
         write_line(p->file, "lead", x, y, fmin(fmax(x, best.left), best.right),
                    fmin(fmax(y, best.top), best.bottom));
     p->taken[p->count++] = best;
-    write_name(p->file, best.left, best.bottom - 2.5, colour, text);
-}
-
-/* A label at the end of a curve at (x, y). */
-typedef struct end {
-    double x, y, at; /* at: the height where it is written */
-    unsigned colour;
-    const char *text;
-} end;
-
-static int by_height(const void *a, const void *b)
-{
-    const end *p = a, *q = b;
-    return (p->y > q->y) - (p->y < q->y);
-}
-
-/* In a column right of the frame: each label at least a line below the one before, then up from the bottom in
- * the same way. */
-static void label_ends(picture *p)
-{
-    end ends[ENDS_MAX];
-    size_t count = 0;
-    double column = p->left + p->width + 14, bottom = p->top + p->height + p->band - 2, at = p->top + 4;
-    for (size_t k = 0; k < p->c->count; k++) {
-        const chart_series *s = &p->c->series[k];
-        size_t last = s->count;
-        while (last > 0 && !is_inside(p, s->x[last - 1], s->y[last - 1]))
-            last--;
-        if (s->label && last > 0 && count < ENDS_MAX)
-            ends[count++] = (end){pixel_x(p, s->x[last - 1]), pixel_y(p, s->y[last - 1]), 0, s->colour, s->label};
-    }
-    qsort(ends, count, sizeof ends[0], by_height);
-    for (size_t i = 0; i < count; i++) {
-        ends[i].at = fmax(ends[i].y, at);
-        at = ends[i].at + line_step;
-    }
-    for (size_t i = count; i-- > 0; bottom = ends[i].at - line_step)
-        ends[i].at = fmin(ends[i].at, bottom);
-    for (size_t i = 0; i < count; i++) {
-        write_line(p->file, "lead", ends[i].x + 4, ends[i].y, column - 4, ends[i].at);
-        write_name(p->file, column, ends[i].at + 4, ends[i].colour, ends[i].text);
-    }
+    char kind[16];
+    snprintf(kind, sizeof kind, "name t%u", colour);
+    svg_text(p->file, kind, SVG_START, best.left, best.bottom - 2.5, text);
 }
 
 /* ---- the whole ----------------------------------------------------------------------------------- */
@@ -357,8 +314,7 @@ static void label_ends(picture *p)
 static void draw_inside(FILE *file, const chart *c)
 {
     double band = c->zero ? c->band : 0, top = (c->title ? 30 : 10) + (c->key_count ? 20 : 0);
-    picture p = {file,           c, 66, top, c->width - 66 - c->right, c->height - top - 50 - band, band,
-                 {{0, 0, 0, 0}}, 0, 0};
+    picture p = {file, c, 66, top, c->width - 66 - 20, c->height - top - 50 - band, band, {{0, 0, 0, 0}}, 0, 0};
     draw_frame(&p);
     draw_key(&p);
     for (double x = 0; band > 0 && x < p.width; x += 6)
@@ -380,7 +336,6 @@ static void draw_inside(FILE *file, const chart *c)
             if (s->texts[i][0] && is_inside(&p, s->x[i], s->y[i]))
                 label_point(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), s->colour, s->texts[i]);
         }
-    label_ends(&p);
 }
 
 static void open_element(FILE *file, double left, double top, double width, double height, const char *about)
@@ -397,7 +352,7 @@ static void open_element(FILE *file, double left, double top, double width, doub
 
 void chart_draw(FILE *file, const chart *c)
 {
-    open_element(file, c->left, c->top, c->width, c->height, c->about ? c->about : c->title);
+    open_element(file, c->left, c->top, c->width, c->height, c->title);
     draw_inside(file, c);
     fputs("</svg>\n", file);
 }
@@ -412,7 +367,7 @@ void chart_begin_alone(FILE *file, double width, double height, const char *abou
 
 void chart_draw_alone(FILE *file, const chart *c)
 {
-    chart_begin_alone(file, c->width, c->height, c->about ? c->about : c->title);
+    chart_begin_alone(file, c->width, c->height, c->title);
     draw_inside(file, c);
     fputs("</svg>\n", file);
 }

@@ -1,5 +1,4 @@
-/* Charts: axes with ticks, curves with labels at their ends, points with labels beside them that avoid each
- * other.
+/* Charts: axes with ticks, a key, curves, points with labels beside them that avoid each other.
  *
  * Colours are classes, so that a page or a file of its own can change them for dark screens: chart_style writes
  * the rules. The palette is that of M. Okabe and K. Ito, "Color Universal Design" (2008), which people with any
@@ -24,7 +23,6 @@ typedef enum chart_mark { CHART_NO_MARK, CHART_DOT, CHART_RING, CHART_SQUARE, CH
 typedef enum chart_line { CHART_NO_LINE, CHART_SOLID, CHART_DASHED, CHART_DOTTED } chart_line;
 
 typedef struct chart_series {
-    const char *label;   /* at the end of the curve; may be NULL */
     const double *x, *y; /* what is not finite, or outside, interrupts the curve */
     size_t count;
     unsigned colour; /* of the palette, 0 to CHART_COLOURS - 1 */
@@ -33,20 +31,20 @@ typedef struct chart_series {
     const char *const *texts; /* NULL, or a label beside each point (an empty one is none) */
 } chart_series;
 
-/* An entry of the key below the title; without a mark a stroke shows the colour. */
+/* An entry of the key below the title; without mark and line a stroke shows the colour. */
 typedef struct chart_key {
     const char *text;
     unsigned colour;
     chart_mark mark;
+    chart_line line;
 } chart_key;
 
 enum { CHART_COLOURS = 8 };
 
 typedef struct chart {
-    const char *title, *about; /* above the frame; for those who cannot see it */
-    double left, top;          /* where it stands in a larger picture */
-    double width, height;      /* of all, pixels */
-    double right;              /* of it, for the labels at the ends of curves */
+    const char *title;    /* above the frame */
+    double left, top;     /* where it stands in a larger picture */
+    double width, height; /* of all, pixels */
     chart_axis x, y;
     const char *zero; /* NULL, or the name of a band below the frame for y = 0 on a logarithmic axis */
     double band;      /* its height */
@@ -65,9 +63,6 @@ void chart_begin_alone(FILE *file, double width, double height, const char *abou
 
 /* The rules for the classes, those for dark screens included. */
 void chart_style(FILE *file);
-
-/* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */
-double chart_place(const chart_axis *axis, double value);
 
 /* Fits logarithmic axes to all series, by whole decades; an axis whose high end is set stays. `least`: the lowest y
  * that is shown. */

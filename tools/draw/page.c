@@ -15,12 +15,6 @@
 #include "draw/svg.h"
 #include "vndf.h"
 
-/* The mark near the beginning of a page that names its command. */
-static void mark_of(char mark[96], const char *command)
-{
-    snprintf(mark, 96, "<meta name=\"generator\" content=\"%s\">", command);
-}
-
 /* ---- files --------------------------------------------------------------------------------------- */
 
 static FILE *open_file(html_page *page, const char *name)
@@ -72,28 +66,24 @@ int page_data_end(html_page *page, const char *what)
     return 1;
 }
 
-int page_table(html_page *page, text_table t)
-{
-    int good = table_print_html(page->html, &t);
-    table_free(&t);
-    return good;
-}
-
 int page_data(html_page *page, const char *name, const char *what, text_table t)
 {
     FILE *data = page_file_begin(page, name);
-    int good = data && table_print_csv(data, &t);
+    int good = data && table_print(data, &t, FIGURES_CSV);
     table_free(&t);
     return good && page_data_end(page, what);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
+/* Names the command near the beginning of a page. */
+#define MARK "<meta name=\"generator\" content=\"%s\">"
+
 static const char style[] =
-    ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;--good:#00694c;"
+    ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;"
     "--bad:#a94a00;--box:#f1f6fb;--link:#005f96}\n"
     "@media screen and (prefers-color-scheme:dark){:root{--back:#16191d;--ink:#e9ecef;--quiet:#b6bec6;"
-    "--rule:#3a4149;--good:#5ad6b2;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}}\n"
+    "--rule:#3a4149;--bad:#f4a06d;--box:#1d2731;--link:#7fbfec}}\n"
     "*{box-sizing:border-box}\n"
     "body{font:16px/1.5 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif;color:var(--ink);background:var(--back);"
     "max-width:1180px;margin:0 auto;padding:24px}\n"
@@ -102,10 +92,12 @@ static const char style[] =
     "p{margin:.4em 0}.lead,figcaption,.note{color:var(--quiet)}figcaption,.note{font-size:.9em}\n"
     "a{color:var(--link)}nav a{margin-right:1em;white-space:nowrap}\n"
     ".advice{background:var(--box);border-left:4px solid var(--link);padding:.6em 1em;margin:1em 0}\n"
+    ".advice code{display:block;overflow-x:auto;white-space:pre}\n"
     ".scroll{overflow-x:auto}table{border-collapse:collapse;margin:.8em 0;font-variant-numeric:tabular-nums}\n"
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
-    "th:first-child,td:first-child{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
-    "tr.chosen td{font-weight:600;background:var(--box)}.no{color:var(--bad)}.yes{color:var(--good)}\n"
+    ".text{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
+    "tr.chosen td{font-weight:600;background:var(--box)}tr.chosen td:first-child::before{content:'✓ '}\n"
+    ".no{color:var(--bad)}.no::after{content:' ✗'}\n"
     "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
     ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"
@@ -122,16 +114,14 @@ static const char style[] =
 
 int page_begin(html_page *page, const char *command, const char *title)
 {
-    char mark[96];
     *page = (html_page){.command = command};
-    mark_of(mark, command);
     page->html = open_file(page, "index.html");
     if (!page->html)
         return 0;
     fprintf(page->html,
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n%s\n"
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK "\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-            mark);
+            command);
     svg_escape(page->html, title);
     fputs("</title>\n<style>\n", page->html);
     fputs(style, page->html);
@@ -153,23 +143,20 @@ void page_free(html_page *page)
 {
     close_file(&page->data);
     close_file(&page->html);
-    for (size_t i = 0; i < page->count; i++)
+    for (size_t i = 0; i < page->count; i++) {
         free(page->file[i].text);
+        free(page->file[i].path);
+    }
     page->count = 0;
 }
 
 void page_section(html_page *page, const char *id, const char *title, const char *lead)
 {
-    fprintf(page->html, "<section id=\"%s\">\n<h2>", id);
+    fprintf(page->html, "<h2 id=\"%s\">", id);
     svg_escape(page->html, title);
     fputs("</h2>\n<p class=\"lead\">", page->html);
     svg_escape(page->html, lead);
     fputs("</p>\n", page->html);
-}
-
-void page_section_end(html_page *page)
-{
-    fputs("</section>\n", page->html);
 }
 
 /* ---- the folder ---------------------------------------------------------------------------------- */
@@ -185,126 +172,82 @@ static char *path_in(const char *folder, const char *name)
 
 static int has_our_page(const char *command, const char *folder)
 {
-    char head[1024 + 1], mark[96];
+    char head[1024 + 1] = "", mark[96];
     char *path = path_in(folder, "index.html");
     FILE *file = path ? fopen(path, "rb") : NULL;
     free(path);
-    if (!file)
-        return 0;
-    head[fread(head, 1, 1024, file)] = '\0';
-    fclose(file);
-    mark_of(mark, command);
+    if (file) {
+        head[fread(head, 1, 1024, file)] = '\0';
+        fclose(file);
+    }
+    snprintf(mark, sizeof mark, MARK, command);
     return strstr(head, mark) != NULL;
-}
-
-/* Returns 1 or 0; -1 if the folder cannot be read. */
-static int is_empty(const char *folder)
-{
-    DIR *directory = opendir(folder);
-    const struct dirent *entry;
-    int empty = 1;
-    if (!directory)
-        return -1;
-    while (empty && (entry = readdir(directory)) != NULL)
-        empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
-    closedir(directory);
-    return empty;
-}
-
-/* Whether a folder can be made at `path`: the folder around it must exist. */
-static int can_be_made(const char *path)
-{
-    size_t length = strlen(path);
-    while (length > 1 && path[length - 1] == '/')
-        length--;
-    while (length > 0 && path[length - 1] != '/')
-        length--;
-    char *parent = malloc(length + 2);
-    if (!parent)
-        return 0;
-    snprintf(parent, length + 2, "%.*s", length ? (int)length : 1, length ? path : ".");
-    int good = access(parent, W_OK | X_OK) == 0;
-    int reason = errno;
-    free(parent);
-    errno = reason;
-    return good;
 }
 
 page_place page_examine(const char *command, const char *path)
 {
-    struct stat status;
-    if (path[0] == '\0') {
-        complain(command, "the name of the folder is empty");
-        return PAGE_REFUSED;
-    }
     if (output_is_stdout(path)) {
         complain(command, "'-' is stdout, and this needs a folder for its files; one of that name is './-'");
         return PAGE_REFUSED;
     }
-    if (stat(path, &status) != 0 && errno == ENOENT) {
-        if (can_be_made(path))
-            return PAGE_NEW;
+    if (mkdir(path, 0777) == 0)
+        return PAGE_NEW;
+    if (errno != EEXIST) {
         complain(command, "cannot make the folder '%s': %s", path, strerror(errno));
         return PAGE_REFUSED;
     }
-    int empty = is_empty(path);
-    if (empty < 0)
+    DIR *directory = opendir(path);
+    if (!directory) {
         complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
-    else if (access(path, W_OK | X_OK) != 0)
+        return PAGE_REFUSED;
+    }
+    int is_empty = 1;
+    for (const struct dirent *entry; is_empty && (entry = readdir(directory)) != NULL;)
+        is_empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
+    closedir(directory);
+    if (access(path, W_OK | X_OK) != 0)
         complain(command, "cannot write into '%s': %s", path, strerror(errno));
-    else if (!empty && !has_our_page(command, path))
+    else if (!is_empty && !has_our_page(command, path))
         complain(command,
                  "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
                  "page, which is replaced",
                  path, command);
     else
-        return empty ? PAGE_EMPTY : PAGE_OURS;
+        return is_empty ? PAGE_EMPTY : PAGE_OURS;
     return PAGE_REFUSED;
 }
 
-/* The files but those that are already committed, without a message: the reason has been reported. */
-static void discard(output_file *output, size_t from, size_t count)
+/* The temporary of a file, with its text. An exit status. */
+static int write_temporary(const html_page *page, page_file *file, const char *folder, output_file *output)
 {
-    for (size_t i = from; i < count; i++)
-        output_discard(&output[i]);
+    free(file->path);
+    file->path = path_in(folder, file->name);
+    if (!file->path)
+        return complain(page->command, "no memory");
+    if (!output_open(output, page->command, file->path))
+        return STATUS_USE;
+    if (fwrite(file->text, 1, file->size, output->file) == file->size && fflush(output->file) == 0)
+        return STATUS_GOOD;
+    int reason = errno;
+    output_discard(output);
+    return complain(page->command, "cannot write '%s': %s", file->name, strerror(reason));
 }
 
-static int write_temporaries(const html_page *page, char **path, output_file *output, size_t *count)
-{
-    for (; *count < page->count; ++*count) {
-        const page_file *file = &page->file[page->count - 1 - *count]; /* the page, which is the first, last */
-        if (!output_open(&output[*count], page->command, path[page->count - 1 - *count]))
-            return STATUS_USE;
-        FILE *to = output[*count].file;
-        if (fwrite(file->text, 1, file->size, to) == file->size && fflush(to) == 0)
-            continue;
-        ++*count;
-        return complain(page->command, "cannot write '%s': %s", file->name, strerror(errno));
-    }
-    return STATUS_GOOD;
-}
-
-int page_write(const html_page *page, const char *folder)
+int page_write(html_page *page, const char *folder)
 {
     output_file output[PAGE_FILES_MAX];
-    char *path[PAGE_FILES_MAX];
     size_t count = 0, done = 0;
-    int made = mkdir(folder, 0777) == 0, status = STATUS_GOOD;
-    if (!made && errno != EEXIST)
-        return complain(page->command, "cannot make the folder '%s': %s", folder, strerror(errno));
-    for (size_t i = 0; i < page->count; i++)
-        if (!(path[i] = path_in(folder, page->file[i].name)))
-            status = STATUS_USE;
-    status = status == STATUS_GOOD ? write_temporaries(page, path, output, &count)
-                                   : complain(page->command, "no memory");
+    int status = STATUS_GOOD;
+    while (status == STATUS_GOOD && count < page->count) {
+        page_file *file = &page->file[page->count - 1 - count]; /* the page, which is the first, last */
+        status = write_temporary(page, file, folder, &output[count]);
+        count += status == STATUS_GOOD;
+    }
     if (status == STATUS_GOOD && output_stopping())
         status = complain(page->command, "interrupted; '%s' was not touched", folder);
     while (status == STATUS_GOOD && done < count)
         status = output_commit(&output[done++]);
-    discard(output, done, count);
-    for (size_t i = 0; i < page->count; i++)
-        free(path[i]);
-    if (status != STATUS_GOOD && made)
-        rmdir(folder); /* fails, and the folder stays, if a file was committed */
+    while (done < count)
+        output_discard(&output[done++]);
     return status;
 }

@@ -12,7 +12,7 @@ enum { PAGE_FILES_MAX = 16, PAGE_NAME_MAX = 64 };
 
 typedef struct page_file {
     char name[PAGE_NAME_MAX];
-    char *text; /* owned */
+    char *text, *path; /* owned; path: where it is being written */
     size_t size;
 } page_file;
 
@@ -31,7 +31,6 @@ void page_free(html_page *page);
 
 /* A heading with a line or two below it; both are plain text. */
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
-void page_section_end(html_page *page);
 
 /* Begins a new file beside the page, for the caller to fill; NULL if there is no memory. */
 FILE *page_file_begin(html_page *page, const char *name);
@@ -40,8 +39,7 @@ int page_file_end(html_page *page);
 /* Ends the file; the page links it and shows it inside, folded. */
 int page_data_end(html_page *page, const char *what);
 
-/* A table in the page, and as CSV a whole file of data; it is freed. 0 if there is no memory. */
-int page_table(html_page *page, text_table t);
+/* A table as a whole file of data; it is freed. 0 if there is no memory. */
 int page_data(html_page *page, const char *name, const char *what, text_table t);
 
 /* ---- folders ---- */
@@ -52,8 +50,7 @@ typedef enum page_place { PAGE_REFUSED, PAGE_NEW, PAGE_EMPTY, PAGE_OURS } page_p
 page_place page_examine(const char *command, const char *folder);
 
 /* All files are written to temporaries first and renamed when all are complete, the page last; a failure or a
- * signal before that leaves the folder as it was; signals are held (tools/cli/output.h). An exit status,
- * after a complaint if it is not good. */
-int page_write(const html_page *page, const char *folder);
+ * signal before that leaves the folder as it was. An exit status, after a complaint if it is not good. */
+int page_write(html_page *page, const char *folder);
 
 #endif

@@ -67,17 +67,16 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
         y[1][i] = (double)vndf_ndf(has_ggx ? &ggx : surface, direction_from(x[i], is_round ? 0 : 90));
     }
     const chart_series series[2] = {
-        {NULL, x, y[0], POINTS, 0, CHART_NO_MARK, CHART_SOLID, NULL},
-        {NULL, x, y[1], POINTS, is_round ? 7 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
-    const chart_key key[2] = {
-        {is_round ? "D" : "D along x", 0, CHART_NO_MARK},
-        {is_round ? "GGX of the same median slope" : "D along y", series[1].colour, CHART_NO_MARK}};
+        {x, y[0], POINTS, 0, CHART_NO_MARK, CHART_SOLID, NULL},
+        {x, y[1], POINTS, is_round ? 7 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
+    const chart_key key[2] = {{is_round ? "D" : "D along x", 0, CHART_NO_MARK, CHART_SOLID},
+                              {is_round ? "GGX of the same median slope" : "D along y", series[1].colour,
+                               CHART_NO_MARK, series[1].line}};
     chart c = {.title = "distribution of normals",
                .left = box.x,
                .top = box.y,
                .width = box.width,
                .height = box.height,
-               .right = 20,
                .x = {CHART_LINEAR, 0, widest, widest / 3, "angle of the normal θm (degrees)"},
                .y = {CHART_LOG, 0, 0, 0, "D(θm) (per steradian)"},
                .series = series,

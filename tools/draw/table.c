@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/figures.h"
 #include "draw/svg.h"
 
 void table_free(text_table *t)
@@ -26,18 +25,6 @@ static char *copy_of(text_table *t, const char *text)
     return copy ? strcpy(copy, text) : NULL;
 }
 
-static int make_room(text_table *t)
-{
-    size_t room = t->room ? 2 * t->room : 256;
-    table_cell *cell = t->count < t->room ? t->cell : realloc(t->cell, room * sizeof *cell);
-    t->failed |= cell == NULL;
-    if (!cell)
-        return 0;
-    t->room = t->count < t->room ? t->room : room;
-    t->cell = cell;
-    return 1;
-}
-
 void table_row(text_table *t)
 {
     t->rows++;
@@ -49,8 +36,16 @@ static void add(text_table *t, const char *heading, table_kind kind, const char 
         t->kind[t->columns] = kind;
         t->heading[t->columns++] = copy_of(t, heading);
     }
-    if (make_room(t))
-        t->cell[t->count++] = (table_cell){copy_of(t, text), NULL};
+    if (t->count == t->room) {
+        size_t room = t->room ? 2 * t->room : 256;
+        table_cell *cell = realloc(t->cell, room * sizeof *cell);
+        t->failed |= cell == NULL;
+        if (!cell)
+            return;
+        t->room = room;
+        t->cell = cell;
+    }
+    t->cell[t->count++] = (table_cell){.text = copy_of(t, text)};
 }
 
 void table_text(text_table *t, const char *heading, const char *text)
@@ -91,6 +86,12 @@ void table_mark(text_table *t, const char *mark)
         t->cell[t->count - 1].mark = mark;
 }
 
+void table_row_mark(text_table *t, const char *mark)
+{
+    if (t->count >= t->rows * t->columns && t->rows)
+        t->cell[(t->rows - 1) * t->columns].row_mark = mark;
+}
+
 /* ---- text -------------------------------------------------------------------------------------- */
 
 static const char *shown(const text_table *t, size_t row, size_t column)
@@ -115,38 +116,31 @@ static void put_padded(FILE *file, const char *text, size_t width, int is_right)
     fprintf(file, "%*s%s%*s", is_right ? (int)spaces : 0, "", text, is_right ? 0 : (int)spaces, "");
 }
 
-/* What a terminal shows: groups by the first column, then a label if the second one holds texts. */
-int table_print_text(FILE *file, const text_table *t)
+/* What a terminal shows: groups by the first column, then a label if the second one holds texts. Labels and groups
+ * share the first column of it; the headings stand in the line of each group. */
+static void print_text(FILE *file, const text_table *t)
 {
     size_t width[TABLE_COLUMNS_MAX] = {0}, first = t->columns > 1 && t->kind[1] == TABLE_TEXT ? 2 : 1;
-    if (t->failed)
-        return 0;
-    for (size_t k = 0; k < t->columns; k++) {
-        size_t *of = &width[k < first ? 0 : k]; /* labels and groups share a column */
-        for (size_t i = 0; i <= t->rows; i++) {
-            size_t length = i < t->rows ? length_of(shown(t, i, k)) : k < first ? 0 : length_of(t->heading[k]);
+    for (size_t i = 0; i < t->rows; i++)
+        for (size_t k = 0; k < t->columns; k++) {
+            size_t *of = &width[k < first ? 0 : k], length = length_of(shown(t, i, k));
+            size_t heading = k < first ? 0 : length_of(t->heading[k]);
+            length = length > heading ? length : heading;
             *of = length > *of ? length : *of;
         }
-    }
     for (size_t i = 0; i < t->rows; i++) {
-        if (i == 0 || strcmp(shown(t, i, 0), shown(t, i - 1, 0)) != 0) {
-            fputs(i ? "\n" : "", file);
-            put_padded(file, shown(t, i, 0), width[0] + 2, 0);
+        int is_new = i == 0 || strcmp(shown(t, i, 0), shown(t, i - 1, 0)) != 0;
+        for (int is_body = !is_new; is_body < 2; is_body++) {
+            const char *label = !is_body ? shown(t, i, 0) : first > 1 ? shown(t, i, 1) : "";
+            fputs(is_body ? "  " : i ? "\n" : "", file);
+            put_padded(file, label, width[0] + (is_body ? 0 : 2), 0);
             for (size_t k = first; k < t->columns; k++) {
                 fputs("  ", file);
-                put_padded(file, t->heading[k], width[k], t->kind[k] == TABLE_NUMBER);
+                put_padded(file, is_body ? shown(t, i, k) : t->heading[k], width[k], t->kind[k] == TABLE_NUMBER);
             }
             fputc('\n', file);
         }
-        fputs("  ", file);
-        put_padded(file, first > 1 ? shown(t, i, 1) : "", width[0], 0);
-        for (size_t k = first; k < t->columns; k++) {
-            fputs("  ", file);
-            put_padded(file, shown(t, i, k), width[k], t->kind[k] == TABLE_NUMBER);
-        }
-        fputc('\n', file);
     }
-    return 1;
 }
 
 /* ---- Markdown ---------------------------------------------------------------------------------- */
@@ -163,10 +157,8 @@ static void put_markdown(FILE *file, const char *text)
     fputs(" |", file);
 }
 
-int table_print_markdown(FILE *file, const text_table *t)
+static void print_markdown(FILE *file, const text_table *t)
 {
-    if (t->failed)
-        return 0;
     fputc('|', file);
     for (size_t k = 0; k < t->columns; k++)
         put_markdown(file, t->heading[k]);
@@ -179,12 +171,11 @@ int table_print_markdown(FILE *file, const text_table *t)
             put_markdown(file, shown(t, i, k));
     }
     fputc('\n', file);
-    return 1;
 }
 
 /* ---- CSV --------------------------------------------------------------------------------------- */
 
-void table_quote(FILE *file, const char *text)
+static void put_quoted(FILE *file, const char *text)
 {
     fputc('"', file);
     for (; *text; text++) {
@@ -195,10 +186,8 @@ void table_quote(FILE *file, const char *text)
     fputc('"', file);
 }
 
-int table_print_csv(FILE *file, const text_table *t)
+static void print_csv(FILE *file, const text_table *t)
 {
-    if (t->failed)
-        return 0;
     for (size_t k = 0; k < t->columns; k++) {
         fputs(k ? "," : "", file);
         fputs(t->heading[k], file);
@@ -206,50 +195,50 @@ int table_print_csv(FILE *file, const text_table *t)
     for (size_t i = 0; i < t->count; i++) {
         fputs(i % t->columns ? "," : "\n", file);
         if (t->kind[i % t->columns] == TABLE_TEXT)
-            table_quote(file, t->cell[i].text);
+            put_quoted(file, t->cell[i].text);
         else
             fputs(t->cell[i].text, file);
     }
     fputc('\n', file);
-    return 1;
 }
 
 /* ---- JSON -------------------------------------------------------------------------------------- */
 
 /* A number is one that strtod reads whole; infinities are none in JSON. */
-static void put_json(FILE *file, table_kind kind, const char *text)
+static void print_json(FILE *file, const text_table *t)
 {
-    char *end;
-    int is_number = kind == TABLE_NUMBER && isfinite(strtod(text, &end)) && end != text && *end == '\0';
-    if (is_number)
-        fputs(text, file);
-    else if (kind == TABLE_NUMBER)
-        fputs("null", file);
-    else
-        figures_json_text(file, text);
-}
-
-int table_print_json(FILE *file, const text_table *t)
-{
-    if (t->failed)
-        return 0;
     fputc('[', file);
     for (size_t i = 0; i < t->count; i++) {
+        const char *text = t->cell[i].text;
         size_t column = i % t->columns;
+        char *end;
         fputs(column ? ", " : i ? "},\n{" : "\n{", file);
         figures_json_text(file, t->heading[column]);
         fputs(": ", file);
-        put_json(file, t->kind[column], t->cell[i].text);
+        if (t->kind[column] != TABLE_NUMBER)
+            figures_json_text(file, text);
+        else
+            fputs(isfinite(strtod(text, &end)) && end != text && *end == '\0' ? text : "null", file);
     }
     fputs(t->count ? "}\n]\n" : "]\n", file);
-    return 1;
+}
+
+int table_print(FILE *file, const text_table *t, figures_form form)
+{
+    static void (*const printers[])(FILE *, const text_table *) = {[FIGURES_TEXT] = print_text,
+                                                                   [FIGURES_CSV] = print_csv,
+                                                                   [FIGURES_MARKDOWN] = print_markdown,
+                                                                   [FIGURES_JSON] = print_json};
+    if (!t->failed)
+        printers[form](file, t);
+    return !t->failed;
 }
 
 /* ---- a page ------------------------------------------------------------------------------------ */
 
-static void put_tag(FILE *file, const char *tag, const char *class)
+static void put_tag(FILE *file, const char *tag, const char *mark)
 {
-    fprintf(file, class ? "<%s class=\"%s\">" : "<%s>", tag, class);
+    fprintf(file, mark ? "<%s class=\"%s\">" : "<%s>", tag, mark);
 }
 
 int table_print_html(FILE *file, const text_table *t)
@@ -258,15 +247,15 @@ int table_print_html(FILE *file, const text_table *t)
         return 0;
     fputs("<div class=\"scroll\"><table><thead><tr>", file);
     for (size_t k = 0; k < t->columns; k++) {
-        fputs("<th>", file);
+        put_tag(file, "th", t->kind[k] == TABLE_NUMBER ? NULL : "text");
         svg_escape(file, t->heading[k]);
         fputs("</th>", file);
     }
     fputs("</tr></thead>\n<tbody>\n", file);
     for (size_t i = 0; i < t->rows; i++) {
-        put_tag(file, "tr", t->cell[i * t->columns].mark);
+        put_tag(file, "tr", t->cell[i * t->columns].row_mark);
         for (size_t k = 0; k < t->columns; k++) {
-            put_tag(file, "td", k ? t->cell[i * t->columns + k].mark : NULL);
+            put_tag(file, "td", t->kind[k] == TABLE_NUMBER ? t->cell[i * t->columns + k].mark : "text");
             svg_escape(file, shown(t, i, k));
             fputs("</td>", file);
         }

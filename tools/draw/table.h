@@ -14,13 +14,16 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/figures.h"
+
 enum { TABLE_COLUMNS_MAX = 48 };
 
 typedef enum table_kind { TABLE_TEXT, TABLE_WORD, TABLE_NUMBER } table_kind;
 
 typedef struct table_cell {
-    char *text;       /* owned; "" for what does not apply */
-    const char *mark; /* NULL, or its class in a page */
+    char *text; /* owned; "" for what does not apply */
+    const char *mark,
+        *row_mark; /* NULL, or the class of the number and, of a row's first cell, of the row in a page */
 } table_cell;
 
 typedef struct text_table {
@@ -54,20 +57,18 @@ void table_time(text_table *t, const char *heading, double ns);
 /* Six digits, for CSV. */
 void table_value(text_table *t, const char *heading, double x);
 
-/* The class of the last cell in a page: "no", say; of the first of a row: that of the row. */
+/* The class in a page of the last cell, a number: "no", say; and of the row. */
 void table_mark(text_table *t, const char *mark);
+void table_row_mark(text_table *t, const char *mark);
 
 /* ---- printing; 0 if there was no memory ---- */
 
-/* The rows in groups of equal first cells, which stand in the heading; columns as wide as they have to be. */
-int table_print_text(FILE *file, const text_table *t);
-int table_print_markdown(FILE *file, const text_table *t);
-int table_print_csv(FILE *file, const text_table *t);
-int table_print_json(FILE *file, const text_table *t); /* an array of objects */
-int table_print_html(FILE *file, const text_table *t);
+/* For a terminal in groups of equal first cells, which stand in the heading, columns as wide as they have to be;
+ * as JSON an array of objects; not FIGURES_NONE. */
+int table_print(FILE *file, const text_table *t, figures_form form);
 
-/* A field of CSV between quotes. */
-void table_quote(FILE *file, const char *text);
+/* Into a page. */
+int table_print_html(FILE *file, const text_table *t);
 
 /* "16 KiB", "1 MiB", "25.8 KiB", to 3%: files stay a little below a power of two. */
 enum { TABLE_BYTES = 16 };

@@ -45,7 +45,7 @@ static void note_ours(entry *e)
     const vndf_distribution *d = e->m.state;
     vndf_info info = vndf_distribution_info(d);
     double *to = e->row.number, scale = info.scale > 0 ? info.scale : 1;
-    to[COL_SOBOL] = stratified_measure(d, (float)(0.5 / scale), 32, 1).all;
+    to[COL_SOBOL] = stratified_beside_caps(d, (float)(0.5 / scale), 32, 1);
     if (e->m.kind != ROW_TABLE)
         return;
     to[COL_TV] = (double)info.certificate.tv_above;
@@ -53,16 +53,15 @@ static void note_ours(entry *e)
     to[COL_WEIGHT] = (double)info.certificate.max_weight;
 }
 
-static int measure_normals(run *r, entry *e)
+static void measure_normals(run *r, entry *e)
 {
     double *to = e->row.number;
     if (e->m.kind == ROW_CALL || copy_worth(r, e))
-        return 1;
+        return;
     for (size_t angle = 0; angle < ANGLES; angle++) {
         size_t replicates = angle < ALBEDO_ANGLES && r->plan->seconds >= 10 ? LONG : SHORT;
         findings f;
-        if (!worth_of_normals(&e->m, &r->list.reference[e->of], angles[angle], replicates, &f))
-            return 0;
+        worth_of_normals(&e->m, &r->list.reference[e->of], angles[angle], replicates, &r->block, &f);
         to[COL_TV] = fmax(f.tv, to[COL_TV]);
         to[COL_WEIGHT] = fmax(f.max_weight, to[COL_WEIGHT]);
         if (angle < ALBEDO_ANGLES)
@@ -72,7 +71,6 @@ static int measure_normals(run *r, entry *e)
     }
     if (e->m.kind == ROW_TABLE || e->m.kind == ROW_CLOSED)
         note_ours(e);
-    return 1;
 }
 
 static vndf_status measure(run *r, vndf_error *error)
@@ -82,8 +80,8 @@ static vndf_status measure(run *r, vndf_error *error)
         if (e->m.kind == ROW_EFFECT)
             good &= worth_of_material(&e->m, &e->law, r->plan->theta, &r->block, r->plan->seconds < 5 ? 8 : 64,
                                       &e->row);
-        else if (good && !measure_normals(r, e))
-            return fail(error, VNDF_ERROR_MEMORY, "no memory");
+        else if (good)
+            measure_normals(r, e);
         e->row.number[COL_WRONG] = !good;
         if (!evidence_go_on(r->plan, e->m.name))
             return fail(error, VNDF_ERROR_ARGUMENT, "interrupted");

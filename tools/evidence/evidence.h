@@ -87,6 +87,8 @@ typedef struct evidence_list {
     size_t count;
     subject student;                      /* time for a D that everybody has, beside that at hand */
     method_reference reference[SUBJECTS]; /* distribution NULL where nothing of it is wanted */
+    const evidence_plan *plan;
+    vndf_error *error;
 } evidence_list;
 
 /* Everything the plan asks for. Free it whatever this returns; an error if a table or a material cannot be made or
@@ -107,9 +109,9 @@ typedef struct findings {
     double tv, max_weight;
 } findings;
 
-/* `replicates` blocks of samples. 0: no memory. */
-int worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
-                     findings *found);
+/* `replicates` blocks of samples. */
+void worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
+                      block *b, findings *found);
 
 /* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
 int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,

@@ -58,28 +58,21 @@ const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan
 
 /* ---- entries ------------------------------------------------------------------------------------- */
 
-typedef struct maker {
-    evidence_list *list;
-    const evidence_plan *plan;
-    vndf_error *error;
-} maker;
-
-static int is_wanted(const maker *to, const method *m, const char *distribution)
+static int is_wanted(evidence_list *to, const method *m, const char *distribution)
 {
     const char *only = to->plan->only;
     return !only || strstr(m->name, only) || strstr(distribution, only) || strstr(m->instructions, only);
 }
 
 /* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
-static entry *add(const maker *to, method m, const char *distribution, int is_yardstick)
+static entry *add(evidence_list *to, method m, const char *distribution, int is_yardstick)
 {
-    evidence_list *list = to->list;
     int is_shown = is_wanted(to, &m, distribution);
-    if (!m.each || !(is_shown || is_yardstick) || list->count == ENTRIES_MAX) {
+    if (!m.each || !(is_shown || is_yardstick) || to->count == ENTRIES_MAX) {
         method_release(&m);
         return NULL;
     }
-    entry *e = &list->entry[list->count++];
+    entry *e = &to->entry[to->count++];
     *e = (entry){.m = m, .is_shown = is_shown, .variance = {NAN, NAN, NAN}};
     e->row = (evidence_row){.instructions = m.instructions, .kind = m.kind};
     snprintf(e->row.method, sizeof e->row.method, "%s", m.name);
@@ -100,7 +93,7 @@ static const entry *find(const evidence_list *list, size_t from, const char *nam
 
 /* ---- normals ------------------------------------------------------------------------------------- */
 
-static void add_normals(const maker *to, subject_id of, method m, int is_yardstick)
+static void add_normals(evidence_list *to, subject_id of, method m, int is_yardstick)
 {
     const char *const names[SUBJECTS] = {"ggx", "beckmann", to->plan->at_hand->name, student};
     entry *e = add(to, m, names[of], is_yardstick);
@@ -114,11 +107,11 @@ static void add_normals(const maker *to, subject_id of, method m, int is_yardsti
     }
 }
 
-static void add_closed(const maker *to, subject_id of, const vndf_distribution *d)
+static void add_closed(evidence_list *to, subject_id of, const vndf_distribution *d)
 {
     static const char name[] = "closed form";
-    to->list->reference[of] = method_reference_of(d);
-    add_normals(to, of, method_all_normals(&to->list->reference[of]), 1);
+    to->reference[of] = method_reference_of(d);
+    add_normals(to, of, method_all_normals(&to->reference[of]), 1);
     for (method_call call = METHOD_SAMPLE; call < METHOD_CALLS; call++)
         for (size_t i = 0; i < SETS && (call == METHOD_SAMPLE || call >= METHOD_AFFINE); i++)
             add_normals(to, of, method_ours(d, name, call, sets[i]), 0);
@@ -127,7 +120,7 @@ static void add_closed(const maker *to, subject_id of, const vndf_distribution *
 }
 
 /* One of the tables by all its calls up to `last`; it is built if any of them is wanted. */
-static vndf_status add_table(const maker *to, subject_id of, subject *s, size_t size, method_call last)
+static vndf_status add_table(evidence_list *to, subject_id of, subject *s, size_t size, method_call last)
 {
     const char *name = table_sizes[size].name;
     for (method_call call = METHOD_SAMPLE; call <= last; call++)
@@ -151,30 +144,30 @@ static vndf_status add_table(const maker *to, subject_id of, subject *s, size_t 
 }
 
 /* The tables that are wanted, the published ways for any D, and the fine table, which stands for D. */
-static vndf_status add_at_hand(const maker *to)
+static vndf_status add_at_hand(evidence_list *to)
 {
     subject *s = to->plan->at_hand;
-    size_t before = to->list->count;
+    size_t before = to->count;
     const method warp = method_warp(NULL);
     for (size_t i = 0; i < SIZES; i++) {
         method_call last = i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE;
         if (add_table(to, AT_HAND, s, i, last) != VNDF_OK)
             return to->error->status;
     }
-    if (to->list->count == before && !is_wanted(to, &warp, s->name))
+    if (to->count == before && !is_wanted(to, &warp, s->name))
         return VNDF_OK;
     if (!subject_table(s, SIZE_FINE, to->plan, to->error))
         return to->error->status;
-    method_reference *reference = &to->list->reference[AT_HAND];
+    method_reference *reference = &to->reference[AT_HAND];
     *reference = method_reference_of(s->table[SIZE_FINE]);
     add_normals(to, AT_HAND, method_all_normals(reference), 1);
     add_normals(to, AT_HAND, method_warp(reference), 0);
     return VNDF_OK;
 }
 
-static vndf_status add_beside(const maker *to)
+static vndf_status add_beside(evidence_list *to)
 {
-    subject *s = &to->list->student;
+    subject *s = &to->student;
     if (strcmp(to->plan->at_hand->name, student) == 0)
         return VNDF_OK;
     vndf_source *source = vndf_source_family(student, to->error);
@@ -183,13 +176,12 @@ static vndf_status add_beside(const maker *to)
     subject_begin(s, source, student);
     vndf_status status = add_table(to, BESIDE, s, SIZE_DEFAULT, METHOD_SAMPLE);
     if (s->table[SIZE_DEFAULT])
-        to->list->reference[BESIDE] = method_reference_of(s->table[SIZE_DEFAULT]);
+        to->reference[BESIDE] = method_reference_of(s->table[SIZE_DEFAULT]);
     return status;
 }
 
-static vndf_status make_normals(const maker *to)
+static vndf_status make_normals(evidence_list *to)
 {
-    evidence_list *list = to->list;
     add_normals(to, OF_GGX, method_ggx_caps(), 1);
     for (size_t i = 1; i < SETS; i++)
         add_normals(to, OF_GGX, method_ggx_caps_batch(sets[i]), 0);
@@ -199,11 +191,11 @@ static vndf_status make_normals(const maker *to)
     vndf_status status = add_at_hand(to);
     if (status == VNDF_OK)
         status = add_beside(to);
-    for (entry *e = list->entry; e < list->entry + list->count; e++) {
-        const method_reference *r = &list->reference[e->of];
+    for (entry *e = to->entry; e < to->entry + to->count; e++) {
+        const method_reference *r = &to->reference[e->of];
         e->law = (block_law){r->canonical.distribution, 0.05f / r->scale, 0.95f / r->scale, NAN, 0};
-        e->beside = &list->entry[0];
-        for (const entry *n = list->entry; n < list->entry + list->count; n++)
+        e->beside = &to->entry[0];
+        for (const entry *n = to->entry; n < to->entry + to->count; n++)
             if (n->of == e->of && strncmp(n->m.name, "all normals", 11) == 0)
                 e->normals = n;
     }
@@ -213,7 +205,7 @@ static vndf_status make_normals(const maker *to)
 /* ---- materials ----------------------------------------------------------------------------------- */
 
 /* Whether a set that is wanted is compared with this one. */
-static int is_yardstick(const maker *to, const effect_set *set)
+static int is_yardstick(evidence_list *to, const effect_set *set)
 {
     const char *only = to->plan->only;
     for (size_t i = 0; i < effect_set_count; i++)
@@ -224,9 +216,9 @@ static int is_yardstick(const maker *to, const effect_set *set)
 }
 
 /* The sets of effects of one distribution. */
-static vndf_status add_materials(const maker *to, const char *name, const vndf_surface *surface)
+static vndf_status add_materials(evidence_list *to, const char *name, const vndf_surface *surface)
 {
-    size_t first = to->list->count;
+    size_t first = to->count;
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
         method m = {.instructions = ""};
         snprintf(m.name, sizeof m.name, "%s", set->name);
@@ -242,9 +234,9 @@ static vndf_status add_materials(const maker *to, const char *name, const vndf_s
         e->row.number[COL_ALPHA_X] = (double)surface->alpha_x;
         e->row.number[COL_ALPHA_Y] = (double)surface->alpha_y;
     }
-    for (entry *e = to->list->entry + first; e < to->list->entry + to->list->count; e++) {
-        e->beside = find(to->list, first, effect_sets[EFFECT_BARE].name);
-        e->normals = find(to->list, first, effect_find(e->m.name)->visible);
+    for (entry *e = to->entry + first; e < to->entry + to->count; e++) {
+        e->beside = find(to, first, effect_sets[EFFECT_BARE].name);
+        e->normals = find(to, first, effect_find(e->m.name)->visible);
     }
     return VNDF_OK;
 }
@@ -253,11 +245,12 @@ static vndf_status add_materials(const maker *to, const char *name, const vndf_s
 
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error)
 {
-    const maker to = {list, plan, error};
-    vndf_status status = plan->at_hand ? make_normals(&to) : VNDF_OK;
+    list->plan = plan;
+    list->error = error;
+    vndf_status status = plan->at_hand ? make_normals(list) : VNDF_OK;
     for (size_t i = 0; i < plan->count && status == VNDF_OK; i++) {
         const vndf_surface surface = {plan->of[i].distribution, plan->alpha_x, plan->alpha_y};
-        status = add_materials(&to, plan->of[i].name, &surface);
+        status = add_materials(list, plan->of[i].name, &surface);
     }
     if (status != VNDF_OK)
         return status;

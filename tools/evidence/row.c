@@ -87,7 +87,7 @@ static int is_shown(const evidence_rows *all, evidence_column c, int is_wide)
     return 0;
 }
 
-static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
+static int print_shown(FILE *file, const evidence_rows *all, figures_form form)
 {
     text_table t = {.rows = 0};
     for (size_t i = 0; i < all->count; i++) {
@@ -97,22 +97,17 @@ static int print_shown(FILE *file, const evidence_rows *all, int (*form)(FILE *,
         table_text(&t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
         table_word(&t, "set", r->instructions);
         for (evidence_column c = 0; c < COLUMNS; c++)
-            if (is_shown(all, c, form != table_print_text))
+            if (is_shown(all, c, form != FIGURES_TEXT))
                 put_cell(&t, r, c);
     }
-    int good = form(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }
 
-int evidence_print_html(FILE *file, const evidence_rows *all)
-{
-    return print_shown(file, all, table_print_html);
-}
-
 /* ---- every number -------------------------------------------------------------------------------- */
 
-static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, const text_table *))
+static int print_all(FILE *file, const evidence_rows *all, figures_form form)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
     text_table t = {.rows = 0};
@@ -126,7 +121,7 @@ static int print_all(FILE *file, const evidence_rows *all, int (*form)(FILE *, c
         for (evidence_column c = 0; c < COLUMNS; c++)
             table_value(&t, columns[c].key, r->number[c]);
     }
-    int good = form(file, &t);
+    int good = table_print(file, &t, form);
     table_free(&t);
     return good;
 }
@@ -135,8 +130,7 @@ int evidence_print(FILE *file, const void *of, figures_form form)
 {
     const evidence_rows *all = of;
     if (form == FIGURES_CSV || form == FIGURES_JSON)
-        return print_all(file, all, form == FIGURES_CSV ? table_print_csv : table_print_json);
+        return print_all(file, all, form);
     int is_effects = all->count && all->row[0].kind == ROW_EFFECT;
-    return print_shown(file, all, form == FIGURES_MARKDOWN ? table_print_markdown : table_print_text) &&
-           fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
+    return print_shown(file, all, form) && fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
 }

@@ -66,7 +66,4 @@ void rows_free(evidence_rows *of);
  * number of every row. */
 int evidence_print(FILE *file, const void *of, figures_form form);
 
-/* Into a page, as text. */
-int evidence_print_html(FILE *file, const evidence_rows *of);
-
 #endif

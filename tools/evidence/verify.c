@@ -34,28 +34,21 @@ static int outputs_good(const method *m, const block *b)
     return 1;
 }
 
-static void clear_outputs(block *b)
+static int same_outputs(const block *a, const block *b)
 {
-    memset(b->x, 0, sizeof b->x);
-    memset(b->y, 0, sizeof b->y);
-    memset(b->z, 0, sizeof b->z);
-    memset(b->pdf, 0, sizeof b->pdf);
-}
-
-static int scalar_bits(const method *m, const block *b, block *scratch)
-{
-    memcpy(scratch, b, sizeof *b);
-    clear_outputs(scratch);
-    m->same_bits(m, scratch, 0, BLOCK);
-    return memcmp(b->x, scratch->x, sizeof b->x) == 0 && memcmp(b->y, scratch->y, sizeof b->y) == 0 &&
-           memcmp(b->z, scratch->z, sizeof b->z) == 0 && memcmp(b->pdf, scratch->pdf, sizeof b->pdf) == 0;
+    return memcmp(a->x, b->x, sizeof a->x) == 0 && memcmp(a->y, b->y, sizeof a->y) == 0 &&
+           memcmp(a->z, b->z, sizeof a->z) == 0 && memcmp(a->pdf, b->pdf, sizeof a->pdf) == 0;
 }
 
 static int normals_good(const method *m, method_run *run, block *b, block *scratch)
 {
-    clear_outputs(b);
+    for (size_t i = 0; i < BLOCK; i++)
+        b->x[i] = b->y[i] = b->z[i] = b->pdf[i] = 0;
+    memcpy(scratch, b, sizeof *b);
     run(m, b, 0, BLOCK);
-    return outputs_good(m, b) && !(m->same_bits && !scalar_bits(m, b, scratch));
+    if (m->same_bits)
+        m->same_bits(m, scratch, 0, BLOCK);
+    return outputs_good(m, b) && !(m->same_bits && !same_outputs(b, scratch));
 }
 
 /* ---- materials ----------------------------------------------------------------------------------- */

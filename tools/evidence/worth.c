@@ -15,25 +15,12 @@
  * Points are scrambled Sobol' points in replicates of 1024: means converge fast, their noise is seen from
  * replicate to replicate, and the variance of one sample is what it is. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "cli/subject.h"
 #include "evidence/evidence.h"
 
 static const double gold_n = 0.43, gold_k = 2.455, alpha_measured = 0.5;
 static const double noise_limit = 6; /* standard errors between two halves of the same samples */
-
-typedef struct integral {
-    method_reference reference;
-    vndf_vec3 wi, light;
-    float alpha, area, lambda, cone;
-    block *block;                                   /* samples */
-    float wo[3][BLOCK], d[BLOCK], wo_lambda[BLOCK]; /* where they reflect to; D, Lambda(wo) */
-} integral;
-
-typedef struct sums {
-    double value, value2, light, light2, means2, excess, max_weight;
-} sums;
 
 /* Complex Fresnel for polarised light, in terms of a^2 + b^2 = |sqrt(m^2 - sin^2)|^2. */
 double worth_fresnel(double cosine, double n, double k)
@@ -46,108 +33,53 @@ double worth_fresnel(double cosine, double n, double k)
     return 0.5 * (across + along);
 }
 
-/* ---- one block --------------------------------------------------------------------------------- */
+/* ---- normals ----------------------------------------------------------------------------------- */
 
-static double dot_of(const integral *x, size_t i)
+static double dot(vndf_vec3 a, vndf_vec3 b)
 {
-    const block *b = x->block;
-    return (double)b->x[i] * (double)x->wi.x + (double)b->y[i] * (double)x->wi.y +
-           (double)b->z[i] * (double)x->wi.z;
+    return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-static void evaluate(integral *x)
+void worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
+                      block *b, findings *found)
 {
-    block *b = x->block;
-    for (size_t i = 0; i < BLOCK; i++) {
-        float twice = (float)(2 * dot_of(x, i));
-        x->wo[0][i] = twice * b->x[i] - x->wi.x;
-        x->wo[1][i] = twice * b->y[i] - x->wi.y;
-        x->wo[2][i] = twice * b->z[i] - x->wi.z;
-    }
-    vndf_batch batch = {x->reference.canonical.distribution,
-                        BLOCK,
-                        VNDF_SHARED_ALPHA,
-                        VNDF_INSTRUCTIONS_BEST,
-                        &x->alpha,
-                        &x->alpha,
-                        x->wo[0],
-                        x->wo[1],
-                        x->wo[2]};
-    vndf_ndf_n(&batch, (vndf_normals){b->x, b->y, b->z}, x->d);
-    vndf_lambda_n(&batch, x->wo_lambda);
-}
-
-/* (1); *visible is the true density of the normal. */
-static double value_at(const integral *x, size_t i, double *visible)
-{
-    double dot = dot_of(x, i), pdf = (double)x->block->pdf[i], d = (double)x->d[i];
-    *visible = fmax(dot, 0) * d / (double)x->area;
-    if (!(dot > 0) || !(pdf > 0) || !(x->wo[2][i] > 0))
-        return 0;
-    double g2 = 1 / (1 + (double)x->lambda + (double)x->wo_lambda[i]);
-    return worth_fresnel(dot, gold_n, gold_k) * d * g2 * dot / ((double)x->wi.z * pdf);
-}
-
-static int lit(const integral *x, size_t i)
-{
-    return x->wo[0][i] * x->light.x + x->wo[1][i] * x->light.y + x->wo[2][i] * x->light.z > x->cone;
-}
-
-static void add_block(integral *x, sums *s)
-{
-    double before = s->value;
-    evaluate(x);
-    for (size_t i = 0; i < BLOCK; i++) {
-        double visible, value = value_at(x, i, &visible), pdf = (double)x->block->pdf[i];
-        s->value += value;
-        s->value2 += value * value;
-        s->light += lit(x, i) ? value : 0;
-        s->light2 += lit(x, i) ? value * value : 0;
-        s->excess += pdf > 0 ? fmax(0, 1 - visible / pdf) : 1;
-        s->max_weight = pdf > 0 ? fmax(s->max_weight, visible / pdf) : s->max_weight;
-    }
-    double mean = (s->value - before) / BLOCK;
-    s->means2 += mean * mean;
-}
-
-static void conclude(const sums *s, size_t replicates, findings *f)
-{
-    double count = (double)replicates * BLOCK, mean = s->value / count, light = s->light / count;
-    double spread = s->means2 / (double)replicates - mean * mean;
-    *f = (findings){.albedo = mean,
-                    .albedo_noise = replicates > 1 ? sqrt(fmax(spread, 0) / (double)(replicates - 1)) : INFINITY,
-                    .variance = s->value2 / count - mean * mean,
-                    .light_variance = s->light2 / count - light * light,
-                    .tv = s->excess / count,
-                    .max_weight = s->max_weight};
-}
-
-int worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
-                     findings *found)
-{
-    integral *x = calloc(1, sizeof *x);
-    block *b = calloc(1, sizeof *b);
-    sums s = {0};
-    if (x && b) {
-        *x = (integral){.reference = *reference, .wi = direction_from(theta, 0), .block = b};
-        x->light = direction_from(fabs(theta - 15), 160);
-        x->alpha = (float)alpha_measured / reference->scale;
-        x->cone = (float)cos(5 * acos(-1.0) / 180);
-        vndf_surface surface = {reference->canonical.distribution, x->alpha, x->alpha};
-        x->area = vndf_projected_area(&surface, x->wi);
-        x->lambda = vndf_lambda(&surface, x->wi);
-        block_aim(b, x->wi, x->alpha);
-        for (size_t i = 0; i < replicates; i++) {
-            block_spread(b, 77 + (uint32_t)i);
-            m->each(m, b, 0, BLOCK);
-            add_block(x, &s);
+    const float alpha = (float)alpha_measured / reference->scale;
+    const vndf_surface surface = {reference->canonical.distribution, alpha, alpha};
+    const vndf_vec3 wi = direction_from(theta, 0), light = direction_from(fabs(theta - 15), 160);
+    const double area = (double)vndf_projected_area(&surface, wi), lambda = (double)vndf_lambda(&surface, wi);
+    const double count = (double)replicates * BLOCK, cone = cos(5 * acos(-1.0) / 180);
+    double sum = 0, square = 0, lit = 0, lit_square = 0, means_square = 0, excess = 0, most = 0;
+    block_aim(b, wi, alpha);
+    for (size_t replicate = 0; replicate < replicates; replicate++) {
+        double before = sum;
+        block_spread(b, 77 + (uint32_t)replicate);
+        m->each(m, b, 0, BLOCK);
+        for (size_t i = 0; i < BLOCK; i++) {
+            const vndf_vec3 wm = {b->x[i], b->y[i], b->z[i]};
+            double facing = dot(wi, wm), pdf = (double)b->pdf[i], d = (double)vndf_ndf(&surface, wm), value = 0;
+            double weight = pdf > 0 ? fmax(facing, 0) * d / (area * pdf) : 0;
+            const float twice = (float)(2 * facing);
+            const vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+            if (weight > 0 && wo.z > 0) {
+                double g2 = 1 / (1 + lambda + (double)vndf_lambda(&surface, wo));
+                value = worth_fresnel(facing, gold_n, gold_k) * weight * area * g2 / (double)wi.z; /* (1) */
+            }
+            sum += value;
+            square += value * value;
+            lit += dot(wo, light) > cone ? value : 0;
+            lit_square += dot(wo, light) > cone ? value * value : 0;
+            excess += fmax(0, 1 - weight);
+            most = fmax(most, weight);
         }
-        conclude(&s, replicates, found);
+        means_square += (sum - before) * (sum - before) / (BLOCK * BLOCK);
     }
-    int good = x && b;
-    free(x);
-    free(b);
-    return good;
+    double mean = sum / count, spread = fmax(means_square / (double)replicates - mean * mean, 0);
+    *found = (findings){.albedo = mean,
+                        .albedo_noise = replicates > 1 ? sqrt(spread / (double)(replicates - 1)) : INFINITY,
+                        .variance = square / count - mean * mean,
+                        .light_variance = lit_square / count - lit * lit / (count * count),
+                        .tv = excess / count,
+                        .max_weight = most};
 }
 
 /* ---- materials ----------------------------------------------------------------------------------- */

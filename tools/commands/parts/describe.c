@@ -104,7 +104,7 @@ int describe_family_verdict(const vndf_family *family, char verdict[DESCRIBE_VER
     double distance = (double)facts.distance, tables = largest_tv(family);
     int good = distance <= poor && tables <= poor;
     snprintf(verdict, DESCRIBE_VERDICT,
-             "mixtures within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; "
+             "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; "
              "%.1f KiB; %s",
              100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024,
              good                ? "good to ship"

@@ -70,24 +70,9 @@ double statistics_sidak(double level, size_t n)
 
 /* ---- Pearson ------------------------------------------------------------------------------------- */
 
-/* Bins that expect little go together with their neighbours, so that a deviation in a tail is not drowned by the
- * rest of it. The newest class is kept open, since what is left at the end joins it. */
 typedef struct class_sum {
     double expected, observed, variance;
 } class_sum;
-
-typedef struct pooling {
-    class_sum open; /* bins that expect little, being added up */
-    class_sum last; /* the newest whole class */
-    pearson found;  /* the statistic is that of the classes before it */
-} pooling;
-
-static void add_up(class_sum *sum, class_sum more)
-{
-    sum->expected += more.expected;
-    sum->observed += more.observed;
-    sum->variance += more.variance;
-}
 
 static double deviation(class_sum sum)
 {
@@ -95,38 +80,34 @@ static double deviation(class_sum sum)
     return difference * difference / sum.variance;
 }
 
-static void close_class(pooling *state, class_sum sum)
+static class_sum together(class_sum a, class_sum b)
 {
-    if (state->found.classes)
-        state->found.statistic += deviation(state->last);
-    state->last = sum;
-    state->found.classes++;
+    return (class_sum){a.expected + b.expected, a.observed + b.observed, a.variance + b.variance};
 }
 
-static void add_bin(pooling *state, class_sum bin, double least)
-{
-    if (bin.expected >= least) {
-        close_class(state, bin);
-        return;
-    }
-    state->found.pooled++;
-    add_up(&state->open, bin);
-    if (state->open.expected >= least) {
-        close_class(state, state->open);
-        state->open = (class_sum){0, 0, 0};
-    }
-}
-
+/* Bins that expect little go together with their neighbours, so that a deviation in a tail is not drowned by the
+ * rest of it. The newest class is kept open, since what is left at the end joins it. */
 pearson pearson_of(const double *expected, const double *observed, const double *variance, size_t bins,
                    double least)
 {
-    pooling state = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0, 0}};
-    for (size_t i = 0; i < bins; i++)
-        add_bin(&state, (class_sum){expected[i], observed[i], variance ? variance[i] : expected[i]}, least);
-    if (!state.found.classes)
-        return state.found;
-    add_up(&state.last, state.open);
-    state.found.statistic += deviation(state.last);
-    state.found.p = statistics_chi_square_p(state.found.statistic, state.found.classes - 1);
-    return state.found;
+    class_sum open = {0, 0, 0}, last = {0, 0, 0};
+    pearson found = {0, 0, 0, 0};
+    for (size_t i = 0; i < bins; i++) {
+        class_sum bin = {expected[i], observed[i], variance ? variance[i] : expected[i]};
+        if (!(bin.expected >= least)) {
+            found.pooled++;
+            open = together(open, bin);
+            if (!(open.expected >= least))
+                continue;
+            bin = open;
+            open = (class_sum){0, 0, 0};
+        }
+        found.statistic += found.classes++ ? deviation(last) : 0;
+        last = bin;
+    }
+    if (!found.classes)
+        return found;
+    found.statistic += deviation(together(last, open));
+    found.p = statistics_chi_square_p(found.statistic, found.classes - 1);
+    return found;
 }

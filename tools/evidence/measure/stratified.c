@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "cli/subject.h"
+
 /* ---- points ---- */
 
 static uint32_t reverse(uint32_t x)
@@ -101,28 +103,20 @@ double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_li
 
 /* ---- beside caps ---- */
 
-stratified stratified_measure(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed)
+double stratified_beside_caps(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed)
 {
-    static const double thetas[STRATIFIED_VIEWS] = {5, 25, 45, 60, 75, 85};
-    stratified found = {{0}, {{0}}, {0}, 0};
-    const vndf_surface ours = {distribution, alpha, alpha};
-    double scale = vndf_distribution_info(distribution).scale;
-    const vndf_surface caps = {vndf_ggx(), alpha * (float)(scale > 0 ? scale : 1),
-                               alpha * (float)(scale > 0 ? scale : 1)};
-    for (int i = 0; i < STRATIFIED_VIEWS; i++) {
-        double theta = found.theta[i] = thetas[i], t = theta * 3.14159265358979323846 / 180;
-        const vndf_vec3 wi = {(float)(sin(t) * 0.8), (float)(sin(t) * 0.6), (float)cos(t)};
-        for (int light = 0; light < STRATIFIED_LIGHTS; light++) {
-            double a = stratified_error(&ours, wi, (stratified_light)light, 64, scrambles, seed);
-            double b = stratified_error(&caps, wi, (stratified_light)light, 64, scrambles, seed + 1);
-            found.quotient[i][light] = a > 0 && b > 0 ? a / b : 1;
-            found.mean[light] += log(found.quotient[i][light]) / STRATIFIED_VIEWS;
-        }
+    static const double thetas[] = {5, 25, 45, 60, 75, 85};
+    enum { VIEWS = sizeof thetas / sizeof *thetas };
+    const double scale = vndf_distribution_info(distribution).scale;
+    const float same = alpha * (float)(scale > 0 ? scale : 1);
+    const vndf_surface ours = {distribution, alpha, alpha}, caps = {vndf_ggx(), same, same};
+    double sum = 0;
+    for (int i = 0; i < VIEWS * STRATIFIED_LIGHTS; i++) {
+        const vndf_vec3 wi = direction_from(thetas[i / STRATIFIED_LIGHTS], 36.87);
+        const stratified_light light = (stratified_light)(i % STRATIFIED_LIGHTS);
+        double a = stratified_error(&ours, wi, light, 64, scrambles, seed);
+        double b = stratified_error(&caps, wi, light, 64, scrambles, seed + 1);
+        sum += a > 0 && b > 0 ? log(a / b) : 0;
     }
-    for (int light = 0; light < STRATIFIED_LIGHTS; light++) {
-        found.all += found.mean[light] / STRATIFIED_LIGHTS;
-        found.mean[light] = exp(found.mean[light]);
-    }
-    found.all = exp(found.all);
-    return found;
+    return exp(sum / (VIEWS * STRATIFIED_LIGHTS));
 }

@@ -72,22 +72,16 @@ static inline float slope_along(const beckmann_view *v, float u1)
     return x;
 }
 
-static inline vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
-{
-    const beckmann_view *v = view;
-    float a = v->alpha, x = slope_along(v, u1), y = erf_inverse(2.0f * fmaxf(u2, 1e-6f) - 1.0f);
-    vndf_vec3 m = method_normal(&v->turn, a, x, y);
-    float z2 = m.z * m.z;
-    float ndf = expf((z2 - 1.0f) / (z2 * a * a)) / (method_pi * a * a * z2 * z2);
-    *pdf = fmaxf(0.0f, method_dot(v->wi, m)) * ndf * v->per_area;
-    return m;
-}
-
 static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 {
     (void)m;
     beckmann_view v = view_from(in->wi, in->alpha);
-    return draw(&v, in->u[0], in->u[1], pdf);
+    float a = v.alpha, x = slope_along(&v, in->u[0]), y = erf_inverse(2.0f * fmaxf(in->u[1], 1e-6f) - 1.0f);
+    vndf_vec3 wm = method_normal(&v.turn, a, x, y);
+    float z2 = wm.z * wm.z;
+    float ndf = expf((z2 - 1.0f) / (z2 * a * a)) / (method_pi * a * a * z2 * z2);
+    *pdf = fmaxf(0.0f, method_dot(v.wi, wm)) * ndf * v.per_area;
+    return wm;
 }
 
 static void each(const method *m, block *b, size_t first, size_t count)
@@ -95,19 +89,8 @@ static void each(const method *m, block *b, size_t first, size_t count)
     method_loop(one, m, b, first, count);
 }
 
-static void shared(const method *m, block *b, size_t first, size_t count)
-{
-    (void)m;
-    beckmann_view v = view_from(b->in[first].wi, b->in[first].alpha);
-    method_shared_loop(draw, &v, b, first, count);
-}
-
 method method_beckmann_newton(void)
 {
-    return (method){.name = "Newton on erf (2014)",
-                    .instructions = "scalar",
-                    .kind = ROW_PUBLISHED,
-                    .one = one,
-                    .each = each,
-                    .shared = shared};
+    return (method){
+        .name = "Newton on erf (2014)", .instructions = "scalar", .kind = ROW_PUBLISHED, .one = one, .each = each};
 }

@@ -20,29 +20,21 @@
 #  define INLINED static inline
 #endif
 
-/* The direction in the unit problem, its length, and pi alpha^2 (length + z). */
-typedef struct caps {
-    float x, y, z, alpha, length2, top, cap;
-} caps;
-
-INLINED caps caps_view(const block *b, size_t i)
+INLINED void caps_draw(block *b, size_t i)
 {
-    float alpha = b->alpha[i], x = alpha * b->wi[0][i], y = alpha * b->wi[1][i], z = b->wi[2][i];
-    float length2 = x * x + y * y + z * z, top = z + sqrtf(length2);
-    return (caps){x, y, z, alpha, length2, top, 3.14159265f * alpha * alpha * top};
-}
-
-INLINED void caps_draw(const caps v, block *b, size_t i)
-{
+    /* the direction in the unit problem, and pi alpha^2 (|w| + w.z) */
+    float alpha = b->alpha[i], wx = alpha * b->wi[0][i], wy = alpha * b->wi[1][i], wz = b->wi[2][i];
+    float length2 = wx * wx + wy * wy + wz * wz, top = wz + sqrtf(length2),
+          cap = 3.14159265f * alpha * alpha * top;
     float turn = b->u[0][i] - 0.5f, y = 0.25f - fabsf(turn), q = y * y;
     float sine = y * (6.28318528f + q * (-41.3416806f + q * (81.6024764f + q * (-76.5811726f + q * 39.7598271f))));
     float cosine = 0.999999953f + q * (-19.7391712f + q * (64.9345727f + q * (-85.2398703f + q * 56.2387004f)));
-    float up = (1.0f - b->u[1][i]) * v.top, z = up - v.z, s = sqrtf(fmaxf(v.length2 - z * z, 1e-30f));
-    float hx = s * sine + v.x, hy = s * copysignf(cosine, turn) + v.y, across = hx * hx + hy * hy;
-    float mm = fmaxf(v.alpha * v.alpha * across + up * up, 1e-30f), area = (across + up * up) * v.cap;
+    float up = (1.0f - b->u[1][i]) * top, z = up - wz, s = sqrtf(fmaxf(length2 - z * z, 1e-30f));
+    float hx = s * sine + wx, hy = s * copysignf(cosine, turn) + wy, across = hx * hx + hy * hy;
+    float mm = fmaxf(alpha * alpha * across + up * up, 1e-30f), area = (across + up * up) * cap;
     float share = 1.0f / (sqrtf(mm) * area), per = share * area; /* one reciprocal for both */
-    b->x[i] = hx * v.alpha * per;
-    b->y[i] = hy * v.alpha * per;
+    b->x[i] = hx * alpha * per;
+    b->y[i] = hy * alpha * per;
     b->z[i] = up * per;
     b->pdf[i] = mm * mm * share;
 }
@@ -50,14 +42,7 @@ INLINED void caps_draw(const caps v, block *b, size_t i)
 INLINED void caps_each(block *b, size_t first, size_t count)
 {
     for (size_t i = first; i < first + count; i++)
-        caps_draw(caps_view(b, i), b, i);
-}
-
-INLINED void caps_shared(block *b, size_t first, size_t count)
-{
-    const caps v = caps_view(b, first);
-    for (size_t i = first; i < first + count; i++)
-        caps_draw(v, b, i);
+        caps_draw(b, i);
 }
 
 /* ---- the instruction sets ------------------------------------------------------------------------ */
@@ -92,22 +77,10 @@ static void each_portable(const method *m, block *b, size_t first, size_t count)
     caps_each(b, first, count);
 }
 
-static void shared_portable(const method *m, block *b, size_t first, size_t count)
-{
-    (void)m;
-    caps_shared(b, first, count);
-}
-
 FOR_AVX2 static void each_avx2(const method *m, block *b, size_t first, size_t count)
 {
     (void)m;
     caps_each(b, first, count);
-}
-
-FOR_AVX2 static void shared_avx2(const method *m, block *b, size_t first, size_t count)
-{
-    (void)m;
-    caps_shared(b, first, count);
 }
 
 FOR_AVX512 static void each_avx512(const method *m, block *b, size_t first, size_t count)
@@ -116,23 +89,15 @@ FOR_AVX512 static void each_avx512(const method *m, block *b, size_t first, size
     caps_each(b, first, count);
 }
 
-FOR_AVX512 static void shared_avx512(const method *m, block *b, size_t first, size_t count)
-{
-    (void)m;
-    caps_shared(b, first, count);
-}
-
 method method_ggx_caps_batch(vndf_instructions set)
 {
-    int is_512 = set == VNDF_INSTRUCTIONS_AVX512, is_256 = set == VNDF_INSTRUCTIONS_AVX2;
     method m = {.name = "spherical caps (2023), batch",
                 .instructions = method_instructions_name(set),
                 .kind = ROW_PUBLISHED,
-                .limit = set,
-                .shared = is_512   ? shared_avx512
-                          : is_256 ? shared_avx2
-                                   : shared_portable};
+                .limit = set};
     if (has(set))
-        m.each = is_512 ? each_avx512 : is_256 ? each_avx2 : each_portable;
+        m.each = set == VNDF_INSTRUCTIONS_AVX512 ? each_avx512
+                 : set == VNDF_INSTRUCTIONS_AVX2 ? each_avx2
+                                                 : each_portable;
     return m;
 }

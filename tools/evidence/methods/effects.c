@@ -86,21 +86,18 @@ static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf 
     }
 }
 
-static void each(const method *m, block *b, size_t first, size_t count)
-{
-    for (size_t i = first; i < first + count; i++) {
-        vndf_bsdf bsdf;
-        hit(m->state, &b->in[i], &bsdf);
-        vndf_bsdf_sample(&bsdf, b->in[i].u, &b->out[i]);
-    }
-}
-
 static void shared(const method *m, block *b, size_t first, size_t count)
 {
     vndf_bsdf bsdf;
     hit(m->state, &b->in[first], &bsdf);
     for (size_t i = first; i < first + count; i++)
         vndf_bsdf_sample(&bsdf, b->in[i].u, &b->out[i]);
+}
+
+static void each(const method *m, block *b, size_t first, size_t count)
+{
+    for (size_t i = first; i < first + count; i++)
+        shared(m, b, i, 1);
 }
 
 static void eval(const method *m, block *b, size_t first, size_t count)
@@ -123,26 +120,25 @@ static void density(const method *m, block *b, size_t first, size_t count)
 
 static const unsigned one_hit = VNDF_SHARED_WI | VNDF_SHARED_ALPHA;
 
-static vndf_bsdf_batch batch_of(const method *m, const block *b, size_t first, size_t count, unsigned is_shared)
+static vndf_bsdf_batch batch_of(const method *m, const block *b, size_t i, size_t count, unsigned is_shared)
 {
-    const effect_case *of = m->state;
-    return (vndf_bsdf_batch){.material = &of->material,
+    return (vndf_bsdf_batch){.material = &((const effect_case *)m->state)->material,
                              .count = count,
                              .shared = is_shared,
-                             .wi_x = b->wi[0] + first,
-                             .wi_y = b->wi[1] + first,
-                             .wi_z = b->wi[2] + first};
+                             .wi_x = b->wi[0] + i,
+                             .wi_y = b->wi[1] + i,
+                             .wi_z = b->wi[2] + i};
 }
 
-static void sample_n(const method *m, block *b, size_t first, size_t count, unsigned is_shared)
+static void sample_n(const method *m, block *b, size_t i, size_t count, unsigned is_shared)
 {
-    const vndf_bsdf_batch batch = batch_of(m, b, first, count, is_shared);
-    const float *const u[3] = {b->u[0] + first, b->u[1] + first, b->u[2] + first};
-    const vndf_scattered_n to = {{b->x + first, b->y + first, b->z + first},
-                                 {b->value[0] + first, b->value[1] + first, b->value[2] + first},
-                                 b->pdf + first,
-                                 b->lobe + first,
-                                 {b->half[0] + first, b->half[1] + first, b->half[2] + first}};
+    const vndf_bsdf_batch batch = batch_of(m, b, i, count, is_shared);
+    const float *const u[3] = {b->u[0] + i, b->u[1] + i, b->u[2] + i};
+    const vndf_scattered_n to = {{b->x + i, b->y + i, b->z + i},
+                                 {b->value[0] + i, b->value[1] + i, b->value[2] + i},
+                                 b->pdf + i,
+                                 b->lobe + i,
+                                 {b->half[0] + i, b->half[1] + i, b->half[2] + i}};
     vndf_bsdf_sample_n(&batch, u, to);
 }
 
@@ -156,22 +152,19 @@ static void batch_shared(const method *m, block *b, size_t first, size_t count)
     sample_n(m, b, first, count, one_hit);
 }
 
-static vndf_normals wo_of(block *b, size_t first)
+static void batch_eval(const method *m, block *b, size_t i, size_t count)
 {
-    return (vndf_normals){b->given[0] + first, b->given[1] + first, b->given[2] + first};
+    const vndf_bsdf_batch batch = batch_of(m, b, i, count, one_hit);
+    const vndf_normals wo = {b->given[0] + i, b->given[1] + i, b->given[2] + i};
+    float *const value[3] = {b->value[0] + i, b->value[1] + i, b->value[2] + i};
+    vndf_bsdf_eval_n(&batch, wo, NULL, value);
 }
 
-static void batch_eval(const method *m, block *b, size_t first, size_t count)
+static void batch_density(const method *m, block *b, size_t i, size_t count)
 {
-    const vndf_bsdf_batch batch = batch_of(m, b, first, count, one_hit);
-    float *const value[3] = {b->value[0] + first, b->value[1] + first, b->value[2] + first};
-    vndf_bsdf_eval_n(&batch, wo_of(b, first), NULL, value);
-}
-
-static void batch_density(const method *m, block *b, size_t first, size_t count)
-{
-    const vndf_bsdf_batch batch = batch_of(m, b, first, count, one_hit);
-    vndf_bsdf_pdf_n(&batch, wo_of(b, first), b->pdf + first);
+    const vndf_bsdf_batch batch = batch_of(m, b, i, count, one_hit);
+    const vndf_normals wo = {b->given[0] + i, b->given[1] + i, b->given[2] + i};
+    vndf_bsdf_pdf_n(&batch, wo, b->pdf + i);
 }
 
 /* ---- by hand ------------------------------------------------------------------------------------- */
@@ -218,23 +211,20 @@ static const vndf_surface *surface_of(const method *m)
 }
 
 /* (A copy of wi would be stored by floats and loaded whole, for which the processor waits: method.h.) */
-static void hand_each(const method *m, block *b, size_t first, size_t count)
-{
-    const vndf_surface *s = surface_of(m);
-    for (size_t i = first; i < first + count; i++) {
-        vndf_view view = vndf_view_from(s, b->in[i].wi);
-        sample_by_hand(s, &view, b->in[i].wi, vndf_projected_area(s, b->in[i].wi), b->in[i].u, &b->out[i]);
-    }
-}
-
 static void hand_shared(const method *m, block *b, size_t first, size_t count)
 {
     const vndf_surface *s = surface_of(m);
-    vndf_vec3 wi = b->in[first].wi;
-    vndf_view view = vndf_view_from(s, wi);
-    float area = vndf_projected_area(s, wi);
+    const vndf_vec3 *wi = &b->in[first].wi;
+    vndf_view view = vndf_view_from(s, *wi);
+    float area = vndf_projected_area(s, *wi);
     for (size_t i = first; i < first + count; i++)
-        sample_by_hand(s, &view, wi, area, b->in[i].u, &b->out[i]);
+        sample_by_hand(s, &view, *wi, area, b->in[i].u, &b->out[i]);
+}
+
+static void hand_each(const method *m, block *b, size_t first, size_t count)
+{
+    for (size_t i = first; i < first + count; i++)
+        hand_shared(m, b, i, 1);
 }
 
 static void hand_eval(const method *m, block *b, size_t first, size_t count)

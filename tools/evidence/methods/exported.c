@@ -7,23 +7,14 @@
 
 #include "exported_kernel.h"
 
-static exported_view view_at(const float *numbers, const method_input *in)
-{
-    int distribution = numbers ? 0 : EXPORTED_GGX;
-    exported_vec3 wi = {in->wi.x, in->wi.y, in->wi.z};
-    return exported_view_of(numbers, exported_surface_of(distribution, in->alpha, in->alpha), wi);
-}
-
-static vndf_vec3 draw(const float *numbers, exported_view view, const float u[2], float *pdf)
-{
-    exported_sampled drawn = exported_sample(numbers, view, u[0], u[1]);
-    *pdf = drawn.pdf;
-    return (vndf_vec3){drawn.wm.x, drawn.wm.y, drawn.wm.z};
-}
-
 static vndf_vec3 one(const method *m, const method_input *in, float *pdf)
 {
-    return draw(m->state, view_at(m->state, in), in->u, pdf);
+    const float *numbers = m->state;
+    exported_surface surface = exported_surface_of(numbers ? 0 : EXPORTED_GGX, in->alpha, in->alpha);
+    exported_view view = exported_view_of(numbers, surface, (exported_vec3){in->wi.x, in->wi.y, in->wi.z});
+    exported_sampled drawn = exported_sample(numbers, view, in->u[0], in->u[1]);
+    *pdf = drawn.pdf;
+    return (vndf_vec3){drawn.wm.x, drawn.wm.y, drawn.wm.z};
 }
 
 static void each(const method *m, block *b, size_t first, size_t count)
@@ -31,19 +22,9 @@ static void each(const method *m, block *b, size_t first, size_t count)
     method_loop(one, m, b, first, count);
 }
 
-static void shared(const method *m, block *b, size_t first, size_t count)
-{
-    const exported_view view = view_at(m->state, &b->in[first]);
-    for (size_t i = first; i < first + count; i++) {
-        float pdf;
-        vndf_vec3 wm = draw(m->state, view, b->in[i].u, &pdf);
-        method_put(b, i, wm, pdf);
-    }
-}
-
 method method_exported(const vndf_distribution *distribution, const char *name)
 {
-    method m = {.instructions = "scalar", .kind = ROW_EXPORTED, .one = one, .shared = shared, .each = each};
+    method m = {.instructions = "scalar", .kind = ROW_EXPORTED, .one = one, .each = each};
     size_t count = distribution ? vndf_numbers(distribution, NULL, 0) : 0;
     snprintf(m.name, sizeof m.name, "%s, exported C", name);
     if (!count)

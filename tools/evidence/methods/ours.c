@@ -64,12 +64,10 @@ static void each_call(const method *m, block *b, size_t first, size_t count)
 
 /* ---- batches of them ----------------------------------------------------------------------------- */
 
-static const unsigned all_shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
-
-static vndf_batch batch_of(const method *m, const block *b, size_t i, size_t count, unsigned is_shared)
+static vndf_batch batch_of(const method *m, const block *b, size_t i, size_t count)
 {
-    return (vndf_batch){m->state,     count,        is_shared,    m->limit,    b->alpha + i,
-                        b->alpha + i, b->wi[0] + i, b->wi[1] + i, b->wi[2] + i};
+    return (vndf_batch){m->state,     count,        0,           m->limit, b->alpha + i, b->alpha + i,
+                        b->wi[0] + i, b->wi[1] + i, b->wi[2] + i};
 }
 
 static vndf_normals drawn(block *b, size_t i)
@@ -79,19 +77,13 @@ static vndf_normals drawn(block *b, size_t i)
 
 static void batch_each(const method *m, block *b, size_t first, size_t count)
 {
-    vndf_batch batch = batch_of(m, b, first, count, 0);
-    vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
-}
-
-static void batch_shared(const method *m, block *b, size_t first, size_t count)
-{
-    vndf_batch batch = batch_of(m, b, first, count, all_shared);
+    vndf_batch batch = batch_of(m, b, first, count);
     vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
 }
 
 static void batch_call(const method *m, block *b, size_t first, size_t count)
 {
-    const vndf_batch batch = batch_of(m, b, first, count, 0);
+    const vndf_batch batch = batch_of(m, b, first, count);
     const vndf_normals normals = {b->given[0] + first, b->given[1] + first, b->given[2] + first};
     float *pdf = b->pdf + first;
     switch (m->call) {
@@ -183,16 +175,16 @@ static void batch_lobes(const method *m, block *b, size_t first, size_t count)
 static const struct {
     const char *name;
     method_one *one;
-    method_run *each, *shared, *batch, *batch_shared;
+    method_run *each, *shared, *batch;
 } calls[METHOD_CALLS] = {
-    [METHOD_SAMPLE] = {"", one, each, shared, batch_each, batch_shared},
-    [METHOD_WEIGHT] = {": weight", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_PDF] = {": pdf", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_INVERT] = {": invert", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_NDF] = {": ndf", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_LAMBDA] = {": lambda", NULL, each_call, NULL, batch_call, NULL},
-    [METHOD_AFFINE] = {": affine", one_affine, each_affine, NULL, batch_affine, NULL},
-    [METHOD_TWO_LOBES] = {": mixture", one_lobes, each_lobes, NULL, batch_lobes, NULL},
+    [METHOD_SAMPLE] = {"", one, each, shared, batch_each},
+    [METHOD_WEIGHT] = {": weight", NULL, each_call, NULL, batch_call},
+    [METHOD_PDF] = {": pdf", NULL, each_call, NULL, batch_call},
+    [METHOD_INVERT] = {": invert", NULL, each_call, NULL, batch_call},
+    [METHOD_NDF] = {": ndf", NULL, each_call, NULL, batch_call},
+    [METHOD_LAMBDA] = {": lambda", NULL, each_call, NULL, batch_call},
+    [METHOD_AFFINE] = {": affine", one_affine, each_affine, NULL, batch_affine},
+    [METHOD_TWO_LOBES] = {": mixture", one_lobes, each_lobes, NULL, batch_lobes},
 };
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
@@ -215,7 +207,6 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
         m.shared = calls[call].shared;
     } else if (vndf_instructions_used(limit) == limit) {
         m.each = calls[call].batch;
-        m.shared = calls[call].batch_shared;
         m.same_bits = calls[call].each;
     }
     return m;

@@ -7,7 +7,7 @@
 
 static void write_broken(FILE *html, const report_verdict *v)
 {
-    static const char *const formats[REPORT_LIMITS] = {"weights up to %.3g", "%.2g of added variance",
+    static const char *const formats[REPORT_LIMITS] = {"weights up to %.3g", "%.2g%% of added variance",
                                                        "a total variation of %.2g above the horizon",
                                                        "a total variation of %.2g below it", "areas off by %.2g"};
     const char *between = "";
@@ -45,7 +45,7 @@ static void write_advice(FILE *html, const report_subject *s)
         fprintf(html,
                 "It is the smallest that keeps all limits: weights up to %.3g, %.2g%% of added variance, "
                 "a total variation of %.2g above the horizon and %.2g below it, G1 within %.1g. ",
-                v.value[0], 100 * v.value[1], v.value[2], v.value[3], v.value[4]);
+                v.value[0], v.value[1], v.value[2], v.value[3], v.value[4]);
     else {
         fputs("None of those measured keeps all limits; this is the smallest that comes near the finest, with ",
               html);
@@ -58,92 +58,55 @@ static void write_advice(FILE *html, const report_subject *s)
         write_cheaper(html, s, s->chosen - 3, "The next smaller file");
     if (size->moments > 2 && v.all)
         write_cheaper(html, s, s->chosen - 1, "One moment fewer");
-    fputs("<br><code>vndf build ", html);
+    fputs("<code>vndf build ", html);
     svg_escape(html, vndf_source_description(s->of.source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
 }
 
 /* ---- the table ----------------------------------------------------------------------------------- */
 
-/* A figure; a mark in a colour ends it where it breaks a limit. */
 static void put_limited(text_table *t, const char *heading, const char *format, double value, int kept)
 {
-    char figure[32], marked[40];
-    snprintf(figure, sizeof figure, format, value);
-    snprintf(marked, sizeof marked, "%s%s", figure, kept ? "" : " ✗");
-    table_figure(t, heading, marked);
+    table_number(t, heading, format, value);
     table_mark(t, kept ? NULL : "no");
 }
 
-static int write_table(html_page *page, const report_subject *s)
+static void add_rows(text_table *t, const report *r, const report_subject *s)
 {
-    text_table t = {.rows = 0};
     for (size_t i = 0; i < SIZES; i++) {
         const report_table *of = &s->table[i];
         report_verdict v = report_judge(of);
-        char size[TABLE_BYTES], name[TABLE_BYTES + 8];
-        table_bytes_text(size, (double)of->info.bytes);
-        snprintf(name, sizeof name, "%s%s", size, i == s->chosen ? " ✓" : "");
-        table_row(&t);
-        table_word(&t, "size", name);
-        table_mark(&t, i == s->chosen ? "chosen" : NULL);
-        table_number(&t, "moments", "%.0f", table_sizes[i].moments);
-        table_number(&t, "in memory", "%.0f", (double)of->info.memory);
-        put_limited(&t, "TV above", "%.1e", v.value[2], v.kept[2]);
-        put_limited(&t, "below", "%.1e", v.value[3], v.kept[3]);
-        put_limited(&t, "weight", "%.3g", v.value[0], v.kept[0]);
-        put_limited(&t, "added variance", "%.2g%%", 100 * v.value[1], v.kept[1]);
-        put_limited(&t, "G1 error", "%.1e", v.value[4], v.kept[4]);
-        table_number(&t, "ns, one by one", "%.0f", of->ns);
-        table_number(&t, "ns, batch", "%.1f", of->batch);
+        table_row(t);
+        if (r->count > 1)
+            table_text(t, "distribution", s->of.name);
+        table_number(t, "file (bytes)", "%.0f", (double)of->info.bytes);
+        table_number(t, "moments", "%.0f", table_sizes[i].moments);
+        table_number(t, "in memory (bytes)", "%.0f", (double)of->info.memory);
+        put_limited(t, "TV above", "%.1e", v.value[2], v.kept[2]);
+        put_limited(t, "TV below", "%.1e", v.value[3], v.kept[3]);
+        put_limited(t, "weight", "%.3g", v.value[0], v.kept[0]);
+        put_limited(t, "added variance (%)", "%.2g", v.value[1], v.kept[1]);
+        put_limited(t, "G1 error", "%.1e", v.value[4], v.kept[4]);
+        table_number(t, "ns", "%.0f", of->ns);
+        table_number(t, "batch ns", "%.1f", of->batch);
+        table_row_mark(t, i == s->chosen ? "chosen" : NULL);
     }
-    return page_table(page, t);
-}
-
-static int write_data(html_page *page, const report *r)
-{
-    text_table data = {.rows = 0};
-    for (size_t k = 0; k < r->count; k++)
-        for (size_t i = 0; i < SIZES; i++) {
-            const report_table *of = &r->subject[k].table[i];
-            table_row(&data);
-            table_text(&data, "distribution", r->subject[k].of.name);
-            table_value(&data, "bytes", (double)of->info.bytes);
-            table_value(&data, "moments", table_sizes[i].moments);
-            table_value(&data, "memory", (double)of->info.memory);
-            table_value(&data, "tv_above", of->tv_above);
-            table_value(&data, "tv_below", of->tv_below);
-            table_value(&data, "max_weight", of->weight);
-            table_value(&data, "max_weight_certified", (double)of->info.certificate.max_weight);
-            table_value(&data, "added_variance", of->variance);
-            table_value(&data, "area_error", of->area);
-            table_value(&data, "ns", of->ns);
-            table_value(&data, "batch_ns", of->batch);
-            table_value(&data, "batch_shared_ns", of->shared);
-            table_value(&data, "chosen", i == r->subject[k].chosen);
-        }
-    return page_data(page, "tables.csv", "error, weight and time of all tables", data);
 }
 
 int report_advice(html_page *page, const report *r)
 {
+    text_table t = {.rows = 0};
     page_section(
         page, "advice", "Which table, and how many moments",
         "Every table is exact with its weight; a coarse one costs noise. The advice is the smallest with weights up to "
         "2, at most 1% more variance, a total variation (TV) up to 0.001 above the horizon (so that the weight may be "
         "left out where a bias below half a step of 8 bits does not matter) and 0.03 below it, and G1 within 0.0001.");
     fputs("<div class=\"advice\">\n", page->html);
-    for (size_t i = 0; i < r->count; i++)
+    for (size_t i = 0; i < r->count; i++) {
         write_advice(page->html, &r->subject[i]);
-    fputs("</div>\n", page->html);
-    int good = 1;
-    for (size_t i = 0; i < r->count && good; i++) {
-        fputs("<h3>", page->html);
-        svg_escape(page->html, r->subject[i].of.name);
-        fputs("</h3>\n", page->html);
-        good = write_table(page, &r->subject[i]);
+        add_rows(&t, r, &r->subject[i]);
     }
-    good = good && write_data(page, r);
-    page_section_end(page);
+    fputs("</div>\n", page->html);
+    int good = table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
     return good;
 }

@@ -78,7 +78,7 @@ void report_subject_free(report_subject *s)
 /* (The weight of the certificate is larger than the one met here: it looks where 1e-10 of the area is left.) */
 const double report_limits[REPORT_LIMITS] = {
     2,    /* no sample is brighter than chance would make it */
-    0.01, /* nobody can see that */
+    1,    /* nobody can see that */
     1e-3, /* without the weight the error stays below half a step of 8 bits */
     3e-2, /* from where light has met the surface before */
     1e-4  /* of Lambda and G1, below 8 bits as well: the weight does not mend them */
@@ -86,7 +86,7 @@ const double report_limits[REPORT_LIMITS] = {
 
 report_verdict report_judge(const report_table *t)
 {
-    report_verdict v = {{t->weight, t->variance, t->tv_above, t->tv_below, t->area}, {0}, 1};
+    report_verdict v = {{t->weight, 100 * t->variance, t->tv_above, t->tv_below, t->area}, {0}, 1};
     for (int i = 0; i < REPORT_LIMITS; i++) {
         v.kept[i] = v.value[i] <= report_limits[i];
         v.all &= v.kept[i];
@@ -110,8 +110,7 @@ vndf_status report_subject_measure(report_subject *s, const evidence_plan *plan,
         area[a] = vndf_reference_area(s->reference, report_theta(a) * radians);
     for (size_t i = 0; i < SIZES; i++) {
         report_table *t = &s->table[i];
-        *t =
-            (report_table){.table = subject_table(&s->of, i, plan, error), .ns = NAN, .batch = NAN, .shared = NAN};
+        *t = (report_table){.table = subject_table(&s->of, i, plan, error), .ns = NAN, .batch = NAN};
         if (!t->table)
             return error->status;
         t->info = vndf_distribution_info(t->table);

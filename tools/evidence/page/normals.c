@@ -1,5 +1,4 @@
 /* Density and samples: D itself, and the visible normals from three directions, for each distribution. */
-#include "cli/random.h"
 #include "cli/subject.h"
 #include "draw/panels.h"
 #include "draw/svg.h"
@@ -40,28 +39,9 @@ static void add_ndf(text_table *t, const report_subject *s)
     }
 }
 
-/* The dots of panel_disc, from the same uniform numbers. */
-static void add_samples(text_table *t, const report_subject *s, unsigned v)
-{
-    const vndf_surface advised = {s->table[s->chosen].table, 1, 1};
-    vndf_view view = vndf_view_from(&advised, direction_from(thetas[v], 0));
-    random_stream stream = random_from(v + 1);
-    for (int i = 0; i < PANEL_DOTS; i++) {
-        float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
-        vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
-        table_row(t);
-        table_text(t, "distribution", s->of.name);
-        table_value(t, "theta_deg", thetas[v]);
-        table_value(t, "wm.x", (double)wm.x);
-        table_value(t, "wm.y", (double)wm.y);
-        table_value(t, "wm.z", (double)wm.z);
-        table_value(t, "pdf", (double)pdf);
-    }
-}
-
 int report_normals(html_page *page, const report *r)
 {
-    text_table ndf = {.rows = 0}, samples = {.rows = 0};
+    text_table ndf = {.rows = 0};
     page_section(
         page, "normals", "Density and samples",
         "D against the angle of the normal, and the normals visible from three directions, the last below the "
@@ -71,11 +51,7 @@ int report_normals(html_page *page, const report *r)
     for (size_t i = 0; i < r->count; i++) {
         good = good && draw_subject(page->html, &r->subject[i]);
         add_ndf(&ndf, &r->subject[i]);
-        for (unsigned v = 0; v < VIEWS; v++)
-            add_samples(&samples, &r->subject[i], v);
     }
     good &= page_data(page, "ndf.csv", "D against the angle of the normal", ndf);
-    good &= page_data(page, "samples.csv", "the samples that are drawn as dots", samples);
-    page_section_end(page);
     return good;
 }

@@ -7,7 +7,7 @@
 #include "draw/chart.h"
 #include "evidence/page/report.h"
 
-enum { POINTS_MAX = 48, LABEL = 80, SERIES_MAX = 12 };
+enum { POINTS_MAX = 16, LABEL = 80, SERIES_MAX = 12 };
 
 /* Series and their points, in the making. */
 typedef struct plot {
@@ -18,11 +18,10 @@ typedef struct plot {
     size_t count;
 } plot;
 
-static chart_series *begin_series(plot *p, unsigned colour, chart_mark mark, chart_line line)
+static void begin_series(plot *p, unsigned colour, chart_mark mark, chart_line line)
 {
     size_t k = p->count++;
-    p->series[k] = (chart_series){NULL, p->x[k], p->y[k], 0, colour, mark, line, p->text[k]};
-    return &p->series[k];
+    p->series[k] = (chart_series){p->x[k], p->y[k], 0, colour, mark, line, p->text[k]};
 }
 
 static void add_point(plot *p, double x, double y, const char *label)
@@ -37,73 +36,56 @@ static void add_point(plot *p, double x, double y, const char *label)
     p->series[k].count++;
 }
 
-static void put_chart(html_page *page, const char *about, const chart *c)
-{
-    fprintf(page->html, "<figure class=\"scroll wide\" title=\"%s\">\n", about);
-    chart_draw(page->html, c);
-    fputs("</figure>\n", page->html);
-}
-
 /* ---- error against time -------------------------------------------------------------------------- */
 
-/* An exact method's error is the rounding of floats: a comparison with a density cannot tell it from another
- * error of that size. */
-static double error_of(const evidence_row *r)
-{
-    return r->kind != ROW_TABLE && r->number[COL_TV] < 3e-6 ? 0 : r->number[COL_TV];
-}
-
+/* Of D at hand, and of closed forms what is exact for them. */
 static int is_wanted(const report *r, const evidence_row *of, row_kind kind, int moments, int is_batch)
 {
-    int is_of = kind == ROW_TABLE ? of->number[COL_MOMENTS] == moments : 1;
-    int at_hand =
-        kind == ROW_CLOSED || kind == ROW_PUBLISHED || strcmp(of->distribution, r->subject[0].of.name) == 0;
-    return of->kind == kind && is_of && at_hand && of->number[COL_TV] <= 1 &&
+    int is_exact = kind == ROW_CLOSED || (kind == ROW_PUBLISHED && !strstr(of->method, "all normals"));
+    int is_at_hand = is_exact || strcmp(of->distribution, r->subject[0].of.name) == 0;
+    return of->kind == kind && is_at_hand && of->number[COL_TV] <= 1 &&
+           (kind != ROW_TABLE || of->number[COL_MOMENTS] == moments) &&
            strcmp(of->instructions, is_batch ? r->batch : "scalar") == 0;
 }
 
-/* Without what colour and shape say: of tables the size alone, of all others the name and, where there are two
- * of it, the distribution. */
-static void label_row(const evidence_row *r, char label[LABEL])
-{
-    const char *batch = strstr(r->method, ", batch");
-    int length = batch ? (int)(batch - r->method) : (int)strlen(r->method);
-    if (r->kind == ROW_TABLE)
-        table_bytes_text(label, r->number[COL_FILE]);
-    else if (r->kind == ROW_CLOSED)
-        snprintf(label, LABEL, "vndf_%.40s()", r->distribution);
-    else if (strncmp(r->method, "all normals (2007)", (size_t)length) == 0)
-        snprintf(label, LABEL, "all normals, %.40s", r->distribution);
-    else
-        snprintf(label, LABEL, "%.*s", length, r->method);
-}
-
+/* A label leaves out what colour and shape say: of tables it is the size alone, and only where there are 4
+ * moments. */
 static void add_rows(plot *p, const report *r, row_kind kind, int moments, int is_batch)
 {
     static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
     static const chart_line lines[] = {CHART_NO_LINE, CHART_NO_LINE, CHART_DOTTED, CHART_DASHED, CHART_SOLID};
     begin_series(p, is_batch ? 1 : 0, marks[kind], lines[moments]);
-    for (size_t i = 0; i < r->rows.count; i++) {
-        const evidence_row *of = &r->rows.row[i];
-        char label[LABEL];
+    for (const evidence_row *of = r->rows.row; of < r->rows.row + r->rows.count; of++) {
+        double tv = of->number[COL_TV];
+        char label[LABEL] = "";
         if (!is_wanted(r, of, kind, moments, is_batch))
             continue;
-        label_row(of, label);
-        add_point(p, of->number[COL_NS], error_of(of), kind == ROW_TABLE && moments != 4 ? "" : label);
+        if (kind == ROW_TABLE && moments == 4)
+            table_bytes_text(label, of->number[COL_FILE]);
+        else if (kind == ROW_CLOSED)
+            snprintf(label, sizeof label, "vndf_%.40s()", of->distribution);
+        else if (kind == ROW_PUBLISHED)
+            snprintf(label, sizeof label, "%.*s", (int)strcspn(of->method, ","), of->method);
+        /* a comparison with a density cannot tell an exact method's error from the rounding of floats */
+        add_point(p, of->number[COL_NS], kind != ROW_TABLE && tv < 3e-6 ? 0 : tv, label);
     }
     p->count -= p->series[p->count - 1].count == 0;
 }
 
-/* A ring around the table that is advised, one by one and in a batch. */
-static void add_advised(plot *p, const report_table *t)
+static int write_chart(html_page *page, const char *about, const chart *c)
 {
-    begin_series(p, 6, CHART_RING, CHART_NO_LINE);
-    add_point(p, t->ns, t->info.certificate.tv_above, "advised");
-    add_point(p, t->batch, t->info.certificate.tv_above, "advised");
+    fprintf(page->html, "<figure class=\"scroll wide\" title=\"%s\">\n", about);
+    chart_draw(page->html, c);
+    fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
+    FILE *alone = page_file_begin(page, "frontier.svg");
+    if (alone)
+        chart_draw_alone(alone, c);
+    return alone && page_file_end(page);
 }
 
 int report_frontier(html_page *page, const report *r)
 {
+    const report_table *advised = &r->subject[0].table[r->subject[0].chosen];
     char title[160], batch[40];
     plot *p = calloc(1, sizeof *p);
     if (!p)
@@ -114,16 +96,20 @@ int report_frontier(html_page *page, const report *r)
         for (int moments = 2; moments <= 4; moments++)
             add_rows(p, r, ROW_TABLE, moments, is_batch);
     }
-    add_advised(p, &r->subject[0].table[r->subject[0].chosen]);
+    begin_series(p, 6, CHART_RING, CHART_NO_LINE);
+    add_point(p, advised->ns, (double)advised->info.certificate.tv_above, "advised");
+    add_point(p, advised->batch, (double)advised->info.certificate.tv_above, "advised");
     snprintf(title, sizeof title, "Tables of %s beside other methods", r->subject[0].of.name);
     snprintf(batch, sizeof batch, "in a batch, %s", r->batch);
-    const chart_key key[] = {{"tables of vndf", 7, CHART_DOT},         {"its closed forms", 7, CHART_SQUARE},
-                             {"published methods", 7, CHART_TRIANGLE}, {"advised", 6, CHART_RING},
-                             {"one by one", 0, CHART_NO_MARK},         {batch, 1, CHART_NO_MARK}};
+    const chart_key key[] = {{.text = "tables of vndf", .colour = 7, .mark = CHART_DOT},
+                             {.text = "its closed forms", .colour = 7, .mark = CHART_SQUARE},
+                             {.text = "published methods", .colour = 7, .mark = CHART_TRIANGLE},
+                             {.text = "advised", .colour = 6, .mark = CHART_RING},
+                             {.text = "one by one", .colour = 0},
+                             {.text = batch, .colour = 1}};
     chart c = {.title = title,
                .width = 1080,
                .height = 640,
-               .right = 20,
                .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
                .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
                .zero = "exact",
@@ -138,56 +124,47 @@ int report_frontier(html_page *page, const report *r)
         "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
         "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
         "Methods in the band at the bottom are exact but for the rounding of floats.");
-    put_chart(page, "error against time", &c);
-    FILE *alone = page_file_begin(page, "frontier.svg");
-    if (alone)
-        chart_draw_alone(alone, &c);
+    int good = write_chart(page, "error against time", &c);
     free(p);
-    int good = alone && page_file_end(page);
-    fputs("<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
-    page_section_end(page);
     return good;
 }
 
 /* ---- error against the angle --------------------------------------------------------------------- */
 
-/* The smallest table, those as large as the advised one with 2, 3 and 4 moments, and the finest. */
+/* Tables as large as the advised one with 2, 3 and 4 moments, and the finest. */
 static void draw_angles(FILE *file, const report_subject *s)
 {
     enum { SHOWN = 4 };
-    size_t row_of = s->chosen < 9 ? s->chosen / 3 * 3 : 6, count = 0;
-    const size_t shown[SHOWN] = {row_of, row_of + 1, row_of + 2, SIZES - 1};
+    size_t row_of = s->chosen < SIZE_FINE ? s->chosen / 3 * 3 : 6;
+    const size_t shown[SHOWN] = {row_of, row_of + 1, row_of + 2, SIZE_FINE};
     static const chart_line lines[SHOWN] = {CHART_DOTTED, CHART_DASHED, CHART_SOLID, CHART_SOLID};
     double x[REPORT_ANGLES];
     char label[SHOWN][40];
     chart_series series[SHOWN + 1];
+    chart_key key[SHOWN];
     for (size_t a = 0; a < REPORT_ANGLES; a++)
         x[a] = report_theta(a);
-    for (; count < SHOWN; count++) {
-        const report_table *t = &s->table[shown[count]];
+    for (size_t k = 0; k < SHOWN; k++) {
+        const report_table *t = &s->table[shown[k]];
+        const unsigned colour = shown[k] == s->chosen ? 6u : (unsigned)k;
         char bytes[TABLE_BYTES];
         table_bytes_text(bytes, (double)t->info.bytes);
-        snprintf(label[count], sizeof label[count], "%s, %d", bytes, table_sizes[shown[count]].moments);
-        series[count] = (chart_series){label[count],
-                                       x,
-                                       t->tv,
-                                       REPORT_ANGLES,
-                                       shown[count] == s->chosen ? 6u : (unsigned)count,
-                                       CHART_NO_MARK,
-                                       lines[count],
-                                       NULL};
+        snprintf(label[k], sizeof label[k], "%s, %d", bytes, table_sizes[shown[k]].moments);
+        series[k] = (chart_series){x, t->tv, REPORT_ANGLES, colour, CHART_NO_MARK, lines[k], NULL};
+        key[k] = (chart_key){label[k], colour, CHART_NO_MARK, lines[k]};
     }
     chart c = {.title = s->of.name,
                .width = 560,
                .height = 380,
-               .right = 84,
                .x = {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
                .y = {CHART_LOG, 0, 0, 0, "total variation"},
                .series = series,
-               .count = count};
+               .count = SHOWN,
+               .key = key,
+               .key_count = SHOWN};
     chart_fit_series(&c, 1e-8);
     const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
-    series[c.count++] = (chart_series){NULL, horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
+    series[c.count++] = (chart_series){horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
     fputs("<figure>\n", file);
     chart_draw(file, &c);
     fputs("</figure>\n", file);
@@ -199,25 +176,23 @@ int report_angles(html_page *page, const report *r)
     page_section(
         page, "theta", "Error against the angle of incidence",
         "Total variation between drawn and true visible normals, from straight above to straight below, by the "
-        "bytes and moments of tables. A curve ends where less than 1e-10 of what is visible at grazing "
+        "size and the moments of tables. A curve ends where less than 1e-10 of what is visible at grazing "
         "incidence is left.");
     fputs("<div class=\"pair\">\n", page->html);
-    for (size_t k = 0; k < r->count; k++) {
-        const report_subject *s = &r->subject[k];
+    for (const report_subject *s = r->subject; s < r->subject + r->count; s++) {
         draw_angles(page->html, s);
-        for (size_t i = 0; i < SIZES; i++)
-            for (size_t a = 0; a < REPORT_ANGLES; a++)
-                if (!isnan(s->table[i].tv[a])) {
-                    table_row(&data);
-                    table_text(&data, "distribution", s->of.name);
-                    table_value(&data, "bytes", (double)s->table[i].info.bytes);
-                    table_value(&data, "moments", table_sizes[i].moments);
-                    table_value(&data, "theta_deg", report_theta(a));
-                    table_value(&data, "tv", s->table[i].tv[a]);
-                }
+        for (size_t i = 0; i < SIZES * REPORT_ANGLES; i++) {
+            const report_table *t = &s->table[i / REPORT_ANGLES];
+            if (isnan(t->tv[i % REPORT_ANGLES]))
+                continue;
+            table_row(&data);
+            table_text(&data, "distribution", s->of.name);
+            table_value(&data, "bytes", (double)t->info.bytes);
+            table_value(&data, "moments", table_sizes[i / REPORT_ANGLES].moments);
+            table_value(&data, "theta_deg", report_theta(i % REPORT_ANGLES));
+            table_value(&data, "tv", t->tv[i % REPORT_ANGLES]);
+        }
     }
     fputs("</div>\n", page->html);
-    int good = page_data(page, "theta.csv", "error of every table at every angle", data);
-    page_section_end(page);
-    return good;
+    return page_data(page, "theta.csv", "error of every table at every angle", data);
 }

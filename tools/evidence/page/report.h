@@ -21,8 +21,7 @@ typedef struct report_table {
     double weight, variance;   /* of true/drawn density: the largest met, and the largest variance at an angle */
     double tv_above, tv_below; /* the larger of the certificate's and what was met here; below: at all angles */
     double area;               /* largest relative error of the area above the horizon, hence of Lambda and G1 */
-    double ns, batch,
-        shared; /* view, sample and density: one by one; in a batch, of one direction; NaN: not timed */
+    double ns, batch;          /* view, sample and density: one by one, and in a batch; NaN: not timed */
 } report_table;
 
 typedef struct report_subject {
@@ -41,8 +40,8 @@ typedef struct report {
 
 double report_theta(size_t angle);
 
-/* What a table that is advised has to keep: the largest weight that was met, added variance, total variation
- * from above the horizon and from below it, error of the area. */
+/* What a table that is advised has to keep: the largest weight that was met, percents of added variance, total
+ * variation from above the horizon and from below it, error of the area. */
 enum { REPORT_LIMITS = 5 };
 extern const double report_limits[REPORT_LIMITS];
 
@@ -52,14 +51,13 @@ typedef struct report_verdict {
 } report_verdict;
 report_verdict report_judge(const report_table *t);
 
-/* The row of a method of that name; NULL if there is none. */
-const evidence_row *report_row(const report *r, const char *called, const char *distribution,
-                               const char *instructions);
-
 /* Takes the source. VNDF_OK, or the status and error that stopped it; report_subject_free in any case. */
 vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, vndf_error *error);
 vndf_status report_subject_measure(report_subject *s, const evidence_plan *plan, vndf_error *error);
 void report_subject_free(report_subject *s);
+
+/* Of the tables at hand, from the rows. */
+void report_note_times(report *r);
 
 /* A section each; 0 if there is no memory. */
 int report_advice(html_page *page, const report *r);
