@@ -1,5 +1,5 @@
-/* Is a sampler of visible normals right? What it answers (process.h) at six directions, by its own density: samples are
- * unit and face wi, their density is the one that is answered for them, its integral is 1, and they follow it over bins.
+/* Is a sampler of visible normals right? What it answers (process.h) at six directions, by its own density: samples
+ * are unit and face wi, their density is the one that is asked for, its integral is 1, and they follow it over bins.
  *
  * The bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi. Half of the
  * borders are even, so that a hole has bins of its own; half are quantiles of samples drawn before, so that half of the

@@ -1,5 +1,5 @@
-/* A sampler as a process: a command of the shell that reads queries from stdin, one a line, to its end, and answers each
- * by a line on stdout, in their order:
+/* A sampler as a process: a command of the shell that reads queries from stdin, one a line, to its end, and answers
+ * each by a line on stdout, in their order:
  *
  *     s wi.x wi.y wi.z u1 u2 u3          by    wm.x wm.y wm.z pdf
  *     p wi.x wi.y wi.z wm.x wm.y wm.z    by    pdf
