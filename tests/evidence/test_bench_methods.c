@@ -146,41 +146,31 @@ static void test_fresnel(void)
 
 /* ---- verification ------------------------------------------------------------------------------ */
 
+static enum { LENGTH, AWAY, OTHER_BITS } defect;
+
 static method scalar; /* of GGX, ours */
 
-static void each_long(const method *m, block *b, size_t first, size_t count)
+static void off(const method *m, block *b, size_t first, size_t count)
 {
     scalar.each(m, b, first, count);
-    b->x[5] *= 1.0001f;
+    b->x[5] *= defect == LENGTH ? 1.0001f : defect == AWAY ? -1.0f : 1.0f;
+    b->y[5] *= defect == AWAY ? -1.0f : 1.0f;
+    b->pdf[5] = defect == OTHER_BITS ? nextafterf(b->pdf[5], 0) : b->pdf[5];
 }
 
-static void each_other_bits(const method *m, block *b, size_t first, size_t count)
-{
-    scalar.each(m, b, first, count);
-    b->pdf[5] = nextafterf(b->pdf[5], 0);
-}
-
-static void each_away(const method *m, block *b, size_t first, size_t count)
-{
-    scalar.each(m, b, first, count);
-    b->x[5] = -b->wi[0][5];
-    b->y[5] = -b->wi[1][5];
-    b->z[5] = -b->wi[2][5];
-}
-
-/* What is wrong is noticed: a length, a bit of a batch, normals that face away. */
+/* What is wrong is noticed: a length, normals that face away (seen along the surface), a bit of a batch. */
 static void test_verify(void)
 {
     static block b;
-    const block_law law = {vndf_ggx(), 0.05f, 0.95f, NAN, 0};
+    const block_law law = {vndf_ggx(), 0.05f, 0.95f, NAN, 0}, grazing = {vndf_ggx(), 0.05f, 0.95f, 89.9, 0};
     scalar = method_ours(vndf_ggx(), "", METHOD_SAMPLE, VNDF_INSTRUCTIONS_BEST);
     method batch = method_ours(vndf_ggx(), "", METHOD_SAMPLE, VNDF_INSTRUCTIONS_PORTABLE), m = scalar;
     TEST(evidence_verify(&m, &law, &b, 1) && evidence_verify(&batch, &law, &b, 1));
-    m.each = each_long;
+    m.each = off;
     TEST(!evidence_verify(&m, &law, &b, 1));
-    m.each = each_away;
-    TEST(!evidence_verify(&m, &law, &b, 1));
-    m.each = each_other_bits;
+    defect = AWAY;
+    TEST(evidence_verify(&scalar, &grazing, &b, 1) && !evidence_verify(&m, &grazing, &b, 1));
+    defect = OTHER_BITS;
     TEST(evidence_verify(&m, &law, &b, 1)); /* nobody to compare with */
     m.same_bits = scalar.each;
     TEST(!evidence_verify(&m, &law, &b, 1));

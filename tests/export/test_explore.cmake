@@ -54,7 +54,7 @@ endif()
 # ---- wrong use ----------------------------------------------------------------------------------
 
 answers(2 "FILE is missing" explore -o none.html)
-answers(2 "-o is missing" explore ${tables}/hazy.vndf)
+answers(2 "-o PAGE.html is missing" explore ${tables}/hazy.vndf)
 answers(2 "missing.vndf" explore missing.vndf -o none.html)
 answers(2 "closed form" explore ggx -o none.html)
 answers(2 "which is taken" explore ${tables}/hazy.vndf ${tables}/hazy.vndf -o none.html)

@@ -14,7 +14,7 @@ if(NOT found MATCHES "version ${version}\\.")
 endif()
 
 file(GLOB_RECURSE files ${SOURCE}/include/*.h ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch]
-    ${SOURCE}/include/*.hpp ${SOURCE}/tests/*.cpp)
+    ${SOURCE}/include/*.hpp ${SOURCE}/tools/*.hpp ${SOURCE}/tests/*.cpp)
 list(LENGTH files count)
 if(count LESS 200)
     message(FATAL_ERROR "${count} sources under ${SOURCE}")

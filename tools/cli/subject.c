@@ -27,52 +27,43 @@ static const char *family_parameter(const char *name)
     return at && at > name + end && memcmp(at - end, family_end, end) == 0 ? at + 1 : NULL;
 }
 
-static vndf_distribution *load_table(const char *command, const char *name)
+static int load(chosen_distribution *chosen, const char *command, const char *path)
 {
     static const char *const closed_forms[] = {"ggx", "beckmann"};
     vndf_error error = {VNDF_OK, ""};
     size_t size;
-    char *bytes = input_read(command, name, BYTES_MAX, &size);
-    if (!bytes && nearest_word(name, closed_forms, 2))
-        complain(command, "did you mean '%s'?", nearest_word(name, closed_forms, 2));
-    vndf_distribution *table = bytes ? vndf_load_memory(bytes, size, &error) : NULL;
-    if (bytes && !table)
-        complain(command, "%s: %s", input_name(name), error.message);
+    char *bytes = input_read(command, path, BYTES_MAX, &size);
+    const char *hint = bytes ? NULL : nearest_word(path, closed_forms, 2);
+    if (hint)
+        complain(command, "did you mean '%s'?", hint);
+    if (bytes && is_family_file(path))
+        chosen->family = vndf_family_load_memory(bytes, size, &error);
+    else if (bytes)
+        chosen->distribution = chosen->owned = vndf_load_memory(bytes, size, &error);
+    if (bytes && error.status != VNDF_OK)
+        complain(command, "%s: %s", input_name(path), error.message);
     free(bytes);
-    return table;
+    return chosen->family || chosen->owned;
 }
 
-int distribution_open(chosen_distribution *chosen, const char *command, const char *name)
+int distribution_open(chosen_distribution *chosen, const char *command, const char *name, int families)
 {
-    *chosen = (chosen_distribution){NULL, NULL};
-    if (strcmp(name, "ggx") == 0)
-        chosen->distribution = vndf_ggx();
-    else if (strcmp(name, "beckmann") == 0)
-        chosen->distribution = vndf_beckmann();
-    else if (is_family_file(name) || family_parameter(name))
-        complain(command,
-                 "'%s' is a family; a single table is needed (eval and sample take FILE.vndfs@P, info FILE.vndfs)",
-                 name);
-    else
-        chosen->distribution = chosen->owned = load_table(command, name);
-    return chosen->distribution != NULL;
+    *chosen = (chosen_distribution){.distribution = strcmp(name, "ggx") == 0        ? vndf_ggx()
+                                                    : strcmp(name, "beckmann") == 0 ? vndf_beckmann()
+                                                                                    : NULL};
+    if (!families && (is_family_file(name) || family_parameter(name)))
+        return complain(command,
+                        "'%s' is a family; a single table is needed (eval and sample take FILE.vndfs@P, info "
+                        "FILE.vndfs)",
+                        name),
+               0;
+    return chosen->distribution || load(chosen, command, name);
 }
 
 void distribution_close(chosen_distribution *chosen)
 {
     vndf_free(chosen->owned);
-}
-
-vndf_family *family_open(const char *command, const char *path)
-{
-    vndf_error error = {VNDF_OK, ""};
-    size_t size;
-    char *bytes = input_read(command, path, BYTES_MAX, &size);
-    vndf_family *family = bytes ? vndf_family_load_memory(bytes, size, &error) : NULL;
-    if (bytes && !family)
-        complain(command, "%s: %s", input_name(path), error.message);
-    free(bytes);
-    return family;
+    vndf_family_free(chosen->family);
 }
 
 /* ---- directions and roughness -------------------------------------------------------------------- */
@@ -153,15 +144,15 @@ static int family_surface(chosen_surface *chosen, const char *command, const cha
     char path[LENGTH_MAX];
     double p;
     snprintf(path, sizeof path, "%.*s", (int)(parameter - name) - 1, name);
-    chosen->family = family_open(command, path);
-    if (!chosen->family || !parse_numbers(command, "the parameter", parameter, -1e30, 1e30, 1, 1, &p))
+    if (!distribution_open(&chosen->of, command, path, 1) ||
+        !parse_numbers(command, "the parameter", parameter, -1e30, 1e30, 1, 1, &p))
         return 0;
-    vndf_family_facts facts = vndf_family_info(chosen->family);
+    vndf_family_facts facts = vndf_family_info(chosen->of.family);
     if (!((float)p >= facts.low && (float)p <= facts.high))
         return complain(command, "the parameter '%s' is not in the range of the family, from %.7g to %.7g",
                         parameter, (double)facts.low, (double)facts.high),
                0;
-    vndf_family_at(chosen->family, (float)p, map, &chosen->mixture);
+    vndf_family_at(chosen->of.family, (float)p, map, &chosen->mixture);
     return 1;
 }
 
@@ -171,7 +162,7 @@ int surface_open(chosen_surface *chosen, const arguments *given)
     const char *parameter = family_parameter(name);
     double theta = 0, phi = 0;
     vndf_affine map;
-    *chosen = (chosen_surface){.family = NULL};
+    *chosen = (chosen_surface){.mixture = {.count = 0}};
     if (!option_value(given, "--theta"))
         return complain(command,
                         "--theta is missing: the angle from the normal to the incident direction, 0 to 180"),
@@ -183,19 +174,13 @@ int surface_open(chosen_surface *chosen, const arguments *given)
     if (is_family_file(name))
         return complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name), 0;
     if (parameter ? family_surface(chosen, command, name, parameter, &map)
-                  : distribution_open(&chosen->table, command, name)) {
+                  : distribution_open(&chosen->of, command, name, 0)) {
         if (!parameter) {
-            map.distribution = chosen->table.distribution;
+            map.distribution = chosen->of.distribution;
             chosen->mixture = (vndf_mixture){1, {{map, 1}}};
         }
         return 1;
     }
-    surface_close(chosen);
+    distribution_close(&chosen->of);
     return 0;
-}
-
-void surface_close(chosen_surface *chosen)
-{
-    distribution_close(&chosen->table);
-    vndf_family_free(chosen->family);
 }

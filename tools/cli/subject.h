@@ -7,22 +7,20 @@
 
 /* ---- distributions ---- */
 
-/* A closed form, or a table that was loaded and is to be freed. */
+/* A closed form, a table that was loaded, or a family of tables. */
 typedef struct chosen_distribution {
-    const vndf_distribution *distribution;
-    vndf_distribution *owned; /* NULL for a closed form */
+    const vndf_distribution *distribution; /* NULL for a family */
+    vndf_distribution *owned;              /* the table, to be freed */
+    vndf_family *family;                   /* to be freed */
 } chosen_distribution;
 
-/* "ggx", "beckmann" (a file of that name: "./ggx"), a table file, or "-" for one on stdin. Returns 1, or 0 after a
- * complaint. */
-int distribution_open(chosen_distribution *chosen, const char *command, const char *name);
+/* "ggx", "beckmann" (a file of that name: "./ggx"), a table file, or "-" for one on stdin; FILE.vndfs where families
+ * are taken. Returns 1, or 0 after a complaint. */
+int distribution_open(chosen_distribution *chosen, const char *command, const char *name, int families);
 void distribution_close(chosen_distribution *chosen);
 
 /* A file with the tables of a family is known by its name, FILE.vndfs, and one of the family by FILE.vndfs@P. */
 int is_family_file(const char *name);
-
-/* Returns the family in a file, or NULL after a complaint. */
-vndf_family *family_open(const char *command, const char *path);
 
 /* ---- directions and roughness ---- */
 
@@ -41,14 +39,13 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 /* What sample and eval look at: one distribution, or the two neighbours of a family's parameter. */
 typedef struct chosen_surface {
     vndf_mixture mixture;
-    chosen_distribution table;
-    vndf_family *family; /* NULL: it is of a table or a closed form */
+    chosen_distribution of;
     vndf_vec3 wi;
 } chosen_surface;
 
-/* From the positional word and the options of SURFACE_HELP. Returns 1, or 0 after a complaint. */
+/* From the positional word and the options of SURFACE_HELP; close what it is of. Returns 1, or 0 after a
+ * complaint. */
 int surface_open(chosen_surface *chosen, const arguments *given);
-void surface_close(chosen_surface *chosen);
 
 #define SURFACE_POSITIONAL "FILE|ggx|beckmann|FILE.vndfs@P"
 #define SURFACE_HELP                                                                                                \

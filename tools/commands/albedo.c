@@ -113,7 +113,7 @@ static int run(const arguments *given)
     if (!rows_check(given) || !option_number(given, "--eta", 0.01, 100, &r.eta) ||
         !read_list(given, "--alpha", "0.05,0.1,0.2,0.3,0.5,0.7,1", (double)VNDF_ALBEDO_ALPHA_MAX, &r.alpha) ||
         !read_list(given, "--theta", "0,15,30,45,60,75,80,85,88,89,90", 90, &r.theta) ||
-        !distribution_open(&chosen, name, subject))
+        !distribution_open(&chosen, name, subject, 0))
         return STATUS_USE;
     vndf_albedo *albedo = vndf_albedo_build(chosen.distribution, (float)r.eta, &error);
     r.albedo = albedo;

@@ -102,7 +102,7 @@ typedef struct opened {
 
 static int open_one(opened *o, evidence_plan *plan, const char *word)
 {
-    if (!distribution_open(&o->of[o->count], effects_name, word))
+    if (!distribution_open(&o->of[o->count], effects_name, word, 0))
         return 0;
     plan->of[plan->count].name = word;
     plan->of[plan->count++].distribution = o->of[o->count++].distribution;

@@ -169,25 +169,12 @@ static void tell(const arguments *given, const built *of, const char *found)
 {
     static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
     char verdict[DESCRIBE_VERDICT];
-    vndf_info info = {.bytes = 0};
-    if (of->table)
-        info = vndf_distribution_info(of->table);
-    const int good = of->table ? describe_verdict(&info, !option_among(given, sizes), verdict)
-                               : describe_family_verdict(of->family, verdict);
-    if (!good)
+    if (!describe_verdict(of->table, of->family, !option_among(given, sizes), verdict))
         complain(name, "%s", verdict);
     if (output_is_stdout(option_value(given, "-o")))
         return;
     figures f = figures_begin(given);
-    if (of->table) {
-        describe_info(&f, &info);
-        describe_certificate(&f, &info.certificate);
-    } else
-        describe_family(&f, of->family);
-    int length = 0; /* of a line `key value` of what was found in measurements */
-    for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)
-        figures_text(&f, key, value);
-    figures_text(&f, "verdict", verdict);
+    describe(&f, of->table, of->family, found, verdict);
     figures_end(&f);
 }
 

@@ -285,7 +285,7 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
 static int run(const arguments *given)
 {
     chosen_distribution chosen;
-    if (!distribution_open(&chosen, name, given->positional.item[0]))
+    if (!distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
     int status = check_all(&chosen, given);
     distribution_close(&chosen);

@@ -100,7 +100,7 @@ static int run(const arguments *given)
         figures_list_end(&f);
         figures_end(&f);
     }
-    surface_close(&surface);
+    distribution_close(&surface.of);
     return status;
 }
 

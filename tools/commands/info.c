@@ -49,45 +49,19 @@ static const char *const help[] = {
     "         vndf info wavy.vndf --json\n",
     NULL};
 
-static int info_of_family(const char *command, const char *path, figures *f)
-{
-    char verdict[DESCRIBE_VERDICT];
-    vndf_family *family = family_open(command, path);
-    if (!family)
-        return STATUS_USE;
-    describe_family(f, family);
-    describe_family_verdict(family, verdict);
-    figures_text(f, "verdict", verdict);
-    vndf_family_free(family);
-    return STATUS_GOOD;
-}
-
-static int info_of_table(const char *command, const char *name, figures *f)
-{
-    chosen_distribution chosen;
-    char verdict[DESCRIBE_VERDICT];
-    if (!distribution_open(&chosen, command, name))
-        return STATUS_USE;
-    vndf_info info = vndf_distribution_info(chosen.distribution);
-    describe_info(f, &info);
-    if (chosen.owned) {
-        describe_certificate(f, &info.certificate);
-        describe_verdict(&info, 0, verdict);
-        figures_text(f, "verdict", verdict);
-    }
-    distribution_close(&chosen);
-    return STATUS_GOOD;
-}
-
 static int run(const arguments *given)
 {
     const char *name = given->positional.item[0];
+    char verdict[DESCRIBE_VERDICT];
+    chosen_distribution chosen;
+    if (!distribution_open(&chosen, given->command, name, 1))
+        return STATUS_USE;
     figures f = figures_begin(given);
-    int status =
-        is_family_file(name) ? info_of_family(given->command, name, &f) : info_of_table(given->command, name, &f);
-    if (status == STATUS_GOOD)
-        figures_end(&f);
-    return status;
+    describe_verdict(chosen.distribution, chosen.family, 0, verdict);
+    describe(&f, chosen.distribution, chosen.family, "", verdict);
+    figures_end(&f);
+    distribution_close(&chosen);
+    return STATUS_GOOD;
 }
 
 const subcommand command_info = {

@@ -102,7 +102,7 @@ static int run(const arguments *given)
     if (theta)
         figure.count = parse_numbers(name, "--theta", theta, 0, 180, 1, DISCS_MAX, figure.theta);
     if (figure.count == 0 || !roughness_from(name, option_value(given, "--alpha"), &figure.surface) ||
-        !distribution_open(&chosen, name, given->positional.item[0]))
+        !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
     figure.surface.distribution = chosen.distribution;
     int status = plot_to_file(&figure, path);

@@ -34,8 +34,6 @@ static const char *const help[] = {
     "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
     "                  show the same; OUT has the pictures side by side, and their noise below\n"
     "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
-    "  --against F     prints whether the picture is that in F, a PFM of the same size, taken to be as\n"
-    "                  noisy\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
@@ -49,9 +47,8 @@ typedef struct render_work {
     comparison ways; /* one of them is no comparison */
     unsigned long long spp, width;
     double exposure;
-    const char *output, *against; /* NULL: none */
+    const char *output; /* NULL: none */
     int is_pfm, has_json, is_quiet;
-    film other; /* what the films are held against: that in a file, or zeroed: the first */
 } render_work;
 
 /* ---- words ---- */
@@ -92,7 +89,6 @@ static int read_words(const arguments *given, render_work *w)
     static const char *const forms[] = {"png", "pfm", NULL};
     unsigned long long threads = film_processors(), seed = 0;
     *w = (render_work){.output = option_value(given, "-o"),
-                       .against = option_value(given, "--against"),
                        .has_json = option_value(given, "--json") != NULL,
                        .is_quiet = option_value(given, "-q") != NULL};
     if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
@@ -100,11 +96,10 @@ static int read_words(const arguments *given, render_work *w)
         !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
         !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure) || !read_samplers(given, &w->ways))
         return 0;
-    w->ways.threads = (unsigned)threads;
-    w->ways.seed = seed;
+    w->ways.run = (film_run){.threads = (unsigned)threads, .seed = seed};
     if (!w->output)
         return w->ways.count > 1 || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
-    if (output_is_stdout(w->output) && (w->ways.count > 1 || w->against || w->has_json))
+    if (output_is_stdout(w->output) && (w->ways.count > 1 || w->has_json))
         return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
     w->is_pfm = output_form(name, w->output, option_value(given, "--format"), forms);
     return w->is_pfm >= 0 && output_replaceable(name, w->output);
@@ -114,66 +109,63 @@ static int read_words(const arguments *given, render_work *w)
 
 static void print_film(const film *f, const comparison *c, int is_whole)
 {
-    double rays = (double)(f->counts.segments + f->counts.shadow_rays), seconds = fmax(f->seconds, 1e-9);
-    double paths = (double)f->counts.paths;
+    const double seconds = fmax(f->seconds, 1e-9), paths = (double)film_pixels(f) * (double)f->samples;
     printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
            is_whole ? "" : " (interrupted)");
-    printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays/s, %.3g segments and %.3g shadow rays a path\n",
-           seconds, c->threads, c->threads == 1 ? "" : "s", paths / seconds, rays / seconds,
-           (double)f->counts.segments / paths, (double)f->counts.shadow_rays / paths);
+    printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->run.threads,
+           c->run.threads == 1 ? "" : "s", paths / seconds, (double)f->counts.rays / paths);
     if (f->counts.lost)
         printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
 }
 
-static void print_agreement(const char *what, const char *with, const agreement *a, int is_read)
+static void print_verdict(const char *what, const char *with, const finding *f)
 {
     static const char *const said[3] = {"the same", "they differ", "unknown"};
-    printf("%s beside %s: %s%s\n    light %+.3f%%", what, with, said[a->is],
-           is_read && a->is != VERDICT_UNKNOWN ? ", if it is as noisy" : "", 100 * (a->ratio - 1));
-    if (a->is == VERDICT_UNKNOWN)
+    printf("%s beside %s: %s\n    light %+.3f%%", what, with, said[f->is], 100 * (f->ratio - 1));
+    if (f->is == VERDICT_UNKNOWN)
         printf("; fewer than %d samples a pixel have no variance to judge by\n", VERDICT_SAMPLES);
     else
-        printf(", %+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d)\n", a->whole,
-               a->mean_square, a->worst, a->x, a->y);
+        printf(", %+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d)\n", f->whole,
+               f->mean_square, f->worst, f->x, f->y);
 }
 
-static void add_figure(text_table *t, const char *heading, const char *format, measured m, double trimmed)
+static void add_ratio(text_table *t, const char *heading, const measured *m)
 {
     char text[64];
-    snprintf(text, sizeof text, format, m.value, m.spread, trimmed);
-    table_figure(t, heading, isfinite(m.value) ? text : "no variance");
+    snprintf(text, sizeof text, "%.3f +- %.3f (%.3f)", m->value, m->spread, m->trimmed);
+    table_figure(t, heading, isfinite(m->value) ? text : "no variance");
 }
 
 /* A row for each picture: what --compare is about for people, all of it in JSON. */
-static int print_rows(const render_work *w, const noise *noises, const agreement *agrees, int is_whole)
+static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
+    static const char *const headings[] = {
+        "noise",       "noise_trimmed", "samples_needed", "efficiency", "light_ratio", "deviations",
+        "worst_block", "mean_square",   "width",          "height",     "lost"};
     const comparison *c = &w->ways;
     text_table t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
-        const gain g = gain_of(c, noises, i);
-        const double noise_of_all = sqrt(noises[i].all.value), trimmed = sqrt(noises[i].trimmed.value);
+        const finding *a = &found[i];
+        const double noise = sqrt(a->noise.value), trimmed = sqrt(a->noise.trimmed);
+        const double numbers[] = {
+            noise,          trimmed,  a->samples.value, a->efficiency.value,   a->ratio, a->whole, a->worst,
+            a->mean_square, f->width, f->height,        (double)f->counts.lost};
         table_row(&t);
         table_text(&t, "equal", c->has_equal_time ? "equal time" : "equal samples");
         table_word(&t, "sampler", path_sampler_names[c->way[i].sampler]);
         table_number(&t, "samples", "%.0f", (double)f->samples);
         table_number(&t, "seconds", "%.3g", f->processor);
         if (!w->has_json) {
-            const measured percent = {100 * noise_of_all, 100 * trimmed};
-            add_figure(&t, "noise (trimmed)", "%.2f%% (%.2f%%)", percent, 0);
-            add_figure(&t, "samples needed (trimmed)", "%.3f +- %.3f (%.3f)", g.samples, g.samples_trimmed);
-            add_figure(&t, "efficiency (trimmed)", "%.3f +- %.3f (%.3f)", g.efficiency, g.efficiency_trimmed);
+            table_number(&t, "noise, %", "%.2f", 100 * noise);
+            table_number(&t, "(trimmed)", "(%.2f)", 100 * trimmed);
+            add_ratio(&t, "samples needed (trimmed)", &a->samples);
+            add_ratio(&t, "efficiency (trimmed)", &a->efficiency);
             continue;
         }
-        const double numbers[] = {noise_of_all,    trimmed,         g.samples.value,       g.efficiency.value,
-                                  agrees[i].ratio, agrees[i].whole, agrees[i].worst,       agrees[i].mean_square,
-                                  f->width,        f->height,       (double)f->counts.lost};
-        static const char *const headings[] = {
-            "noise",       "noise_trimmed", "samples_needed", "efficiency", "light_ratio", "deviations",
-            "worst_block", "mean_square",   "width",          "height",     "lost"};
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
             table_number(&t, headings[k], "%.9g", numbers[k]);
-        table_word(&t, "verdict", i || w->against ? verdict_names[agrees[i].is] : "");
+        table_word(&t, "verdict", i ? verdict_names[a->is] : "");
         table_word(&t, "interrupted", is_whole ? "no" : "yes");
     }
     int good = table_print(stdout, &t, w->has_json ? FIGURES_JSON : FIGURES_TEXT);
@@ -185,33 +177,24 @@ static int print_rows(const render_work *w, const noise *noises, const agreement
 static int tell(const render_work *w, int is_whole)
 {
     const comparison *c = &w->ways;
-    const film *first = &c->way[0].film, *other = w->against ? &w->other : first;
-    noise noises[SAMPLERS];
-    agreement agrees[SAMPLERS];
-    film all;
-    int status = STATUS_GOOD, good = comparison_mean(c, &all);
-    for (size_t i = 0; i < c->count && good; i++) {
-        const film *f = &c->way[i].film;
-        good = noise_of(f, &all, &noises[i]);
-        agrees[i] = agreement_between(f, other, w->against != NULL);
-        if (agrees[i].is == VERDICT_DIFFERS && f != other)
-            status = STATUS_NO;
-    }
-    film_free(&all);
-    if (good && w->is_quiet)
+    finding found[SAMPLERS];
+    int status = STATUS_GOOD;
+    if (!comparison_find(c, found))
+        return complain(name, "no memory for figures");
+    for (size_t i = 0; i < c->count; i++)
+        status = found[i].is == VERDICT_DIFFERS ? STATUS_NO : status;
+    if (w->is_quiet)
         return status;
-    if (good && !w->has_json && c->count == 1)
-        print_film(first, c, is_whole);
-    else if (good)
-        good = print_rows(w, noises, agrees, is_whole);
-    if (good && c->count > 1 && !w->has_json)
+    if (c->count == 1 && !w->has_json)
+        return print_film(&c->way[0].film, c, is_whole), status;
+    if (!print_rows(w, found, is_whole))
+        return complain(name, "no memory for figures");
+    if (!w->has_json)
         puts("seconds: of processors; noise: of a pixel, beside its light; trimmed: without the worst\n"
              "thousandth of the pixels; efficiency: one over squared noise and seconds");
-    for (size_t i = w->against ? 0 : 1; i < c->count && good && !w->has_json; i++)
-        print_agreement(path_sampler_names[c->way[i].sampler],
-                        w->against ? w->against : path_sampler_names[c->way[0].sampler], &agrees[i],
-                        w->against != NULL);
-    return good ? status : complain(name, "no memory for figures");
+    for (size_t i = 1; i < c->count && !w->has_json; i++)
+        print_verdict(path_sampler_names[c->way[i].sampler], path_sampler_names[c->way[0].sampler], &found[i]);
+    return status;
 }
 
 /* ---- rendering ---- */
@@ -222,8 +205,8 @@ static int render_ways(comparison *c, const scene *s, int is_quiet)
     progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
     int is_whole = 1;
     line.tells_left = 1;
-    c->progress = progress_tell;
-    c->user = &line;
+    c->run.progress = progress_tell;
+    c->run.user = &line;
     for (size_t i = 0; i < c->count && is_whole; i++)
         is_whole = film_make(&c->way[i].film, s->width, s->height);
     is_whole = is_whole && comparison_run(c);
@@ -273,33 +256,17 @@ static int render(render_work *w, const scene *s)
     return status;
 }
 
-static int read_against(render_work *w, const scene *s)
-{
-    image_error error;
-    image of;
-    if (!image_read_pfm(&of, w->against, &error))
-        return complain(name, "--against: %s", error.message), 0;
-    int fits = of.width == s->width && of.height == s->height;
-    if (!fits)
-        complain(name, "--against: %s has %d x %d pixels, this picture has %d x %d", w->against, of.width,
-                 of.height, s->width, s->height);
-    else if (!film_from_image(&w->other, &of))
-        fits = (complain(name, "no memory for %s", w->against), 0);
-    image_free(&of);
-    return fits;
-}
-
 static int render_scene(render_work *w, scene *s)
 {
     char message[640];
     comparison *c = &w->ways;
     if (w->width && !scene_resize(s, (int)w->width, message, sizeof message))
         return complain(name, "--width: %s", message);
-    c->samples = w->spp ? w->spp : s->samples;
+    c->run.samples = w->spp ? w->spp : s->samples;
     for (size_t i = 0; i < c->count; i++)
         if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
             return complain(name, "%s", message);
-    return w->against && !read_against(w, s) ? STATUS_USE : render(w, s);
+    return render(w, s);
 }
 
 static int run(const arguments *given)
@@ -320,7 +287,6 @@ static int run(const arguments *given)
         path_free(w.ways.way[i].plan);
         film_free(&w.ways.way[i].film);
     }
-    film_free(&w.other);
     scene_free(s);
     return status;
 }

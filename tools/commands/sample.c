@@ -81,7 +81,7 @@ static int run(const arguments *given)
     int status = STATUS_USE;
     if (output_open(&output, name, path))
         status = write_samples(&output, form == 0, &surface, count, seed, option_value(given, "-q") != NULL);
-    surface_close(&surface);
+    distribution_close(&surface.of);
     return status;
 }
 

@@ -68,22 +68,22 @@ static void fit(chart_axis *axis, double low, double high)
     axis->high = pow(10, last > first ? last : first + 1);
 }
 
-void chart_fit_series(chart *c, double least)
+void chart_fit(chart *c, double decades)
 {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0, 0};
     for (size_t k = 0; k < c->count; k++)
         for (size_t i = 0; i < c->series[k].count; i++) {
             const double at[2] = {c->series[k].x[i], c->series[k].y[i]};
             for (int axis = 0; axis < 2; axis++)
-                if (at[axis] > 0) {
+                if (at[axis] > 0 && at[axis] < 1e37) {
                     low[axis] = fmin(low[axis], at[axis]);
                     high[axis] = fmax(high[axis], at[axis]);
                 }
         }
-    if (!(c->x.high > c->x.low))
+    if (c->x.scale == CHART_LOG)
         fit(&c->x, low[0], high[0]);
-    if (!(c->y.high > c->y.low))
-        fit(&c->y, fmax(low[1], least), high[1]);
+    if (c->y.scale == CHART_LOG)
+        fit(&c->y, fmax(low[1], high[1] / pow(10, decades)), high[1]);
 }
 
 /* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does

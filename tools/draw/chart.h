@@ -64,8 +64,7 @@ void chart_begin_alone(FILE *file, double width, double height, const char *abou
 /* The rules for the classes, those for dark screens included. */
 void chart_style(FILE *file);
 
-/* Fits logarithmic axes to all series, by whole decades; an axis whose high end is set stays. `least`: the lowest y
- * that is shown. */
-void chart_fit_series(chart *c, double least);
+/* Fits logarithmic axes to all series but for what is unbounded, by whole decades: of y at most so many. */
+void chart_fit(chart *c, double decades);
 
 #endif

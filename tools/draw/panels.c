@@ -37,21 +37,6 @@ double panel_widest(const vndf_surface *surface)
     return scale > 0 ? round_angle(atan(8 * scale * widest) * 180 / pi) : 90;
 }
 
-/* The decades that D takes; GGX beside it may fall much further. */
-static void fit_decades(chart_axis *axis, const double *ndf, int count)
-{
-    double high = 0, low = INFINITY;
-    for (int i = 0; i < count; i++)
-        if (ndf[i] > 0 && ndf[i] < 1e37) { /* an unbounded pole is drawn to the border */
-            high = fmax(high, ndf[i]);
-            low = fmin(low, ndf[i]);
-        }
-    double top = floor(log10(high > 0 ? high : 1) + 0.05) + 1;
-    double bottom = fmax(ceil(log10(high > 0 ? low : 1) - 0.05) - 1, top - 7);
-    axis->low = pow(10, fmin(bottom, top - 2));
-    axis->high = pow(10, top);
-}
-
 void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
 {
     double x[POINTS], y[2][POINTS], widest = panel_widest(surface);
@@ -62,7 +47,7 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
     float alpha = (float)((double)surface->alpha_x * scale);
     const vndf_surface ggx = {vndf_ggx(), alpha, alpha};
     for (int i = 0; i < POINTS; i++) {
-        x[i] = widest * i / (POINTS - 1);
+        x[i] = widest * fmax(i, 0.3) / (POINTS - 1); /* at the pole itself D may be unbounded */
         y[0][i] = (double)vndf_ndf(surface, direction_from(x[i], 0));
         y[1][i] = (double)vndf_ndf(has_ggx ? &ggx : surface, direction_from(x[i], is_round ? 0 : 90));
     }
@@ -83,10 +68,7 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
                .count = is_round && !has_ggx ? 1 : 2,
                .key = key,
                .key_count = is_round && !has_ggx ? 1 : 2};
-    fit_decades(&c.y, y[0], is_round ? POINTS : 2 * POINTS);
-    for (int k = 0; k < 2; k++)
-        for (int i = 0; i < POINTS; i++)
-            y[k][i] = fmin(y[k][i], c.y.high);
+    chart_fit(&c, 7);
     chart_draw(file, &c);
 }
 

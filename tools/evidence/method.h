@@ -85,7 +85,6 @@ struct method {
     void (*release)(void *);    /* NULL: the state has another owner */
     method_call call;           /* of ours */
     vndf_instructions limit;    /* of batches */
-    method_one *one;            /* for latency; NULL: a batch, or a material */
     method_run *each, *shared;  /* a direction each; of some the first one for all, or NULL */
     method_run *eval, *density; /* values and densities of materials, the first direction for all */
     method_run *same_bits;      /* what `each` must equal to the bit, or NULL */

@@ -27,7 +27,6 @@ static const struct {
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
-    [COL_LATENCY] = {"latency_ns", "latency", NULL, 1, TIME | WIDE},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
@@ -45,7 +44,7 @@ static const struct {
 static const char legend_normals[] =
     "set: of instructions. memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction; latency: each waits for the last.\n"
+    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction.\n"
     "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
     "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
     "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"

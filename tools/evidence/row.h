@@ -30,7 +30,6 @@ typedef enum evidence_column {
     COL_SHARED, /* SHARE samples, values, densities of one direction or hit */
     COL_EVAL,
     COL_PDF,
-    COL_LATENCY,  /* each sample's input depends on the last one's output */
     COL_TV,       /* largest total variation to the true visible normals from above the horizon */
     COL_TV_BELOW, /* of tables of ours: from all directions */
     COL_WEIGHT,   /* largest true/drawn density that was met; of materials the largest weight */

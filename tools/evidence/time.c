@@ -7,7 +7,7 @@
 #include "cli/sort.h"
 #include "evidence/evidence.h"
 
-enum { EACH, SHARED, EVAL, DENSITY, LATENCY, SERIES };
+enum { EACH, SHARED, EVAL, DENSITY, SERIES };
 enum { TURNS_LEAST = 7, TURNS_MOST = 501 };
 
 static const double shortest = 20e-6; /* seconds: a shorter run is repeated, for the clock's sake */
@@ -16,20 +16,6 @@ int evidence_go_on(const evidence_plan *plan, const char *what)
 {
     double done = (clock_seconds() - plan->start) / plan->seconds;
     return progress_show(fmin(done, 0.99), what, plan->progress) == 0;
-}
-
-/* What is added to roughness and uniform numbers is zero, but the processor has to wait for it. */
-static void run_in_a_row(const method *m, block *b, size_t first, size_t count)
-{
-    float wait = 0;
-    for (size_t i = first; i < first + count; i++) {
-        method_input at = b->in[i];
-        at.alpha += wait;
-        at.u[0] += wait;
-        at.u[1] += wait;
-        vndf_vec3 wm = m->one(m, &at, &b->pdf[i]);
-        wait = 0.0f * (b->pdf[i] < 1e30f ? b->pdf[i] : 1.0f) * wm.z;
-    }
 }
 
 static void run_block(const method *m, method_run *run, block *b, size_t share)
@@ -69,7 +55,6 @@ static int take_turn(const evidence_list *list, const evidence_plan *plan, block
         ns[SHARED] = time_run(&e->m, e->m.shared, b, SHARE);
         ns[EVAL] = time_run(&e->m, e->m.eval, b, SHARE);
         ns[DENSITY] = time_run(&e->m, e->m.density, b, SHARE);
-        ns[LATENCY] = time_run(&e->m, e->m.one ? run_in_a_row : NULL, b, BLOCK);
         if (i % 8 == 0 && !evidence_go_on(plan, "taking turns"))
             return 0;
     }
@@ -79,7 +64,7 @@ static int take_turn(const evidence_list *list, const evidence_plan *plan, block
 /* The series of one entry are `turns` numbers, SERIES x count apart; `of` has room for them. */
 static void conclude(entry *e, const double *number, size_t stride, size_t turns, double *of)
 {
-    static const evidence_column medians[SERIES] = {COL_NS, COL_SHARED, COL_EVAL, COL_PDF, COL_LATENCY};
+    static const evidence_column medians[SERIES] = {COL_NS, COL_SHARED, COL_EVAL, COL_PDF};
     for (int way = 0; way < SERIES; way++) {
         for (size_t turn = 0; turn < turns; turn++)
             of[turn] = number[turn * stride + (size_t)way];

@@ -17,27 +17,27 @@ static int tell(double done, void *user)
 {
     const comparison *c = user;
     double whole = 0;
-    if (c->count == 1)
-        return c->progress ? c->progress(done, c->user) : 0;
     for (size_t i = 0; i < c->count; i++)
-        whole += fmin((double)c->way[i].film.samples / (double)c->samples, 1) / (double)c->count;
-    return c->progress ? c->progress(whole, c->user) : 0;
+        whole += fmin((double)c->way[i].film.samples / (double)c->run.samples, 1) / (double)c->count;
+    return c->run.progress ? c->run.progress(c->count == 1 ? done : whole, c->run.user) : 0;
 }
 
 static int render_some(comparison *c, way *one, uint64_t samples)
 {
-    const uint64_t own = (uint64_t)(one - c->way) * 0x9E3779B97F4A7C15u;
-    const film_run run = {
-        .samples = samples, .threads = c->threads, .seed = c->seed + own, .progress = tell, .user = c};
+    film_run run = c->run;
+    run.samples = samples;
+    run.seed += (uint64_t)(one - c->way) * 0x9E3779B97F4A7C15u;
+    run.progress = tell;
+    run.user = c;
     return film_render(&one->film, one->plan, &run);
 }
 
 int comparison_run(comparison *c)
 {
     way *first = &c->way[0];
-    const uint64_t part = c->count == 1 ? c->samples : c->samples < TURNS ? 1 : c->samples / TURNS;
-    while (first->film.samples < c->samples) {
-        const uint64_t left = c->samples - first->film.samples, step = part < left ? part : left;
+    const uint64_t all = c->run.samples, part = c->count == 1 ? all : all < TURNS ? 1 : all / TURNS;
+    while (first->film.samples < all) {
+        const uint64_t left = all - first->film.samples, step = part < left ? part : left;
         if (!render_some(c, first, step))
             return 0;
         for (size_t i = 1; i < c->count; i++) {
@@ -46,18 +46,6 @@ int comparison_run(comparison *c)
                 if (!render_some(c, &c->way[i], c->has_equal_time ? film_pass_samples(f) : step))
                     return 0;
         }
-    }
-    return 1;
-}
-
-int comparison_mean(const comparison *c, film *made)
-{
-    if (!film_make(made, c->way[0].film.width, c->way[0].film.height))
-        return 0;
-    for (size_t k = 0; k < c->count; k++) {
-        made->samples += c->way[k].film.samples;
-        for (size_t i = 0; i < 3 * film_pixels(made); i++)
-            made->sum[i] += c->way[k].film.sum[i];
     }
     return 1;
 }
@@ -72,71 +60,60 @@ static double mean_light(const film *f)
     return sum / (double)film_pixels(f);
 }
 
+/* The mean of 3 x 3 pixels in the films of all other ways; of one alone, in its own. */
+static double light_of_others(const comparison *c, const film *f, size_t pixel)
+{
+    const int column = (int)(pixel % (size_t)f->width), row = (int)(pixel / (size_t)f->width);
+    double sum = 0, samples = 0;
+    for (size_t i = 0; i < c->count; i++) {
+        const film *other = &c->way[i].film;
+        for (int y = row > 0 ? row - 1 : row; y <= row + 1 && y < f->height; y++)
+            for (int x = column > 0 ? column - 1 : column; x <= column + 1 && x < f->width; x++)
+                if (other != f || c->count == 1) {
+                    sum += film_light(other, (size_t)y * (size_t)f->width + (size_t)x) * (double)other->samples;
+                    samples += (double)other->samples;
+                }
+    }
+    return sum / samples;
+}
+
 static int descending(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
     return (x < y) - (x > y);
 }
 
-static measured mean_of(const double *values, size_t count)
+/* 0 if there is no memory. */
+static int noise_of(const comparison *c, const film *f, measured *made)
 {
-    double sum = 0, square = 0, n = (double)count;
-    for (size_t i = count; i-- > 0;) { /* the smallest first */
-        sum += values[i];
-        square += values[i] * values[i];
-    }
-    const measured m = {sum / n, sqrt(fmax(square / n - sum * sum / (n * n), 0) / n)};
-    return m;
-}
-
-/* The mean of 3 x 3 pixels, but for the samples of `f`, if there are others. */
-static double light_of_others(const film *all, const film *f, size_t pixel)
-{
-    const int column = (int)(pixel % (size_t)f->width), row = (int)(pixel / (size_t)f->width);
-    const double own = all->samples > f->samples ? (double)f->samples : 0;
-    double sum = 0, count = 0;
-    for (int y = row > 0 ? row - 1 : row; y <= row + 1 && y < f->height; y++)
-        for (int x = column > 0 ? column - 1 : column; x <= column + 1 && x < f->width; x++, count++) {
-            const size_t at = (size_t)y * (size_t)f->width + (size_t)x;
-            sum += film_light(all, at) * (double)all->samples - film_light(f, at) * own;
-        }
-    return sum / (count * ((double)all->samples - own));
-}
-
-int noise_of(const film *f, const film *all, noise *made)
-{
-    size_t count = film_pixels(f), trimmed = count / 1000;
-    double least = 0.05 * mean_light(all), *part = malloc(count * sizeof *part);
-    const measured unknown = {(double)NAN, (double)NAN};
-    *made = (noise){unknown, unknown};
-    if (!part || f->samples < 2) {
-        free(part);
-        return f->samples < 2;
-    }
-    for (size_t i = 0; i < count; i++) {
-        double here = light_of_others(all, f, i);
+    const size_t count = film_pixels(f), fireflies = count / 1000;
+    const double n = (double)count, least = 0.05 * mean_light(f);
+    double sum = 0, square = 0, *part = malloc(count * sizeof *part);
+    *made = (measured){(double)NAN, (double)NAN, (double)NAN};
+    for (size_t i = 0; i < count && part; i++) {
+        const double here = light_of_others(c, f, i);
         part[i] = film_variance(f, i) / (here * here + least * least);
     }
-    qsort(part, count, sizeof *part, descending);
-    made->all = mean_of(part, count);
-    made->trimmed = mean_of(part + trimmed, count - trimmed);
+    if (part && f->samples > 1) {
+        qsort(part, count, sizeof *part, descending);
+        for (size_t i = count; i-- > 0;) { /* the smallest first */
+            sum += part[i];
+            square += part[i] * part[i];
+            made->trimmed = i == fireflies ? sum / (double)(count - fireflies) : made->trimmed;
+        }
+        made->value = sum / n;
+        made->spread = sqrt(fmax(square / n - sum * sum / (n * n), 0) / n);
+    }
     free(part);
-    return 1;
+    return part != NULL;
 }
 
-gain gain_of(const comparison *c, const noise *noises, size_t i)
+/* a/b, times a factor. */
+static measured ratio_of(const measured *a, const measured *b, double factor)
 {
-    const film *first = &c->way[0].film, *f = &c->way[i].film;
-    const noise *a = &noises[0], *b = &noises[i];
-    const double samples = (double)f->samples / (double)first->samples, time = first->processor / f->processor;
-    const double spread = i ? hypot(a->all.spread / a->all.value, b->all.spread / b->all.value) : 0;
-    gain g = {.samples = {b->all.value / a->all.value * samples, 0},
-              .efficiency = {a->all.value / b->all.value * time, 0}};
-    g.samples.spread = spread * g.samples.value;
-    g.efficiency.spread = spread * g.efficiency.value;
-    g.samples_trimmed = b->trimmed.value / a->trimmed.value * samples;
-    g.efficiency_trimmed = a->trimmed.value / b->trimmed.value * time;
-    return g;
+    const double ratio = a->value / b->value * factor;
+    const double spread = a == b ? 0 : hypot(a->spread / a->value, b->spread / b->value);
+    return (measured){ratio, ratio * spread, a->trimmed / b->trimmed * factor};
 }
 
 /* ---- verdict ---- */
@@ -145,54 +122,68 @@ typedef struct difference {
     double off, variance, light;
 } difference;
 
-static void add_pixel(difference *d, const film *a, const film *b, size_t pixel)
+static difference block_of(const film *a, const film *b, int left, int top)
 {
-    const double one = film_variance(a, pixel), other = film_variance(b, pixel);
-    d->off += film_light(a, pixel) - film_light(b, pixel);
-    d->variance += isnan(other) ? 2 * one : one + other;
-    d->light += fabs(film_light(b, pixel));
+    difference d = {0, 0, 0};
+    for (int y = top; y < top + BLOCK && y < a->height; y++)
+        for (int x = left; x < left + BLOCK && x < a->width; x++) {
+            const size_t pixel = (size_t)y * (size_t)a->width + (size_t)x;
+            d.off += film_light(a, pixel) - film_light(b, pixel);
+            d.variance += film_variance(a, pixel) + film_variance(b, pixel);
+            d.light += fabs(film_light(b, pixel));
+        }
+    return d;
 }
 
-/* In standard deviations; of 1e-5 of the light at least, which nobody sees: pictures in files are rounded to
- * float. */
+/* In standard deviations; of 1e-5 of the light at least, which nobody sees. */
 static double deviations(const difference *d)
 {
     const double least = 1e-5 * d->light;
     return d->off == 0 ? 0 : d->off / sqrt(d->variance + least * least);
 }
 
-agreement agreement_between(const film *a, const film *b, int is_read)
+static void judge(const film *a, const film *b, finding *made)
 {
-    const int is_known = a->samples >= VERDICT_SAMPLES && (is_read || b->samples >= VERDICT_SAMPLES);
-    agreement made = {mean_light(a) / mean_light(b), 0, 0, 0, 0, 0, VERDICT_SAME};
     difference all = {0, 0, 0};
     double blocks = 0, squares = 0;
     for (int top = 0; top < a->height; top += BLOCK)
-        for (int left = 0; left < a->width; left += BLOCK) {
-            difference block = {0, 0, 0};
-            for (int y = top; y < top + BLOCK && y < a->height; y++)
-                for (int x = left; x < left + BLOCK && x < a->width; x++)
-                    add_pixel(&block, a, b, (size_t)y * (size_t)a->width + (size_t)x);
+        for (int left = 0; left < a->width; left += BLOCK, blocks++) {
+            const difference block = block_of(a, b, left, top);
             const double off = deviations(&block);
             all = (difference){all.off + block.off, all.variance + block.variance, all.light + block.light};
-            blocks++;
             squares += off * off;
-            if (fabs(off) > fabs(made.worst)) {
-                made.worst = off;
-                made.x = left;
-                made.y = top;
+            if (!(fabs(off) <= fabs(made->worst))) {
+                made->worst = off;
+                made->x = left;
+                made->y = top;
             }
         }
-    made.whole = deviations(&all);
-    made.mean_square = squares / blocks;
-    if (fabs(made.whole) > whole_most || fabs(made.worst) > block_most ||
-        made.mean_square > mean_square_most + 5 * sqrt(2 / blocks))
-        made.is = VERDICT_DIFFERS;
-    if (is_known)
-        return made;
-    made.whole = made.worst = made.mean_square = (double)NAN;
-    made.is = VERDICT_UNKNOWN;
-    return made;
+    made->ratio = mean_light(a) / mean_light(b);
+    made->whole = deviations(&all);
+    made->mean_square = squares / blocks;
+    if (fabs(made->whole) > whole_most || fabs(made->worst) > block_most ||
+        made->mean_square > mean_square_most + 5 * sqrt(2 / blocks))
+        made->is = VERDICT_DIFFERS;
+    if (a->samples < VERDICT_SAMPLES || b->samples < VERDICT_SAMPLES) {
+        made->whole = made->worst = made->mean_square = (double)NAN;
+        made->is = VERDICT_UNKNOWN;
+    }
+}
+
+int comparison_find(const comparison *c, finding found[SAMPLERS])
+{
+    const film *first = &c->way[0].film;
+    for (size_t i = 0; i < c->count; i++) {
+        const film *f = &c->way[i].film;
+        finding *made = &found[i];
+        *made = (finding){.is = VERDICT_SAME};
+        if (!noise_of(c, f, &made->noise))
+            return 0;
+        made->samples = ratio_of(&made->noise, &found->noise, (double)f->samples / (double)first->samples);
+        made->efficiency = ratio_of(&found->noise, &made->noise, first->processor / f->processor);
+        judge(f, first, made);
+    }
+    return 1;
 }
 
 /* ---- a picture ---- */
@@ -205,8 +196,8 @@ static void put_film(image *made, int left, const film *f, float exposure)
             const size_t at = (size_t)y * (size_t)f->width + (size_t)x;
             const double error = sqrt(film_variance(f, at)) / (fabs(film_light(f, at)) + least);
             const double grey = 0.5 * log10(fmax(100 * error, 1)); /* of one sample NaN, and black */
-            float *above = image_pixel(made, left + x, y),
-                  *below = image_pixel(made, left + x, f->height + GAP + y);
+            float *above = image_pixel(made, left + x, y);
+            float *below = image_pixel(made, left + x, f->height + GAP + y);
             for (size_t i = 0; i < 3; i++) {
                 above[i] = exposure * (float)(f->sum[3 * at + i] / (double)f->samples);
                 below[i] = (float)fmin(grey * grey, 1); /* even steps for the eye */

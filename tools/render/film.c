@@ -68,9 +68,7 @@ static void *render_rows(void *user)
 
 static void add_counts(path_counts *to, const path_counts *more)
 {
-    to->paths += more->paths;
-    to->segments += more->segments;
-    to->shadow_rays += more->shadow_rays;
+    to->rays += more->rays;
     to->lost += more->lost;
 }
 
@@ -187,15 +185,5 @@ int film_image(const film *f, image *made)
         return 0;
     for (size_t i = 0; i < 3 * film_pixels(f) && f->samples; i++)
         made->rgb[i] = (float)(f->sum[i] / (double)f->samples);
-    return 1;
-}
-
-int film_from_image(film *f, const image *from)
-{
-    if (!film_make(f, from->width, from->height))
-        return 0;
-    f->samples = 1;
-    for (size_t i = 0; i < 3 * film_pixels(f); i++)
-        f->sum[i] = (double)from->rgb[i];
     return 1;
 }

@@ -48,7 +48,4 @@ double film_variance(const film *f, size_t pixel);
 /* The mean. 0 if there is no memory. */
 int film_image(const film *f, image *made);
 
-/* An image as a film of one sample. 0 if there is no memory. */
-int film_from_image(film *f, const image *from);
-
 #endif

@@ -10,9 +10,6 @@
 
 #include <stdlib.h>
 
-/* The mean square of the light over the square of its mean below which drawing costs more than it gives. */
-static const double even = 2;
-
 /* ---- making ---- */
 
 static emitter emitter_of(const scene *s, uint32_t at)
@@ -53,33 +50,34 @@ static int normalise(float *sums, int count)
     return all > 0.0f;
 }
 
-/* 0 if there is no memory. */
+/* 0 if there is no memory. An image is drawn if the mean square of its light is `even` times the square of its mean:
+ * below that, drawing costs more than it gives. */
 static int sum_up(environment *e)
 {
-    const image *map = e->map;
-    size_t width = (size_t)map->width, height = (size_t)map->height;
+    static const double even = 2;
+    const size_t width = (size_t)e->map->width, height = (size_t)e->map->height;
     double all = 0, square = 0, area = 0;
     e->rows = calloc(height, sizeof *e->rows);
-    e->cells = malloc(width * height * sizeof *e->cells);
-    if (!e->rows || !e->cells)
-        return 0;
-    for (int y = 0; y < map->height; y++) {
-        float *row = e->cells + (size_t)y * width;
-        double sum = 0, sine = sin(PI * (y + 0.5) / map->height);
-        for (int x = 0; x < map->width; x++) {
-            const double here = pixel_light(map, x, y);
+    e->cells = calloc(width * height, sizeof *e->cells);
+    const int is_made = e->rows && e->cells;
+    for (size_t y = 0; y < height && is_made; y++) {
+        const double sine = sin(PI * ((double)y + 0.5) / (double)height);
+        float *row = e->cells + y * width;
+        double sum = 0;
+        for (size_t x = 0; x < width; x++) {
+            const double here = pixel_light(e->map, (int)x, (int)y);
             row[x] = (float)(sum += here);
             square += here * here * sine;
         }
-        normalise(row, map->width);
+        normalise(row, e->map->width);
         e->rows[y] = (float)(all += sum * sine);
-        area += sine * map->width;
+        area += sine * (double)width;
     }
-    if (!normalise(e->rows, map->height) || square * area < even * all * all) {
+    if (is_made && (!normalise(e->rows, e->map->height) || square * area < even * all * all)) {
         free(e->rows);
         e->rows = NULL;
     }
-    return 1;
+    return is_made;
 }
 
 int lights_make(scene *s)

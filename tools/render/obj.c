@@ -6,7 +6,7 @@
  *   f A B C ...       a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
  *                     v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
  *
- * Blanks separate words, # begins a comment; other lines are ignored. Triangles without an area are ignored. Where
+ * Blanks separate words, # begins a comment; other lines and triangles without an area are ignored. Where
  * the normals of a triangle contradict the order of its corners, the normals win. */
 #include "render/geometry.h"
 
@@ -23,6 +23,9 @@ enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
 
 enum { V, VT, VN, TABLES };
 static const char *const table_names[TABLES] = {"corners (v)", "texture coordinates (vt)", "normals (vn)"};
+
+/* How large their numbers may be: beyond 1e6 float has no digits for the place in a texture. */
+static const double reach[TABLES] = {1e7, 1e6, 1e30};
 
 typedef struct table {
     vec3 *row;
@@ -57,7 +60,11 @@ PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
     return 0;
 }
 
-/* ---- words ---- */
+/* The same of the last word, whose first letters go before the text. */
+static int complain_of(reader *r, const char *what)
+{
+    return complain_at(r, "'%.*s'%s", (int)(r->letters < 40 ? r->letters : 40), r->word, what);
+}
 
 /* Reads the next word of the line; 0 where the line has no more. */
 static int next_word(reader *r)
@@ -69,63 +76,39 @@ static int next_word(reader *r)
     return r->letters > 0;
 }
 
-/* How many letters of the word messages quote. */
-static int quoted(const reader *r)
-{
-    return r->letters < 40 ? (int)r->letters : 40;
-}
-
-static int is_word(const reader *r, const char *word)
-{
-    return r->letters == strlen(word) && memcmp(r->word, word, r->letters) == 0;
-}
-
 /* ---- items ---- */
 
 /* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
 static int read_item(reader *r, int which)
 {
-    static const char *const names[TABLES] = {"v", "vt", "vn"};
-    const double reach = which == V ? 1e7 : 1e6; /* beyond it float has no digits for the place in a texture */
-    const int least = which == VT ? 1 : 3;
     table *t = &r->of[which];
     double p[3] = {0, 0, 0};
-    int count = 0;
+    int count = 0, least = which == VT ? 1 : 3;
     for (; next_word(r); count++) {
         char *end;
         const double value = strtod(r->word, &end); /* which takes nan too */
         if (strspn(r->word, "0123456789+-.eE") < r->letters || end != r->word + r->letters)
-            return complain_at(r, "'%.*s' should be a number", quoted(r), r->word);
-        if (!(fabs(value) <= 1e30))
-            return complain_at(r, "'%.*s' is too large a number", quoted(r), r->word);
+            return complain_of(r, " should be a number");
         p[count < 3 ? count : 2] = count < 3 ? value : p[2];
     }
     if (count < least)
-        return complain_at(r, "%s has %d number%s, it should have %d", names[which], count, count == 1 ? "" : "s",
-                           least);
-    vec3 at = which == VT ? vec(p[0], p[1], 0) : placement_turn(r->where, vec(p[0], p[1], p[2]));
+        return complain_at(r, "there are %d numbers of %d in this line", count, least);
+    vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : placement_turn(r->where, vec(p[0], p[1], p[2]));
     if (which == V)
         at = along(r->where->move, r->where->scale, at);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
-    if (which != VN && !(largest <= reach))
-        return complain_at(r,
-                           which == V ? "this corner lies farther than %g from the origin"
-                                      : "a texture coordinate is beyond %g",
-                           reach);
-    if (which == VT)
-        at.y = 1 - at.y;
+    if (!(largest <= reach[which]))
+        return complain_at(r, "%s lie within %g of 0, and these do not", table_names[which], reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
-    if (t->count == ITEMS_MAX)
-        return complain_at(r, "there are more than %d %s", ITEMS_MAX, table_names[which]);
-    if (t->count == t->room) {
-        const size_t room = 64 + 2 * t->room;
+    if (t->count == t->room && t->room < ITEMS_MAX) {
+        const size_t room = t->room ? 2 * t->room : 64;
         vec3 *larger = realloc(t->row, room * sizeof *larger);
-        if (!larger)
-            return complain_at(r, "no memory for %zu %s", room, table_names[which]);
-        t->row = larger;
-        t->room = room;
+        t->row = larger ? larger : t->row;
+        t->room = larger ? room : t->room;
     }
+    if (t->count == t->room)
+        return complain_at(r, "there is no memory for more than %zu %s", t->count, table_names[which]);
     t->row[t->count++] = at;
     return 1;
 }
@@ -150,16 +133,14 @@ static int read_corner(reader *r, corner *c)
         const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
         const long long count = (long long)r->of[i].count;
         if (behind == at || behind > end)
-            return complain_at(r, "'%.*s' should be v, v/vt, v//vn or v/vt/vn, in numbers", quoted(r), r->word);
-        if (given == 0)
-            return complain_at(r, "'%.*s': %s are counted from 1", quoted(r), r->word, table_names[i]);
-        if (given > count || given < -count)
-            return complain_at(r, "'%.*s': there are %lld %s so far", quoted(r), r->word, count, table_names[i]);
+            return complain_of(r, " should be v, v/vt, v//vn or v/vt/vn, in numbers");
+        if (given == 0 || given > count || given < -count)
+            return complain_at(r, "number %lld is none of %lld %s so far, which are counted from 1", given, count,
+                               table_names[i]);
         c->of[i] = (size_t)(given > 0 ? given : count + 1 + given);
         at = behind;
     }
-    return at == end ||
-           complain_at(r, "'%.*s' should end after '%.*s'", quoted(r), r->word, (int)(at - r->word), r->word);
+    return at == end || complain_of(r, " should be v, v/vt, v//vn or v/vt/vn, and end there");
 }
 
 static vec3 item_of(const reader *r, const corner *c, int which)
@@ -167,54 +148,46 @@ static vec3 item_of(const reader *r, const corner *c, int which)
     return r->of[which].row[c->of[which] - 1];
 }
 
-static shape triangle_of(const reader *r, const corner *a, const corner *b, const corner *c)
+/* Normals of a mesh win over the order of its corners. */
+static int add_triangle(reader *r, const corner *a, const corner *b, const corner *c)
 {
     const corner *at[3] = {a, b, c};
     shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = item_of(r, a, V)};
     t.edge_u = subtract(item_of(r, b, V), t.corner);
     t.edge_v = subtract(item_of(r, c, V), t.corner);
+    const vec3 across = cross(t.edge_u, t.edge_v);
+    double agreement = 0;
+    if (!(length(across) > 1e-15 * (dot(t.edge_u, t.edge_u) + dot(t.edge_v, t.edge_v)))) /* no area but rounding */
+        return 1;
     for (int i = 0; i < 3; i++) {
         if (a->of[VN] && b->of[VN] && c->of[VN]) {
             const vec3 n = item_of(r, at[i], VN);
             t.normal[i] = (vndf_vec3){(float)n.x, (float)n.y, (float)n.z};
+            agreement += dot(across, n);
         }
         if (a->of[VT] && b->of[VT] && c->of[VT]) {
             t.u[i] = (float)item_of(r, at[i], VT).x;
             t.v[i] = (float)item_of(r, at[i], VT).y;
         }
     }
-    return t;
-}
-
-static int add_triangle(reader *r, const corner c[3])
-{
-    shape t = triangle_of(r, &c[0], &c[1], &c[2]);
-    const vec3 n = cross(t.edge_u, t.edge_v);
-    const double rounding = 1e-15 * (dot(t.edge_u, t.edge_u) + dot(t.edge_v, t.edge_v));
-    double agreement = 0;
-    if (!(length(n) > rounding))
-        return 1;
-    for (int i = 0; i < 3; i++)
-        agreement += n.x * (double)t.normal[i].x + n.y * (double)t.normal[i].y + n.z * (double)t.normal[i].z;
     if (agreement < 0)
-        t = triangle_of(r, &c[0], &c[2], &c[1]);
+        return add_triangle(r, a, c, b);
     if (r->triangles++ == ITEMS_MAX)
         return complain_at(r, "there are more than %d triangles", ITEMS_MAX);
     return geometry_add(r->g, &t) || complain_at(r, "no memory for its triangles");
 }
 
-static int read_f(reader *r)
+static int read_face(reader *r)
 {
     corner c[3]; /* the first corner, the one before, and this one */
     int count = 0;
     for (; next_word(r); count++) {
-        if (!read_corner(r, &c[count < 2 ? count : 2]) || (count >= 2 && !add_triangle(r, c)))
+        if (!read_corner(r, &c[count < 2 ? count : 2]) || (count >= 2 && !add_triangle(r, &c[0], &c[1], &c[2])))
             return 0;
         if (count >= 2)
             c[1] = c[2];
     }
-    return count >= 3 ||
-           complain_at(r, "f has %d corner%s, it should have 3 or more", count, count == 1 ? "" : "s");
+    return count >= 3 || complain_at(r, "a face has 3 corners or more, this one has %d", count);
 }
 
 /* ---- files ---- */
@@ -222,13 +195,15 @@ static int read_f(reader *r)
 /* Other lines are ignored. */
 static int read_line(reader *r)
 {
+    static const char *const names[TABLES] = {"v", "vt", "vn"};
     if (!next_word(r))
         return 1;
-    if (is_word(r, "f"))
-        return read_f(r);
-    return is_word(r, "v")    ? read_item(r, V)
-           : is_word(r, "vt") ? read_item(r, VT)
-                              : !is_word(r, "vn") || read_item(r, VN);
+    if (r->letters == 1 && *r->word == 'f')
+        return read_face(r);
+    for (int i = 0; i < TABLES; i++)
+        if (r->letters == strlen(names[i]) && memcmp(r->word, names[i], r->letters) == 0)
+            return read_item(r, i);
+    return 1;
 }
 
 static int read_all(reader *r, size_t length)

@@ -217,7 +217,7 @@ static void reach_light(walk *w, const surface *p, const hit *h)
         return;
     ray r = ray_from(h, l.direction);
     r.to = l.distance * (1 - 1e-9); /* the light itself hides nothing */
-    w->counts->shadow_rays++;
+    w->counts->rays++;
     if (geometry_blocked(&s->geometry, &r))
         return;
     for (int i = 0; i < 3; i++)
@@ -264,7 +264,7 @@ static void trace(walk *w)
     surface p;
     hit h;
     for (unsigned count = 1;; count++) {
-        w->counts->segments++;
+        w->counts->rays++;
         if (!geometry_hit(&s->geometry, &w->ray, &h)) {
             meet_environment(w);
             return;
@@ -300,7 +300,6 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
                   HUGE_VAL};
     trace(&w);
     const int is_good = fabs(w.radiance[0]) + fabs(w.radiance[1]) + fabs(w.radiance[2]) < (double)FLT_MAX;
-    counts->paths++;
     counts->lost += !is_good;
     for (int i = 0; i < 3; i++)
         rgb[i] = is_good ? (float)w.radiance[i] : 0.0f;

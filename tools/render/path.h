@@ -19,7 +19,7 @@ void path_free(path_plan *plan);
 
 /* Counters of one thread. */
 typedef struct path_counts {
-    uint64_t paths, segments, shadow_rays, lost; /* lost: paths whose light was not finite */
+    uint64_t rays, lost; /* lost: paths whose light was not finite */
 } path_counts;
 
 /* The radiance of one path through pixel (x, y): path `index` of the pixel under `seed`, whichever thread asks. */

@@ -4,7 +4,6 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "render/geometry.h"
 #include "render/image.h"
 
@@ -86,50 +85,32 @@ typedef struct pattern {
     void (*shade)(float u, float v, float rgb[3]);
 } pattern;
 
-static const pattern patterns[] = {
-    {"tiles", shade_tiles},
-    {"grid", shade_grid},
-    {"studio", shade_studio},
-};
-enum { PATTERNS = sizeof patterns / sizeof patterns[0] };
+enum { PATTERNS = 3 };
+static const pattern patterns[PATTERNS] = {{"tiles", shade_tiles}, {"grid", shade_grid}, {"studio", shade_studio}};
 
-/* The mean of shade over a pixel, from SIDE x SIDE points. */
-static void shade_pixel(const pattern *p, const image *of, int x, int y)
-{
-    enum { SIDE = 3 };
-    float *rgb = image_pixel(of, x, y), one[3];
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        float u = ((float)x + ((float)(i % SIDE) + 0.5f) / SIDE) / (float)of->width;
-        float v = ((float)y + ((float)(i / SIDE) + 0.5f) / SIDE) / (float)of->height;
-        p->shade(u, v, one);
-        for (int channel = 0; channel < 3; channel++)
-            rgb[channel] += one[channel] / (SIDE * SIDE);
-    }
-}
-
+/* A pixel is the mean of SIDE x SIDE points. */
 int image_make_pattern(image *made, const char *name, int width, int height, image_error *error)
 {
-    const char *names[PATTERNS];
-    const pattern *p = NULL;
+    enum { SIDE = 3 };
+    const pattern *p = patterns;
     *made = (image){0};
-    for (size_t i = 0; i < PATTERNS; i++) {
-        names[i] = patterns[i].name;
-        p = strcmp(name, names[i]) == 0 ? &patterns[i] : p;
-    }
-    if (!p) {
-        const char *near = nearest_word(name, names, PATTERNS);
-        snprintf(error->message, sizeof error->message, "there is no pattern '%.64s'; %s%s", name,
-                 near ? "did you mean " : "there are tiles, grid and studio", near ? near : "");
-        return 0;
-    }
-    if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height)) {
+    while (p < patterns + PATTERNS && strcmp(name, p->name) != 0)
+        p++;
+    if (p == patterns + PATTERNS)
+        snprintf(error->message, sizeof error->message, "there is no pattern '%.64s', but tiles, grid and studio",
+                 name);
+    else if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
         snprintf(error->message, sizeof error->message, "there is no memory for %d x %d pixels", width, height);
-        return 0;
-    }
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-            shade_pixel(p, made, x, y);
-    return 1;
+    for (int y = 0; y < made->height; y++)
+        for (int x = 0; x < made->width; x++)
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                float *rgb = image_pixel(made, x, y), one[3];
+                p->shade(((float)x + ((float)(i % SIDE) + 0.5f) / SIDE) / (float)width,
+                         ((float)y + ((float)(i / SIDE) + 0.5f) / SIDE) / (float)height, one);
+                for (int channel = 0; channel < 3; channel++)
+                    rgb[channel] += one[channel] / (SIDE * SIDE);
+            }
+    return made->rgb != NULL;
 }
 
 /* ---- a torus knot (2, 3) ----
@@ -157,31 +138,25 @@ static void corner_at(int ring, int side, vec3 *place, vec3 *normal)
     *place = along(axis, tube, *normal);
 }
 
-/* The triangle with these corners, counter-clockwise seen from outside: {ring, side} each. */
-static int add_triangle(geometry *g, const int at[3][2], const placement *where, int material)
-{
-    shape s = {.kind = SHAPE_TRIANGLE, .material = material};
-    vec3 place[3], normal;
-    for (int i = 0; i < 3; i++) {
-        corner_at(at[i][0], at[i][1], &place[i], &normal);
-        place[i] = along(where->move, where->scale, placement_turn(where, place[i]));
-        normal = placement_turn(where, normal);
-        s.normal[i] = (vndf_vec3){(float)normal.x, (float)normal.y, (float)normal.z};
-    }
-    s.corner = place[0];
-    s.edge_u = subtract(place[1], place[0]);
-    s.edge_v = subtract(place[2], place[0]);
-    return geometry_add(g, &s);
-}
-
+/* Two triangles for each quarter of a ring, counter-clockwise seen from outside. */
 int knot_add(geometry *g, const placement *where, int material)
 {
-    int good = 1;
-    for (int ring = 0; ring < RINGS; ring++)
-        for (int side = 0; side < SIDES; side++) {
-            const int one[3][2] = {{ring, side}, {ring, side + 1}, {ring + 1, side + 1}};
-            const int other[3][2] = {{ring, side}, {ring + 1, side + 1}, {ring + 1, side}};
-            good = good && add_triangle(g, one, where, material) && add_triangle(g, other, where, material);
+    static const int steps[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}}, {{0, 0}, {1, 1}, {1, 0}}}; /* along, around */
+    for (int i = 0; i < 2 * RINGS * SIDES; i++) {
+        shape s = {.kind = SHAPE_TRIANGLE, .material = material};
+        vec3 place[3], normal;
+        for (int k = 0; k < 3; k++) {
+            const int *step = steps[i % 2][k];
+            corner_at(i / 2 / SIDES + step[0], i / 2 % SIDES + step[1], &place[k], &normal);
+            place[k] = along(where->move, where->scale, placement_turn(where, place[k]));
+            normal = placement_turn(where, normal);
+            s.normal[k] = (vndf_vec3){(float)normal.x, (float)normal.y, (float)normal.z};
         }
-    return good;
+        s.corner = place[0];
+        s.edge_u = subtract(place[1], place[0]);
+        s.edge_v = subtract(place[2], place[0]);
+        if (!geometry_add(g, &s))
+            return 0;
+    }
+    return 1;
 }

@@ -1,13 +1,18 @@
-/* Reads a scene: the words of the file, statement after statement by the table of keys, then a look at the whole. */
+/* Reads a scene: the words of the file, statement after statement by the table of keys, then a look at the whole.
+ *
+ * Blanks, tabs and ends of lines separate the words; # outside quotes begins a comment; "quotes" hold blanks. A word
+ * in the first column of a line begins a statement; a line that begins with a blank continues it. Everything that
+ * reads returns 1, or 0 after a refusal that names the place. */
 #include "render/scene.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/arguments.h"
 #include "cli/files.h"
 #include "render/light.h"
-#include "render/words.h"
 #include "vndf_build.h"
 
 /* Against hostile files. */
@@ -17,7 +22,40 @@ enum {
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
 
-static const double near = 1e-6; /* the least size */
+static const double least_size = 1e-6;
+
+typedef struct word {
+    char *text;            /* without its quotes; into the text of the file */
+    unsigned line, column; /* from 1 */
+    int is_quoted, begins; /* begins: a statement */
+} word;
+
+typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
+typedef enum key_rule {
+    MAY_BE,
+    NEEDED,
+    OR,
+    BESIDE
+} key_rule; /* OR: one of it and `other`; BESIDE: only with that */
+
+/* A keyword of a statement, with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
+typedef struct key {
+    const char *of, *name, *takes;
+    key_kind kind;
+    size_t least, most;
+    double low, high;
+    key_rule rule;
+    const char *other;
+} key;
+
+typedef struct clause {
+    const key *is;
+    const word *at, *value; /* the keyword and what is behind it; NULL if it is not there */
+    size_t count;
+    double number[3];
+} clause;
+
+enum { CLAUSES_MAX = 16 };
 
 #define PLACE "X Y Z", NUMBERS, 3, 3, -1e6, 1e6
 #define NAME WORDS, 1, 1, 0, 0
@@ -68,13 +106,19 @@ static const key keys[] = {
     {"mesh", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, MAY_BE, NULL},
     {"mesh", "move", PLACE, MAY_BE, NULL},
     {"body", "material", "NAME", NAME, NEEDED, NULL},
-    {NULL, NULL, NULL, NAME, MAY_BE, NULL},
 };
 
 typedef struct reader {
-    scene_words words;
+    const char *name; /* of the file */
+    char *message;    /* room of `size` for a refusal */
+    size_t size;
+    word *words; /* owned */
+    size_t word_count, room;
     scene *made;
-    statement s;   /* at hand; s.list[0] names it */
+    const word *list; /* the statement at hand; list[0] names it */
+    size_t count;
+    clause clause[CLAUSES_MAX]; /* of all its keys */
+    size_t clauses;
     size_t folder; /* the length of the folder in the name of the file, with its slash */
     unsigned seen; /* a bit for each statement */
     const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
@@ -86,25 +130,204 @@ typedef struct reader {
     } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
 } reader;
 
-#define REFUSE(r, at, ...) refuse_word(&(r)->words, at, __VA_ARGS__)
+/* "NAME:LINE:COLUMN: ..."; returns 0. */
+PRINTF_LIKE(3, 4) static int refuse(reader *r, const word *at, const char *format, ...)
+{
+    int head = snprintf(r->message, r->size, "%s:%u:%u: ", r->name, at->line, at->column);
+    va_list list;
+    va_start(list, format);
+    if (head >= 0 && (size_t)head < r->size)
+        vsnprintf(r->message + head, r->size - (size_t)head, format, list);
+    va_end(list);
+    return 0;
+}
+
+/* Which of the names a word is; a refusal offers the nearest one, or all of them. `what`: "pattern". */
+static int read_choice(reader *r, const word *at, const char *what, const char *const *names, size_t count,
+                       size_t *chosen)
+{
+    char all[512] = "";
+    size_t used = 0;
+    for (*chosen = 0; *chosen < count; ++*chosen)
+        if (strcmp(at->text, names[*chosen]) == 0)
+            return 1;
+    const char *near = nearest_word(at->text, names, count);
+    if (near)
+        return refuse(r, at, "'%.64s' is no %s; did you mean '%s'?", at->text, what, near);
+    for (size_t i = 0; i < count && used < sizeof all; i++)
+        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", names[i]);
+    return refuse(r, at, "'%.64s' is no %s; it must be one of: %s", at->text, what, count ? all : "(none yet)");
+}
+
+/* ---- words ---- */
+
+/* Takes the word at *at, which moves behind it. */
+static int take_word(reader *r, char **at, const char *line_start, unsigned line)
+{
+    const word taken = {*at + (**at == '"'), line, (unsigned)(*at - line_start) + 1, **at == '"',
+                        *at == line_start};
+    char *end = taken.text;
+    if (taken.is_quoted)
+        end += strcspn(end, "\"\n");
+    else
+        while ((unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
+            end++;
+    if (taken.is_quoted && *end != '"')
+        return refuse(r, &taken, "the quote that begins here does not end on its line");
+    if (end == taken.text && !taken.is_quoted)
+        return refuse(r, &taken, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
+    char *behind = end + taken.is_quoted;
+    if (*behind && !strchr(" \t\r\n#", *behind)) {
+        const word here = {NULL, line, (unsigned)(behind - line_start) + 1, 0, 0};
+        return refuse(r, &here, "a blank is missing before this");
+    }
+    if (r->word_count == r->room) {
+        const size_t room = 256 + 2 * r->room;
+        word *larger = realloc(r->words, room * sizeof *larger);
+        if (!larger)
+            return refuse(r, &taken, "there is no memory for the words of this file");
+        r->words = larger;
+        r->room = room;
+    }
+    r->words[r->word_count++] = taken;
+    *at = behind;
+    return 1;
+}
+
+/* Words end with a 0 only when the character behind them has been read. */
+static int split_words(reader *r, char *text, size_t length)
+{
+    char *at = text, *line_start = text, *unended = NULL;
+    unsigned line = 1;
+    while (at < text + length) {
+        char c = *at;
+        if (unended)
+            *unended = '\0';
+        unended = NULL;
+        if (c == '#') {
+            at++; /* it may just have become the end of a word */
+            at += strcspn(at, "\n");
+        } else if (c == '\n') {
+            line_start = ++at;
+            line++;
+        } else if (c == ' ' || c == '\t' || c == '\r') {
+            at++;
+        } else {
+            if (!take_word(r, &at, line_start, line))
+                return 0;
+            unended = at - r->words[r->word_count - 1].is_quoted;
+            if (!r->words[0].begins)
+                return refuse(r, &r->words[0],
+                              "a statement begins in the first column; lines that begin with a "
+                              "blank go on with the one before");
+        }
+    }
+    if (unended)
+        *unended = '\0';
+    return 1;
+}
+
+/* ---- clauses ---- */
+
+/* The clause with this name, with at == NULL if it is not there. */
+static const clause *clause_of(const reader *r, const char *name)
+{
+    static const clause none = {.at = NULL};
+    for (size_t i = 0; i < r->clauses; i++)
+        if (strcmp(r->clause[i].is->name, name) == 0)
+            return &r->clause[i];
+    return &none;
+}
+
+static int is_keyword(const reader *r, const word *at)
+{
+    return !at->is_quoted && clause_of(r, at->text)->is;
+}
+
+/* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
+static int read_number(reader *r, const key *k, const word *at, double *number)
+{
+    char *end = at->text;
+    if (strspn(at->text, "+-.0123456789eE") == strlen(at->text))
+        *number = strtod(at->text, &end);
+    if (end == at->text || *end)
+        return refuse(r, at, "'%.64s' is no number; it must be '%s %s'", at->text, k->name, k->takes);
+    if (!(*number >= k->low && *number <= k->high))
+        return refuse(r, at, "%s is %.9g, it must be from %.9g to %.9g", k->name, *number, k->low, k->high);
+    return k->kind != WHOLE || *number == floor(*number) ||
+           refuse(r, at, "%s is %.9g, it must be a whole number", k->name, *number);
+}
+
+/* The clause whose keyword is word *at, which moves behind its values. */
+static int read_clause(reader *r, size_t *at)
+{
+    const char *names[CLAUSES_MAX];
+    size_t chosen;
+    for (size_t i = 0; i < r->clauses; i++)
+        names[i] = r->clause[i].is->name;
+    if (r->list[*at].is_quoted)
+        return refuse(r, &r->list[*at], "'%.64s' is no clause here, since it has quotes", r->list[*at].text);
+    if (!read_choice(r, &r->list[*at], "clause here", names, r->clauses, &chosen))
+        return 0;
+    clause *c = &r->clause[chosen];
+    if (c->at)
+        return refuse(r, &r->list[*at], "'%s' stands in this statement twice", c->is->name);
+    c->at = &r->list[(*at)++];
+    c->value = r->list + *at;
+    /* required values are taken as they are, since a name may look like a keyword */
+    for (; *at < r->count && c->count < c->is->most; ++*at, c->count++) {
+        const word *value = &r->list[*at];
+        if (c->count >= c->is->least && is_keyword(r, value))
+            break;
+        if (c->is->kind != WORDS && !read_number(r, c->is, value, &c->number[c->count]))
+            return 0;
+    }
+    return c->count >= c->is->least ||
+           refuse(r, c->at, "the statement ends before all of '%s %s' was there", c->is->name, c->is->takes);
+}
+
+/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `from` on. */
+static int read_clauses(reader *r, size_t from, const char *of, const char *also)
+{
+    r->clauses = 0;
+    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
+        if (strcmp(keys[i].of, of) == 0 || strcmp(keys[i].of, also) == 0)
+            r->clause[r->clauses++] = (clause){.is = &keys[i]};
+    for (size_t at = from; at < r->count;)
+        if (!read_clause(r, &at))
+            return 0;
+    for (size_t i = 0; i < r->clauses; i++) {
+        const key *k = r->clause[i].is;
+        const word *at = r->clause[i].at;
+        const clause *other = k->other ? clause_of(r, k->other) : NULL;
+        if (k->rule == NEEDED && !at)
+            return refuse(r, &r->list[from - 1], "'%s' needs '%s %s'", of, k->name, k->takes);
+        if (k->rule == OR && !at == !other->at)
+            return refuse(r, &r->list[from - 1], "'%s' needs one of '%s %s' and '%s %s'", of, k->name, k->takes,
+                          k->other, other->is->takes);
+        if (k->rule == BESIDE && at && !other->at)
+            return refuse(r, at, "'%s' stands beside '%s' only", k->name, k->other);
+    }
+    return 1;
+}
 
 /* ---- what clauses hold ---- */
 
 static double number_of(const reader *r, const char *name, double otherwise)
 {
-    const clause *c = clause_of(&r->s, name);
+    const clause *c = clause_of(r, name);
     return c->at ? c->number[0] : otherwise;
 }
 
 static vec3 vector_of(const reader *r, const char *name)
 {
-    const double *n = clause_of(&r->s, name)->number;
+    const double *n = clause_of(r, name)->number;
     return vec(n[0], n[1], n[2]);
 }
 
 static void set_three(const reader *r, const char *name, float to[3])
 {
-    const clause *c = clause_of(&r->s, name);
+    const clause *c = clause_of(r, name);
     for (int i = 0; i < 3 && c->at; i++)
         to[i] = (float)c->number[i];
 }
@@ -115,13 +338,13 @@ static char *path_of(reader *r, const word *at)
     size_t folder = at->text[0] == '/' ? 0 : r->folder, letters = strlen(at->text);
     char *path = letters ? malloc(folder + letters + 1) : NULL;
     if (!path)
-        return REFUSE(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
-    memcpy(path, r->words.name, folder);
+        return refuse(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
+    memcpy(path, r->name, folder);
     memcpy(path + folder, at->text, letters + 1);
     const char *role = files_note(path, 0);
     if (!role)
         return path;
-    REFUSE(r, at, "this file is %s as well", role);
+    refuse(r, at, "this file is %s as well", role);
     free(path);
     return NULL;
 }
@@ -129,18 +352,18 @@ static char *path_of(reader *r, const word *at)
 /* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
 static int new_name(reader *r, const char **names, size_t count, size_t most, const char *example)
 {
-    const char *what = r->s.list[0].text;
-    if (r->s.count < 3)
-        return REFUSE(r, &r->s.list[0], "'%s' needs a name and what it is, as in '%s'", what, example);
-    const word *name = &r->s.list[1];
+    const char *what = r->list[0].text;
+    if (r->count < 3)
+        return refuse(r, &r->list[0], "'%s' needs a name and what it is, as in '%s'", what, example);
+    const word *name = &r->list[1];
     const size_t letters = strlen(name->text);
     if (!letters || letters >= SCENE_NAME)
-        return REFUSE(r, name, "a name has 1 to %d letters", SCENE_NAME - 1);
+        return refuse(r, name, "a name has 1 to %d letters", SCENE_NAME - 1);
     for (size_t i = 0; i < count; i++)
         if (strcmp(names[i], name->text) == 0)
-            return REFUSE(r, name, "there is another %s '%s' already", what, name->text);
+            return refuse(r, name, "there is another %s '%s' already", what, name->text);
     if (count == most)
-        return REFUSE(r, name, "these are more than %zu %ss", most, what);
+        return refuse(r, name, "these are more than %zu %ss", most, what);
     names[count] = name->text;
     return 1;
 }
@@ -150,18 +373,17 @@ static int new_name(reader *r, const char **names, size_t count, size_t most, co
 static int find_image(reader *r, const char *name, const char *what, int channels, double low, double high,
                       const image **found)
 {
-    const clause *c = clause_of(&r->s, name);
+    const clause *c = clause_of(r, name);
     size_t chosen;
     if (!c->at)
         return 1;
-    if (!read_choice(&r->words, c->value, "image that is defined before this", r->images, r->made->image_count,
-                     &chosen))
+    if (!read_choice(r, c->value, "image that is defined before this", r->images, r->made->image_count, &chosen))
         return 0;
     const image *map = *found = &r->made->images[chosen];
     for (int i = 0; i < map->width * map->height * 3; i++) {
         double value = (double)map->rgb[i];
         if (i % 3 < channels && !(value >= low && value <= high))
-            return REFUSE(r, c->value,
+            return refuse(r, c->value,
                           "as %s the image must be from %g to %g; it is %g in column %d of row %d (from the top, "
                           "from 0)",
                           what, low, high, value, i / 3 % map->width, i / 3 / map->width);
@@ -177,23 +399,23 @@ static int read_film(reader *r)
     s->width = (int)number_of(r, "width", 0);
     s->height = (int)number_of(r, "height", 0);
     return (int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
-           REFUSE(r, clause_of(&r->s, "width")->at, "%d x %d pixels are more than %d", s->width, s->height,
+           refuse(r, clause_of(r, "width")->at, "%d x %d pixels are more than %d", s->width, s->height,
                   IMAGE_PIXELS_MAX);
 }
 
 static int read_camera(reader *r)
 {
     scene *s = r->made;
-    const clause *up = clause_of(&r->s, "up");
+    const clause *up = clause_of(r, "up");
     s->from = vector_of(r, "from");
     s->to = vector_of(r, "to");
     s->up = up->at ? vector_of(r, "up") : s->up;
     s->field = number_of(r, "field", 40) * (PI / 180);
     const vec3 forward = subtract(s->to, s->from);
-    if (!(length(forward) >= near))
-        return REFUSE(r, clause_of(&r->s, "to")->at, "'from' and 'to' are the same place");
+    if (!(length(forward) >= least_size))
+        return refuse(r, clause_of(r, "to")->at, "'from' and 'to' are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
-           REFUSE(r, up->at ? up->at : &r->s.list[0], "'up' is the direction of the view");
+           refuse(r, up->at ? up->at : &r->list[0], "'up' is the direction of the view");
 }
 
 static int read_integrator(reader *r)
@@ -218,9 +440,9 @@ static int read_image(reader *r)
 {
     scene *s = r->made;
     if (!new_name(r, r->images, s->image_count, SCENE_IMAGES_MAX, "image sky file sky.pfm") ||
-        !read_clauses(&r->words, &r->s, 2, keys, "image", ""))
+        !read_clauses(r, 2, "image", ""))
         return 0;
-    const word *file = clause_of(&r->s, "file")->value, *pattern = clause_of(&r->s, "pattern")->value;
+    const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
     image *made = &s->images[s->image_count++];
     image_error error;
     char *path = file ? path_of(r, file) : NULL;
@@ -231,10 +453,10 @@ static int read_image(reader *r)
                                          (int)number_of(r, "height", 512), &error);
     free(path);
     if (!good)
-        return REFUSE(r, file ? file : pattern, "%s", error.message);
+        return refuse(r, file ? file : pattern, "%s", error.message);
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX ||
-           REFUSE(r, &r->s.list[1], "all images together have more than %d pixels", PIXELS_MAX);
+           refuse(r, &r->list[1], "all images together have more than %d pixels", PIXELS_MAX);
 }
 
 /* ---- distributions ---- */
@@ -268,10 +490,10 @@ static int find_table(reader *r, size_t form, const word *text, unsigned bytes, 
                                   strcmp(r->tables[i].text, text->text) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
-        return REFUSE(r, text, "these are more than %d tables", SCENE_TABLES_MAX);
+        return refuse(r, text, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
         if (!(s->tables[i] = make_table(r, form, text, bytes, &error))) /* else path_of has refused */
-            return error.message[0] ? REFUSE(r, text, "%s", error.message) : 0;
+            return error.message[0] ? refuse(r, text, "%s", error.message) : 0;
         r->tables[s->table_count++] = (struct made_table){form, bytes, text->text};
     }
     *found = s->tables[i];
@@ -283,20 +505,20 @@ static int read_distribution(reader *r, const vndf_distribution **found)
     static const char *const names[FORMS_OF_DISTRIBUTION] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
     static const char *const takes[FORMS_OF_DISTRIBUTION] = {
         "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
-    const clause *c = clause_of(&r->s, "distribution"), *bytes = clause_of(&r->s, "bytes");
+    const clause *c = clause_of(r, "distribution"), *bytes = clause_of(r, "bytes");
     size_t form;
-    if (!read_choice(&r->words, c->value, "distribution", names, FORMS_OF_DISTRIBUTION, &form))
+    if (!read_choice(r, c->value, "distribution", names, FORMS_OF_DISTRIBUTION, &form))
         return 0;
     if (bytes->at && form <= TABLE)
-        return REFUSE(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
+        return refuse(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
     if (form > BECKMANN)
         return c->count > 1 ? find_table(r, form, &c->value[1], (unsigned)number_of(r, "bytes", 4096), found)
-                            : REFUSE(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
+                            : refuse(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
     if (c->count > 1)
-        return REFUSE(r, &c->value[1], "'distribution %s' takes nothing more", names[form]);
+        return refuse(r, &c->value[1], "'distribution %s' takes nothing more", names[form]);
     *found = form == GGX ? vndf_ggx() : vndf_beckmann();
-    return clause_of(&r->s, "alpha")->at ||
-           REFUSE(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
+    return clause_of(r, "alpha")->at ||
+           refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
 }
 
 /* ---- materials ---- */
@@ -321,14 +543,14 @@ static int read_rough(reader *r, size_t kind, material *m)
 {
     static const char *const scatterings[] = {"single", "multiple"};
     static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_DIELECTRIC, VNDF_FRESNEL_NONE};
-    const clause *of = clause_of(&r->s, "of"), *alpha = clause_of(&r->s, "alpha");
-    const clause *scattering = clause_of(&r->s, "scattering");
+    const clause *of = clause_of(r, "of"), *alpha = clause_of(r, "alpha");
+    const clause *scattering = clause_of(r, "scattering");
     vndf_description *is = &m->is;
     vndf_material resolved;
     vndf_error error = {VNDF_OK, ""};
     size_t metal = 0, order = 0;
-    if ((of->at && !read_choice(&r->words, of->value, "metal", metal_names, METALS, &metal)) ||
-        (scattering->at && !read_choice(&r->words, scattering->value, "scattering", scatterings, 2, &order)) ||
+    if ((of->at && !read_choice(r, of->value, "metal", metal_names, METALS, &metal)) ||
+        (scattering->at && !read_choice(r, scattering->value, "scattering", scatterings, 2, &order)) ||
         !read_distribution(r, &is->distribution))
         return 0;
     memcpy(is->conductor_eta, metals[metal][0], sizeof is->conductor_eta[0] * 3);
@@ -345,7 +567,7 @@ static int read_rough(reader *r, size_t kind, material *m)
     const double most = 1e3 / fmax((double)is->alpha_x, (double)is->alpha_y);
     return find_image(r, "alpha-map", "roughness", 1, least, most, &m->alpha_map) &&
            (vndf_material_resolve(is, &resolved, &error) == VNDF_OK ||
-            REFUSE(r, &r->s.list[1], "%s", error.message));
+            refuse(r, &r->list[1], "%s", error.message));
 }
 
 static int read_material(reader *r)
@@ -354,15 +576,15 @@ static int read_material(reader *r)
     material made = {.colour = {1.0f, 1.0f, 1.0f}};
     size_t kind;
     if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX, "material wall matte colour 0.5 0.5 0.5") ||
-        !read_choice(&r->words, &r->s.list[2], "kind of material", kinds, KINDS, &kind) ||
-        !read_clauses(&r->words, &r->s, 3, keys, kinds[kind], kind <= SHAPE ? "rough" : ""))
+        !read_choice(r, &r->list[2], "kind of material", kinds, KINDS, &kind) ||
+        !read_clauses(r, 3, kinds[kind], kind <= SHAPE ? "rough" : ""))
         return 0;
     made.kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
     set_three(r, kind == LIGHT ? "radiance" : "colour", made.colour);
     if (!find_image(r, "colour-map", "colour", 3, 0, 1, &made.colour_map) ||
         (kind <= SHAPE && !read_rough(r, kind, &made)))
         return 0;
-    strcpy(made.name, r->s.list[1].text);
+    strcpy(made.name, r->list[1].text);
     s->materials[s->material_count++] = made;
     return 1;
 }
@@ -372,19 +594,19 @@ static int read_material(reader *r)
 /* Every shape has a material; a mesh does not emit. */
 static int find_material(reader *r, int *found)
 {
-    const clause *c = clause_of(&r->s, "material");
+    const clause *c = clause_of(r, "material");
     size_t chosen;
-    if (!read_choice(&r->words, c->value, "material that is defined before this", r->materials,
-                     r->made->material_count, &chosen))
+    if (!read_choice(r, c->value, "material that is defined before this", r->materials, r->made->material_count,
+                     &chosen))
         return 0;
     *found = (int)chosen;
-    return r->made->materials[chosen].kind != MATERIAL_LIGHT || strcmp(r->s.list[0].text, "mesh") != 0 ||
-           REFUSE(r, c->value, "a light is a sphere or a rectangle, not a mesh");
+    return r->made->materials[chosen].kind != MATERIAL_LIGHT || strcmp(r->list[0].text, "mesh") != 0 ||
+           refuse(r, c->value, "a light is a sphere or a rectangle, not a mesh");
 }
 
 static int no_memory_for_shape(reader *r)
 {
-    return REFUSE(r, &r->s.list[0], "there is no memory for this shape");
+    return refuse(r, &r->list[0], "there is no memory for this shape");
 }
 
 static int read_sphere(reader *r)
@@ -401,10 +623,10 @@ static int read_rectangle(reader *r)
     const double cosine = dot(u, v) / (length(u) * length(v));
     shape made = {.kind = SHAPE_RECTANGLE, .corner = vector_of(r, "corner"), .edge_u = u};
     for (int i = 0; i < 2; i++)
-        if (!(length(i ? v : u) >= near))
-            return REFUSE(r, clause_of(&r->s, i ? "edge-v" : "edge-u")->at, "this edge has no length");
+        if (!(length(i ? v : u) >= least_size))
+            return refuse(r, clause_of(r, i ? "edge-v" : "edge-u")->at, "this edge has no length");
     if (!(fabs(cosine) < 2e-3))
-        return REFUSE(r, clause_of(&r->s, "edge-v")->at,
+        return refuse(r, clause_of(r, "edge-v")->at,
                       "the edges of a rectangle must be at right angles; these are at %.4g degrees",
                       acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
     made.edge_v = along(v, -dot(u, v) / dot(u, u), u);
@@ -415,7 +637,7 @@ static int read_rectangle(reader *r)
 static int read_mesh(reader *r)
 {
     static const char *const patterns[] = {"knot"};
-    const word *file = clause_of(&r->s, "file")->value, *pattern = clause_of(&r->s, "pattern")->value;
+    const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
     const placement where = {number_of(r, "scale", 1), number_of(r, "turn", 0), vector_of(r, "move")};
     char why[512];
     size_t which;
@@ -423,11 +645,11 @@ static int read_mesh(reader *r)
     if (!find_material(r, &of))
         return 0;
     if (pattern)
-        return read_choice(&r->words, pattern, "pattern of a mesh", patterns, 1, &which) &&
+        return read_choice(r, pattern, "pattern of a mesh", patterns, 1, &which) &&
                (knot_add(&r->made->geometry, &where, of) || no_memory_for_shape(r));
     char *path = path_of(r, file);
     int good =
-        path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) || REFUSE(r, file, "%s", why));
+        path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) || refuse(r, file, "%s", why));
     free(path);
     return good;
 }
@@ -446,42 +668,40 @@ static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_cam
 
 static int read_statement(reader *r)
 {
-    const word *w = &r->s.list[0];
+    const word *w = &r->list[0];
     size_t i;
-    if (!read_choice(&r->words, w, "statement", names, STATEMENTS, &i))
+    if (!read_choice(r, w, "statement", names, STATEMENTS, &i))
         return 0;
     if (i < ONCE && r->seen >> i & 1u)
-        return REFUSE(r, w, "'%s' stands in this scene twice", w->text);
+        return refuse(r, w, "'%s' stands in this scene twice", w->text);
     r->seen |= 1u << i;
-    return ((i >= ONCE && i < NAMED) ||
-            read_clauses(&r->words, &r->s, 1, keys, names[i], i >= NAMED ? "body" : "")) &&
-           readers[i](r);
+    return ((i >= ONCE && i < NAMED) || read_clauses(r, 1, names[i], i >= NAMED ? "body" : "")) && readers[i](r);
 }
 
 /* Without light a scene is black, which nobody means. */
 static int finish(reader *r)
 {
     scene *s = r->made;
-    const word first = {NULL, 1, 1, 0, 0}, *end = r->words.count ? &r->words.list[r->words.count - 1] : &first;
+    const word first = {NULL, 1, 1, 0, 0}, *end = r->word_count ? &r->words[r->word_count - 1] : &first;
     if (!(r->seen >> CAMERA & 1u))
-        return REFUSE(r, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
+        return refuse(r, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
     if (!geometry_build(&s->geometry))
-        return REFUSE(r, end, "there is no memory for a hierarchy of its shapes");
+        return refuse(r, end, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return REFUSE(r, end, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
+        return refuse(r, end, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
-           REFUSE(r, end, "the scene ends without light: an environment, or a shape of a light");
+           refuse(r, end, "the scene ends without light: an environment, or a shape of a light");
 }
 
 static int read_statements(reader *r, char *text, size_t length)
 {
-    if (!split_words(&r->words, text, length))
+    if (!split_words(r, text, length))
         return 0;
-    for (size_t at = 0; at < r->words.count; at += r->s.count) {
-        r->s.list = r->words.list + at;
-        for (r->s.count = 1; at + r->s.count < r->words.count && !r->s.list[r->s.count].begins;)
-            r->s.count++;
+    for (size_t at = 0; at < r->word_count; at += r->count) {
+        r->list = r->words + at;
+        for (r->count = 1; at + r->count < r->word_count && !r->list[r->count].begins;)
+            r->count++;
         if (!read_statement(r))
             return 0;
     }
@@ -493,7 +713,9 @@ scene *scene_read_text(const char *name, char *text, size_t length, char *messag
     const char *slash = strrchr(name, '/');
     scene *s = malloc(sizeof *s);
     material *materials = calloc(MATERIALS_MAX, sizeof *materials);
-    reader r = {.words = {.name = name, .message = message, .size = size},
+    reader r = {.name = name,
+                .message = message,
+                .size = size,
                 .made = s,
                 .folder = slash ? (size_t)(slash - name) + 1 : 0};
     if (!s || !materials) {
@@ -511,7 +733,7 @@ scene *scene_read_text(const char *name, char *text, size_t length, char *messag
                  .environment = {.scale = 1.0f},
                  .materials = materials};
     int good = read_statements(&r, text, length);
-    free(r.words.list);
+    free(r.words);
     if (good)
         return s;
     scene_free(s);

@@ -5,8 +5,10 @@
 /* The units of figures, as text and JSON name them. */
 static const char bytes[] = "B", mass[] = "of the mass", degrees[] = "degrees", relative[] = "relative";
 
-void describe_info(figures *f, const vndf_info *info)
+/* A closed form has no certificate. */
+static void put_table(figures *f, const vndf_info *info)
 {
+    const vndf_certificate *c = &info->certificate;
     figures_text(f, "source", info->source);
     figures_text(f, "tool", info->tool);
     figures_number(f, "bytes", 9, (double)info->bytes, bytes);
@@ -15,10 +17,8 @@ void describe_info(figures *f, const vndf_info *info)
     figures_number(f, "moments", 9, info->moments, "terms");
     figures_number(f, "normalization", 17, info->normalization, "factor");
     figures_number(f, "scale", 9, info->scale, "slope");
-}
-
-void describe_certificate(figures *f, const vndf_certificate *c)
-{
+    if (!info->bytes)
+        return;
     figures_number(f, "tv", 4, (double)c->tv, mass);
     figures_number(f, "tv_theta", 6, (double)c->tv_theta, degrees);
     figures_number(f, "tv_above", 4, (double)c->tv_above, mass);
@@ -42,7 +42,7 @@ static double largest_tv(const vndf_family *family)
     return most;
 }
 
-void describe_family(figures *f, const vndf_family *family)
+static void put_family(figures *f, const vndf_family *family)
 {
     vndf_family_facts facts = vndf_family_info(family);
     figures_text(f, "source", facts.source);
@@ -69,24 +69,42 @@ void describe_family(figures *f, const vndf_family *family)
     figures_list_end(f);
 }
 
-/* ---- verdicts ------------------------------------------------------------------------------------ */
+/* ---- what is public ------------------------------------------------------------------------------ */
 
 static const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
 
-int describe_verdict(const vndf_info *info, int by_default, char verdict[DESCRIBE_VERDICT])
+static int family_verdict(const vndf_family *family, char verdict[DESCRIBE_VERDICT])
+{
+    const vndf_family_facts facts = vndf_family_info(family);
+    const double distance = (double)facts.distance, tables = largest_tv(family);
+    const int good = distance <= poor && tables <= poor;
+    snprintf(verdict, DESCRIBE_VERDICT,
+             "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; %.1f KiB; %s", 100 * distance,
+             100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024,
+             good                ? "good to ship"
+             : !(tables <= poor) ? "tables are worth little: try a larger --max-bytes"
+                                 : "mixtures are worth little: try more --knots");
+    return good;
+}
+
+int describe_verdict(const vndf_distribution *table, const vndf_family *family, int by_default,
+                     char verdict[DESCRIBE_VERDICT])
 {
     const double aim_above = 1e-3, aim_below = 3e-2;
-    const vndf_certificate *c = &info->certificate;
-    double above = (double)c->tv_above, below = (double)c->tv;
+    if (family)
+        return family_verdict(family, verdict);
+    const vndf_info info = vndf_distribution_info(table);
+    const vndf_certificate *c = &info.certificate;
+    const double above = (double)c->tv_above, below = (double)c->tv;
     int good = 0, at = snprintf(verdict, DESCRIBE_VERDICT,
                                 "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; ", 100 * above,
-                                100 * below, (double)info->bytes / 1024);
+                                100 * below, (double)info.bytes / 1024);
     char *more = verdict + at;
-    size_t room = DESCRIBE_VERDICT - (size_t)at;
+    const size_t room = DESCRIBE_VERDICT - (size_t)at;
     if (!(above <= poor && below <= poor))
         snprintf(more, room, "worth little at %.0f degrees: try a larger --max-bytes%s",
                  (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
-                 !(above <= poor) && info->moments < 4 ? " or --moments 4" : "");
+                 !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
     else if (by_default && !(above <= aim_above && below <= aim_below))
         snprintf(more, room, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer", 100 * aim_above,
                  100 * aim_below);
@@ -98,17 +116,17 @@ int describe_verdict(const vndf_info *info, int by_default, char verdict[DESCRIB
     return good > 0;
 }
 
-int describe_family_verdict(const vndf_family *family, char verdict[DESCRIBE_VERDICT])
+void describe(figures *f, const vndf_distribution *table, const vndf_family *family, const char *found,
+              const char *verdict)
 {
-    vndf_family_facts facts = vndf_family_info(family);
-    double distance = (double)facts.distance, tables = largest_tv(family);
-    int good = distance <= poor && tables <= poor;
-    snprintf(verdict, DESCRIBE_VERDICT,
-             "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; "
-             "%.1f KiB; %s",
-             100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024,
-             good                ? "good to ship"
-             : !(tables <= poor) ? "tables are worth little: try a larger --max-bytes"
-                                 : "mixtures are worth little: try more --knots");
-    return good;
+    const vndf_info info = family ? (vndf_info){.bytes = 1} : vndf_distribution_info(table);
+    int length = 0;
+    if (family)
+        put_family(f, family);
+    else
+        put_table(f, &info);
+    for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)
+        figures_text(f, key, value);
+    if (info.bytes)
+        figures_text(f, "verdict", verdict);
 }

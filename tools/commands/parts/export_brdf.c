@@ -49,7 +49,7 @@ int export_brdf(const arguments *given)
     output_file output;
     if (given->positional.count != 1)
         return complain(command, "%zu distributions are given; --rgl takes one", given->positional.count);
-    if (!read_form(given, &form) || !distribution_open(&chosen, command, given->positional.item[0]))
+    if (!read_form(given, &form) || !distribution_open(&chosen, command, given->positional.item[0], 0))
         return STATUS_USE;
     snprintf(description, sizeof description, "vndf %.500s, alpha %g", given->positional.item[0],
              (double)form.alpha);

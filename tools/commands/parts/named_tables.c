@@ -9,14 +9,12 @@ int named_tables_open(const char *command, const words *files, int families, exp
 {
     for (size_t i = 0; i < files->count; i++) {
         const char *file = files->item[i];
-        int is_family = families && is_family_file(file);
-        vndf_family *family = is_family ? family_open(command, file) : NULL;
-        chosen_distribution chosen = {NULL, NULL};
-        if (is_family ? !family : !distribution_open(&chosen, command, file))
+        chosen_distribution chosen;
+        if (!distribution_open(&chosen, command, file, families))
             return 0;
-        if (!is_family && !chosen.owned)
+        if (!chosen.owned && !chosen.family)
             return complain(command, "'%s' is a closed form: every kernel has it", file), 0;
-        if (!document_add(document, input_name(file), chosen.owned, family))
+        if (!document_add(document, input_name(file), chosen.owned, chosen.family))
             return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
                             document->as.upper, document->table[i].name),
                    0;

@@ -59,7 +59,6 @@ method method_ggx_caps(void)
     return (method){.name = "spherical caps (2023)",
                     .instructions = "scalar",
                     .kind = ROW_PUBLISHED,
-                    .one = one,
                     .each = each,
                     .shared = shared};
 }

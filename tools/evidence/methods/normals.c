@@ -84,7 +84,6 @@ method method_all_normals(const method_reference *reference)
                 .memory = sizeof *t,
                 .state = t,
                 .release = free,
-                .one = draw,
                 .turned = 1};
     if (mass) {
         t->scale = reference->scale;

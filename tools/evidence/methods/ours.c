@@ -174,17 +174,16 @@ static void batch_lobes(const method *m, block *b, size_t first, size_t count)
 
 static const struct {
     const char *name;
-    method_one *one;
     method_run *each, *shared, *batch;
 } calls[METHOD_CALLS] = {
-    [METHOD_SAMPLE] = {"", one, each, shared, batch_each},
-    [METHOD_WEIGHT] = {": weight", NULL, each_call, NULL, batch_call},
-    [METHOD_PDF] = {": pdf", NULL, each_call, NULL, batch_call},
-    [METHOD_INVERT] = {": invert", NULL, each_call, NULL, batch_call},
-    [METHOD_NDF] = {": ndf", NULL, each_call, NULL, batch_call},
-    [METHOD_LAMBDA] = {": lambda", NULL, each_call, NULL, batch_call},
-    [METHOD_AFFINE] = {": affine", one_affine, each_affine, NULL, batch_affine},
-    [METHOD_TWO_LOBES] = {": mixture", one_lobes, each_lobes, NULL, batch_lobes},
+    [METHOD_SAMPLE] = {"", each, shared, batch_each},
+    [METHOD_WEIGHT] = {": weight", each_call, NULL, batch_call},
+    [METHOD_PDF] = {": pdf", each_call, NULL, batch_call},
+    [METHOD_INVERT] = {": invert", each_call, NULL, batch_call},
+    [METHOD_NDF] = {": ndf", each_call, NULL, batch_call},
+    [METHOD_LAMBDA] = {": lambda", each_call, NULL, batch_call},
+    [METHOD_AFFINE] = {": affine", each_affine, NULL, batch_affine},
+    [METHOD_TWO_LOBES] = {": mixture", each_lobes, NULL, batch_lobes},
 };
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
@@ -202,7 +201,6 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
                 .limit = limit};
     snprintf(m.name, sizeof m.name, "%s%s%s", name, calls[call].name, limit ? ", batch" : "");
     if (limit == VNDF_INSTRUCTIONS_BEST) {
-        m.one = calls[call].one;
         m.each = calls[call].each;
         m.shared = calls[call].shared;
     } else if (vndf_instructions_used(limit) == limit) {

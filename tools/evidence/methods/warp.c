@@ -178,7 +178,6 @@ method method_warp(const method_reference *reference)
                     .memory = sizeof *w,
                     .state = w,
                     .release = free,
-                    .one = draw,
                     .each = w ? each : NULL,
                     .turned = 1};
 }

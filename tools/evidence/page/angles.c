@@ -8,7 +8,7 @@
  * is positive, so is the drawn one.
  *
  * Which table to ship. Any table is right with its weight; a small one costs noise and rare bright samples, and
- * bias without the weight. So the advice is the smallest table that keeps the limits of report_limits. No table
+ * bias without the weight. So the advice is the smallest table that keeps report_limits. No table
  * keeps a limit that the finest breaks; there a table is good if it is within a quarter of the finest. */
 #include <math.h>
 #include <stdio.h>
@@ -39,6 +39,11 @@ static double weight_at(const vndf_reference *reference, vndf_vec3 wi, double ar
     return fmax(cosine, 0) * ndf / (area * drawn);
 }
 
+static void meet(report_table *t, report_limit limit, double value)
+{
+    t->worst[limit] = fmax(t->worst[limit], value);
+}
+
 static void measure_angle(const vndf_reference *reference, double theta, double area, report_table *t, double *tv)
 {
     const vndf_surface surface = {t->table, 1, 1};
@@ -52,13 +57,13 @@ static void measure_angle(const vndf_reference *reference, double theta, double 
         double weight = weight_at(reference, wi, area, &view, wm);
         *tv += fabs(weight - 1) / (2 * LATTICE);
         variance += (weight - 1) * (weight - 1) / LATTICE;
-        t->weight = fmax(t->weight, weight);
+        meet(t, REPORT_WEIGHT, weight);
     }
-    t->variance = fmax(t->variance, variance);
-    t->tv_below = fmax(t->tv_below, *tv);
+    meet(t, REPORT_VARIANCE, 100 * variance);
+    meet(t, REPORT_TV_BELOW, *tv);
     if (theta <= 90) {
-        t->tv_above = fmax(t->tv_above, *tv);
-        t->area = fmax(t->area, fabs((double)vndf_projected_area(&surface, wi) / area - 1));
+        meet(t, REPORT_TV_ABOVE, *tv);
+        meet(t, REPORT_AREA, fabs((double)vndf_projected_area(&surface, wi) / area - 1));
     }
 }
 
@@ -75,31 +80,35 @@ void report_subject_free(report_subject *s)
     subject_free(&s->of);
 }
 
-/* (The weight of the certificate is larger than the one met here: it looks where 1e-10 of the area is left.) */
-const double report_limits[REPORT_LIMITS] = {
-    2,    /* no sample is brighter than chance would make it */
-    1,    /* nobody can see that */
-    1e-3, /* without the weight the error stays below half a step of 8 bits */
-    3e-2, /* from where light has met the surface before */
-    1e-4  /* of Lambda and G1, below 8 bits as well: the weight does not mend them */
-};
+/* (The weight of the certificate is larger than the one met here: it looks where 1e-10 of the area is left.) No
+ * sample is brighter than chance would make it; nobody can see the variance; without the weight the error stays
+ * below half a step of 8 bits above the horizon, where below it light has met the surface before; the weight does
+ * not mend the area. */
+const struct report_limit_text report_limits[REPORT_LIMITS] = {
+    [REPORT_WEIGHT] = {2, "weight", "%.3g", "weights up to %.3g"},
+    [REPORT_VARIANCE] = {1, "added variance (%)", "%.2g", "%.2g%% of added variance"},
+    [REPORT_TV_ABOVE] = {1e-3, "TV above", "%.1e", "a total variation of %.2g above the horizon"},
+    [REPORT_TV_BELOW] = {3e-2, "TV below", "%.1e", "a total variation of %.2g below it"},
+    [REPORT_AREA] = {1e-4, "G1 error", "%.1e", "G1 within %.1g"}};
 
-report_verdict report_judge(const report_table *t)
+int report_keeps(const report_table *t, report_limit limit)
 {
-    report_verdict v = {{t->weight, 100 * t->variance, t->tv_above, t->tv_below, t->area}, {0}, 1};
-    for (int i = 0; i < REPORT_LIMITS; i++) {
-        v.kept[i] = v.value[i] <= report_limits[i];
-        v.all &= v.kept[i];
-    }
-    return v;
+    return t->worst[limit] <= report_limits[limit].most;
+}
+
+int report_keeps_all(const report_table *t)
+{
+    int good = 1;
+    for (report_limit i = 0; i < REPORT_LIMITS; i++)
+        good = good && report_keeps(t, i);
+    return good;
 }
 
 static int keeps_what_it_can(const report_table *t, const report_table *finest)
 {
-    report_verdict v = report_judge(t), best = report_judge(finest);
     int good = 1;
-    for (int i = 0; i < REPORT_LIMITS; i++)
-        good = good && (best.kept[i] ? v.kept[i] : v.value[i] <= 1.25 * best.value[i]);
+    for (report_limit i = 0; i < REPORT_LIMITS; i++)
+        good = good && (report_keeps(finest, i) ? report_keeps(t, i) : t->worst[i] <= 1.25 * finest->worst[i]);
     return good;
 }
 
@@ -114,8 +123,8 @@ vndf_status report_subject_measure(report_subject *s, const evidence_plan *plan,
         if (!t->table)
             return error->status;
         t->info = vndf_distribution_info(t->table);
-        t->tv_above = (double)t->info.certificate.tv_above;
-        t->tv_below = (double)t->info.certificate.tv;
+        t->worst[REPORT_TV_ABOVE] = (double)t->info.certificate.tv_above;
+        t->worst[REPORT_TV_BELOW] = (double)t->info.certificate.tv;
         for (size_t a = 0; a < REPORT_ANGLES; a++) {
             t->tv[a] = (double)NAN;
             if (area[a] > 1e-10 * grazing)

@@ -118,7 +118,7 @@ int report_frontier(html_page *page, const report *r)
                .count = p->count,
                .key = key,
                .key_count = sizeof key / sizeof *key};
-    chart_fit_series(&c, 1e-7);
+    chart_fit(&c, 7);
     page_section(
         page, "frontier", "Error against time",
         "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
@@ -162,7 +162,7 @@ static void draw_angles(FILE *file, const report_subject *s)
                .count = SHOWN,
                .key = key,
                .key_count = SHOWN};
-    chart_fit_series(&c, 1e-8);
+    chart_fit(&c, 8);
     const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
     series[c.count++] = (chart_series){horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
     fputs("<figure>\n", file);

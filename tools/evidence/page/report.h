@@ -13,16 +13,33 @@
 
 enum { REPORT_ANGLES = 61, REPORT_SUBJECTS = 4 };
 
+/* What a table that is advised has to keep. */
+typedef enum report_limit {
+    REPORT_WEIGHT,   /* the largest true/drawn density that was met */
+    REPORT_VARIANCE, /* percents that weights add, at the worst angle */
+    REPORT_TV_ABOVE, /* total variation above the horizon and below it: of the certificate or met, the larger one */
+    REPORT_TV_BELOW,
+    REPORT_AREA, /* largest relative error of the area above the horizon, hence of Lambda and G1 */
+    REPORT_LIMITS
+} report_limit;
+
+extern const struct report_limit_text {
+    double most;
+    const char *heading, *format, *sentence; /* of its column, of a number in it, and of one in a sentence */
+} report_limits[REPORT_LIMITS];
+
 typedef struct report_table {
     const vndf_distribution *table; /* of the subject */
     vndf_info info;
-    double tv[REPORT_ANGLES];  /* total variation; NaN where the visible area is below 1e-10 of that at grazing
+    double tv[REPORT_ANGLES]; /* total variation; NaN where the visible area is below 1e-10 of that at grazing
                                  incidence */
-    double weight, variance;   /* of true/drawn density: the largest met, and the largest variance at an angle */
-    double tv_above, tv_below; /* the larger of the certificate's and what was met here; below: at all angles */
-    double area;               /* largest relative error of the area above the horizon, hence of Lambda and G1 */
-    double ns, batch;          /* view, sample and density: one by one, and in a batch; NaN: not timed */
+    double worst[REPORT_LIMITS];
+    double ns, batch; /* view, sample and density: one by one, and in a batch; NaN: not timed */
 } report_table;
+
+/* Whether a table keeps one limit, and all of them. */
+int report_keeps(const report_table *t, report_limit limit);
+int report_keeps_all(const report_table *t);
 
 typedef struct report_subject {
     subject of;
@@ -39,17 +56,6 @@ typedef struct report {
 } report;
 
 double report_theta(size_t angle);
-
-/* What a table that is advised has to keep: the largest weight that was met, percents of added variance, total
- * variation from above the horizon and from below it, error of the area. */
-enum { REPORT_LIMITS = 5 };
-extern const double report_limits[REPORT_LIMITS];
-
-typedef struct report_verdict {
-    double value[REPORT_LIMITS];
-    int kept[REPORT_LIMITS], all;
-} report_verdict;
-report_verdict report_judge(const report_table *t);
 
 /* Takes the source. VNDF_OK, or the status and error that stopped it; report_subject_free in any case. */
 vndf_status report_subject_begin(report_subject *s, vndf_source *source, const char *name, vndf_error *error);

@@ -48,7 +48,6 @@ int report_times(html_page *page, const report *r)
         table_time(&t, "one by one", of->number[COL_NS]);
         table_time(&t, "of one direction", of->number[COL_SHARED]);
         table_time(&t, "in a batch", batch ? batch->number[COL_NS] : (double)NAN);
-        table_time(&t, "waiting for the last", of->number[COL_LATENCY]);
         table_number(&t, "efficiency, 60", "%.3g", of->number[COL_EFF_60]);
         table_number(&t, "85", "%.3g", of->number[COL_EFF_85]);
     }
