@@ -65,12 +65,12 @@ static void read_formulas(oracle_bsdf *o, vndf_vec3 wi, vndf_vec3 wo, reading wa
     o->lengths = 1;
     other = oracle_bsdf_eval(o, w[0], w[1]);
     widen(&other, 2, want);
-    for (int i = 0; i < 6; i++) {
-        double given = w[i / 3][i % 3];
-        w[i / 3][i % 3] += 0x1p-22;
+    for (int i = 0; i < 8; i++) { /* z both ways, since the side on which a steep normal lies hangs on it */
+        double *at = &w[i < 6 ? i / 3 : i - 6][i < 6 ? i % 3 : 2], given = *at;
+        *at += i < 6 ? 0x1p-22 : -0x1p-22;
         other = oracle_bsdf_eval(o, w[0], w[1]);
         widen(&other, 1, want);
-        w[i / 3][i % 3] = given;
+        *at = given;
     }
 }
 
@@ -120,6 +120,9 @@ static int check_weight(hit *h, const vndf_scattered *s, int is_even, finding *f
         found->extreme++;
         return 1;
     }
+    /* also where the rounding of wo has lost the side on which a steep facet lies */
+    if (s->lobe == VNDF_LOBE_TRANSMISSION && !TEST(at.pdf > 0))
+        return 0;
     if (!is_plain) {
         reading want[READINGS];
         read_formulas(&h->oracle, h->wi, s->wo, want);

@@ -318,7 +318,7 @@ static int ask(const export_effects *effects, const char *in, const char *prefix
         .as = {.to = language_named(in)}, .lobes = 4, .embeds = embeds, .kinds = EXPORT_ALL, .effects = *effects};
     text[fread(text, 1, sizeof text - 1, stdin)] = '\0';
     document.as.by_pointer = !embeds && document.as.to->pointer;
-    return !translation_prefix(&document.as, prefix) || !document_write_more(&document, stdout, text);
+    return !translation_prefix(&document.as, prefix) || !document_write(&document, stdout, text);
 }
 
 static int load(subjects *s, char **files, int count)

@@ -1,35 +1,32 @@
-/* answer QUESTIONS ANSWERS: asks an exported kernel every question of a file, by ask.h in its language. It is compiled
- * as C99 and as C++11, by several compilers: KERNEL_FILE is what was exported with the prefix `kernel`; where it has no
- * numbers, KERNEL_RAW is the file that has them. */
+/* Asks two exported kernels every question of their files, by ask.h in their language: `normals`, which embeds its
+ * numbers, and `bsdf`, which reads those in numbers.f32. It is compiled as C99 and as C++11, by several compilers. */
 #include <stdio.h>
 
-#include KERNEL_FILE
-#include "asked.h"
+#include "normals.h"
+#include "bsdf.h"
+#include "normals.h"
 
-#ifdef KERNEL_RAW
-#  define ASK(question) kernel_ask(numbers, question)
-#else
-#  define ASK(question) kernel_ask(question)
-#endif
+#include "bsdf_ask.h"
+#include "normals_ask.h"
 
-int main(int argc, char **argv)
+static float numbers[1 << 16];
+
+int main(void)
 {
-    kernel_question question;
-    FILE *questions = argc == 3 ? fopen(argv[1], "rb") : NULL, *answers = questions ? fopen(argv[2], "wb") : NULL;
-    if (!answers)
+    normals_question normal;
+    bsdf_question hit;
+    FILE *raw = fopen("numbers.f32", "rb");
+    FILE *normals = fopen("normals.asked", "rb"), *of_normals = fopen("normals.said", "wb");
+    FILE *hits = fopen("bsdf.asked", "rb"), *of_hits = fopen("bsdf.said", "wb");
+    if (!raw || !normals || !of_normals || !hits || !of_hits || !fread(numbers, sizeof *numbers, 1 << 16, raw))
         return 2;
-#ifdef KERNEL_RAW
-    static float numbers[1 << 16];
-    FILE *raw = fopen(KERNEL_RAW, "rb");
-    if (!raw || fread(numbers, sizeof *numbers, 1 << 16, raw) == 0)
-        return 2;
-    fclose(raw);
-#endif
-    while (fread(&question, sizeof question, 1, questions) == 1) {
-        const kernel_answer answer = ASK(question);
-        if (fwrite(&answer, sizeof answer, 1, answers) != 1)
-            return 2;
+    while (fread(&normal, sizeof normal, 1, normals) == 1) {
+        const normals_answer answer = normals_ask(normal);
+        fwrite(&answer, sizeof answer, 1, of_normals);
     }
-    fclose(questions);
-    return fclose(answers) != 0;
+    while (fread(&hit, sizeof hit, 1, hits) == 1) {
+        const bsdf_answer answer = bsdf_ask(numbers, hit);
+        fwrite(&answer, sizeof answer, 1, of_hits);
+    }
+    return fclose(of_normals) != 0 || fclose(of_hits) != 0;
 }

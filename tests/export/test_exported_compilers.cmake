@@ -1,7 +1,8 @@
 # The exported C is C99 and the exported C++ is C++11, for every compiler of both that is here: no warning with
-# -Wall -Wextra -Wpedantic -Wshadow -Wconversion, numbers embedded or read from their file; answers are the library's,
-# bit for bit, and near them with -ffast-math, as renderers compile; BSDFs scatter as the library's do; two kernels with
-# prefixes of their own live in one program, and one may be included twice.
+# -Wall -Wextra -Wpedantic -Wshadow -Wconversion; answers are the library's, bit for bit, and near them with
+# -ffast-math, as renderers compile. Each program has two kernels, with prefixes of their own: normals, whose numbers
+# it embeds and whose file it includes twice, and a BSDF, which reads its numbers and scatters as the library does. A
+# family of tables at a parameter is the library's mixture.
 cmake_minimum_required(VERSION 3.16)
 
 if(SANITIZE)
@@ -10,7 +11,7 @@ if(SANITIZE)
 endif()
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
-set(flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -I${OUT})
+set(flags -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror -ffp-contract=off -I${OUT})
 set(tables ${SOURCE}/tables/student-t-2.5-small.vndf ${SOURCE}/tables/hazy.vndf)
 set(standard_c -x c -std=c99)
 set(standard_cpp -x c++ -std=c++11)
@@ -23,89 +24,54 @@ function(run what)
     endif()
 endfunction()
 
-# two(LANGUAGE COMPILER): two kernels in one program.
-function(two language compiler)
-    foreach(prefix one two)
-        run("export" ${VNDF} export ${SOURCE}/tables/student-t-2.5-small.vndf --language ${language}
-            --prefix ${prefix} -o ${prefix}.h)
-    endforeach()
-    file(WRITE ${OUT}/two.c "
-#include \"one.h\"
-#include \"two.h\"
-#include \"one.h\"
-int main(void)
-{
-    one_view a = one_view_of(one_surface_of(ONE_STUDENT_T_2_5_SMALL, 0.5f, 0.1f), one_vec3_of(0.6f, 0.0f, 0.8f));
-    two_view b = two_view_of(two_surface_of(TWO_STUDENT_T_2_5_SMALL, 0.5f, 0.1f), two_vec3_of(0.6f, 0.0f, 0.8f));
-    one_sampled s = one_sample(a, 0.25f, 0.75f);
-    two_sampled t = two_sample(b, 0.25f, 0.75f);
-    return !(s.pdf > 0.0f && !(s.pdf < t.pdf) && !(s.pdf > t.pdf) && !(s.wm.x < t.wm.x) && !(s.wm.x > t.wm.x));
-}
-")
-    run("${compiler} of two kernels" ${compiler} ${standard_${language}} ${flags} two.c -lm -o two)
-    run("the program of two kernels by ${compiler}" ${OUT}/two)
-endfunction()
-
-# try(LANGUAGE COMPILER WHAT embedded|fetching HOW [FLAG...]): WHAT and HOW are vndf_agreement's.
-function(try language compiler what form how)
-    set(raw "")
-    set(program ${OUT}/answer)
-    set(bsdf "")
-    if(form STREQUAL fetching)
-        set(raw --buffer numbers.f32)
-        list(APPEND ARGN "-DKERNEL_RAW=\"${OUT}/numbers.f32\"")
+# kernel(LANGUAGE PREFIX WHAT [--buffer FILE]): the file PREFIX.h with what it is asked, PREFIX_ask.h and questions.
+function(kernel language prefix what)
+    set(form embedded)
+    if(ARGN)
+        set(form fetching)
     endif()
     if(NOT what STREQUAL normals)
-        set(bsdf --bsdf "${what}")
+        list(APPEND ARGN --bsdf "${what}")
     endif()
-    run("export of ${what}" ${VNDF} export ${tables} --language ${language} --prefix kernel ${raw} ${bsdf} -o kernel.h)
-    execute_process(COMMAND ${AGREEMENT} ask "${what}" ${language} kernel ${form}
-        INPUT_FILE ${SOURCE}/tests/export/ask.h OUTPUT_FILE ${OUT}/asked.h)
-    run("questions of ${what}" ${AGREEMENT} make "${what}" 8000 questions ${tables})
-    run("${compiler} of ${form} ${what} in ${language}" ${compiler} -O1 -ffp-contract=off ${standard_${language}}
-        ${flags} ${ARGN} "-DKERNEL_FILE=\"kernel.h\"" ${SOURCE}/tests/export/answer.c -lm -o ${program})
-    run("the program of ${compiler}" ${program} questions answers)
-    run("agreement of ${compiler}, ${form} ${what} in ${language}" ${AGREEMENT} check "${what}" ${how} questions answers
-        ${tables})
+    run("export of ${what}" ${VNDF} export ${tables} --language ${language} --prefix ${prefix} ${ARGN} -o ${prefix}.h)
+    execute_process(COMMAND ${AGREEMENT} ask "${what}" ${language} ${prefix} ${form}
+        INPUT_FILE ${SOURCE}/tests/export/ask.h OUTPUT_FILE ${OUT}/${prefix}_ask.h)
+    run("questions of ${what}" ${AGREEMENT} make "${what}" 8000 ${prefix}.asked ${tables})
 endfunction()
 
-# Compilers that take gcc's flags; the build's own first.
-function(try_all language)
-    set(found "")
-    foreach(name IN LISTS ARGN)
-        unset(compiler CACHE)
-        find_program(compiler ${name})
-        if(compiler AND NOT compiler IN_LIST found)
-            list(APPEND found ${compiler})
-            try(${language} ${compiler} normals embedded BITS)
-            two(${language} ${compiler})
-            set_property(GLOBAL APPEND PROPERTY tried ${compiler})
-        endif()
-    endforeach()
-    if(found)
-        list(GET found 0 compiler)
-        try(${language} ${compiler} normals fetching BITS)
-        try(${language} ${compiler} normals embedded FAST -O3 -ffast-math)
-        foreach(effects "lobes=reflection" "lobes=both fresnel=dielectric" "lobes=transmission masking=none"
-                "lobes=both fresnel=schlick masking=v-cavities transport=importance"
-                "fresnel=conductor masking=separable reflection=retro")
-            try(${language} ${compiler} "${effects}" embedded ROUNDED)
-        endforeach()
+# try(COMPILER LANGUAGE HOW BSDF FLAG...): HOW and BSDF are vndf_agreement's.
+function(try compiler language how bsdf)
+    unset(found CACHE)
+    find_program(found ${compiler})
+    if(NOT found)
+        return()
     endif()
+    kernel(${language} normals normals)
+    kernel(${language} bsdf "${bsdf}" --buffer numbers.f32)
+    run("${compiler} of ${language}" ${found} ${ARGN} ${standard_${language}} ${flags}
+        ${SOURCE}/tests/export/answer.c -lm -o answer)
+    run("the program of ${compiler}" ${OUT}/answer)
+    run("normals by ${compiler}" ${AGREEMENT} check normals ${how} normals.asked normals.said ${tables})
+    run("${bsdf} by ${compiler}" ${AGREEMENT} check "${bsdf}" ROUNDED bsdf.asked bsdf.said ${tables})
+    string(REPLACE ";" " " how "${compiler} ${ARGN}")
+    set_property(GLOBAL APPEND_STRING PROPERTY tried " ${how},")
 endfunction()
 
-# A family of tables at a parameter is the library's mixture.
 run("a family" ${VNDF} build --family student-t --parameter 1.6..6 --max-tv 0.01 -o tails.vndfs)
-run("export of a family" ${VNDF} export tails.vndfs --language c --prefix kernel --lobes 2 -o tails.h)
-run("the program of a family" ${C_COMPILER} -O1 -ffp-contract=off -std=c99 ${flags} -I${SOURCE}/include
-    ${SOURCE}/tests/export/family.c ${STATIC_LIBRARY} -lm -o family)
+run("export of a family" ${VNDF} export tails.vndfs --language c --prefix kernel --lobes 2 --only family,mixture
+    -o tails.h)
+run("the program of a family" ${C_COMPILER} -std=c99 ${flags} -I${SOURCE}/include ${SOURCE}/tests/export/family.c
+    ${STATIC_LIBRARY} -lm -o family)
 run("the family" ${OUT}/family tails.vndfs)
-message("${output}")
 
-try_all(c gcc clang)
-try_all(cpp g++ clang++)
+# Optimised once in each language, since a compiler does not know by which of its names it is called.
+try(gcc c BITS "lobes=both fresnel=dielectric" -O1)
+try(clang c BITS "lobes=transmission masking=none" -O0)
+try(g++ cpp BITS "lobes=both fresnel=schlick masking=v-cavities transport=importance" -O0)
+try(clang++ cpp BITS "fresnel=conductor masking=separable reflection=retro" -O1)
+try(gcc c FAST "lobes=reflection" -O3 -ffast-math)
 get_property(tried GLOBAL PROPERTY tried)
 if(NOT tried)
     message("SKIPPED: neither gcc nor clang is here")
 endif()
-message("compiled by ${tried}")
+message("compiled by${tried}")

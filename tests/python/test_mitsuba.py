@@ -2,6 +2,7 @@
 
     python test_mitsuba.py [VARIANT]        llvm_ad_rgb, or scalar_rgb where LLVM is absent
 """
+import functools
 import math
 import os
 import subprocess
@@ -176,6 +177,24 @@ class Mitsubas(unittest.TestCase):
         for ours_is, theirs_is in (*zip(one, other), (density, again)):
             np.testing.assert_allclose(ours_is, theirs_is, rtol=2e-4, atol=1e-6)
 
+    def test_a_conductor_of_ggx_is_mitsubas(self):
+        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
+        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
+        bsdfs = [mi.load_dict(description) for description in (theirs, ours)]
+        rng = np.random.default_rng(6)
+        wi, wo, u = directions(rng, COUNT, 0.02), directions(rng, COUNT, 0.02), rng.random((2, COUNT), dtype=np.float32)
+
+        def ask(bsdf, wi, wo, u):
+            ctx, si = mi.BSDFContext(), interaction(mi.Vector3f(wi))
+            weight = bsdf.sample(ctx, si, mi.Float(0.5), mi.Point2f(u), True)[1]
+            return bsdf.eval(ctx, si, mi.Vector3f(wo), True), bsdf.pdf(ctx, si, mi.Vector3f(wo), True), weight
+
+        (value, pdf, weight), (value_2, pdf_2, weight_2) = (each(functools.partial(ask, b), wi, wo, u) for b in bsdfs)
+        np.testing.assert_allclose(value_2, value, rtol=1e-3, atol=1e-6)
+        np.testing.assert_allclose(pdf_2, pdf, rtol=1e-3, atol=1e-6)
+        noise = np.hypot(weight.std(axis=1), weight_2.std(axis=1)) / COUNT**0.5
+        np.testing.assert_array_less(abs(weight.mean(axis=1) - weight_2.mean(axis=1)), 5 * noise)
+
     CASES = [(kind, alpha, theta) for kind in ("conductor", "dielectric") for alpha in ((0.2, 0.2), (0.5, 0.2), (1, 1))
              for theta in (0, 30, 60, 80, 89)]  # fmt: skip
 
@@ -280,52 +299,6 @@ class Derivatives(unittest.TestCase):
         dr.set_grad(alpha, 1.0)
         dr.forward_to(answer)
         return dr.grad(answer)
-
-
-@unittest.skipIf(SCALAR, "slow")
-class Pictures(unittest.TestCase):
-    SIZE, SAMPLES = 64, 512
-
-    def scene(self, material):
-        to_world = mi.ScalarTransform4f
-        return mi.load_dict({
-            "type": "scene",
-            "integrator": {"type": "path", "max_depth": 2},
-            "sensor": {
-                "type": "perspective", "fov": 20, "fov_axis": "y",
-                "to_world": to_world().look_at(origin=[0, 1, 5], target=[0, 0.5, 0], up=[0, 1, 0]),
-                "film": {"type": "hdrfilm", "width": self.SIZE, "height": self.SIZE, "rfilter": {"type": "box"}},
-            },
-            "sky": {"type": "constant", "radiance": rgb([0.2, 0.3, 0.4])},
-            "lamp": {
-                "type": "sphere", "center": [-2, 3, 3], "radius": 0.8,
-                "emitter": {"type": "area", "radiance": rgb([12, 10, 8])},
-            },
-            "ball": {"type": "sphere", "center": [0, 0.5, 0], "radius": 0.7, "bsdf": material},
-        })  # fmt: skip
-
-    def render(self, material, seed):
-        return np.array(mi.render(self.scene(material), spp=self.SAMPLES, seed=seed))[:, :, :3]
-
-    def blocks(self, picture):
-        n = self.SIZE // 8
-        return picture.reshape(n, 8, n, 8, 3).mean(axis=(1, 3))
-
-    def agree(self, a, b, noise):
-        """Blocks of 64 pixels are within five standard deviations, and the whole within 0.2%. `noise`: of a block."""
-        apart = abs(self.blocks(a) - self.blocks(b))
-        self.assertLess((apart / (noise + 1e-4)).max(), 5)
-        self.assertLess(abs(a.mean() / b.mean() - 1), 2e-3)
-
-    def noise(self, material):
-        """Standard deviation of the difference of two pictures, a block each, from pairs of them."""
-        pictures = [self.blocks(self.render(material, seed)) for seed in range(6)]
-        return np.sqrt(2.0) * np.std(pictures, axis=0, ddof=1).clip(min=1e-4) * 1.5
-
-    def test_of_mitsubas_ggx(self):
-        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
-        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
-        self.agree(self.render(ours, 11), self.render(theirs, 12), self.noise(theirs))
 
 
 if __name__ == "__main__":

@@ -1,9 +1,8 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
  * file that draws in WebGL2. tools/export/page/explorer.html is the frame. A line of it that is {{file}} stands for
- * that file, and {{choices}}, {{certificates}}, {{numbers}}, {{kernel}} and {{shaders}} for what differs from page to
- * page. A letter after a file's name is its $. */
+ * that file, and {{choices}}, {{numbers}}, {{kernel}} and {{shaders}} for what differs from page to page. A letter
+ * after a file's name is its $. */
 #define _POSIX_C_SOURCE 200809L
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,42 +61,11 @@ static void put_name(FILE *to, const exported_table *table)
 static void put_choices(FILE *to, const export_document *document)
 {
     for (const exported_table *t = document->table; t < document->table + document->tables; t++) {
-        fprintf(to, "<option value=\"%zu\" data-median=\"%.6g\">", t->base,
-                vndf_distribution_info(t->distribution).scale);
+        const vndf_info info = vndf_distribution_info(t->distribution);
+        fprintf(to, "<option value=\"%zu\" data-median=\"%.6g\" data-tv=\"%.2g\">", t->base, info.scale,
+                (double)info.certificate.tv_above);
         put_name(to, t);
         fputs("</option>\n", to);
-    }
-}
-
-static void put_certificates(FILE *to, const export_document *document)
-{
-    for (const exported_table *t = document->table; t < document->table + document->tables; t++) {
-        const vndf_info info = vndf_distribution_info(t->distribution);
-        const vndf_certificate *c = &info.certificate;
-        fprintf(to, "<article data-table=\"%zu\" data-tv=\"%.2g\">\n<h3>", t->base, (double)c->tv_above);
-        put_name(to, t);
-        fprintf(to, "</h3>\n<p>A file of %zu bytes, in a shader %zu numbers; made by %s: <code>", info.bytes,
-                t->size, info.tool);
-        put_text(to, info.source, strlen(info.source));
-        fprintf(
-            to,
-            "</code></p>\n<ul>\n<li>Its samples differ from the true visible normals by a total variation of at "
-            "most <b>%.2g</b> above the horizon,\n%.2g below it: of a million samples at most %.0f would have to "
-            "move.</li>\n<li>But for a millionth of the samples, the true density is at most <b>%.4g</b> times the "
-            "drawn one; it is %sbounded\non the whole hemisphere.</li>\n<li>Projected area, Lambda and G1 are right "
-            "within <b>%.1g</b>, D within %.1g; the density integrates to 1 within %.1g.</li>\n",
-            (double)c->tv_above, (double)c->tv, ceil(1e6 * (double)c->tv), (double)c->max_weight,
-            c->weight_bounded > 0 ? "" : "not ", (double)c->area_error, (double)c->ndf_error,
-            (double)c->consistency);
-        if (c->hidden > 0)
-            fprintf(to, "<li>What the builder may have missed holds at most %.2g of the mass.</li>\n",
-                    (double)c->hidden);
-        if (c->horizon_power < 0)
-            fprintf(to,
-                    "<li>D grows towards the horizon as cos<sup>%.3g</sup>: no grid of angles resolves it "
-                    "there.</li>\n",
-                    (double)c->horizon_power);
-        fputs("</ul>\n</article>\n", to);
     }
 }
 
@@ -124,7 +92,7 @@ static int put_kernel(FILE *to, const export_document *document)
     char *text = NULL;
     size_t size = 0;
     FILE *memory = open_memstream(&text, &size);
-    int good = memory && document_write(document, memory);
+    int good = memory && document_write(document, memory, NULL);
     if (memory && fclose(memory) == 0 && good)
         svg_escape(to, text);
     free(text);
@@ -150,8 +118,6 @@ static int put_part(FILE *to, const export_document *document, const char *part,
         return put_kernel(to, document);
     if (strcmp(part, "choices") == 0)
         put_choices(to, document);
-    else if (strcmp(part, "certificates") == 0)
-        put_certificates(to, document);
     else if (strcmp(part, "numbers") == 0)
         put_numbers(to, document);
     else if (strcmp(part, "shaders") == 0)

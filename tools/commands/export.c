@@ -160,7 +160,8 @@ static int write_all(const arguments *given, const export_document *document)
     if (raw && !output_open(&numbers, name, raw))
         return STATUS_USE;
     int opened = output_open(&text, name, path);
-    int written = opened && document_write(document, text.file) && (!raw || write_raw(document, numbers.file));
+    int written =
+        opened && document_write(document, text.file, NULL) && (!raw || write_raw(document, numbers.file));
     if (raw && !written)
         output_discard(&numbers);
     if (!written)

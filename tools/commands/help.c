@@ -8,10 +8,9 @@
 #include "manual/manual.h"
 
 const subcommand *const subcommands[] = {
-    &command_build,         &command_info,   &command_check,  &command_sample,
-    &command_eval,          &command_plot,   &command_report, &command_bench,
-    &command_bench_effects, &command_albedo, &command_export, &command_explore,
-    &command_render,        &command_judge,  &command_help,   NULL};
+    &command_build,   &command_info,   &command_check,         &command_sample, &command_eval, &command_plot,
+    &command_report,  &command_bench,  &command_bench_effects, &command_albedo, &command_bake, &command_export,
+    &command_explore, &command_render, &command_judge,         &command_help,   NULL};
 
 static const char name[] = "vndf help";
 

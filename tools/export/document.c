@@ -162,7 +162,7 @@ static int has_parts(const export_document *document, const char *mark)
     for (unsigned i = 0; *mark != '*'; mark += strcspn(mark, " ") + 1) {
         for (i = 0; i < 5 && strncmp(mark, names[i], strlen(names[i])) != 0; i++)
             ;
-        has &= i < 5 ? (int)(is >> i & 1u) : effects_have(&document->effects, mark, (int)strcspn(mark, " "));
+        has &= i < 5 ? (int)(is >> i & 1u) : effects_have(&document->effects, mark, strcspn(mark, " "));
     }
     return has;
 }
@@ -172,19 +172,15 @@ static int has_parts(const export_document *document, const char *mark)
 static void put_line(FILE *to, const export_document *document, const char *line, int *in)
 {
     static const char only[] = "/* only ";
-    const size_t length = strcspn(line, "\n");
+    const int length = (int)strcspn(line, "\n");
     const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
-    if (mark && mark < line + length) {
-        int has = has_parts(document, mark + sizeof only - 1), alone = strspn(line, " ") == (size_t)(mark - line);
-        if (alone)
-            *in = has;
-        else if (*in && has)
-            fprintf(to, "%.*s\n", (int)(mark - line), line);
-    } else if (end && end < line + length) {
+    int has = mark && mark < line + length ? has_parts(document, mark + sizeof only - 1) : -1;
+    if (end && end < line + length)
         *in = 1;
-    } else if (*in) {
-        fprintf(to, "%.*s\n", (int)length, line);
-    }
+    else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line))
+        *in = has;
+    else if (*in && has != 0)
+        fprintf(to, "%.*s\n", has > 0 ? (int)(mark - line) : length, line);
 }
 
 /* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
@@ -210,7 +206,7 @@ static char *whole_text(const export_document *document, const char *more, long 
         for (const char *const *line = file->lines; *line; line++)
             put_line(to, document, *line, &in);
     *behind = ftell(to);
-    for (const char *line = more; *line; line += strcspn(line, "\n") + 1)
+    for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
         put_line(to, document, line, &in);
     if (fclose(to) == 0)
         return whole;
@@ -227,96 +223,87 @@ int document_is_of_bsdf(const char *call)
     return strncmp(call, "bsdf_", 5) == 0;
 }
 
-static void want(const translation *t, kernel *from, const char *before, const char *name)
+/* Of names with a blank between them. */
+static void want(const translation *t, kernel *from, const char *before, const char *names)
 {
-    char whole[80];
-    const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%s", before, name), 0, 0};
-    translation_want(t, from, &wanted);
-}
-
-/* What a call stands for. */
-static void want_call(const translation *t, kernel *from, const char *call)
-{
-    static const char *const more[][2] = {{"view", "view_of"},           {"mixture", "mixture_view_of"},
-                                          {"mixture", "mixture_pdf"},    {"mixture", "mixture_visible"},
-                                          {"mixture", "mixture_sample"}, {"mixture", "mixture_ndf"},
-                                          {"family", "family_at"}};
-    for (size_t i = 0; i < sizeof more / sizeof *more; i++)
-        if (strcmp(call, more[i][0]) == 0)
-            want(t, from, "vndf_", more[i][1]);
-    want(t, from, "vndf_", call);
-    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_of" : call);
-    want(t, from, "vndf_", document_is_of_bsdf(call) ? "bsdf_cosine" : call);
+    for (char whole[80]; *names; names += strspn(names, " ")) {
+        const int length = (int)strcspn(names, " ");
+        const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%.*s", before, length, names), 0,
+                             0};
+        translation_want(t, from, &wanted);
+        names += length;
+    }
 }
 
 static void want_all(const export_document *document, const translation *t, kernel *from)
 {
-    /* Python, whose arrays stand for many hits, has the kernel's functions without the face. */
-    static const char *const inner[] = {
-        "frame_of",      "frame_sampled",    "frame_normal", "frame_density", "frame_reach",  "ggx_see",
-        "ggx_draw",      "ggx_density",      "ggx_area",     "ggx_p22",       "beckmann_see", "beckmann_draw",
-        "beckmann_area", "beckmann_density", "beckmann_p22", "table_view_of", "table_draw",   "table_pdf",
-        "table_given",   "table_p22",        "law_area"};
     int has_family = 0;
-    for (size_t i = 0; t->to->indents && i < sizeof inner / sizeof *inner; i++)
-        want(t, from, "", inner[i]);
-    if (t->to->indents)
+    if (t->to
+            ->indents) { /* Python, whose arrays stand for many hits, has the kernel's functions without the face */
+        want(
+            t, from, "",
+            "frame_of frame_sampled frame_normal frame_density frame_reach ggx_see ggx_draw ggx_density ggx_area "
+            "ggx_p22 beckmann_see beckmann_draw beckmann_area beckmann_density beckmann_p22 table_view_of table_draw "
+            "table_pdf table_given table_p22 law_area");
         return;
+    }
     for (int i = 0; i < from->count && from->at[i].begin == 0; i++) /* the constants before the kernel */
         translation_want(t, from, &from->word[from->at[i].name]);
     for (size_t i = 0; i < document->tables; i++)
         has_family |= document->table[i].family != NULL;
     want(t, from, "VNDF_", document->embeds ? "NUMBERS" : "GGX");
     want(t, from, "vndf_", "surface_of");
-    for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++)
-        if (document->only[0] || (document_is_of_bsdf(*call) == document->effects.wanted &&
-                                  (has_family || strcmp(*call, "family") != 0)))
-            want_call(t, from, *call);
+    for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++) {
+        const int of_bsdf = document_is_of_bsdf(*call), of_family = strcmp(*call, "family") == 0;
+        if (!document->only[0] && (of_bsdf != document->effects.wanted || (of_family && !has_family)))
+            continue;
+        want(t, from, "vndf_", *call);
+        want(t, from, "vndf_",
+             of_bsdf                      ? "bsdf_of bsdf_cosine"
+             : of_family                  ? "family_at"
+             : strcmp(*call, "view") == 0 ? "view_of"
+             : strcmp(*call, "mixture") == 0
+                 ? "mixture_view_of mixture_pdf mixture_visible mixture_sample mixture_ndf"
+                 : "");
+    }
 }
 
-int document_write(const export_document *document, FILE *to)
+/* Only what stands behind the kernel. */
+static void want_more(const translation *t, kernel *from, const char *behind)
+{
+    int first = from->count;
+    while (first > 0 && from->word[from->at[first - 1].begin].text >= behind)
+        first--;
+    for (int i = first; i < from->count; i++)
+        translation_want(t, from, &from->word[from->at[i].name]);
+    for (int i = 0; i < first; i++)
+        from->at[i].wanted = 0;
+}
+
+int document_write(const export_document *document, FILE *to, const char *more)
 {
     translation as = document->as;
     kernel from = {NULL, 0, 0, {{0}}};
-    as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
-    long behind;
-    char *whole = whole_text(document, "", &behind);
-    int good = whole && kernel_read(&from, whole);
-    if (good && as.to->indents) {
-        fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
-    } else if (good) {
-        put_head(to, document);
-        if (as.to->guarded)
-            put_all(to, document, "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n");
-    }
-    if (good) {
-        want_all(document, &as, &from);
-        put_all(to, document, as.to->begin);
-        fputs(*as.to->begin ? "\n" : "", to);
-        if (!document->embeds && as.to->bound && document->count)
-            put_all(to, document, as.to->bound);
-        translate(&as, to, &from);
-        fputs(as.to->guarded ? "#endif\n" : "", to);
-    }
-    kernel_free(&from);
-    free(whole);
-    return good;
-}
-
-int document_write_more(const export_document *document, FILE *to, const char *more)
-{
-    kernel from = {NULL, 0, 0, {{0}}};
     long behind;
     char *whole = whole_text(document, more, &behind);
-    int good = whole && kernel_read(&from, whole), first = from.count;
-    while (first > 0 && from.word[from.at[first - 1].begin].text >= whole + behind)
-        first--;
-    for (int i = first; i < from.count; i++)
-        translation_want(&document->as, &from, &from.word[from.at[i].name]);
-    for (int i = 0; i < first; i++)
-        from.at[i].wanted = 0;
+    int good = whole && kernel_read(&from, whole), guarded = as.to->guarded && !more;
+    as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
+    if (good && more) {
+        want_more(&as, &from, whole + behind);
+    } else if (good) {
+        want_all(document, &as, &from);
+        if (as.to->indents)
+            fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
+        else
+            put_head(to, document);
+        put_all(to, document, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
+        put_all(to, document, as.to->begin);
+        fputs(*as.to->begin ? "\n" : "", to);
+        put_all(to, document, !document->embeds && as.to->bound && document->count ? as.to->bound : "");
+    }
     if (good)
-        translate(&document->as, to, &from);
+        translate(&as, to, &from);
+    fputs(good && guarded ? "#endif\n" : "", to);
     kernel_free(&from);
     free(whole);
     return good;

@@ -56,10 +56,8 @@ int document_add(export_document *document, const char *file, vndf_distribution 
 /* Fills in the numbers; 0 if there is no memory. */
 int document_fill(export_document *document);
 
-/* 0 if there is no memory. */
-int document_write(const export_document *document, FILE *to);
-
-/* Writes a text that calls the kernel, in the kernel's part of C, as it goes behind that file. */
-int document_write_more(const export_document *document, FILE *to, const char *more);
+/* Writes the file; or what goes behind it, a text that calls the kernel, in the kernel's part of C. 0 if there is no
+ * memory. */
+int document_write(const export_document *document, FILE *to, const char *more);
 
 #endif

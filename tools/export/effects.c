@@ -3,50 +3,40 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more of them than files.
- */
-typedef struct key {
-    const char *name, *choices, *why;
-} key;
+enum { CHOICES_MAX = 4 };
 
-static const key keys[] = {
-    {"lobes", "reflection, transmission, both", ""},
-    {"fresnel", "none, schlick, dielectric, conductor", ""},
-    {"masking", "correlated, separable, v-cavities, none", ""},
-    {"transport", "radiance, importance", ""},
-    {"reflection", "specular, retro", ""},
-    {"normals", "visible", ", since files draw visible normals"},
-    {"scattering", "single", ", since random walks and compensation need the library"},
-    {"shape", "affine", ", since a surface has any matrix and mean slope, and one file scatters at one surface"},
+/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more than files have. */
+static const struct key {
+    const char *name, *choice[CHOICES_MAX + 1], *why;
+} keys[] = {
+    {"lobes", {"reflection", "transmission", "both"}, ""},
+    {"fresnel", {"none", "schlick", "dielectric", "conductor"}, ""},
+    {"masking", {"correlated", "separable", "v-cavities", "none"}, ""},
+    {"transport", {"radiance", "importance"}, ""},
+    {"reflection", {"specular", "retro"}, ""},
+    {"normals", {"visible"}, ", since files draw visible normals"},
+    {"scattering", {"single"}, ", since random walks and compensation need the library"},
+    {"shape", {"affine"}, ", since a surface has any matrix and mean slope, and one file scatters at one surface"},
 };
 
 enum { KEYS = sizeof keys / sizeof *keys };
 
-static int is_word(const char *text, int length, const char *name)
+static int is_word(const char *text, size_t length, const char *name)
 {
-    return strlen(name) == (size_t)length && memcmp(text, name, (size_t)length) == 0;
-}
-
-/* The next choice of a list, of *length characters. */
-static const char *next_choice(const char *at, int *length)
-{
-    at += strspn(at, ", ");
-    *length = (int)strcspn(at, ",");
-    return at;
+    return strlen(name) == length && memcmp(text, name, length) == 0;
 }
 
 /* The key of key=choice, or -1; its choice, or -1. */
-static int read_word(const char *text, int length, int *choice)
+static int read_word(const char *text, size_t length, int *choice)
 {
-    const char *sign = memchr(text, '=', (size_t)length);
-    int name = sign ? (int)(sign - text) : 0, i = 0, place = 0, size;
-    while (i < KEYS && !(sign && is_word(text, name, keys[i].name)))
-        i++;
-    *choice = -1;
-    for (const char *at = i < KEYS ? keys[i].choices : ""; *(at = next_choice(at, &size)); at += size, place++)
-        if (size == length - name - 1 && memcmp(at, sign + 1, (size_t)size) == 0)
-            *choice = place;
-    return i < KEYS ? i : -1;
+    size_t name = strcspn(text, "= ,");
+    int key = KEYS - 1;
+    while (key >= 0 && !(name < length && is_word(text, name, keys[key].name)))
+        key--;
+    for (*choice = key < 0 ? -1 : CHOICES_MAX - 1; *choice >= 0; --*choice)
+        if (keys[key].choice[*choice] && is_word(text + name + 1, length - name - 1, keys[key].choice[*choice]))
+            break;
+    return key;
 }
 
 vndf_effects effects_of(const export_effects *effects)
@@ -64,20 +54,20 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
 {
     *effects = (export_effects){.wanted = 1};
     for (text += strspn(text, " ,"); *text; text += strspn(text, " ,")) {
-        int length = (int)strcspn(text, " ,"), choice, k = read_word(text, length, &choice);
-        if (k < 0) {
-            int n = snprintf(error, EFFECTS_ERROR_MAX, "'%.40s': key=choice is needed, with the keys", text);
-            for (int i = 0; i < EFFECT_KEYS; i++)
-                n += snprintf(error + n, EFFECTS_ERROR_MAX - (size_t)n, "%s %s", i ? "," : "", keys[i].name);
-            return 0;
-        }
+        size_t length = strcspn(text, " ,");
+        int choice, key = read_word(text, length, &choice), n = 0;
         if (choice < 0) {
-            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s%s", length < 60 ? length : 60, text,
-                     keys[k].choices, keys[k].why);
+            n = key < 0
+                    ? snprintf(error, EFFECTS_ERROR_MAX, "'%.40s': key=choice is needed, with the keys", text)
+                    : snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are", length < 60 ? (int)length : 60, text);
+            for (int i = 0; key < 0 ? i < EFFECT_KEYS : keys[key].choice[i] != NULL; i++)
+                n += snprintf(error + n, EFFECTS_ERROR_MAX - (size_t)n, "%s %s", i ? "," : "",
+                              key < 0 ? keys[i].name : keys[key].choice[i]);
+            snprintf(error + n, EFFECTS_ERROR_MAX - (size_t)n, "%s", key < 0 ? "" : keys[key].why);
             return 0;
         }
-        if (k < EFFECT_KEYS)
-            effects->choice[k] = choice;
+        if (key < EFFECT_KEYS)
+            effects->choice[key] = choice;
         text += length;
     }
     /* What makes no sense is what the library says makes none. */
@@ -95,28 +85,27 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
     return 0;
 }
 
-int effects_have(const export_effects *effects, const char *word, int length)
+int effects_have(const export_effects *effects, const char *word, size_t length)
 {
-    const int *c = effects->choice;
-    int choice, k = read_word(word, length, &choice), reflects = c[0] != VNDF_LOBES_TRANSMISSION,
-                transmits = c[0] != VNDF_LOBES_REFLECTION;
-    return k >= 0                               ? choice == c[k]
-           : is_word(word, length, "reflects")  ? reflects
-           : is_word(word, length, "transmits") ? transmits
-           : is_word(word, length, "indexed")   ? transmits || c[1] == VNDF_FRESNEL_DIELECTRIC
-           : is_word(word, length, "smith")     ? c[2] < VNDF_MASKING_V_CAVITIES
-           : is_word(word, length, "coloured")  ? transmits || c[1] != VNDF_FRESNEL_NONE
-                                                : 0;
+    const int *c = effects->choice, transmits = c[0] != VNDF_LOBES_REFLECTION;
+    const struct {
+        const char *name;
+        int is;
+    } parts[] = {{"reflects", c[0] != VNDF_LOBES_TRANSMISSION},
+                 {"transmits", transmits},
+                 {"indexed", transmits || c[1] == VNDF_FRESNEL_DIELECTRIC},
+                 {"smith", c[2] < VNDF_MASKING_V_CAVITIES},
+                 {"coloured", transmits || c[1] != VNDF_FRESNEL_NONE}};
+    int choice, key = read_word(word, length, &choice), has = key >= 0 && choice == c[key];
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        has |= parts[i].is && is_word(word, length, parts[i].name);
+    return has;
 }
 
 void effects_name(const export_effects *effects, char *text, size_t size)
 {
     size_t n = 0;
-    for (int i = 0; i < EFFECT_KEYS && n < size; i++) {
-        int length;
-        const char *choice = next_choice(keys[i].choices, &length);
-        for (int k = 0; k < effects->choice[i]; k++)
-            choice = next_choice(choice + length, &length);
-        n += (size_t)snprintf(text + n, size - n, "%s%s=%.*s", i ? ", " : "", keys[i].name, length, choice);
-    }
+    for (int i = 0; i < EFFECT_KEYS && n < size; i++)
+        n += (size_t)snprintf(text + n, size - n, "%s%s=%s", i ? ", " : "", keys[i].name,
+                              keys[i].choice[effects->choice[i]]);
 }

@@ -25,7 +25,7 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
  *     indexed                there is an index ratio, and both sides are seen
  *     coloured               there are reflectances
  *     smith                  masking takes the area that wo sees */
-int effects_have(const export_effects *effects, const char *word, int length);
+int effects_have(const export_effects *effects, const char *word, size_t length);
 
 vndf_effects effects_of(const export_effects *effects);
 

@@ -266,40 +266,9 @@ static void put_words(writer *w, int at, int end, int in_condition)
     }
 }
 
-/* The type with which a name is declared, where it first stands. */
-static const word *type_in(const writer *w, const declaration *d, const word *name)
-{
-    int at = d->inner + 1;
-    while (at < d->end && !word_equals(&w->word[at], name))
-        at++;
-    if (w->word[at - 1].kind != WORD_NAME) /* one of several */
-        while (!word_is_in(&w->word[at - 1], " ; { } ( "))
-            at--;
-    return w->word[at - 1].kind == WORD_NAME ? &w->word[at - 1] : &w->word[at];
-}
-
-/* Python's variables are arrays of lanes: a condition may name constants, whole numbers that all lanes share (int,
- * where a lane's are of type whole), and any(mask). */
-static void expect_same_for_lanes(const writer *w, int at, int end)
-{
-    for (; at < end; at++) {
-        const word *name = &w->word[at];
-        if (word_is(name, "any"))
-            at = w->word[at + 1].other;
-        if (name->kind != WORD_NAME || word_is(name, "any") || declared(w, name, CONSTANT))
-            continue;
-        const word *type = type_in(w, w->in, name);
-        for (const declaration *of; word_is(&w->word[at + 1], ".") && (of = declared(w, type, STRUCT)); at += 2)
-            type = type_in(w, of, &w->word[at + 2]);
-        kernel_expect(word_is(type, "int"), name, "pick, or any(mask) for what lanes differ in,");
-    }
-}
-
 /* What stands between the brackets of an if. */
 static void put_condition(writer *w, int at, int end)
 {
-    if (w->to->indents)
-        expect_same_for_lanes(w, at, end);
     if (word_is(&w->word[at], "any") && !w->to->indents && word_is(&w->word[at + 3], "(") &&
         w->word[at + 3].other + 2 == end)
         put_call(w, at + 2, 1); /* any(less(a, b)) is a < b */

@@ -12,7 +12,8 @@ int main(int argc, char **argv)
     int python = argc == 2 && strlen(argv[1]) > 3 && strcmp(argv[1] + strlen(argv[1]) - 3, ".py") == 0;
     document.as.to = language_named(python ? "python" : "c");
     document.as.by_pointer = !python;
-    if (!to || !translation_prefix(&document.as, python ? "vndf" : "exported") || !document_write(&document, to))
+    if (!to || !translation_prefix(&document.as, python ? "vndf" : "exported") ||
+        !document_write(&document, to, NULL))
         return 1;
     return fclose(to) != 0;
 }

@@ -119,7 +119,7 @@ const digits = (x, n) => x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e
 
 function promiseOf(distribution) {
   if (distribution < 0) return "none: closed form";
-  return `at most ${document.querySelector(`[data-table="${distribution}"]`).dataset.tv}`;
+  return `at most ${optionOf(distribution).dataset.tv}`;
 }
 
 function showFigures(list, distribution, samples, density) {

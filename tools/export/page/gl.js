@@ -19,10 +19,9 @@ let gl; // of a canvas that is never shown: its pictures are copied to those of 
 
 function openGl() {
   gl = document.createElement("canvas").getContext("webgl2", {antialias: false, alpha: true});
-  if (!gl) throw new Trouble("This browser has no WebGL2, which the pictures need. The promises below stand.");
+  if (!gl) throw new Trouble("This browser has no WebGL2, which the pictures need.");
   if (!gl.getExtension("EXT_color_buffer_float"))
-    throw new Trouble("This browser cannot draw into float textures, which the pictures need. " +
-                      "The promises below stand.");
+    throw new Trouble("This browser cannot draw into float textures, which the pictures need.");
 }
 
 function makeTexture(format, width, height, values) {

@@ -80,7 +80,7 @@ function turnByDragging(changed) {
   }
 }
 
-// What goes wrong is said on the page; without pictures it still has the promises.
+// What goes wrong is said on the page.
 function attempt(work) {
   try {
     work();

@@ -9,7 +9,6 @@
 
 Components come first: directions have shape (3, ...). The C headers are the manual of every call.
 """
-from . import plot
 from ._library import Error, Status
 from ._version import __version__
 from .bsdf import LOBE_NONE, LOBE_REFLECTION, LOBE_STRAIGHT, LOBE_TRANSMISSION, Albedo, Material, Scattered
@@ -21,5 +20,5 @@ __all__ = [
     "Affine", "Albedo", "Blend", "Certificate", "Distribution", "Error", "Family", "Info", "LOBE_NONE", "LOBE_REFLECTION",
     "LOBE_STRAIGHT", "LOBE_TRANSMISSION", "Material", "Mixture", "MixtureSample", "Sample", "Scattered", "Source",
     "Status", "Surface", "WeightedSample", "__version__", "beckmann", "build", "certify", "family_help", "from_bytes",
-    "ggx", "load", "materials", "plot",
+    "ggx", "load", "materials",
 ]  # fmt: skip

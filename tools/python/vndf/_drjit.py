@@ -20,15 +20,16 @@ class View(NamedTuple):
     frame: Any  # the kernel's
     seen: Any  # what the law makes of it
     area: Any  # projected area along wi
+    drawn: Any  # the same of what is drawn, by which mixtures share
 
 
 class Law:
     """A law of normals, for the variant of Mitsuba that is set. Directions wi are unit with wi.z >= 0, roughness is
     above 0, u1 and u2 are in [0, 1]. Subclasses have it in the unit problem: `_see` makes what it needs of a direction,
-    and its area; `_draw` a normal; `_density` is that with which a normal is drawn, `_p22` that of slopes over z^4."""
+    and both its areas; `_draw` a normal; `_density` is that with which a normal is drawn, `_p22` that of slopes over z^4."""
 
     scale = 1.0  # the slope of the law's unit roughness
-    _see: Callable[[Any], tuple[Any, Any]]
+    _see: Callable[[Any], tuple[Any, Any, Any]]
     _draw: Callable[[View, Any, Any], Any]
     _density: Callable[[View, Any], Any]
     _p22: Callable[[Any], Any]
@@ -42,8 +43,8 @@ class Law:
     def view(self, alpha_x: Any, alpha_y: Any, wi: Any) -> View:
         """A surface seen from wi."""
         frame = self._frame(alpha_x, alpha_y, wi)
-        seen, area = self._see(frame)
-        return View(wi, frame, seen, area * frame.size)
+        seen, area, drawn = self._see(frame)
+        return View(wi, frame, seen, area * frame.size, drawn * frame.size)
 
     def sample(self, view: View, u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal and the density with which it is drawn."""
@@ -72,7 +73,7 @@ class Closed(Law):
         see, area, draw, density, p22 = (
             getattr(kernel, f"vndf_{name}_{call}") for call in ("see", "area", "draw", "density", "p22")
         )
-        self._see = lambda f: (see(f.ux, f.uy, f.uz), area(f.ux, f.uy, f.uz))
+        self._see = lambda f: (see(f.ux, f.uy, f.uz), *[area(f.ux, f.uy, f.uz)] * 2)
         self._draw = lambda view, u1, u2: draw(view.seen, u1, u2)
         self._density = lambda view, n: density(view.seen, n.x, n.y, n.z, n.facing)
         self._p22 = lambda n: p22(n.x, n.y, n.z)
@@ -100,9 +101,9 @@ class Table(Law):
         at = mi.UInt32(row)
         return kernel.vndf_quad(*(dr.gather(mi.Float, self._numbers, at + j) for j in range(4)))
 
-    def _see(self, frame: Any) -> tuple[Any, Any]:
-        seen = kernel.vndf_table_view_of(self, frame, 0)
-        return seen, kernel.vndf_law_area(self, seen.v, 0) * kernel.vndf_frame_reach(frame)
+    def _see(self, frame: Any) -> tuple[Any, Any, Any]:
+        seen, reach = kernel.vndf_table_view_of(self, frame, 0), kernel.vndf_frame_reach(frame)
+        return seen, kernel.vndf_law_area(self, seen.v, 0) * reach, kernel.vndf_law_drawn_area(seen.v, 0) * reach
 
     def _draw(self, view: View, u1: Any, u2: Any) -> Any:
         return kernel.vndf_table_draw(self, view.seen, u1, u2, 0)

@@ -10,7 +10,7 @@ import enum
 import os
 import pathlib
 import sys
-from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_float, c_int, c_size_t, c_uint, c_void_p
+from ctypes import byref
 from typing import TYPE_CHECKING, Any
 
 from ._version import __version__
@@ -42,171 +42,135 @@ class Error(Exception):
         return Error, (str(self), self.status)
 
 
-# ---- structs ----------------------------------------------------------------------------------------------------
+# ---- structs and functions --------------------------------------------------------------------------------------
+
+_TYPES: dict[str, Any] = {
+    "none": None, "pointer": ctypes.c_void_p, "text": ctypes.c_char_p, "size": ctypes.c_size_t, "int": ctypes.c_int,
+    "unsigned": ctypes.c_uint, "float": ctypes.c_float, "double": ctypes.c_double,
+}  # fmt: skip
 
 
-def _struct(name: str, *members: Any) -> Any:
-    """A ctypes structure with these (name, type) members, called `name` in C."""
-    return type(name, (ctypes.Structure,), {"_fields_": list(members)})
-
-
-def _floats(*names: str) -> list[Any]:
-    return [(name, c_float) for name in names]
-
-
-def _arrays(*names: str) -> list[Any]:
-    return [(name, c_void_p) for name in names]
+def _struct(name: str, members: str) -> Any:
+    """A ctypes structure, called `name` in C. `members` is "type name name[count] ...; type name ..."."""
+    fields: list[Any] = []
+    for line in members.split(";"):
+        kind, *names = line.split()
+        for member in names:
+            plain, _, count = member.rstrip("]").partition("[")
+            fields.append((plain, _TYPES[kind] * int(count) if count else _TYPES[kind]))
+    _TYPES[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
+    return _TYPES[name]
 
 
 MIXTURE_LOBES = 8
 WAVELENGTHS = 4
 SHARED_ALPHA, SHARED_WI, SHARED_WEIGHT = 1, 2, 4
 
-vndf_error = _struct("vndf_error", ("status", c_int), ("message", c_char * 512))
+progress_function = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_char_p, ctypes.c_void_p)
+density_function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)
+_TYPES.update(progress=progress_function, density=density_function, char=ctypes.c_char)
+
+vndf_error = _struct("vndf_error", "int status; char message[512]")
 vndf_certificate = _struct(
     "vndf_certificate",
-    *_floats("tv", "tv_theta", "tv_above", "tv_above_theta", "max_weight", "weight_bounded", "area_error"),
-    *_floats("consistency", "ndf_error", "hidden", "finest", "horizon_power"),
+    "float tv tv_theta tv_above tv_above_theta max_weight weight_bounded area_error consistency ndf_error hidden finest "
+    "horizon_power",
 )
 vndf_info = _struct(
     "vndf_info",
-    ("source", c_char_p), ("tool", c_char_p), ("bytes", c_size_t), ("memory", c_size_t), ("cells", c_size_t),
-    ("moments", c_int), ("normalization", c_double), ("scale", c_double), ("certificate", vndf_certificate),
-)  # fmt: skip
-vndf_normals = _struct("vndf_normals", *_arrays("x", "y", "z"))
-_batch_begin = [("count", c_size_t), ("shared", c_uint), ("limit", c_int)]
+    "text source tool; size bytes memory cells; int moments; double normalization scale; vndf_certificate certificate",
+)
+vndf_normals = _struct("vndf_normals", "pointer x y z")
 vndf_batch = _struct(
-    "vndf_batch",
-    ("distribution", c_void_p), *_batch_begin, *_arrays("alpha_x", "alpha_y", "wi_x", "wi_y", "wi_z"),
-)  # fmt: skip
-_shape_arrays = ["xx", "xy", "yx", "yy", "mean_x", "mean_y"]
+    "vndf_batch", "pointer distribution; size count; unsigned shared; int limit; pointer alpha_x alpha_y wi_x wi_y wi_z"
+)
 vndf_affine_batch = _struct(
     "vndf_affine_batch",
-    ("distribution", c_void_p), *_batch_begin, *_arrays(*_shape_arrays, "wi_x", "wi_y", "wi_z"),
-)  # fmt: skip
-vndf_lobe_batch = _struct("vndf_lobe_batch", ("distribution", c_void_p), *_arrays(*_shape_arrays, "weight"))
+    "pointer distribution; size count; unsigned shared; int limit; "
+    "pointer xx xy yx yy mean_x mean_y wi_x wi_y wi_z",
+)
+vndf_lobe_batch = _struct("vndf_lobe_batch", "pointer distribution xx xy yx yy mean_x mean_y weight")
 vndf_mixture_batch = _struct(
     "vndf_mixture_batch",
-    *_batch_begin, *_arrays("wi_x", "wi_y", "wi_z"), ("lobes", c_int), ("lobe", vndf_lobe_batch * MIXTURE_LOBES),
-)  # fmt: skip
-vndf_affine = _struct("vndf_affine", ("distribution", c_void_p), *_floats(*_shape_arrays))
-vndf_mixture_lobe = _struct("vndf_mixture_lobe", ("surface", vndf_affine), ("weight", c_float))
-vndf_mixture = _struct("vndf_mixture", ("count", c_int), ("lobe", vndf_mixture_lobe * MIXTURE_LOBES))
+    "size count; unsigned shared; int limit; pointer wi_x wi_y wi_z; int lobes; vndf_lobe_batch lobe[8]",
+)
+vndf_affine = _struct("vndf_affine", "pointer distribution; float xx xy yx yy mean_x mean_y")
+vndf_mixture_lobe = _struct("vndf_mixture_lobe", "vndf_affine surface; float weight")
+vndf_mixture = _struct("vndf_mixture", "int count; vndf_mixture_lobe lobe[8]")
 vndf_family_facts = _struct(
     "vndf_family_facts",
-    ("source", c_char_p), ("tool", c_char_p), ("bytes", c_size_t), ("memory", c_size_t), ("count", c_size_t),
-    *_floats("low", "high"), ("reciprocal", c_int), *_floats("distance", "grazing"),
-)  # fmt: skip
-
-progress_function = ctypes.CFUNCTYPE(c_int, c_double, c_char_p, c_void_p)
-density_function = ctypes.CFUNCTYPE(c_double, c_double, c_void_p)
-
-vndf_parameter = _struct("vndf_parameter", ("name", c_char_p), ("value", c_double))
+    "text source tool; size bytes memory count; float low high; int reciprocal; float distance grazing",
+)
+vndf_parameter = _struct("vndf_parameter", "text name; double value")
 vndf_build_options = _struct(
     "vndf_build_options",
-    ("max_bytes", c_size_t), ("max_tv", c_double), ("progress", progress_function), ("progress_user", c_void_p),
-    ("breaks", c_void_p), ("break_count", c_size_t), ("finest", c_double), ("moments", c_int),
-)  # fmt: skip
+    "size max_bytes; double max_tv; progress progress; pointer progress_user breaks; size break_count; double finest; "
+    "int moments",
+)
 vndf_family_options = _struct(
     "vndf_family_options",
-    ("max_distance", c_double), ("knots", c_size_t), ("max_bytes", c_size_t), ("moments", c_int),
-    ("progress", progress_function), ("progress_user", c_void_p),
-)  # fmt: skip
-
-EFFECTS = ["lobes", "fresnel", "masking", "normals", "scattering", "transport", "shape", "reflection"]
-vndf_effects = _struct("vndf_effects", *[(name, c_int) for name in EFFECTS])
+    "double max_distance; size knots max_bytes; int moments; progress progress; pointer progress_user",
+)
+vndf_effects = _struct("vndf_effects", "int lobes fresnel masking normals scattering transport shape reflection")
 vndf_description = _struct(
     "vndf_description",
-    ("distribution", c_void_p), ("effects", vndf_effects), *_floats("alpha_x", "alpha_y", "rotation"),
-    ("affine", vndf_affine), ("mixture", c_void_p), ("wavelengths", c_int), ("albedo", c_void_p), ("eta", c_float),
-    ("f0", c_float * WAVELENGTHS), ("conductor_eta", c_float * WAVELENGTHS), ("conductor_k", c_float * WAVELENGTHS),
-    ("order_limit", c_uint),
-)  # fmt: skip
-vndf_roughness = _struct("vndf_roughness", *_floats("alpha_x", "alpha_y", "cos_rotation", "sin_rotation"))
+    "pointer distribution; vndf_effects effects; float alpha_x alpha_y rotation; vndf_affine affine; pointer mixture; "
+    "int wavelengths; pointer albedo; float eta f0[4] conductor_eta[4] conductor_k[4]; unsigned order_limit",
+)
 vndf_material = _struct(
     "vndf_material",
-    ("is", vndf_description), *_arrays("routines", "specular", "single", "normals", "fresnel", "masking"),
-    ("surface", vndf_affine), *_floats("cos_rotation", "sin_rotation"), ("per_wavelength", c_double),
-    ("reflectance0", c_float * WAVELENGTHS), ("reflectance", c_float * WAVELENGTHS), ("two_sided", c_int),
-)  # fmt: skip
+    "vndf_description is; pointer routines specular single; vndf_affine surface; "
+    "float cos_rotation sin_rotation; double per_wavelength; float reflectance0[4] reflectance[4]; int two_sided",
+)
 vndf_bsdf_batch = _struct(
     "vndf_bsdf_batch",
-    ("material", c_void_p), *_batch_begin, *_arrays("alpha_x", "alpha_y", "cos_rotation", "sin_rotation"),
-    *_arrays("affine", "mixture", "wi_x", "wi_y", "wi_z"),
-)  # fmt: skip
+    "pointer material; size count; unsigned shared; int limit; "
+    "pointer alpha_x alpha_y cos_rotation sin_rotation affine mixture wi_x wi_y wi_z",
+)
 vndf_scattered_n = _struct(
-    "vndf_scattered_n",
-    ("wo", vndf_normals), ("weight", c_void_p * WAVELENGTHS), ("density", c_void_p), ("lobe", c_void_p),
-    ("wm", vndf_normals),
-)  # fmt: skip
+    "vndf_scattered_n", "vndf_normals wo; pointer weight[4] density lobe; vndf_normals wm"
+)
 
-# ---- functions --------------------------------------------------------------------------------------------------
-
-_error = POINTER(vndf_error)
-_p, _f, _d, _s, _i, _n = c_void_p, c_float, c_double, c_char_p, c_int, vndf_normals
-
-#: name in C without "vndf_": (result, arguments)
-_FUNCTIONS: dict[str, tuple[Any, list[Any]]] = {
-    "version": (_s, []),
-    "load": (_p, [_s, _error]),
-    "load_memory": (_p, [_p, c_size_t, _error]),
-    "free": (None, [_p]),
-    "ggx": (_p, []),
-    "beckmann": (_p, []),
-    "distribution_info": (vndf_info, [_p]),
-    "numbers": (c_size_t, [_p, _p, c_size_t]),
-    "sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
-    "affine_sample_weight_n": (None, [_p, _p, _p, _n, _p, _p]),
-    "instructions_used": (_i, [_i]),
-    "family_load": (_p, [_s, _error]),
-    "family_load_memory": (_p, [_p, c_size_t, _error]),
-    "family_of": (_p, [_p, _p, c_size_t, _error]),
-    "family_free": (None, [_p]),
-    "family_info": (vndf_family_facts, [_p]),
-    "family_parameter": (_f, [_p, c_size_t]),
-    "family_distribution": (_p, [_p, c_size_t]),
-    "family_distance": (_f, [_p, c_size_t]),
-    "family_at": (_i, [_p, _f, _p, _p]),
-    # vndf_build.h
-    "source_ndf_expression": (_p, [_s, _p, c_size_t, _error]),
-    "source_slope_expression": (_p, [_s, _p, c_size_t, _error]),
-    "source_csv_file": (_p, [_s, _error]),
-    "source_rows": (_p, [_i, _i, _p, _p, c_size_t, _s, _error]),
-    "source_family": (_p, [_s, _error]),
-    "source_ndf_callback": (_p, [density_function, _p, _s, _error]),
-    "source_slope_callback": (_p, [density_function, _p, _s, _error]),
-    "source_of": (_p, [_p, _error]),
-    "source_p22": (_d, [_p, _d]),
-    "source_description": (_s, [_p]),
-    "source_free": (None, [_p]),
-    "family_help": (_s, []),
-    "family_material": (_s, [c_size_t]),
-    "build": (_p, [_p, _p, _p, _error]),
-    "certify": (_i, [_p, _p, _p, _error]),
-    "save": (_i, [_p, _s, _error]),
-    "save_memory": (_i, [_p, _p, c_size_t, _error]),
-    "build_family": (_p, [_s, _d, _d, _p, _error]),
-    "family_save": (_i, [_p, _s, _error]),
-    "family_save_memory": (_i, [_p, _p, c_size_t, _error]),
-    "albedo_build": (_p, [_p, _f, _error]),
-    "albedo_free": (None, [_p]),
-    "albedo_directional": (_f, [_p, _f, _f]),
-    "albedo_average": (_f, [_p, _f, _i]),
-    # vndf_bsdf.h
-    "material_resolve": (_i, [_p, _p, _error]),
-    "bsdf_sample_n": (None, [_p, _p, vndf_scattered_n]),
-    "bsdf_eval_n": (None, [_p, _n, _p, _p]),
-    "bsdf_pdf_n": (None, [_p, _n, _p]),
-    "bsdf_eval_pdf_n": (None, [_p, _n, _p, _p, _p]),
+#: names in C without "vndf_", by their types: the result, then arguments; an error comes last
+_FUNCTIONS = {
+    "pointer": "ggx beckmann",
+    "text": "version family_help",
+    "none pointer": "free family_free source_free albedo_free",
+    "vndf_info pointer": "distribution_info",
+    "vndf_family_facts pointer": "family_info",
+    "text pointer": "source_description",
+    "text size": "family_material",
+    "float pointer size": "family_parameter",
+    "pointer pointer size": "family_distribution",
+    "float pointer float float": "albedo_directional",
+    "float pointer float int": "albedo_average",
+    "double pointer double": "source_p22",
+    "size pointer pointer size": "numbers",
+    "int pointer float pointer pointer": "family_at",
+    "pointer text error": "load family_load source_csv_file source_family",
+    "pointer pointer size error": "load_memory family_load_memory",
+    "pointer pointer pointer size error": "family_of",
+    "pointer pointer error": "source_of",
+    "pointer pointer float error": "albedo_build",
+    "pointer text pointer size error": "source_ndf_expression source_slope_expression",
+    "pointer density pointer text error": "source_ndf_callback source_slope_callback",
+    "pointer int int pointer pointer size text error": "source_rows",
+    "pointer pointer pointer pointer error": "build",
+    "pointer text double double pointer error": "build_family",
+    "int pointer pointer error": "material_resolve",
+    "int pointer pointer pointer error": "certify",
+    "int pointer text error": "save family_save",
+    "int pointer pointer size error": "save_memory family_save_memory",
+    "none pointer pointer": "{}projected_area_n {}lambda_n {}g1_n",
+    "none pointer vndf_normals pointer": "{}pdf_n {}visible_n {}ndf_n bsdf_pdf_n",
+    "none pointer pointer pointer vndf_normals pointer": "sample_n affine_sample_n",
+    "none pointer pointer pointer vndf_normals pointer pointer": "sample_weight_n affine_sample_weight_n mixture_sample_n",
+    "none pointer vndf_normals pointer pointer": "invert_n affine_invert_n bsdf_eval_n",
+    "none pointer vndf_normals pointer pointer pointer": "bsdf_eval_pdf_n",
+    "none pointer vndf_normals pointer pointer pointer pointer": "mixture_invert_n",
+    "none pointer pointer vndf_scattered_n": "bsdf_sample_n",
 }
-for _prefix in ("", "affine_", "mixture_"):
-    _lobe = [_p] if _prefix == "mixture_" else []
-    _FUNCTIONS[_prefix + "sample_n"] = (None, [_p, _p, _p, _n, _p, *_lobe])
-    _FUNCTIONS[_prefix + "invert_n"] = (None, [_p, _n, *_lobe, _p, _p, *_lobe])
-    for _name in ("pdf", "visible", "ndf"):
-        _FUNCTIONS[f"{_prefix}{_name}_n"] = (None, [_p, _n, _p])
-    for _name in ("projected_area", "lambda", "g1"):
-        _FUNCTIONS[f"{_prefix}{_name}_n"] = (None, [_p, _p])
+_TYPES["error"] = ctypes.POINTER(vndf_error)
 
 
 def _path() -> str:
@@ -230,14 +194,17 @@ class _Library:
     def __init__(self) -> None:
         path = _path()
         dll = ctypes.CDLL(path)
-        dll.vndf_version.restype = c_char_p
+        dll.vndf_version.restype = ctypes.c_char_p
         version = dll.vndf_version().decode()
         if version != __version__:
             raise ImportError(f"{path} is version {version}, but this package is for version {__version__}")
-        for name, (result, arguments) in _FUNCTIONS.items():
-            function = dll["vndf_" + name]
-            function.restype, function.argtypes = result, arguments
-            setattr(self, name, function)
+        for types, names in _FUNCTIONS.items():
+            result, *arguments = (_TYPES[kind] for kind in types.split())
+            of_all = {name.format(prefix) for name in names.split() for prefix in ("", "affine_", "mixture_")}
+            for name in of_all:
+                function = dll["vndf_" + name]
+                function.restype, function.argtypes = result, arguments
+                setattr(self, name, function)
 
     def __getattr__(self, name: str) -> Any:  # for type checkers: all functions are set above
         raise AttributeError(name)

@@ -29,9 +29,11 @@ every sample, a hundred times slower than Mitsuba's own plugins, of which `regis
 """
 from __future__ import annotations
 
+import functools
 import math
+import operator
 import warnings
-from typing import Any, Union
+from typing import Any, NamedTuple, Union
 
 import drjit as dr
 import mitsuba as mi
@@ -175,24 +177,28 @@ class _Hit:
         views = [law.view(x, y, w) for law, (x, y, _) in zip(self._laws, self._shapes)]
         return views, sum(weight * view.area for weight, view in zip(self._weights, views))
 
-    def sample(self, views: list[Any], area: Any, u1: Any, u2: Any) -> tuple[Any, Any]:
+    def _shares(self, views: list[Any]) -> list[Any]:
+        parts = [weight * view.drawn for weight, view in zip(self._weights, views)]
+        total = sum(parts)
+        return [dr.select(total > 0.0, part / total, 0.0) for part in parts]
+
+    def sample(self, views: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal, and the density of all lobes together."""
         if len(views) == 1:
             return self._laws[0].sample(views[0], u1, u2)
         before: Any = 0.0
         wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (law, view, weight) in enumerate(zip(self._laws, views, self._weights)):
-            share = dr.select(area > 0.0, weight * view.area / area, 0.0)
+        for i, (law, view, share) in enumerate(zip(self._laws, views, self._shares(views))):
             last = i + 1 == len(views)
             here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
             u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
             wm = dr.select(here, law.sample(view, u, u2)[0], wm)
             before = before + share
-        return wm, self.pdf(views, area, wm)
+        return wm, self.pdf(views, wm)
 
-    def pdf(self, views: list[Any], area: Any, wm: Any) -> Any:
-        parts = zip(self._laws, views, self._weights)
-        return sum(weight * view.area * law.pdf(view, wm) for law, view, weight in parts) / area
+    def pdf(self, views: list[Any], wm: Any) -> Any:
+        parts = zip(self._laws, views, self._shares(views))
+        return sum(share * law.pdf(view, wm) for law, view, share in parts)
 
     def ndf(self, wm: Any) -> Any:
         parts = zip(self._laws, self._shapes, self._weights)
@@ -219,6 +225,18 @@ def _up(w: Any) -> Any:
     return dr.mulsign(w, w.z)
 
 
+class _Optics(NamedTuple):
+    """What a facet does with the light of one cosine."""
+
+    reflected: Any  # a spectrum
+    transmitted: Any = None  # another; None: nothing
+    chance: Any = 1.0  # of a sample to be reflected
+    fresnel: Any = 0.0  # its reflectance without colours
+    refracted: Any = 0.0  # the other cosine
+    eta: Any = 1.0  # index beyond over that before
+    eta_back: Any = 1.0
+
+
 def register() -> None:
     """Registers "vndf_conductor" and "vndf_dielectric" for the variant of Mitsuba that is set."""
     if mi.is_polarized:
@@ -227,11 +245,91 @@ def register() -> None:
         warnings.warn(f"{mi.variant()} runs Python for every sample; llvm variants do not", stacklevel=2)
 
     class Rough(mi.BSDF):
-        """What both have in common; `_look` gives value and density."""
+        """One event at a facet. Subclasses say which lobes there are, and what facets do with the light."""
 
-        def __init__(self, props: Any) -> None:
+        def __init__(self, props: Any, *flags: Any) -> None:
             super().__init__(props)
             self._surface = _Microsurface(props)
+            self.m_components = [flag | mi.BSDFFlags.Anisotropic for flag in flags]
+            self.m_flags = functools.reduce(operator.or_, self.m_components)
+
+        def _lobes(self, ctx: Any) -> tuple[bool, bool]:
+            """Whether reflection and transmission are there and asked for."""
+            lobes = (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.GlossyTransmission)
+            both = [i < len(self.m_components) and ctx.is_enabled(lobe, i) for i, lobe in enumerate(lobes)]
+            return both[0], both[1]
+
+        def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
+            raise NotImplementedError
+
+        def _seen(self, si: Any) -> Any:
+            """Whether there is anything from the side of wi."""
+            return si.wi.z != 0.0 if len(self.m_components) == 2 else si.wi.z > 0.0
+
+        def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
+            bs = dr.zeros(mi.BSDFSample3f)
+            active = mi.Bool(active) & self._seen(si) & any(self._lobes(ctx))
+            hit = _Hit(self._surface, si, active)
+            wi = hit.turned(si.wi)
+            views, area = hit.seen_from(_up(wi))
+            wm, density = hit.sample(views, sample2.x, sample2.y)
+            wm = dr.mulsign(wm, wi.z)  # on the side of wi
+            facing = dr.dot(wi, wm)
+            optics = self._optics(ctx, si, facing, active)
+            reflects = (sample1 < optics.chance) | (optics.chance >= mi.Float(1.0))
+            wo = 2.0 * facing * wm - wi
+            if optics.transmitted is not None:
+                through = mi.refract(wi, mi.Normal3f(wm), optics.refracted, optics.eta_back)
+                wo = dr.select(reflects, wo, through)
+            active = active & (reflects | (optics.fresnel < 1.0)) & (dr.select(reflects, wi.z, -wi.z) * wo.z > 0.0)
+            bs.wo = hit.turned(mi.Vector3f(wo), -1.0)
+            bs.eta = dr.select(reflects, 1.0, optics.eta)
+            bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
+            kinds = (mi.UInt32(+flag) for flag in (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.GlossyTransmission))
+            bs.sampled_type = dr.select(reflects, *kinds)
+            value, per_wm = self._shape(ctx, hit, wi, wo, wm, optics, area, reflects)
+            pdf = density * per_wm
+            active = active & (pdf > 0.0)
+            bs.pdf = dr.select(active, pdf, 0.0)
+            return bs, (value / dr.select(active, pdf, 1.0)) & active
+
+        def _shape(self, ctx: Any, hit: Any, wi: Any, wo: Any, wm: Any, optics: _Optics, area: Any,
+                   reflects: Any) -> tuple[Any, Any]:  # fmt: skip
+            """f |cos_o|, and the density of wo per density of wm."""
+            facing, leaving, eta = dr.dot(wi, wm), dr.dot(wo, wm), optics.eta
+            g2 = hit.g2(area, abs(wi.z), hit.seen_from(_up(wo))[1], abs(wo.z), reflects)
+            common = hit.ndf(_up(wm)) * g2 / abs(wi.z)
+            value, per_wm = optics.reflected * 0.25 * common, optics.chance * (0.25 / abs(leaving))
+            if optics.transmitted is None:
+                return value, per_wm
+            under = facing + eta * leaving
+            bend = eta * eta * abs(leaving) / (under * under)
+            scale = 1.0 / (eta * eta) if ctx.mode == mi.TransportMode.Radiance else 1.0
+            value = dr.select(reflects, value, optics.transmitted * (facing * bend * scale * common))
+            return value, dr.select(reflects, per_wm, (1.0 - optics.chance) * bend)
+
+        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
+            reflects = si.wi.z * wo.z > 0.0
+            can_reflect, can_transmit = self._lobes(ctx)
+            active = mi.Bool(active) & self._seen(si) & (wo.z != 0.0)
+            active = active & dr.select(reflects, mi.Bool(can_reflect), mi.Bool(can_transmit))
+            hit = _Hit(self._surface, si, active)
+            wi, wo = hit.turned(si.wi), hit.turned(wo)
+            views, area = hit.seen_from(_up(wi))
+            eta = self._eta_from(wi)
+            wm = dr.fma(wo, dr.select(reflects, 1.0, eta), wi)
+            # As in C, a facet whose z the rounding of wo exceeds faces wi and has that z.
+            rounding = (1.0 + eta) * 1.2e-7
+            lost = (wi.z * wo.z < 0.0) & (abs(wm.z) < rounding)
+            wm.z = dr.select(lost, dr.mulsign(rounding, wi.z * dr.dot(wi, wm)), wm.z)
+            wm = dr.mulsign(dr.normalize(wm), wi.z * wm.z)  # on the side of wi
+            facing = dr.dot(wi, wm)
+            active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
+            value, per_wm = self._shape(ctx, hit, wi, wo, wm, self._optics(ctx, si, facing, active), area, reflects)
+            return value & active, dr.select(active, hit.pdf(views, _up(wm)) * per_wm, 0.0)
+
+        def _eta_from(self, wi: Any) -> Any:
+            return mi.Float(1.0)
 
         def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
             return self._look(ctx, si, wo, active)[0]
@@ -246,155 +344,52 @@ def register() -> None:
             for name, texture in self._surface.textures().items():
                 callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
 
-    class Conductor(Rough):
+        def to_string(self) -> str:
+            return f"{type(self).__name__}[{', '.join(lobe.name for lobe in self._surface.lobes)}]"
+
+    class vndf_conductor(Rough):
         def __init__(self, props: Any) -> None:
-            super().__init__(props)
+            super().__init__(props, mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide)
             optics: dict[str, Any] = {"type": "conductor"}
-            for name in ("eta", "k"):
-                if name in props:
-                    optics[name] = props.get_unbounded_texture(name)
+            optics.update({name: props.get_unbounded_texture(name) for name in ("eta", "k") if name in props})
             if "material" in props:
                 optics["material"] = props["material"]
             if "specular_reflectance" in props:
                 optics["specular_reflectance"] = props.get_texture("specular_reflectance", 1.0)
-            self._optics = mi.load_dict(optics)
-            flags = mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide | mi.BSDFFlags.Anisotropic
-            self.m_components = [flags]
-            self.m_flags = flags
+            self._smooth = mi.load_dict(optics)
 
-        def _fresnel(self, ctx: Any, si: Any, cosine: Any, active: Any) -> Any:
+        def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
             """By Mitsuba's smooth conductor, which knows materials and spectra."""
             facet = mi.SurfaceInteraction3f(si)
-            facet.wi = mi.Vector3f(dr.safe_sqrt(1.0 - cosine * cosine), 0.0, cosine)
-            return self._optics.sample(mi.BSDFContext(ctx.mode), facet, 0.0, mi.Point2f(0.0), active)[1]
-
-        def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
-            bs = dr.zeros(mi.BSDFSample3f)
-            active = mi.Bool(active) & (si.wi.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
-            hit = _Hit(self._surface, si, active)
-            wi = hit.turned(si.wi)
-            views, area = hit.seen_from(wi)
-            wm, density = hit.sample(views, area, sample2.x, sample2.y)
-            facing = dr.dot(wi, wm)
-            wo = mi.Vector3f(2.0 * facing * wm - wi)
-            bs.wo = hit.turned(wo, -1.0)
-            bs.pdf = density / (4.0 * facing)
-            bs.eta = 1.0
-            bs.sampled_component = mi.UInt32(0)
-            bs.sampled_type = mi.UInt32(+mi.BSDFFlags.GlossyReflection)
-            active = active & (wo.z > 0.0) & (bs.pdf > 0.0)
-            value = self._shape(hit, wi, wo, wm, area) / dr.select(bs.pdf > 0.0, bs.pdf, 1.0)
-            weight = self._fresnel(ctx, si, facing, active) * value
-            bs.pdf = dr.select(active, bs.pdf, 0.0)
-            return bs, weight & active
-
-        def _shape(self, hit: Any, wi: Any, wo: Any, wm: Any, area: Any) -> Any:
-            """f cos_o without Fresnel."""
-            g2 = hit.g2(area, wi.z, hit.seen_from(wo)[1], wo.z, True)
-            return hit.ndf(wm) * g2 / (4.0 * wi.z)
-
-        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
-            active = mi.Bool(active) & (si.wi.z > 0.0) & (wo.z > 0.0) & ctx.is_enabled(mi.BSDFFlags.GlossyReflection)
-            hit = _Hit(self._surface, si, active)
-            wi, wo = hit.turned(si.wi), hit.turned(wo)
-            views, area = hit.seen_from(wi)
-            wm = dr.normalize(wi + wo)
-            facing = dr.dot(wi, wm)
-            value = self._fresnel(ctx, si, facing, active) * self._shape(hit, wi, wo, wm, area)
-            pdf = hit.pdf(views, area, wm) / (4.0 * facing)
-            return value & active, dr.select(active, pdf, 0.0)
+            facet.wi = mi.Vector3f(dr.safe_sqrt(1.0 - facing * facing), 0.0, facing)
+            return _Optics(self._smooth.sample(mi.BSDFContext(ctx.mode), facet, 0.0, mi.Point2f(0.0), active)[1])
 
         def traverse(self, callback: Any) -> None:
             super().traverse(callback)
-            self._optics.traverse(callback)  # under Mitsuba's names: eta, k, specular_reflectance
+            self._smooth.traverse(callback)  # under Mitsuba's names: eta, k, specular_reflectance
 
-        def to_string(self) -> str:
-            return f"vndf_conductor[{', '.join(lobe.name for lobe in self._surface.lobes)}]"
-
-    class Dielectric(Rough):
+    class vndf_dielectric(Rough):
         def __init__(self, props: Any) -> None:
-            super().__init__(props)
+            sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide
+            through = mi.BSDFFlags.GlossyTransmission | mi.BSDFFlags.NonSymmetric
+            super().__init__(props, mi.BSDFFlags.GlossyReflection | sides, through | sides)
             self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
             if not self._eta > 0.0 or self._eta == 1.0:
                 raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
             self._colours = {name: props.get_texture(name, 1.0) if name in props else None
                              for name in ("specular_reflectance", "specular_transmittance")}  # fmt: skip
-            sides = mi.BSDFFlags.FrontSide | mi.BSDFFlags.BackSide | mi.BSDFFlags.Anisotropic
-            reflection = mi.BSDFFlags.GlossyReflection | sides
-            transmission = mi.BSDFFlags.GlossyTransmission | sides | mi.BSDFFlags.NonSymmetric
-            self.m_components = [reflection, transmission]
-            self.m_flags = reflection | transmission
 
-        def _enabled(self, ctx: Any) -> tuple[bool, bool]:
-            return (
-                ctx.is_enabled(mi.BSDFFlags.GlossyReflection, 0),
-                ctx.is_enabled(mi.BSDFFlags.GlossyTransmission, 1),
-            )
+        def _eta_from(self, wi: Any) -> Any:
+            return dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
 
-        def _colour(self, si: Any, reflects: Any, active: Any) -> Any:
+        def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
+            fresnel, refracted, eta, eta_back = mi.fresnel(facing, self._eta_from(si.wi))
             one = mi.Spectrum(1.0)
-            reflectance, transmittance = (one if t is None else t.eval(si, active) for t in self._colours.values())
-            return dr.select(reflects, reflectance, transmittance)
-
-        def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
-            bs = dr.zeros(mi.BSDFSample3f)
-            can_reflect, can_transmit = self._enabled(ctx)
-            active = mi.Bool(active) & (si.wi.z != 0.0) & (can_reflect or can_transmit)
-            hit = _Hit(self._surface, si, active)
-            wi = hit.turned(si.wi)
-            views, area = hit.seen_from(_up(wi))
-            wm, density = hit.sample(views, area, sample2.x, sample2.y)
-            wm = dr.mulsign(wm, wi.z)  # on the side of wi
-            facing = dr.dot(wi, wm)
-            r_i, cos_t, eta, eta_back = mi.fresnel(facing, dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta))
-            chance = r_i if can_reflect and can_transmit else mi.Float(1.0 if can_reflect else 0.0)
-            reflects = (sample1 < chance) | (chance >= 1.0)
-            wo = dr.select(reflects, 2.0 * facing * wm - wi, mi.refract(wi, mi.Normal3f(wm), cos_t, eta_back))
-            active = active & (reflects | (r_i < 1.0)) & (dr.select(reflects, wi.z, -wi.z) * wo.z > 0.0)
-            bs.wo = hit.turned(mi.Vector3f(wo), -1.0)
-            bs.eta = dr.select(reflects, 1.0, eta)
-            bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
-            bs.sampled_type = dr.select(
-                reflects, mi.UInt32(+mi.BSDFFlags.GlossyReflection), mi.UInt32(+mi.BSDFFlags.GlossyTransmission)
-            )
-            value, per_wm = self._shape(ctx, hit, wi, wo, wm, r_i, eta, area, reflects)
-            bs.pdf = density * dr.select(reflects, chance, 1.0 - chance) * per_wm
-            active = active & (bs.pdf > 0.0)
-            weight = self._colour(si, reflects, active) * (value / dr.select(active, bs.pdf, 1.0))
-            bs.pdf = dr.select(active, bs.pdf, 0.0)
-            return bs, weight & active
-
-        def _shape(self, ctx: Any, hit: Any, wi: Any, wo: Any, wm: Any, r_i: Any, eta: Any, area: Any,
-                   reflects: Any) -> tuple[Any, Any]:  # fmt: skip
-            """f |cos_o| without colours, and the density of wo per density of wm. `eta`: beyond over before."""
-            facing, leaving = dr.dot(wi, wm), dr.dot(wo, wm)
-            g2 = hit.g2(area, abs(wi.z), hit.seen_from(_up(wo))[1], abs(wo.z), reflects)
-            common = hit.ndf(_up(wm)) * g2 / abs(wi.z)
-            under = facing + eta * leaving
-            bend = eta * eta * abs(leaving) / (under * under)
-            scale = 1.0 / (eta * eta) if ctx.mode == mi.TransportMode.Radiance else 1.0
-            value = dr.select(reflects, 0.25 * r_i, (1.0 - r_i) * facing * bend * scale) * common
-            return value, dr.select(reflects, 0.25 / abs(leaving), bend)
-
-        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
-            can_reflect, can_transmit = self._enabled(ctx)
-            reflects = si.wi.z * wo.z > 0.0
-            active = mi.Bool(active) & (si.wi.z * wo.z != 0.0)
-            active = active & dr.select(reflects, mi.Bool(can_reflect), mi.Bool(can_transmit))
-            hit = _Hit(self._surface, si, active)
-            wi, wo = hit.turned(si.wi), hit.turned(wo)
-            views, area = hit.seen_from(_up(wi))
-            eta = dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
-            wm = dr.normalize(dr.fma(wo, dr.select(reflects, 1.0, eta), wi))
-            wm = dr.mulsign(wm, wi.z * wm.z)  # on the side of wi
-            facing = dr.dot(wi, wm)
-            active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
-            r_i = mi.fresnel(facing, eta)[0]
-            chance = r_i if can_reflect and can_transmit else 1.0
-            value, per_wm = self._shape(ctx, hit, wi, wo, wm, r_i, eta, area, reflects)
-            chance = dr.select(reflects, chance, 1.0 - r_i if can_reflect and can_transmit else 1.0)
-            pdf = hit.pdf(views, area, _up(wm)) * chance * per_wm
-            return (self._colour(si, reflects, active) * value) & active, dr.select(active, pdf, 0.0)
+            colours = [one if texture is None else texture.eval(si, active) for texture in self._colours.values()]
+            can_reflect, can_transmit = self._lobes(ctx)
+            chance = fresnel if can_reflect and can_transmit else mi.Float(1.0 if can_reflect else 0.0)
+            parts = colours[0] * fresnel, colours[1] * (1.0 - fresnel)
+            return _Optics(*parts, chance, fresnel, refracted, eta, eta_back)
 
         def traverse(self, callback: Any) -> None:
             super().traverse(callback)
@@ -402,8 +397,5 @@ def register() -> None:
                 if texture is not None:
                     callback.put(name, texture, +mi.ParamFlags.Differentiable)
 
-        def to_string(self) -> str:
-            return f"vndf_dielectric[{', '.join(lobe.name for lobe in self._surface.lobes)}, eta = {self._eta}]"
-
-    mi.register_bsdf("vndf_conductor", Conductor)
-    mi.register_bsdf("vndf_dielectric", Dielectric)
+    for kind in (vndf_conductor, vndf_dielectric):
+        mi.register_bsdf(kind.__name__, kind)
