@@ -63,18 +63,6 @@ static void put(const vndf_scattered_n *to, size_t i, const vndf_scattered *s, i
     to->lobe[i] = (uint8_t)s->lobe;
 }
 
-static void sample_one_by_one(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
-{
-    vndf_bsdf hit;
-    for (size_t i = 0; i < b->count; i++) {
-        const float own[3] = {u[0][i], u[1][i], u[2][i]};
-        vndf_scattered s;
-        step_to(b, i, &hit);
-        vndf_bsdf_sample(&hit, own, &s);
-        put(to, i, &s, b->material->is.wavelengths);
-    }
-}
-
 typedef struct block {
     float wi_x[BLOCK], wi_y[BLOCK], wi_z[BLOCK], x[BLOCK], y[BLOCK], z[BLOCK], density[BLOCK], weight[BLOCK];
 } block;
@@ -103,33 +91,28 @@ static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t
     vndf_sample_weight_n(&part, u[0] + first, u[1] + first, wm, to->density, to->weight);
 }
 
-static void sample_in_blocks(const vndf_bsdf_batch *b, const float *const u[3], const vndf_scattered_n *to)
+void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_scattered_n scattered)
 {
     const vndf_material *m = b->material;
+    int in_blocks = m->is.effects.shape == VNDF_SHAPE_ALIGNED && m->is.effects.normals == VNDF_NORMALS_VISIBLE &&
+                    m->routines->scatter;
     vndf_bsdf hit;
     block drawn;
     for (size_t i = 0; i < b->count; i++) {
         size_t at = i % BLOCK, rest = b->count - i;
+        const float own[3] = {u[0][i], u[1][i], u[2][i]};
         vndf_scattered s;
-        if (at == 0)
-            draw_block(b, u, i, rest < BLOCK ? rest : BLOCK, &drawn);
-        const vndf_drawn_normal n = {{drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
         step_to(b, i, &hit);
-        if (hit.material == m)
-            m->routines->scatter(&hit, &n, u[2][i], &s);
-        else
-            vndf_scatter_nothing(&s);
-        put(to, i, &s, m->is.wavelengths);
+        if (in_blocks && at == 0)
+            draw_block(b, u, i, rest < BLOCK ? rest : BLOCK, &drawn);
+        if (in_blocks && hit.material == m) {
+            const vndf_drawn_normal n = {
+                {drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
+            m->routines->scatter(&hit, &n, own[2], &s);
+        } else
+            vndf_bsdf_sample(&hit, own, &s);
+        put(&scattered, i, &s, m->is.wavelengths);
     }
-}
-
-void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_scattered_n scattered)
-{
-    const vndf_effects *e = &b->material->is.effects;
-    if (e->shape == VNDF_SHAPE_ALIGNED && e->normals == VNDF_NORMALS_VISIBLE && b->material->routines->scatter)
-        sample_in_blocks(b, u, &scattered);
-    else
-        sample_one_by_one(b, u, &scattered);
 }
 
 /* ---- values and densities ---- */

@@ -12,6 +12,13 @@ static void set_all(double f[VNDF_WAVELENGTHS], double value)
         f[i] = value;
 }
 
+/* Apart, since it wants many registers. */
+VNDF_RARE void reflect_conductor(const vndf_description *is, double facing, double f[VNDF_WAVELENGTHS])
+{
+    for (int i = 0; i < is->wavelengths; i++)
+        f[i] = conductor(facing, is->conductor_eta[i], is->conductor_k[i]);
+}
+
 /* Where light may pass Schlick's term takes the cosine in the thinner medium, so that reflection is total where that
  * has none, and the bare shape reflects what total reflection does. A conductor is seen from outside alone. */
 void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS])
@@ -19,16 +26,13 @@ void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double
     const vndf_description *is = &m->is;
     int transmits = is->effects.lobes != VNDF_LOBES_REFLECTION;
     switch (is->effects.fresnel) {
+    case VNDF_FRESNEL_DIELECTRIC: set_all(f, dielectric(c.facing, eta)); return;
+    case VNDF_FRESNEL_CONDUCTOR: reflect_conductor(is, c.facing, f); return;
     case VNDF_FRESNEL_SCHLICK:
         c.rest = transmits && eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
         for (int i = 0; i < is->wavelengths; i++)
             f[i] = schlick(c.rest, is->f0[i]);
         return;
-    case VNDF_FRESNEL_CONDUCTOR:
-        for (int i = 0; i < is->wavelengths; i++)
-            f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
-        return;
-    case VNDF_FRESNEL_DIELECTRIC: set_all(f, dielectric(c.facing, eta)); return;
     case VNDF_FRESNEL_NONE: set_all(f, transmits && refracted_square(c.facing, eta) > 0.0 ? 0.0 : 1.0);
     }
 }
@@ -66,33 +70,50 @@ VNDF_INLINE double area_of(const vndf_bsdf *b, const event *e)
     return (double)vndf_hit_area(&b->view, up_of(e));
 }
 
-static double by_height(const vndf_bsdf *b, const event *e, int reflects)
+VNDF_INLINE double by_height(const vndf_bsdf *b, const event *e, int reflects)
 {
     double area = area_of(b, e);
     return reflects ? masked_by_height((double)b->rise, e->rise, (double)b->area, area)
-                    : passed_by_height((double)b->rise, e->rise, (double)b->area, area);
+                    : passed_by_height((double)b->rise, e->rise, (double)b->area, area) * b->carried;
 }
 
-/* G of an event. */
-static double masked(const vndf_bsdf *b, const event *e, int reflects)
+/* G of an event; of transmission for radiance over r^2. */
+VNDF_INLINE double masked(const vndf_bsdf *b, const event *e, int reflects)
 {
-    double rise = (double)b->rise;
+    double rise = (double)b->rise, carried = reflects ? 1.0 : b->carried;
     switch (b->material->is.effects.masking) {
     case VNDF_MASKING_HEIGHT_CORRELATED: break;
-    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->area, area_of(b, e));
+    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->area, area_of(b, e)) * carried;
     case VNDF_MASKING_V_CAVITIES:
         return reflects ? masked_in_cavities(rise, e->rise, e->facing, e->wm.z)
-                        : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z);
-    case VNDF_MASKING_NONE: return 1.0 / (rise * e->rise);
+                        : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z) * carried;
+    case VNDF_MASKING_NONE: return 1.0 / (rise * e->rise) * carried;
     }
     return by_height(b, e, reflects);
 }
 
+/* The same in few registers: `look` has many numbers to keep. */
+VNDF_RARE double masked_aside(const vndf_bsdf *b, const event *e, int reflects)
+{
+    return masked(b, e, reflects);
+}
+
 /* ---- normals ---- */
 
-VNDF_RARE vndf_drawn_normal draw_in_mixture(const vndf_bsdf *b, float u1, float u2)
+VNDF_INLINE int sees_one_surface(const vndf_bsdf *b)
+{
+    return b->view.kind != VNDF_HIT_MIXTURE && b->material->is.effects.normals == VNDF_NORMALS_VISIBLE;
+}
+
+VNDF_RARE vndf_drawn_normal draw_otherwise(const vndf_bsdf *b, float u1, float u2)
 {
     vndf_drawn_normal n;
+    switch (b->material->is.effects.normals) {
+    case VNDF_NORMALS_VISIBLE: break;
+    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->view.of.one, u1, u2);
+    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->view.of.one, u1, u2);
+    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->view.of.one, u1, u2);
+    }
     n.wm = vndf_mixture_sample(&b->view.of.mixture, u1, u2, &n.density, NULL);
     n.weight = n.density > 0.0f ? vndf_mixture_visible(&b->view.of.mixture, n.wm) / n.density : 0.0f;
     return n;
@@ -100,28 +121,23 @@ VNDF_RARE vndf_drawn_normal draw_in_mixture(const vndf_bsdf *b, float u1, float 
 
 VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
-    if (b->view.kind == VNDF_HIT_MIXTURE)
-        return draw_in_mixture(b, u1, u2);
-    switch (b->material->is.effects.normals) {
-    case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->view.of.one, u1, u2);
-    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->view.of.one, u1, u2);
-    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->view.of.one, u1, u2);
-    }
-    return vndf_sample_visible(&b->view.of.one, u1, u2);
+    return sees_one_surface(b) ? vndf_sample_visible(&b->view.of.one, u1, u2) : draw_otherwise(b, u1, u2);
 }
 
-VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
+VNDF_RARE float pdf_otherwise(const vndf_bsdf *b, vndf_vec3 wm)
 {
-    if (b->view.kind == VNDF_HIT_MIXTURE)
-        return vndf_mixture_pdf(&b->view.of.mixture, wm);
     switch (b->material->is.effects.normals) {
     case VNDF_NORMALS_VISIBLE: break;
     case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&b->view.of.one, wm);
     case VNDF_NORMALS_ALL: return vndf_pdf_all(&b->view.of.one, wm);
     case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&b->view.of.one, wm);
     }
-    return vndf_pdf(&b->view.of.one, wm);
+    return vndf_mixture_pdf(&b->view.of.mixture, wm);
+}
+
+VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
+{
+    return sees_one_surface(b) ? vndf_pdf(&b->view.of.one, wm) : pdf_otherwise(b, wm);
 }
 
 /* ---- samples ---- */
@@ -133,20 +149,21 @@ VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e)
 }
 
 /* Completes a sample of an event; `part` of the samples take its lobe. f NULL: 1 of all wavelengths. */
-VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, const event *e, double masked,
-                               const double f[VNDF_WAVELENGTHS], double part, vndf_lobe lobe, vndf_scattered *s)
+VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, const event *e, const double *f,
+                               double part, vndf_lobe lobe, const int bare, vndf_scattered *s)
 {
-    int reflects = lobe == VNDF_LOBE_REFLECTION;
-    double whole = masked * e->rise * ((double)b->area * (double)n->weight);
+    int reflects = lobe == VNDF_LOBE_REFLECTION, count = b->material->is.wavelengths;
+    double g = bare ? by_height(b, e, 1) : masked(b, e, reflects);
+    double whole = g * e->rise * ((double)b->area * (double)n->weight);
     s->wo = vndf_turned(up_of(e), reflects ? b->side : -b->side);
     s->wm = vndf_turned(n->wm, b->side);
     s->density = lobe == VNDF_LOBE_STRAIGHT
                      ? 1.0f
                      : vndf_positive(vndf_density_from((double)n->density * e->jacobian * part));
     s->lobe = lobe;
-    float bare = f ? 0.0f : vndf_density_from(whole);
-    for (int i = 0, count = b->material->is.wavelengths; i < count; i++)
-        s->weight[i] = f ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : bare;
+    float alike = f ? 0.0f : vndf_density_from(whole);
+    for (int i = 0; i < count; i++)
+        s->weight[i] = f ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : alike;
 }
 
 /* The two lobes at a drawn normal. Bare reflection is height-correlated, without a Fresnel term; other reflection has
@@ -164,7 +181,7 @@ VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_co
         vndf_reflectances(b->material, c, b->eta, own);
         f = own;
     }
-    set_scattered(b, n, &e, bare ? by_height(b, &e, 1) : masked(b, &e, 1), f, part, VNDF_LOBE_REFLECTION, s);
+    set_scattered(b, n, &e, f, part, VNDF_LOBE_REFLECTION, bare, s);
 }
 
 VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
@@ -176,7 +193,7 @@ VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_c
         return;
     }
     vndf_lobe lobe = b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
-    set_scattered(b, n, &e, b->carried * masked(b, &e, 0), f, part, lobe, s);
+    set_scattered(b, n, &e, f, part, lobe, 0, s);
 }
 
 static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
@@ -228,14 +245,17 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
     vndf_vec3 wo = vndf_turned(given, b->side);
     float rise = vndf_hit_cosine(&b->view, wo);
     int reflects = rise > 0.0f;
-    vndf_see_nothing(b, value, pdf);
     if (!vndf_is_near_unit(wo) || !(rise != 0.0f) ||
-        lobes == (reflects ? VNDF_LOBES_TRANSMISSION : VNDF_LOBES_REFLECTION))
+        lobes == (reflects ? VNDF_LOBES_TRANSMISSION : VNDF_LOBES_REFLECTION)) {
+        vndf_see_nothing(b, value, pdf);
         return;
+    }
     direction from = vndf_direction(b->wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
     event e = reflects ? reflecting(from, to) : refracting(from, to, b->eta);
-    if (!e.met)
+    if (!e.met) {
+        vndf_see_nothing(b, value, pdf);
         return;
+    }
     double f[VNDF_WAVELENGTHS];
     vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
     e.rise = fabs((double)rise);
@@ -244,7 +264,8 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
         vndf_reflectances(m, c, b->eta, f);
     }
     if (value) {
-        double g = bare ? by_height(b, &e, 1) : reflects ? masked(b, &e, 1) : b->carried * masked(b, &e, 0);
+        const event at = e; /* what is pointed at leaves its registers */
+        double g = bare ? by_height(b, &e, 1) : masked_aside(b, &at, reflects);
         double shape = (double)b->tilt * (double)vndf_hit_ndf(&b->view, wm) * e.facing * e.jacobian * g;
         for (int i = 0; i < m->is.wavelengths; i++)
             value[i] = vndf_density_from(bare ? shape : shape * (reflects ? f[i] : 1.0 - f[i]));

@@ -88,7 +88,7 @@ static double other_depth(double depth)
 
 /* From one event to the next, away from `back`: 0 if the ray leaves. Depth changes by E |w.z|/A(back), down or up; if
  * the area underflows a ray that goes up leaves. */
-static int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
+VNDF_INLINE int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
 {
     double distance = -vndf_log(next_uniform(&r->random)), area = (double)vndf_view_area(&r->view, back);
     r->depth += distance * (double)back.z / area;
@@ -100,7 +100,7 @@ static int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
 }
 
 /* A ray that enters from far above. The seed is hashed, so that successive seeds give unrelated numbers. */
-static ray entering(const vndf_view *view, vndf_vec3 from, double eta, uint64_t seed)
+VNDF_INLINE ray entering(const vndf_view *view, vndf_vec3 from, double eta, uint64_t seed)
 {
     ray r = {from, *view, 0.0, {1.0, 1.0, 1.0, 1.0}, eta, 0, hash(seed + STEP)};
     r.depth = -vndf_log(next_uniform(&r.random)) * (double)from.z / (double)vndf_view_area(view, from);
@@ -108,7 +108,7 @@ static ray entering(const vndf_view *view, vndf_vec3 from, double eta, uint64_t 
 }
 
 /* Reflectances and their mean, with which reflection is chosen. */
-static double reflectances(const vndf_bsdf *b, double cosine, double eta, double f[VNDF_WAVELENGTHS])
+VNDF_INLINE double reflectances(const vndf_bsdf *b, double cosine, double eta, double f[VNDF_WAVELENGTHS])
 {
     double facing = cosine < 1.0 ? cosine : 1.0;
     vndf_reflectances(b->material, (seen_cosine){facing, 1.0 - facing}, eta, f);
@@ -117,21 +117,24 @@ static double reflectances(const vndf_bsdf *b, double cosine, double eta, double
 
 /* Scatters at the normal that u1 and u2 draw, into the lobe that u3 says; returns the way back along the new ray, in
  * the frame of the side it is on, whose length does not drift over many events. */
-static vndf_vec3 bounce(const vndf_bsdf *b, ray *r, float u1, float u2, double u3)
+VNDF_INLINE vndf_vec3 bounce(const vndf_bsdf *b, ray *r, float u1, float u2, double u3)
 {
     float weight;
     direction v = vndf_direction(r->from);
     direction wm = vndf_direction(vndf_sample_weight(&r->view, u1, u2, NULL, &weight));
     double f[VNDF_WAVELENGTHS], cosine = dot_of(v, wm), mean = reflectances(b, cosine, r->eta, f), chosen = 1.0;
     const seen_cosine c = {cosine, 1.0 - cosine};
-    event e = reflected_at(v, wm, c), through = refracted_at(v, wm, c, r->eta);
-    int reflected = !transmits(b) || !through.met || u3 < mean || !(mean < 1.0);
-    if (transmits(b))
+    event e = reflected_at(v, wm, c);
+    int reflected = 1;
+    if (transmits(b)) {
+        event through = refracted_at(v, wm, c, r->eta);
+        reflected = !through.met || u3 < mean || !(mean < 1.0);
         chosen = reflected ? mean : 1.0 - mean;
+        e = reflected ? e : through;
+    }
     for (int i = 0; i < b->material->is.wavelengths; i++)
         r->weight[i] *= (double)weight * (reflected ? f[i] : 1.0 - f[i]) / chosen;
     if (!reflected) {
-        e = through;
         r->eta = 1.0 / r->eta;
         r->turned = !r->turned;
         r->depth = other_depth(r->depth);
@@ -165,8 +168,8 @@ typedef struct scattered {
 } scattered;
 
 /* From v and its view to o, turned up, on its side or `across`; 0 where no light goes there. */
-static int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, double eta, vndf_vec3 o, int across,
-                   scattered *s)
+VNDF_INLINE int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, double eta, vndf_vec3 o,
+                        int across, scattered *s)
 {
     event e = across ? refracting(vndf_direction(v), vndf_direction(o), eta)
                      : reflecting(vndf_direction(v), vndf_direction(o));

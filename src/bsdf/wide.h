@@ -40,11 +40,6 @@ HERE mask both(mask a, mask b)
     return a & b;
 }
 
-HERE mask either(mask a, mask b)
-{
-    return a | b;
-}
-
 HERE int any(mask m)
 {
     return m;

@@ -112,9 +112,18 @@ static int hit_at(const vndf_bsdf_batch *b, const inputs *in, size_t i, vndf_bsd
     int seen = shape == VNDF_SHAPE_MIXTURE  ? vndf_bsdf_mixture(hit, m, b->mixture ? &in->mixture[at] : NULL, wi)
                : shape > VNDF_SHAPE_ROTATED ? vndf_bsdf_affine(hit, m, b->affine ? &in->affine[at] : NULL, wi)
                                             : vndf_bsdf_rough(hit, m, b->alpha_x ? &r : NULL, wi);
-    int is_rough = shape <= VNDF_SHAPE_ROTATED && b->alpha_x;
-    TEST(!seen || (is_direction(wi) &&
-                   (!is_rough || (sound(r.alpha_x) && sound(r.alpha_y) && r.alpha_x > 0 && r.alpha_y > 0))));
+    int is_rough = shape <= VNDF_SHAPE_ROTATED, is_affine = !is_rough && shape != VNDF_SHAPE_MIXTURE;
+    TEST(!seen || is_direction(wi));
+    TEST(!seen || !is_rough || !b->alpha_x ||
+         (sound(r.alpha_x) && sound(r.alpha_y) && r.alpha_x > 0 && r.alpha_y > 0));
+    const vndf_affine singular = {NULL, 1, 2, 2, 4, 0, 0}; /* calls for another shape, or for none */
+    vndf_mixture none = in->mixture[at];
+    vndf_bsdf other;
+    none.count = 0;
+    TEST(is_rough || !vndf_bsdf_rough(&other, m, &r, wi));
+    TEST(is_affine || !vndf_bsdf_affine(&other, m, &in->affine[at], wi));
+    TEST((!is_rough && !is_affine) || !vndf_bsdf_mixture(&other, m, &in->mixture[at], wi));
+    TEST(!vndf_bsdf_affine(&other, m, &singular, wi) && !vndf_bsdf_mixture(&other, m, &none, wi));
     return seen;
 }
 
@@ -206,36 +215,6 @@ static void test_material(const oracle_ndf *ndf, const vndf_effects *e, size_t n
     compare(&b, &in, &r, n % 4 > 0, lobes);
 }
 
-/* ---- calls for another shape ---- */
-
-static void test_other_shapes(const oracle_ndf *ndf)
-{
-    unsigned long long state = 3;
-    const vndf_vec3 wi = {0.6f, 0, 0.8f};
-    const vndf_roughness r = {0.3f, 0.3f, 1, 0};
-    const vndf_affine singular = {NULL, 1, 2, 2, 4, 0, 0};
-    for (int shape = 0; shape <= VNDF_SHAPE_MIXTURE; shape++) {
-        const vndf_effects e = {.shape = (vndf_shape)shape};
-        int is_affine = shape == VNDF_SHAPE_MATRIX || shape == VNDF_SHAPE_AFFINE,
-            is_mixture = shape > VNDF_SHAPE_AFFINE;
-        bsdf_subject s;
-        vndf_material m;
-        vndf_bsdf b;
-        bsdf_material(&s, ndf, 1, &e, &r.alpha_x, 1, &state);
-        s.is.mixture = NULL;
-        s.is.affine.mean_x = s.is.affine.mean_y = 0;
-        TEST(vndf_material_resolve(&s.is, &m, NULL) == VNDF_OK);
-        TEST(vndf_bsdf_rough(&b, &m, &r, wi) == (!is_affine && !is_mixture));
-        TEST(vndf_bsdf_affine(&b, &m, &s.is.affine, wi) == is_affine);
-        s.mixture.count = 1;
-        s.mixture.lobe[0].surface = s.is.affine;
-        s.mixture.lobe[0].surface.distribution = ndf->distribution;
-        TEST(vndf_bsdf_mixture(&b, &m, &s.mixture, wi) == is_mixture);
-        TEST(vndf_bsdf_at(&b, &m, wi) == !is_mixture); /* it brought none */
-        TEST(!vndf_bsdf_affine(&b, &m, &singular, wi));
-    }
-}
-
 int main(int arguments, char **argument)
 {
     static const char *const names[] = {"ggx", "beckmann", "student-t-2.5-small", "hazy"};
@@ -252,7 +231,6 @@ int main(int arguments, char **argument)
         }
         for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
             TEST(lobes[lobe] > 10);
-        test_other_shapes(&ndf);
         oracle_ndf_close(&ndf);
     }
     return test_done();

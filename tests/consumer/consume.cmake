@@ -31,6 +31,22 @@ function(run_consumer program tables)
     endif()
 endfunction()
 
+# The first example of README.md, which prints what is printed there.
+function(run_readme flags)
+    file(READ ${SOURCE}/README.md text)
+    string(REGEX REPLACE "^.*\n```c\n(#include <stdio.h>)" "\\1" example "${text}")
+    string(FIND "${example}" "```" end)
+    string(SUBSTRING "${example}" 0 ${end} example)
+    file(WRITE ${OUT}/example.c "${example}")
+    run("the table of README" ${VNDF} build --slope "exp(-3*r)*(1+0.8*cos(6*r))" -q -o ${OUT}/rings.vndf)
+    run("compiling README" ${C_COMPILER} ${OUT}/example.c -o ${OUT}/example ${flags})
+    execute_process(COMMAND ${OUT}/example WORKING_DIRECTORY ${OUT} OUTPUT_VARIABLE printed)
+    string(FIND "${text}" "a.out\n    ${printed}" at)
+    if(at EQUAL -1)
+        message(FATAL_ERROR "the example of README prints, other than it says:\n${printed}")
+    endif()
+endfunction()
+
 function(build_with_cmake)
     file(REMOVE_RECURSE ${OUT})
     run("configuring" ${CMAKE_COMMAND} -S ${SOURCE}/tests/consumer -B ${OUT} -G ${GENERATOR} -DWAY=${WAY}
@@ -67,6 +83,7 @@ function(build_with_pkg_config)
     run("compiling" ${${LANGUAGE}_COMPILER} ${SOURCE}/tests/consumer/${source} -o ${OUT}/consumer
         ${flags} -Wl,-rpath,${libdir})
     run_consumer(${OUT}/consumer ${tables})
+    run_readme("${flags};-Wl,-rpath,${libdir}")
 endfunction()
 
 if(WAY STREQUAL "pkg_config")

@@ -19,16 +19,14 @@
 
 #include "harness/test.h"
 
-enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16, RUN_NOBODY = 65534 };
+enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
 
 typedef struct run_setting {
     const char *in;     /* what stdin is opened from; NULL: /dev/null */
     const char *append; /* what stdout is appended to; NULL: `out` */
     int left;           /* a temporary of the same process number is there already */
-    int out,
-        input; /* descriptors in the place of stdout and stdin; 0: `text` of the outcome, as stderr, and `in` */
-    rlim_t file_limit; /* bytes of a file, for a full disk; 0: none */
-    int unprivileged;  /* becomes nobody if it is root, whom no folder refuses */
+    int out;            /* a descriptor in the place of stdout; 0: `text` of the outcome, as stderr */
+    rlim_t file_limit;  /* bytes of a file, for a full disk; 0: none */
     int ignores_pipe;
 } run_setting;
 
@@ -49,7 +47,7 @@ static inline int run_leave(void)
     return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
 }
 
-/* A limit, another user, and signals as a shell in the foreground leaves them. Whether that can be. */
+/* A limit, and signals as a shell in the foreground leaves them. Whether that can be. */
 static inline int run_limit(const run_setting *s)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -57,9 +55,7 @@ static inline int run_limit(const run_setting *s)
     for (int i = 0; i < 3; i++)
         signal(signals[i], SIG_DFL);
     signal(SIGPIPE, s->ignores_pipe ? SIG_IGN : SIG_DFL);
-    if (s->file_limit && setrlimit(RLIMIT_FSIZE, &limit) != 0)
-        return 0;
-    return !s->unprivileged || geteuid() != 0 || (setgid(RUN_NOBODY) == 0 && setuid(RUN_NOBODY) == 0);
+    return !s->file_limit || setrlimit(RLIMIT_FSIZE, &limit) == 0;
 }
 
 /* In the child; `said` is the pipe. */

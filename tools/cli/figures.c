@@ -135,8 +135,8 @@ void figures_end(figures *f)
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
-static const char *const forms[] = {"text", "csv", "md", "json",
-                                    NULL}; /* as figures_form and --format have them */
+/* As figures_form and --format have them. */
+static const char *const forms[] = {"text", "csv", "md", "json", NULL};
 
 static figures_form form_of_stdout(const arguments *given)
 {

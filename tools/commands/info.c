@@ -24,7 +24,7 @@ static const char *const help[] = {
     "  tv_theta       incident angle where it was found, degrees\n"
     "  tv_above, tv_above_theta    the same for directions from 0 to 90 degrees\n"
     "  max_weight     largest true/sampled density over all but 1e-6 of the mass\n"
-    "  weight_bounded yes if true/sampled is bounded everywhere\n"
+    "  weight_bounded  yes if true/sampled is bounded everywhere\n"
     "  area_error     largest relative error of the projected area, Lambda and G1\n"
     "  consistency    largest |integral of pdf - 1|\n"
     "  ndf_error      largest relative error of ndf over all but 1e-6 of the mass\n"

@@ -8,7 +8,7 @@
 
 #include "draw/table.h"
 
-enum { PAGE_FILES_MAX = 16, PAGE_NAME_MAX = 64 };
+enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
 
 typedef struct page_file {
     char name[PAGE_NAME_MAX];

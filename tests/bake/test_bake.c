@@ -1,0 +1,166 @@
+/* Baked tables hold what quadrature over slopes finds, for closed forms, haze and rings: DFG and energy to 1e-3, of GGX
+ * at alpha 1 also what is known exactly; a fitted cosine lights a rectangle as the BSDF does. Notices a Fresnel term
+ * in the wrong channel, axes that are swapped, a matrix that is not the inverse, weights that do not sum to 1, and
+ * half floats that are not the nearest. */
+#include "bake/files.h"
+#include "harness/constants.h"
+#include "harness/test.h"
+#include "oracle/oracle.h"
+
+static progress quiet;
+
+static bake_settings settings(const vndf_distribution *d, size_t size)
+{
+    quiet = progress_begin("test", 1);
+    bake_settings s = {.distribution = d, .size = size, .progress = &quiet};
+    return s;
+}
+
+/* At alpha 1 f of GGX is 1/(2 pi (cos_i + cos_o)), so E = 1 - mu log((1 + mu)/mu). */
+static void test_known(void)
+{
+    const bake_settings s = settings(vndf_ggx(), 4);
+    for (int i = 1; i <= 20; i++) {
+        double mu = i / 20.0;
+        TEST_NEAR(bake_direction(&s, 1, mu).all, 1 - mu * log((1 + mu) / mu), 5e-4);
+    }
+    /* 2 integral E mu dmu, by parts */
+    TEST_NEAR(bake_average(&s, 1, 0), 1 - 2.0 / 3 * log(2) - 2.0 / 3 * (0.5 - 1 + log(2)), 5e-4);
+}
+
+static void test_directions(const vndf_distribution *d)
+{
+    static const double alphas[] = {0.01, 0.1, 0.4, 0.9}, cosines[] = {0.03, 0.1, 0.5, 0.97};
+    for (int masking = 0; masking < 2; masking++) {
+        bake_settings s = settings(d, 4);
+        s.masking = masking ? VNDF_MASKING_SEPARABLE : VNDF_MASKING_HEIGHT_CORRELATED;
+        for (int k = 0; k < (test_quick() ? 4 : 16); k++) {
+            float alpha = (float)alphas[k % 4];
+            double cosine = cosines[(k + k / 4) % 4];
+            bake_sum got = bake_direction(&s, alpha, cosine), want = bake_reference(&s, alpha, cosine, 0);
+            TEST_NEAR(got.all, want.all, 1e-3);
+            TEST_NEAR(got.grazing, want.grazing, 1e-3);
+            TEST_NEAR(bake_glass(&s, alpha, cosine, 1.5), bake_reference(&s, alpha, cosine, 1.5).all, 1e-3);
+        }
+    }
+}
+
+/* Texels are where the axes say: one of each table by itself. */
+static void test_places(void)
+{
+    bake_settings s = settings(vndf_ggx(), 8);
+    baked_list list = {.count = 0};
+    TEST(bake_dfg(&s, &list) && bake_energy(&s, "cycles", &list) && bake_prefilter(&s, &list) && list.count == 8);
+    const float *dfg = list.table[0].value + 3 * (5 * 8 + 2), *prefilter = list.table[7].value;
+    bake_sum want = bake_direction(&s, bake_alpha(BAKE_SQUARE, 5.5 / 8), 2.5 / 8);
+    TEST_NEAR((double)dfg[0], want.all - want.grazing, 1e-6);
+    TEST_NEAR((double)dfg[1], want.grazing, 1e-6);
+    TEST(list.table[0].worst < 1e-3 && list.table[0].worst > 0);
+    TEST_NEAR((double)list.table[1].value[9 * 32 + 20],
+              bake_direction(&s, bake_alpha(BAKE_SQUARE, 20 / 31.0), 9 / 31.0).all, 1e-6);
+    double z = 6 / 15.0, eta = (1 + z * z) / (1 - z * z);
+    TEST_NEAR((double)list.table[3].value[(6 * 16 + 9) * 16 + 4],
+              bake_glass(&s, bake_alpha(BAKE_SQUARE, 4 / 15.0), 9 / 15.0, eta), 1e-6);
+    TEST_NEAR((double)list.table[5].value[(6 * 16 + 9) * 16 + 4],
+              bake_glass(&s, bake_alpha(BAKE_SQUARE, 4 / 15.0), 9 / 15.0, 1 / eta), 1e-6);
+    double sum = 0;
+    for (int k = 0; k < 32; k++)
+        sum += (double)prefilter[4 * (32 * 7 + k) + 2];
+    TEST_NEAR(sum, 1, 1e-5);
+    TEST(prefilter[3] < prefilter[4 * 32 * 7 + 3]); /* rougher taps are blurred more */
+    baked_free(&list);
+}
+
+/* ---- light from a rectangle ---- */
+
+/* The integral over a square of 2 x 2 at height 1, whose middle is `along` from above the point, of f cos and of the
+ * cosine. */
+static void light(const bake_settings *s, float alpha, double cosine, const bake_cosine *c, double along,
+                  double sum[2])
+{
+    enum { SIDE = 160 };
+    const vndf_description of = {.distribution = s->distribution, .alpha_x = alpha, .alpha_y = alpha};
+    vndf_material material;
+    vndf_error error;
+    vndf_bsdf hit;
+    const vndf_vec3 wi = {(float)sqrt(1 - cosine * cosine), 0, (float)cosine};
+    TEST(vndf_material_resolve(&of, &material, &error) == VNDF_OK && vndf_bsdf_at(&hit, &material, wi));
+    sum[0] = sum[1] = 0;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        double x = along + (i % SIDE + 0.5) * 2 / SIDE - 1, y = (i / SIDE + 0.5) * 2.0 / SIDE - 1;
+        double length = sqrt(x * x + y * y + 1), solid = 4.0 / (SIDE * SIDE) / (length * length * length);
+        const double wo[3] = {x / length, y / length, 1 / length};
+        const vndf_vec3 out = {(float)wo[0], (float)wo[1], (float)wo[2]};
+        float f[VNDF_WAVELENGTHS];
+        vndf_bsdf_eval(&hit, out, 0, f);
+        sum[0] += (double)f[0] * wo[2] * solid;
+        sum[1] += c->all * bake_cosine_density(c, wo) * solid;
+    }
+}
+
+/* The root of the mean square of the difference over that of the light itself. */
+static double light_error(const vndf_distribution *d)
+{
+    bake_settings s = settings(d, 8);
+    baked_list list = {.count = 0};
+    double wrong = 0, whole = 0;
+    TEST(bake_ltc(&s, &list) && list.count == 2);
+    for (int k = 0; k < 12 && list.count == 2; k++) {
+        const size_t rough = 3 + (size_t)k % 4, at = (size_t)k / 4 * 2;
+        const float *m = list.table[0].value + 4 * (at * 8 + rough),
+                    *n = list.table[1].value + 3 * (at * 8 + rough);
+        const bake_cosine c = {{(double)m[0], (double)m[2], 1, (double)m[1], (double)m[3]}, (double)n[0], 0, 0};
+        for (int j = 0; j < 5; j++) {
+            double sum[2];
+            light(&s, bake_alpha(BAKE_SQUARE, (double)rough / 7), 1 - (double)(at * at) / 49, &c, 1 - j, sum);
+            wrong += (sum[0] - sum[1]) * (sum[0] - sum[1]);
+            whole += sum[0] * sum[0];
+        }
+    }
+    baked_free(&list);
+    return sqrt(wrong / whole);
+}
+
+/* ---- half floats ---- */
+
+/* By its digits. */
+static double half_value(unsigned half)
+{
+    int exponent = (int)(half >> 10 & 31);
+    double part = half & 1023, size = exponent ? ldexp(1024 + part, exponent - 25) : ldexp(part, -24);
+    return half & 0x8000 ? -size : size;
+}
+
+static void test_halves(void)
+{
+    for (unsigned half = 0; half < 0x7c00; half++) {
+        double x = half_value(half), next = half + 1 < 0x7c00 ? half_value(half + 1) : 65536;
+        unsigned even = half & 1 ? half + 1 : half;
+        if (!(bake_half((float)x) == half && bake_half((float)-x) == (half | 0x8000) &&
+              bake_half((float)(0.51 * x + 0.49 * next)) == half &&
+              bake_half((float)(0.5 * x + 0.5 * next)) == even))
+            TEST(!"a half float is not the nearest");
+    }
+    TEST(bake_half(1e10f) == 0x7c00 && bake_half(-1e-10f) == 0x8000);
+}
+
+int main(void)
+{
+    vndf_error error;
+    vndf_distribution *haze = oracle_shipped("hazy"), *ring = oracle_build("exp(-20*(r-1)^2)", 0, NULL, &error);
+    if (!haze || !ring)
+        return 1;
+    const vndf_distribution *const all[] = {vndf_ggx(), vndf_beckmann(), haze, ring};
+    test_known();
+    for (int i = 0; i < 4; i++)
+        test_directions(all[i]);
+    test_places();
+    test_halves();
+    double errors[4];
+    for (int i = 0; i < 4; i++)
+        fprintf(stderr, "light of distribution %d: %.4f\n", i, errors[i] = light_error(all[i]));
+    TEST(errors[0] < 0.03 && errors[1] < 0.11 && errors[2] < 0.06 && errors[3] < 0.3);
+    vndf_free(haze);
+    vndf_free(ring);
+    return test_done();
+}

@@ -1,0 +1,68 @@
+# `vndf bake` writes the tables it is asked for in the forms it is asked for, the same bytes twice, and a page; refuses
+# wrong words with status 2 and a folder with other files in it, and leaves nothing behind.
+cmake_minimum_required(VERSION 3.16)
+
+include(${SOURCE}/tests/harness/program.cmake)
+
+set(command_words bake)
+
+run(0 ggx --what dfg,prefilter --size 8 one)
+has(output "largest error")
+run(0 ggx --what dfg,prefilter --size 8 --json two)
+has(output "\"name\": \"dfg\"")
+file(GLOB names RELATIVE ${OUT}/one ${OUT}/one/*)
+list(LENGTH names count)
+expect("one has ${names}" count EQUAL 13)
+foreach(name IN LISTS names)
+    file(SHA256 ${OUT}/one/${name} a)
+    file(SHA256 ${OUT}/two/${name} b)
+    expect("${name} differs the second time" a STREQUAL b)
+endforeach()
+# A header of 128 bytes and three numbers of four bytes for 64 texels; 148 bytes and four of two.
+file(SIZE ${OUT}/one/dfg.npy size)
+expect("dfg.npy has ${size} bytes" size EQUAL 896)
+file(READ ${OUT}/one/dfg.npy magic LIMIT 8 HEX)
+expect("dfg.npy begins with ${magic}" magic STREQUAL "934e554d50590100")
+file(SIZE ${OUT}/one/dfg.dds size)
+expect("dfg.dds has ${size} bytes" size EQUAL 660)
+file(READ ${OUT}/one/dfg.h text)
+has(text "static const float dfg[192] = {")
+has(text "// made by: vndf bake ggx --what dfg,prefilter --size 8")
+file(READ ${OUT}/one/dfg.glsl text)
+has(text "const float dfg[192] = float[192](")
+file(READ ${OUT}/one/index.html text)
+has(text "dfg.png")
+
+run(0 ggx --what ltc --size 4 --format js one -q)
+expect("-q prints ${output}" "x${output}" STREQUAL "x")
+run(0 ${SOURCE}/tables/hazy.vndf --what ltc --size 4 --format npy haze)
+file(GLOB names RELATIVE ${OUT}/haze ${OUT}/haze/*)
+list(LENGTH names count)
+expect("haze has ${names}" count EQUAL 5)
+
+run(2 ggx)
+has(errors "DIR is missing")
+run(2 ggx --what dgf none)
+has(errors "did you mean 'dfg'?")
+run(2 ggx --format jpg none)
+run(2 ggx --size 3 none)
+run(2 ggx --shape blender none)
+run(2 missing.vndf none)
+file(MAKE_DIRECTORY ${OUT}/full)
+file(WRITE ${OUT}/full/notes.txt "mine")
+run(2 ggx --what prefilter full)
+has(errors "has files in it")
+file(GLOB names ${OUT}/none)
+expect("there is ${names}" "none${names}" STREQUAL "none")
+
+# The example in GLSL compiles, where there is a compiler.
+find_program(GLSLANG glslangValidator)
+if(GLSLANG)
+    execute_process(COMMAND ${GLSLANG} ${SOURCE}/tools/bake/examples/haze.frag RESULT_VARIABLE status
+        OUTPUT_VARIABLE output)
+    expect("haze.frag: ${output}" status EQUAL 0)
+endif()
+
+if(failures)
+    message(FATAL_ERROR "${failures} failed")
+endif()

@@ -1,0 +1,96 @@
+/* Tables that real-time engines and path tracers look up in the place of samples, for any distribution: `vndf bake`.
+ *
+ *     dfg        the split sum: f is f0 times the scale plus the bias
+ *     energy     what one scattering event keeps of the light, by itself and in the mean over all directions
+ *     ltc        a linearly transformed cosine for each roughness and cosine (Heitz, Dupuy, Hill & Neubauer,
+ *                "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", TOG 35(4), 2016)
+ *     prefilter  normals with weights, for environments that are looked up at N = V = R (Karis, "Real Shading in
+ *                Unreal Engine 4", 2013)
+ *
+ * The files around them are written by files.c. */
+#ifndef TOOLS_BAKE_BAKE_H
+#define TOOLS_BAKE_BAKE_H
+
+#include <stddef.h>
+
+#include "cli/progress.h"
+#include "vndf_bsdf.h"
+
+/* How the roughness that a texture holds becomes alpha. */
+typedef enum bake_mapping { BAKE_SQUARE, BAKE_LINEAR, BAKE_ROOT } bake_mapping;
+float bake_alpha(bake_mapping mapping, double roughness);
+
+/* What all tables are made with. */
+typedef struct bake_settings {
+    const vndf_distribution *distribution;
+    bake_mapping mapping;
+    vndf_masking masking;
+    size_t size; /* of dfg and ltc: size x size */
+    progress *progress;
+} bake_settings;
+
+enum { BAKE_AXES = 3, BAKE_CHANNELS = 4, BAKE_TABLES = 16 };
+
+/* Numbers on a grid: channels run fastest, then the last axis. */
+typedef struct baked {
+    const char *name;            /* of its files: "dfg" */
+    const char *holds;           /* what the channels are */
+    const char *axis[BAKE_AXES]; /* what they stand for, with range and places */
+    size_t count[BAKE_AXES];
+    int axes, channels;
+    float *value;      /* owned */
+    const char *error; /* what was compared, NULL: nothing, and the largest and mean difference */
+    double worst, mean;
+} baked;
+
+size_t baked_size(const baked *b);
+
+typedef struct baked_list {
+    baked table[BAKE_TABLES];
+    size_t count;
+} baked_list;
+
+/* A table of zeros at the end of the list; NULL if there is no memory. `axis` and `count` of those that are used. */
+baked *baked_add(baked_list *list, const char *name, const char *holds, int axes, const char *const *axis,
+                 const size_t *count, int channels);
+void baked_free(baked_list *list);
+
+/* ---- one direction ---- */
+
+/* Of reflection from this direction with F = 1 and with Schlick's F of f0 = 0; within 1e-3 (tests/bake). */
+typedef struct bake_sum {
+    double all, grazing;
+} bake_sum;
+bake_sum bake_direction(const bake_settings *s, float alpha, double cosine);
+
+/* The same by a quadrature over slopes that draws nothing, from D, Lambda and the law of reflection; with eta above 0
+ * what bake_glass is. */
+bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, double eta);
+
+/* Of both lobes of a dielectric, from the side of z. */
+double bake_glass(const bake_settings *s, float alpha, double cosine, double eta);
+
+/* 2 integral E mu dmu by 8 nodes. */
+double bake_average(const bake_settings *s, float alpha, double eta);
+
+/* ---- tables; 0 if there is no memory or the user asked to stop ---- */
+
+int bake_dfg(const bake_settings *s, baked_list *list);
+
+/* In the shape of a host, by its name (NULL: the first); bake_shape_names are all, NULL ends them. */
+extern const char *const bake_shape_names[];
+int bake_energy(const bake_settings *s, const char *shape, baked_list *list);
+int bake_ltc(const bake_settings *s, baked_list *list);
+int bake_prefilter(const bake_settings *s, baked_list *list);
+
+/* A linearly transformed cosine: the inverse of M (its first and third row and column, and the middle number), and the
+ * part of the light that it gets wrong: half the integral of |f cos/E - ltc|. */
+typedef struct bake_cosine {
+    double inverse[5]; /* xx, xz, yy, zx, zz */
+    double all, grazing, error;
+} bake_cosine;
+
+/* The density of a direction. */
+double bake_cosine_density(const bake_cosine *c, const double wo[3]);
+
+#endif

@@ -1,0 +1,231 @@
+#include "bake/files.h"
+
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "draw/png.h"
+#include "draw/svg.h"
+
+const char *const bake_forms[] = {"npy", "dds", "c", "glsl", "js", NULL};
+
+/* ---- numbers ------------------------------------------------------------------------------------- */
+
+static void put(FILE *file, uint32_t value, int bytes)
+{
+    for (int i = 0; i < bytes; i++)
+        fputc((int)(value >> (8 * i) & 255), file);
+}
+
+static void put_float(FILE *file, float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    put(file, bits, 4);
+}
+
+/* Format 1.0 of numpy's files: a dictionary in text, filled up to 64 bytes. */
+static void write_npy(FILE *file, const baked *b)
+{
+    char head[256], shape[96] = "";
+    size_t length = 0;
+    for (int i = 0; i < b->axes; i++)
+        length += (size_t)snprintf(shape + length, sizeof shape - length, "%zu, ", b->count[i]);
+    if (b->channels > 1)
+        snprintf(shape + length, sizeof shape - length, "%d", b->channels);
+    int used = snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (%s), }", shape);
+    int all = (10 + used + 1 + 63) / 64 * 64 - 10;
+    fwrite("\x93NUMPY\x01\x00", 1, 8, file);
+    put(file, (uint32_t)all, 2);
+    fprintf(file, "%-*s\n", all - 1, head);
+    for (size_t i = 0; i < baked_size(b); i++)
+        put_float(file, b->value[i]);
+}
+
+unsigned bake_half(float x)
+{
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    const unsigned sign = bits >> 16 & 0x8000;
+    const float size = fabsf(x);
+    if (!(size <= 3.4e38f))
+        return size > 0 ? sign | 0x7c00 : 0x7e00;
+    if (size < 0x1p-14f) /* denormal: whole steps of 2^-24 */
+        return sign | (unsigned)lrintf(size * 0x1p24f);
+    bits &= 0x7fffffff;
+    bits += 0xfff + (bits >> 13 & 1); /* to the nearest of 10 bits */
+    unsigned half = (bits >> 13) - (112u << 10);
+    return sign | (half < 0x7c00 ? half : 0x7c00);
+}
+
+/* A texture of half floats with the header DX10: one, two or four channels, the fourth is 1 where there are three. The
+ * last axis runs along a row; one axis is a row, three are a volume. */
+static void write_dds(FILE *file, const baked *b)
+{
+    enum { R16 = 54, RG16 = 34, RGBA16 = 10 };
+    const size_t width = b->count[b->axes - 1], height = b->axes > 1 ? b->count[b->axes - 2] : 1,
+                 depth = b->axes > 2 ? b->count[0] : 1;
+    const int channels = b->channels < 3 ? b->channels : 4;
+    const int format = channels == 1 ? R16 : channels == 2 ? RG16 : RGBA16;
+    const uint32_t volume = depth > 1, head[] = {124,
+                                                 0x100f | (volume ? 0x800000u : 0),
+                                                 (uint32_t)height,
+                                                 (uint32_t)width,
+                                                 (uint32_t)width * 2 * (uint32_t)channels,
+                                                 (uint32_t)depth,
+                                                 1};
+    fputs("DDS ", file);
+    for (size_t i = 0; i < sizeof head / sizeof *head; i++)
+        put(file, head[i], 4);
+    for (int i = 0; i < 11; i++)
+        put(file, 0, 4);
+    put(file, 32, 4), put(file, 4, 4);
+    fputs("DX10", file);
+    for (int i = 0; i < 5; i++)
+        put(file, 0, 4);
+    put(file, volume ? 0x401008u : 0x1000u, 4), put(file, volume ? 0x200000u : 0, 4);
+    for (int i = 0; i < 3; i++)
+        put(file, 0, 4);
+    put(file, (uint32_t)format, 4), put(file, volume ? 4 : 3, 4), put(file, 0, 4), put(file, 1, 4),
+        put(file, 0, 4);
+    for (size_t i = 0; i < width * height * depth; i++)
+        for (int k = 0; k < channels; k++)
+            put(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
+}
+
+/* ---- arrays -------------------------------------------------------------------------------------- */
+
+/* What the table is, as lines of a comment. */
+static void write_about(FILE *file, const baked *b, const char *made_by)
+{
+    fprintf(file, "// %s: %s.\n", b->name, b->holds);
+    for (int i = 0; i < b->axes; i++)
+        fprintf(file, "// axis %d, %zu: %s%s\n", i, b->count[i], b->axis[i],
+                i + 1 < b->axes || b->channels > 1 ? "" : "; it runs fastest");
+    if (b->channels > 1)
+        fprintf(file, "// %d channels, which run fastest\n", b->channels);
+    if (b->error)
+        fprintf(file, "// error: %.2g at most, %.2g in the mean (%s)\n", b->worst, b->mean, b->error);
+    fprintf(file, "// made by: %s\n", made_by);
+}
+
+static void write_array(FILE *file, const baked *b, const char *begin, const char *end)
+{
+    fputs(begin, file);
+    for (size_t i = 0; i < baked_size(b); i++)
+        fprintf(file, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ",\n", (double)b->value[i]);
+    fputs(end, file);
+}
+
+/* With a point or an exponent in each number, which GLSL needs for a float. */
+static void write_points(FILE *file, const baked *b)
+{
+    for (size_t i = 0; i < baked_size(b); i++) {
+        char text[32];
+        snprintf(text, sizeof text, "%.9g", (double)b->value[i]);
+        fprintf(file, "%s%s%s", i == 0 ? "" : i % 8 ? ", " : ",\n", text, strpbrk(text, ".e") ? "" : ".0");
+    }
+}
+
+static void write_c(FILE *file, const baked *b, const char *made_by)
+{
+    char begin[128];
+    write_about(file, b, made_by);
+    snprintf(begin, sizeof begin, "static const float %s[%zu] = {\n", b->name, baked_size(b));
+    write_array(file, b, begin, "};\n");
+}
+
+static void write_glsl(FILE *file, const baked *b, const char *made_by)
+{
+    write_about(file, b, made_by);
+    fprintf(file, "const float %s[%zu] = float[%zu](\n", b->name, baked_size(b), baked_size(b));
+    write_points(file, b);
+    fputs(");\n", file);
+}
+
+static void write_js(FILE *file, const baked *b, const char *made_by)
+{
+    write_about(file, b, made_by);
+    fprintf(file, "export const %s = {size: [", b->name);
+    for (int i = 0; i < b->axes; i++)
+        fprintf(file, "%s%zu", i ? ", " : "", b->count[i]);
+    fprintf(file, "], channels: %d, data: new Float32Array([\n", b->channels);
+    write_array(file, b, "", "])};\n");
+}
+
+/* ---- pictures ------------------------------------------------------------------------------------ */
+
+/* Up to three channels as red, green and blue, each between its least and its largest number; layers of a volume side
+ * by side, and the last axis to the right. */
+static int write_png(FILE *file, const baked *b)
+{
+    const size_t across = b->count[b->axes - 1], down = b->axes > 1 ? b->count[b->axes - 2] : 1,
+                 layers = b->axes > 2 ? b->count[0] : 1, shown = b->channels < 3 ? 1 : 3,
+                 zoom = across * layers > 128 ? 2 : 4, width = across * layers * zoom, height = down * zoom;
+    float low[3], high[3];
+    unsigned char *rgb = malloc(width * height * 3);
+    if (!rgb)
+        return 0;
+    for (size_t k = 0; k < shown; k++) {
+        low[k] = high[k] = b->value[k];
+        for (size_t i = k; i < baked_size(b); i += (size_t)b->channels) {
+            low[k] = fminf(low[k], b->value[i]);
+            high[k] = fmaxf(high[k], b->value[i]);
+        }
+        if (low[k] >= 0 && high[k] <= 1)
+            low[k] = 0, high[k] = 1;
+    }
+    for (size_t y = 0; y < height; y++)
+        for (size_t x = 0; x < width; x++)
+            for (size_t k = 0; k < 3; k++) {
+                const size_t c = k < shown ? k : 0, layer = x / zoom / across,
+                             at = (layer * down + y / zoom) * across + x / zoom % across;
+                float v = (b->value[at * (size_t)b->channels + c] - low[c]) / fmaxf(high[c] - low[c], 1e-30f);
+                rgb[(y * width + x) * 3 + k] = (unsigned char)lrintf(255 * fminf(fmaxf(v, 0), 1));
+            }
+    int good = png_write_rgb(file, rgb, width, height);
+    free(rgb);
+    return good;
+}
+
+/* ---- the page ------------------------------------------------------------------------------------ */
+
+int bake_file(html_page *page, const baked *b, size_t form, const char *made_by)
+{
+    static const char *const ends[] = {"npy", "dds", "h", "glsl", "js", "png"};
+    char name[PAGE_NAME_MAX];
+    snprintf(name, sizeof name, "%s.%s", b->name, ends[form]);
+    FILE *file = page_file_begin(page, name);
+    int good = file != NULL;
+    if (!good)
+        return 0;
+    switch (form) {
+    case 0: write_npy(file, b); break;
+    case 1: write_dds(file, b); break;
+    case 2: write_c(file, b, made_by); break;
+    case 3: write_glsl(file, b, made_by); break;
+    case 4: write_js(file, b, made_by); break;
+    default: good = write_png(file, b);
+    }
+    return page_file_end(page) && good;
+}
+
+void bake_section(html_page *page, const baked *b)
+{
+    page_section(page, b->name, b->name, b->holds);
+    fputs("<ul>\n", page->html);
+    for (int i = 0; i < b->axes; i++) {
+        fprintf(page->html, "<li>axis %d, %zu places: ", i, b->count[i]);
+        svg_escape(page->html, b->axis[i]);
+        fputs("</li>\n", page->html);
+    }
+    if (b->error)
+        fprintf(page->html, "<li>error: %.2g at most, %.2g in the mean: %s</li>\n", b->worst, b->mean, b->error);
+    fprintf(
+        page->html,
+        "</ul>\n<figure><img src=\"%s.png\" alt=\"%s as a picture\" style=\"image-rendering:pixelated;"
+        "max-width:100%%\">\n<figcaption>The last axis to the right, the one before it down. Channels are red, green "
+        "and blue.</figcaption></figure>\n",
+        b->name, b->name);
+}

@@ -1,0 +1,22 @@
+/* What `vndf bake` writes for each table: numbers for numpy (.npy), textures of half floats for engines (.dds), arrays
+ * for C, GLSL and JavaScript, and a picture (.png); and a page that shows them all. */
+#ifndef TOOLS_BAKE_FILES_H
+#define TOOLS_BAKE_FILES_H
+
+#include "bake/bake.h"
+#include "draw/page.h"
+
+/* The forms, NULL ends them: npy, dds, c, glsl, js. The picture is one more at the end, which is always written. */
+extern const char *const bake_forms[];
+enum { BAKE_PICTURE = 5 };
+
+/* Adds the file of a table in this form to a page; `made_by` is the command. 0 if there is no memory. */
+int bake_file(html_page *page, const baked *b, size_t form, const char *made_by);
+
+/* A section of the page about a table. */
+void bake_section(html_page *page, const baked *b);
+
+/* The half float nearest to x, ties to even; what is too large is infinite. */
+unsigned bake_half(float x);
+
+#endif
