@@ -159,7 +159,7 @@ static int run(const arguments *given)
 {
     const char *ndf = option_value(given, "--ndf"), *alpha = option_value(given, "--alpha");
     unsigned long long samples = 100000, seed = 1;
-    chosen_distribution chosen = {NULL, NULL};
+    chosen_distribution chosen = {NULL, NULL, NULL};
     judge_view views[JUDGE_VIEWS];
     vndf_surface surface;
     if (!option_count(given, "--samples", 1000, 1e6, &samples) ||
@@ -167,7 +167,7 @@ static int run(const arguments *given)
         return STATUS_USE;
     if (alpha && !ndf)
         return complain(name, "--alpha is the roughness of --ndf, which is not given");
-    if (ndf && !distribution_open(&chosen, name, ndf))
+    if (ndf && !distribution_open(&chosen, name, ndf, 0))
         return STATUS_USE;
     surface.distribution = chosen.distribution;
     const judge_task task = {name, given->positional.item[0], (size_t)samples, seed, surface};
