@@ -2,7 +2,7 @@
 # are; it refuses wrong use; and in a headless Chromium, which compiles its shaders, what the page draws and measures is
 # right: the density integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have
 # light on them. Without WebGL2 it says so. Chromium takes a quarter of a minute for a setting where it has no GPU:
-# LONG=ON (more_explore) has three of them, else there is one.
+# LONG=ON (long_explore) has three of them, else there is one.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
