@@ -99,10 +99,9 @@ VNDF_API void vndf_source_free(vndf_source *source);
 
 /* An input beyond a limit is refused with an error that names the limit. Builds are bounded by operations, not by
  * seconds, so that the same input gives the same result on every machine. An evaluation of P22 counts as 8
- * operations; of a formula, as families are, as 4, plus 8 for each power and each function but abs, min, max and step,
- * plus 1 for each of these four and each number, name and other operator. An operation
- * takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own time. Memory stays below
- * 512 MiB. */
+ * operations; of a formula, as families are, as 4, plus 8 for each power and function, plus 1 for each number, name and
+ * other operator. An operation takes some 4 to 12 ns, so no formula takes more than minutes; a callback takes its own
+ * time. Memory stays below 512 MiB. */
 enum {
     VNDF_LIMIT_EXPRESSION_LENGTH = 4096, /* characters */
     VNDF_LIMIT_EXPRESSION_DEPTH = 64,    /* parentheses, calls, signs and powers inside one another */
@@ -110,9 +109,9 @@ enum {
     VNDF_LIMIT_PARAMETER_NAME = 64,      /* characters */
     VNDF_LIMIT_FAMILY_LENGTH = 4096,     /* characters of a family's specification */
     VNDF_LIMIT_NAME_LENGTH = 4096,       /* characters of the name of a CSV or a callback */
-    VNDF_LIMIT_CSV_ROWS = 1000000,
+    VNDF_LIMIT_CSV_ROWS = 1 << 14,
     VNDF_LIMIT_CSV_LINE = 4096,     /* characters of a line */
-    VNDF_LIMIT_CSV_BYTES = 1 << 26, /* of a file */
+    VNDF_LIMIT_CSV_BYTES = 1 << 24, /* of a file */
     VNDF_LIMIT_BREAKS = 64,         /* of vndf_build_options */
     VNDF_LIMIT_BUILD_PANELS = 60000 /* pieces in which P22 is smooth to 1e-10 */
 };
@@ -137,8 +136,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
  * escapes it: all hidden features together, however narrow they are, down to the spacing of doubles. It resolves
  * anything larger, or refuses the source and names the slope (VNDF_ERROR_DISTRIBUTION). A formula that cannot be
- * bounded is refused, or sampled if `finest` is given. A callback can only be sampled: features narrower than
- * `finest` of their slope may escape.
+ * bounded, as one with gamma or lgamma of the slope, is refused, or sampled if `finest` is given. A callback can
+ * only be sampled: features narrower than `finest` of their slope may escape.
  *
  * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the
  * slope there. `finest` costs 280/finest evaluations. */

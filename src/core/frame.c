@@ -70,26 +70,17 @@ void vndf_frame_end(vndf_writer *w)
     vndf_write_u32(w, w->failed ? 0 : vndf_crc32(0, w->bytes, w->size));
 }
 
-vndf_status vndf_frame_save(vndf_writer *w, const char *path, vndf_error *error)
-{
-    int good = !w->failed && vndf_replace_whole(path, w->bytes, w->size), reason = w->failed ? ENOMEM : errno;
-    free(w->bytes);
-    if (good)
-        return VNDF_OK;
-    if (reason == ENOMEM)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %s", path);
-    return vndf_fail(error, VNDF_ERROR_IO, "cannot write %s: %s", path, strerror(reason));
-}
-
-vndf_status vndf_frame_save_memory(vndf_writer *w, void *bytes, size_t size, vndf_error *error)
+vndf_status vndf_frame_save(vndf_writer *w, const char *path, void *bytes, size_t size, vndf_error *error)
 {
     vndf_status status = VNDF_OK;
-    if (w->failed)
-        status = vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %lu bytes", (unsigned long)size);
-    else if (size != w->size)
-        status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %lu bytes, the file %lu",
-                           (unsigned long)size, (unsigned long)w->size);
-    else
+    if (!w->failed && path && !vndf_replace_whole(path, w->bytes, w->size))
+        status = vndf_fail(error, errno == ENOMEM ? VNDF_ERROR_MEMORY : VNDF_ERROR_IO, "%s %s: %s",
+                           errno == ENOMEM ? "no memory to save" : "cannot write", path, strerror(errno));
+    else if (w->failed)
+        status = vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to save %zu bytes", w->size);
+    else if (!path && size != w->size)
+        status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "the memory has %zu bytes, the file %zu", size, w->size);
+    else if (!path)
         memcpy(bytes, w->bytes, size);
     free(w->bytes);
     return status;

@@ -28,9 +28,8 @@ void *vndf_frame_load(const vndf_frame *frame, const char *path, vndf_frame_deco
 void vndf_frame_begin(const vndf_frame *frame, vndf_writer *writer);
 void vndf_frame_end(vndf_writer *writer);
 
-/* Saves to a file, whole or not at all (replace_file.h), or to memory, where `size` must be that of all; frees the
- * bytes. */
-vndf_status vndf_frame_save(vndf_writer *writer, const char *path, vndf_error *error);
-vndf_status vndf_frame_save_memory(vndf_writer *writer, void *bytes, size_t size, vndf_error *error);
+/* Saves to a file, whole or not at all (replace_file.h); where the path is NULL to memory, whose size must be that of
+ * all. Frees the bytes. */
+vndf_status vndf_frame_save(vndf_writer *writer, const char *path, void *bytes, size_t size, vndf_error *error);
 
 #endif

@@ -72,7 +72,7 @@ static void compare(survey *s, const vndf_law *law, size_t edge, double seen_are
 static void look(survey *s, size_t edge, int below, double *figure)
 {
     const vndf_draft *d = s->draft;
-    double rho = d->strips.edge[edge];
+    double rho = d->strips.at[edge].edge;
     vndf_law law = vndf_law_of(&d->laws, rho, below);
     unsigned cell = vndf_laws_cell(&d->laws, rho), first = below ? law.first : 0;
     double drawn = 0, seen = below ? 0 : PI * rho, beyond = 0;
@@ -97,14 +97,16 @@ static void look(survey *s, size_t edge, int below, double *figure)
 static void look_from(survey *s, size_t edge)
 {
     const vndf_strips *strips = &s->draft->strips;
-    double rho = strips->edge[edge];
+    double rho = strips->at[edge].edge;
     direction *at = &s->at[edge];
     if (at->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
         !vndf_guard_spend(s->profile->guard, 6 * (double)strips->count))
         return;
     *at = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
-    for (size_t i = 0; i < 2 * strips->count; i++)
-        s->kernel[i] = strips->r[i] > rho ? strips->mass[i] * vndf_profile_kernel(strips->r[i], rho) : 0;
+    for (size_t i = 0; i < 2 * strips->count; i++) {
+        double r = strips->at[i / 2].r[i % 2];
+        s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_profile_kernel(r, rho) : 0;
+    }
     look(s, edge, 0, at->side[0]);
     look(s, edge, 1, at->side[1]);
 }
@@ -180,17 +182,11 @@ static double ndf_error(const survey *s)
             before = next;
             sum += strip->f;
             if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                strip->f > LEFT_OUT * log(d->strips.edge[n + 1] / d->strips.edge[n]))
+                strip->f > LEFT_OUT * log(d->strips.at[n + 1].edge / d->strips.at[n].edge))
                 worst = fmax(worst, error);
         }
     }
     return worst;
-}
-
-/* The n with P22 ~ r^-n between two slopes. */
-static double power_between(const vndf_profile *profile, double r0, double r1)
-{
-    return log(vndf_profile_p22(profile, r0) / vndf_profile_p22(profile, r1)) / log(r1 / r0);
 }
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
@@ -205,19 +201,20 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const
     if (good) {
         for (unsigned i = 0; i <= draft->table.cells; i++)
             for (size_t k = draft->first[i]; k < draft->first[i + 1]; k++)
-                s.xi[k] = vndf_cell_place(&draft->laws.cell[i], draft->strips.edge[k]);
+                s.xi[k] = vndf_cell_place(&draft->laws.cell[i], draft->strips.at[k].edge);
         look_around(&s);
         memset(c, 0, sizeof *c);
         c->max_weight = 1;
         for (size_t i = 0; i < 2 * n; i++)
             if (s.at[i / 2].known)
-                take(c, &s.at[i / 2], draft->strips.edge[i / 2], i % 2, profile->scale);
+                take(c, &s.at[i / 2], draft->strips.at[i / 2].edge, i % 2, profile->scale);
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;
-        double power = power_between(profile, end / 16, end / 4) - 4;
+        double power = vndf_profile_exponent(profile, end / 16, end / 4) - 4,
+               pole = vndf_profile_exponent(profile, 4 * first, 16 * first);
         c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
-        c->weight_bounded = !(power < -4e-3) && !(power_between(profile, 4 * first, 16 * first) >= 7e-3);
+        c->weight_bounded = !(power < -4e-3) && (pole < 7e-3 || pole == HUGE_VAL);
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }

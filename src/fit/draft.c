@@ -58,12 +58,12 @@ static void look(const vndf_draft *draft, unsigned cell, double rho, const doubl
     out->count = 0;
     for (unsigned i = cell; i <= draft->table.cells && !(grazing[i] < little * seen); i++)
         for (size_t k = 2 * draft->first[i]; k < 2 * draft->first[i + 1]; k++) {
-            double mass = s->mass[k], way = s->r[k] - rho;
+            double mass = s->at[k / 2].mass[k % 2], r = s->at[k / 2].r[k % 2], way = r - rho;
             if (!(way > 0 && mass > 0))
                 continue;
-            seen += out->k[out->count] = mass * vndf_profile_kernel(s->r[k], rho);
+            seen += out->k[out->count] = mass * vndf_profile_kernel(r, rho);
             out->near[out->count] = mass * way;
-            out->far[out->count++] = mass * way * way / s->r[k];
+            out->far[out->count++] = mass * way * way / r;
         }
 }
 

@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "source/family/family.h"
 #include "source/words.h"
 #include "table/family/family.h"
 #include "vndf_build.h"
@@ -29,63 +28,6 @@ static double number_of(double p)
     char text[VNDF_NUMBER_TEXT];
     snprintf(text, sizeof text, "%.6e", p);
     return strtod(text, NULL);
-}
-
-/* The words of a specification with this name. */
-static vndf_status unknown_family(const char *pattern, vndf_error *error)
-{
-    vndf_error inner = {VNDF_OK, ""};
-    vndf_source_free(vndf_source_family(pattern, &inner));
-    return inner.status == VNDF_OK ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
-}
-
-static vndf_status no_parameter(const vndf_family_form *form, vndf_error *error)
-{
-    char known[160] = "";
-    size_t used = 0;
-    const vndf_family_form *other;
-    for (size_t i = 0; (other = vndf_family_form_at(i)) != NULL && used < sizeof known; i++)
-        if (other->count > 0 && other->required < 2)
-            used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "", other->name);
-    return vndf_fail(error, VNDF_ERROR_SYNTAX, "%s has no parameter; families that have one are %s", form->name,
-                     known);
-}
-
-/* A name alone stands for one parameter. */
-static vndf_status two_parameters(const vndf_family_form *form, vndf_error *error)
-{
-    const char *name = form->name, *first = form->range[0].name, *second = form->range[1].name;
-    return vndf_fail(
-        error, VNDF_ERROR_SYNTAX,
-        "%s has the parameters %s and %s: right would be %s:{p},%s or %s:%s,{p}, with a number for the "
-        "other",
-        name, first, second, name, second, name, first);
-}
-
-static vndf_status check_form(const char *pattern, size_t name, vndf_error *error)
-{
-    const vndf_family_form *form = vndf_family_form_find(pattern, name);
-    if (!form)
-        return strncmp(pattern, "mix", 3) == 0 ? VNDF_OK : unknown_family(pattern, error);
-    if (form->count == 0)
-        return no_parameter(form, error);
-    return form->required > 1 && !pattern[name] ? two_parameters(form, error) : VNDF_OK;
-}
-
-static vndf_status check_pattern(const char *pattern, vndf_error *error)
-{
-    char excerpt[VNDF_EXCERPT];
-    if (!pattern)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
-    if (strlen(pattern) > VNDF_LIMIT_FAMILY_LENGTH)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %lu characters; at most %d are possible",
-                         (unsigned long)strlen(pattern), VNDF_LIMIT_FAMILY_LENGTH);
-    if (strchr(pattern, ':') && !strstr(pattern, PLACE))
-        return vndf_fail(error, VNDF_ERROR_SYNTAX,
-                         "'%s' does not say where the parameter stands; right would be {p} in its place, as in "
-                         "abc:{p},0.8, or a name alone, as in student-t",
-                         vndf_excerpt(excerpt, pattern, strlen(pattern)));
-    return check_form(pattern, strcspn(pattern, ":"), error);
 }
 
 /* The source at p, whose number takes the places in the pattern; NULL and an error. */
@@ -124,12 +66,12 @@ static char *describe(const char *pattern, double low, double high, vndf_error *
 }
 
 enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
-enum { SLOPES_TO_E = 24, OCTAVES = 100, SLOPES_MOST = SLOPES_TO_E * 139 };
+enum { SLOPES_TO_E = 16, SLOPES = SLOPES_TO_E * 94 };
+static const double SLOPE_LEAST = 1e-13; /* the largest is 7e27 */
 static const double DISTANCE_DEFAULT = 1e-3;
 static const double MAP_GAIN = 0.75; /* 1/p has to make the largest distance smaller by this */
 static const double EVEN = 1.03;     /* largest over mean distance: good enough */
-static const double LITTLE_MASS = 1e-9, LITTLE_GRAZING = 1e-5; /* of the sums, before and beyond the slopes */
-static const double PLACED = 0.1;                              /* of the progress */
+static const double PLACED = 0.1;    /* of the progress */
 
 /* Knots, the distances between them, and the largest. */
 typedef struct spread {
@@ -138,15 +80,14 @@ typedef struct spread {
 
 /* P22 at some parameter: shares of the slopes, and of the normals that are visible at grazing incidence. */
 typedef struct shares {
-    double slope[SLOPES_MOST], grazing; /* grazing: the mean slope */
+    double slope[SLOPES], grazing; /* grazing: the mean slope */
 } shares;
 
 typedef struct builder {
     const char *pattern;
     vndf_family_options options;
     double low, high;
-    int reciprocal;    /* mixtures are linear in 1/p */
-    size_t first, end; /* slopes that count */
+    int reciprocal; /* mixtures are linear in 1/p */
     shares left, right, own;
     size_t count;
     spread spread, trial;
@@ -179,7 +120,7 @@ static vndf_status no_memory(vndf_error *error)
 
 static double slope_at(size_t i)
 {
-    return exp2(-OCTAVES) * exp((double)i / SLOPES_TO_E);
+    return SLOPE_LEAST * exp((double)i / SLOPES_TO_E);
 }
 
 static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *error)
@@ -189,40 +130,16 @@ static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *
     double sum = 0, along = 0;
     if (!source)
         return vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
-    for (size_t i = b->first; i < b->end; i++) {
+    for (size_t i = 0; i < SLOPES; i++) {
         double r = slope_at(i), value = vndf_source_p22(source, r) * r * r;
         to->slope[i] = value > 0 && value < HUGE_VAL ? value : 0;
         sum += to->slope[i];
         along += to->slope[i] * r;
     }
-    for (size_t i = b->first; sum > 0 && i < b->end; i++)
+    for (size_t i = 0; sum > 0 && i < SLOPES; i++)
         to->slope[i] /= sum;
     to->grazing = sum > 0 ? along / sum : 1;
     vndf_source_free(source);
-    return VNDF_OK;
-}
-
-/* Leaves out slopes where next to nothing of some members lies. */
-static vndf_status choose_slopes(builder *b, vndf_error *error)
-{
-    double middle = b->low > 0 ? sqrt(b->low) * sqrt(b->high) : 0.5 * (b->low + b->high);
-    double member[3] = {b->low, number_of(middle), b->high};
-    size_t first = SLOPES_MOST, end = 0;
-    b->end = SLOPES_MOST;
-    for (int k = 0; k < 3; k++) {
-        vndf_status status = tabulate(b, member[k], &b->own, error);
-        size_t i = 0, n = SLOPES_MOST;
-        if (status != VNDF_OK)
-            return status;
-        for (double sum = b->own.slope[0]; sum < LITTLE_MASS && i + 1 < n; sum += b->own.slope[i])
-            i++;
-        for (double sum = 0; sum < LITTLE_GRAZING * b->own.grazing && n > i + 1; n--)
-            sum += b->own.slope[n - 1] * slope_at(n - 1);
-        first = i < first ? i : first;
-        end = n > end ? n : end;
-    }
-    b->first = first;
-    b->end = end < SLOPES_MOST ? end + 1 : end;
     return VNDF_OK;
 }
 
@@ -244,7 +161,7 @@ static vndf_status measure_between(builder *b, double low, double high, double *
         if (status != VNDF_OK)
             return status;
         double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
-        for (size_t i = b->first; i < b->end; i++) {
+        for (size_t i = 0; i < SLOPES; i++) {
             double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
             sum += fabs(mixed - own);
             along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
@@ -388,8 +305,6 @@ static vndf_status place(builder *b, vndf_error *error)
     snprintf(b->stage, sizeof b->stage, "placing knots");
     vndf_status status = show_all(b, 0, error);
     if (status == VNDF_OK)
-        status = choose_slopes(b, error);
-    if (status == VNDF_OK)
         status = choose_map(b, error);
     if (status != VNDF_OK || !b->options.knots)
         return status == VNDF_OK ? reach_distance(b, error) : status;
@@ -449,9 +364,17 @@ static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
 static vndf_status check(const char *pattern, double low, double high, const vndf_family_options *options,
                          vndf_error *error)
 {
-    vndf_status status = check_pattern(pattern, error);
-    if (status != VNDF_OK)
-        return status;
+    char excerpt[VNDF_EXCERPT];
+    if (!pattern)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
+    if (strlen(pattern) > VNDF_LIMIT_FAMILY_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %lu characters; at most %d are possible",
+                         (unsigned long)strlen(pattern), VNDF_LIMIT_FAMILY_LENGTH);
+    if (strchr(pattern, ':') && !strstr(pattern, PLACE))
+        return vndf_fail(error, VNDF_ERROR_SYNTAX,
+                         "'%s' does not say where the parameter stands; right would be {p} in its place, as in "
+                         "abc:{p},0.8, or a name alone, as in student-t",
+                         vndf_excerpt(excerpt, pattern, strlen(pattern)));
     if (!(low < high && fabs(low) < 1e30 && fabs(high) < 1e30) || (float)low == (float)high)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "parameters from %.7g to %.7g: the first must be below the second, as floats, and both "

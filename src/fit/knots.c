@@ -65,7 +65,7 @@ static double miss_below(const view *v, size_t edge)
 {
     const vndf_knots *k = v->knots;
     const vndf_rim *rim = &k->rim[edge];
-    double rho = k->strips.edge[edge], b1 = second_share(rim), all = rim->s1 + b1 * rim->s2, mass = 0, sum = 0;
+    double rho = k->strips.at[edge].edge, b1 = second_share(rim), all = rim->s1 + b1 * rim->s2, mass = 0, sum = 0;
     vndf_drawn drawn = vndf_drawn_below(&v->cell, rho, 1, b1);
     size_t from = edge > v->from ? edge : v->from;
     double xi0 = k->xi[from - v->from], per = 1 / (1 - xi0), before = 0;
@@ -76,7 +76,7 @@ static double miss_below(const view *v, size_t edge)
             drawn = (vndf_drawn){mass, edge > v->from ? 0 : drawn.d0, drawn.d1 / per};
         for (size_t i = from; i < v->end; i++) {
             const vndf_strip *s = &k->strips.at[i];
-            double e = k->strips.edge[i], d = e - rho;
+            double e = k->strips.at[i].edge, d = e - rho;
             double part = s->m2 + (d + e) * s->m1 + d * e * s->m0 + b1 * (s->m2 + d * (2 * s->m1 + d * s->m0));
             if (!round) {
                 mass += part;
@@ -144,11 +144,11 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
         return 0;
     view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
     double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
-    if (from > 0 && !tail && k->strips.edge[end] > WIDE * v.cell.r && mass > WIDE_MASS)
+    if (from > 0 && !tail && k->strips.at[end].edge > WIDE * v.cell.r && mass > WIDE_MASS)
         return MOST;
     for (size_t i = from; i <= end; i++)
-        k->xi[i - from] = tail ? vndf_cell_place(&v.cell, k->strips.edge[i])
-                               : (k->strips.edge[i] - v.cell.r) * k->rim[i].z * per;
+        k->xi[i - from] = tail ? vndf_cell_place(&v.cell, k->strips.at[i].edge)
+                               : (k->strips.at[i].edge - v.cell.r) * k->rim[i].z * per;
     double error = fmax(miss_by(&v, 0, 1, &density), miss_by(&v, 1, 0, &unused) / f1);
     if (from == 0) /* there and in the tail k~ has no pole, and strays more */
         error += mass * (v.cell.h / v.cell.z) / (4 * f1) + FIRST * v.cell.h;
@@ -179,9 +179,9 @@ static size_t reach_of(vndf_knots *k, size_t from, size_t stop, size_t step, dou
         else
             bad = end;
     }
-    while (good < stop && k->strips.edge[good] < k->strips.edge[from] * (1 + 0.49 * VNDF_GRAIN))
+    while (good < stop && k->strips.at[good].edge < k->strips.at[from].edge * (1 + 0.49 * VNDF_GRAIN))
         good++;
-    return k->strips.edge[good] * (1 + 0.49 * VNDF_GRAIN) > k->strips.edge[stop] ? stop : good;
+    return k->strips.at[good].edge * (1 + 0.49 * VNDF_GRAIN) > k->strips.at[stop].edge ? stop : good;
 }
 
 /* Knots for an error, until there are more than `most`. */
@@ -229,7 +229,7 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
 float vndf_knots_slope(const vndf_knots *k, unsigned i)
 {
     size_t edge = k->at[i];
-    double r = k->strips.edge[edge];
+    double r = k->strips.at[edge].edge;
     float knot = (float)r;
     if (k->strips.at[edge].gathered)
         return (double)knot > r ? nextafterf(knot, 0.0f) : knot;
@@ -240,7 +240,7 @@ const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 {
     vndf_rim *rim = &k->rim[edge];
     if (!rim->known)
-        rim->area = vndf_profile_below(k->profile, rim->z, k->strips.edge[edge] * rim->z);
+        rim->area = vndf_profile_below(k->profile, rim->z, k->strips.at[edge].edge * rim->z);
     rim->known = 1;
     return &rim->area;
 }
@@ -263,22 +263,17 @@ static int jumps_at(const vndf_profile *profile, double r, int *up)
 
 enum { JUMPS_MAX = 16 };
 
-/* A jump or a pole made panels narrow, or is a break of the source, where a panel begins. Returns how many there are,
- * after a 0. */
+/* A jump or a pole made panels narrow. Returns how many there are, after a 0. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-10, same = 1e-12, apart = 0x1p-21; /* of a slope */
-    const vndf_source *source = profile->source;
+    const double narrow = 1e-10, apart = 0x1p-21; /* of a slope */
     const vndf_panel *p = profile->panel;
     size_t n = 1;
     jump[0] = 0;
-    for (size_t i = 1, next = 0; i < profile->count && n <= JUMPS_MAX; i++) {
-        double r = p[i].r, own = r * profile->scale;
+    for (size_t i = 1; i < profile->count && n <= JUMPS_MAX; i++) {
+        double r = p[i].r;
         int up;
-        while (next < source->break_count && source->breaks[next] < own * (1 - same))
-            next++;
-        int is_break = next < source->break_count && source->breaks[next] < own * (1 + same);
-        if ((!is_break && fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r) || r < KNOT_LEAST || r > KNOT_MOST ||
+        if (fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r || r < KNOT_LEAST || r > KNOT_MOST ||
             !jumps_at(profile, r, &up))
             continue;
         float knot = (float)r;
@@ -294,8 +289,7 @@ static size_t find_jumps(const vndf_profile *profile, float *jump)
 /* The least with which R^2 P22, by xi, stays finite in the tail. */
 static unsigned squarings_of(const vndf_profile *profile)
 {
-    double end = profile->panel[profile->count].r, p0 = vndf_profile_p22(profile, end / 64);
-    double power = log(p0 / vndf_profile_p22(profile, end / 4)) / log(16.0);
+    double end = profile->panel[profile->count].r, power = vndf_profile_exponent(profile, end / 64, end / 4);
     unsigned n = 0;
     while (n < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << n) < 1 - 1e-3)
         n++;
@@ -319,21 +313,21 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
     double m0 = 0, m1 = 0, m2 = 0, least = margin * vndf_profile_claimed(profile) * 2 * PI * profile->f1;
     for (size_t i = n; i-- > 0;) {
         const vndf_strip *s = &k->strips.at[i];
-        double r = k->strips.edge[i], gap = i + 1 < n ? k->strips.edge[i + 1] - r : 0;
+        double r = k->strips.at[i].edge, gap = i + 1 < n ? k->strips.at[i + 1].edge - r : 0;
         m2 += gap * (2 * m1 + gap * m0) + s->m2;
         m1 += gap * m0 + s->m1;
         m0 += s->m0;
         k->rim[i] = (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2};
         if (k->last == 0 && r <= KNOT_MOST && m0 > M0_LEAST)
-            k->last = k->strips.edge[i + 1] <= KNOT_MOST ? i + 1 : i;
+            k->last = k->strips.at[i + 1].edge <= KNOT_MOST ? i + 1 : i;
         k->deep = k->deep == 0 && r <= RHO_MOST && k->rim[i].s1 > least ? i : k->deep;
     }
-    while (k->first < k->last && k->strips.edge[k->first] < KNOT_LEAST)
+    while (k->first < k->last && k->strips.at[k->first].edge < KNOT_LEAST)
         k->first++;
     for (size_t i = 1; i < n; i++) {
-        while (next + 1 < jumps && (double)jump[next] < k->strips.edge[i])
+        while (next + 1 < jumps && (double)jump[next] < k->strips.at[i].edge)
             next++;
-        k->rim[i].stop = (double)jump[next] == k->strips.edge[i];
+        k->rim[i].stop = (double)jump[next] == k->strips.at[i].edge;
         k->last = k->rim[i].stop && i > k->last ? i : k->last;
     }
     k->least = march(k, 2 * MOST, VNDF_CELLS_MAX + 1);

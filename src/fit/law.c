@@ -40,11 +40,11 @@ vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *stri
 {
     const double mass_least = 1e-30, least = 1e-36, cube_most = 1e30;
     const double near_end = 4e-2; /* 1 - xi where the limit of a tail is read */
-    double to = strips->edge[end];
-    vndf_cell c = cell_between(strips->edge[first], to, squarings);
+    double to = strips->at[end].edge;
+    vndf_cell c = cell_between(strips->at[first].edge, to, squarings);
     for (size_t i = first; i < end; i++) {
         const vndf_strip *s = &strips->at[i];
-        double d = strips->edge[i] - c.r;
+        double d = strips->at[i].edge - c.r;
         c.m0 += s->m0;
         c.m1 += s->m1 + d * s->m0;
         c.m2 += s->m2 + d * (2 * s->m1 + d * s->m0);

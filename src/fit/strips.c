@@ -28,23 +28,16 @@ static int grow(maker *m)
     if (s->count + 2 < m->capacity)
         return 1;
     size_t capacity = 2 * m->capacity + 1024;
-    double *edge = realloc(s->edge, capacity * sizeof *edge), *r = NULL, *mass = NULL;
-    vndf_strip *at = NULL;
-    s->edge = edge ? edge : s->edge;
-    if (edge && (at = realloc(s->at, capacity * sizeof *at)) != NULL)
-        s->at = at;
-    if (at && (r = realloc(s->r, 2 * capacity * sizeof *r)) != NULL)
-        s->r = r;
-    if (r && (mass = realloc(s->mass, 2 * capacity * sizeof *mass)) != NULL)
-        s->mass = mass;
-    m->capacity = mass ? capacity : m->capacity;
-    m->starved |= !mass;
-    return mass != NULL;
+    vndf_strip *at = realloc(s->at, capacity * sizeof *at);
+    s->at = at ? at : s->at;
+    m->capacity = at ? capacity : m->capacity;
+    m->starved |= !at;
+    return at != NULL;
 }
 
 static double edge_of(const maker *m)
 {
-    return m->to->edge[m->to->count];
+    return m->to->at[m->to->count].edge;
 }
 
 /* Ends a strip with two points; P22 beside both ends. */
@@ -55,11 +48,11 @@ static void push(maker *m, double to, const double r[2], const double mass[2], d
     if (!(to > from) || !grow(m))
         return;
     vndf_strip *strip = &s->at[s->count];
-    *strip = (vndf_strip){.p0 = p0, .p1 = p1};
+    *strip = (vndf_strip){.edge = from, .p0 = p0, .p1 = p1};
     for (size_t i = 0; i < 2; i++) {
         double t = r[i] - from, part = mass[i] / r[i];
-        s->r[2 * s->count + i] = r[i];
-        s->mass[2 * s->count + i] = mass[i];
+        strip->r[i] = r[i];
+        strip->mass[i] = mass[i];
         strip->m0 += part;
         strip->m1 += part * t;
         strip->m2 += part * t * t;
@@ -67,7 +60,7 @@ static void push(maker *m, double to, const double r[2], const double mass[2], d
         strip->f += mass[i];
         strip->along += mass[i] * r[i];
     }
-    s->edge[++s->count] = to;
+    s->at[++s->count] = (vndf_strip){.edge = to};
 }
 
 /* Slopes beside both ends of a strip. */
@@ -151,8 +144,8 @@ static void scale(vndf_strips *s, size_t first, double mass)
         vndf_strip *t = &s->at[i];
         t->m0 *= factor, t->m1 *= factor, t->m2 *= factor, t->m4 *= factor;
         t->f *= factor, t->along *= factor;
-        s->mass[2 * i] *= factor;
-        s->mass[2 * i + 1] *= factor;
+        t->mass[0] *= factor;
+        t->mass[1] *= factor;
     }
 }
 
@@ -213,7 +206,7 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
         free(need);
         return 0;
     }
-    strips->edge[0] = 0;
+    strips->at[0] = (vndf_strip){.edge = 0};
     for (size_t i = 0; i < profile->count; i++)
         all += fmax(need[i] = need_of(profile, i), 0);
     for (size_t i = 0; i < profile->count && !m.starved; i++) {
@@ -241,14 +234,11 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
 
 void vndf_strips_free(vndf_strips *strips)
 {
-    free(strips->edge);
     free(strips->at);
-    free(strips->r);
-    free(strips->mass);
     memset(strips, 0, sizeof *strips);
 }
 
 size_t vndf_strips_edge(const vndf_strips *strips, double r)
 {
-    return vndf_last_before(strips->edge, sizeof *strips->edge, strips->count, r);
+    return vndf_last_before(&strips->at->edge, sizeof *strips->at, strips->count, r);
 }

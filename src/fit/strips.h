@@ -8,19 +8,19 @@
 /* Slopes nearer than this part of themselves count as one: normals of floats hardly tell them apart. */
 #define VNDF_GRAIN 0x1p-20
 
-/* From edge[i] to edge[i + 1], t = R - edge[i]. */
+/* From its edge to that of the next, t = R - edge. */
 typedef struct vndf_strip {
+    double edge;
     double m0, m1, m2, m4; /* integrals of f/R, t f/R, t^2 f/R and f/R^4 */
     double f, along;       /* of f and of R f */
     double p0, p1;         /* P22 inside both ends */
+    double r[2], mass[2];  /* two points: f dR = mass */
     int gathered;          /* all of it stands at one place */
 } vndf_strip;
 
 typedef struct vndf_strips {
     size_t count;
-    double *edge; /* ascending floats, from 0; edge[count] is infinite */
-    vndf_strip *at;
-    double *r, *mass; /* two points of each strip: f dR = mass */
+    vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
 } vndf_strips;
 
 /* About `count` strips; some end at knots, which ascend from 0. 0 if there is no memory; free them either

@@ -36,9 +36,8 @@
 #include "source/source.h"
 #include "source/words.h"
 
-enum { BREAKS = 4096, OPERATIONS = 8 };
+enum { OPERATIONS = 8 };
 
-static const double ROUNDING_MOST = 1e-6; /* of P22: rows of six digits */
 static const double APART = 1e-12; /* of themselves: the abscissa of the curve could not tell closer rows apart */
 static const double RIGHT_ANGLE = 1.57079632679489661923;
 
@@ -56,12 +55,6 @@ typedef struct curve {
     size_t count;
 } curve;
 
-/* Of more rows than can be breaks: P22 r^2 over log r, and how far it strays from the chord to the next row. */
-typedef struct many_rows {
-    double *u, *f, *bend;
-    size_t count;
-} many_rows;
-
 typedef struct csv_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
     vndf_rows_over over;
@@ -74,7 +67,6 @@ typedef struct csv_source {
     double tail;         /* beyond it P22 falls as r^-tail */
     int falls_to_0;      /* the last row is 0 at 90 degrees, the row before is not 0 ... */
     double last_but_one; /* ... and stands at this slope */
-    many_rows rows;      /* empty up to BREAKS rows */
     double *breaks;      /* owned: the block of all these numbers */
 } csv_source;
 
@@ -112,12 +104,6 @@ static void fit_cubic(curve *c)
     }
 }
 
-/* The first place in ascending x beyond u. */
-static size_t first_beyond(const double *x, size_t count, double u)
-{
-    return u < x[0] ? 0 : vndf_last_before(x, sizeof *x, count, u) + 1;
-}
-
 /* The part of Hermite's form that comes from the slopes, at the part t of piece i; u is 1 - t. */
 static double bend_at(const curve *c, size_t i, double t, double u)
 {
@@ -132,7 +118,7 @@ static double value_at(const curve *c, double x)
         return c->y[0];
     if (x >= c->x[last])
         return c->y[last];
-    size_t i = first_beyond(c->x, c->count, x) - 1;
+    size_t i = vndf_last_before(c->x, sizeof *c->x, c->count, x);
     double t = (x - c->x[i]) / (c->x[i + 1] - c->x[i]), y0 = c->y[i], y1 = c->y[i + 1];
     double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend_at(c, i, t, 1 - t);
     /* Rounding alone could leave the range, and a density must not be negative. */
@@ -183,30 +169,12 @@ static void p22(const vndf_source *self, const double *r, size_t count, double *
         values[i] = p22_at((const csv_source *)self, r[i]);
 }
 
-/* A bound of the integral of |f - chord| over [u0, u1]; f0 and f1 are f at the ends. It is 0 within one pair of
- * rows, where the rows say nothing more about the curve. */
-static double stray_of(const many_rows *rows, double u0, double f0, double u1, double f1)
-{
-    double slope = (f1 - f0) / (u1 - u0), from = u0, off = 0.0, sum = 0.0, margin = 1e-9 * (u1 - u0) + 1e-13;
-    size_t first = first_beyond(rows->u, rows->count, u0 + margin);
-    size_t end = first_beyond(rows->u, rows->count, u1 - margin);
-    for (size_t i = first; i < end; i++) {
-        double here = fabs(rows->f[i] - f0 - slope * (rows->u[i] - u0));
-        sum += (rows->u[i] - from) * (fmax(off, here) + (i > 0 ? rows->bend[i - 1] : 0.0));
-        off = here;
-        from = rows->u[i];
-    }
-    return end > first ? sum + (u1 - from) * (off + rows->bend[end - 1]) : 0.0;
-}
-
-/* Between rows that are breaks the curve is one cubic, or the exponential of one: a few points determine it. */
+/* All rows are breaks, and between two of them the curve is one cubic, or the exponential of one, which a few points
+ * determine. */
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
     const csv_source *source = (const csv_source *)self;
-    vndf_reach at = {p22_at(source, low), p22_at(source, high), 0};
-    if (source->rows.count)
-        at.stray = stray_of(&source->rows, log(low), at.low * low * low, log(high), at.high * high * high);
-    return at;
+    return (vndf_reach){p22_at(source, low), p22_at(source, high), 0};
 }
 
 static void destroy(vndf_source *self)
@@ -258,61 +226,12 @@ static void fit_tail(csv_source *source, const csv_rows *rows)
         source->tail = fmax(4, log(p22_before / source->last_p22) / log(source->last_slope / before));
 }
 
-/* The slopes of the rows except 0 and infinity; if there are too many, every n-th. */
-static void fill_breaks(csv_source *source, const csv_rows *rows)
-{
-    size_t count = rows->count < BREAKS ? rows->count : BREAKS;
-    size_t kept = 0;
-    for (size_t i = 0; i < count; i++) {
-        double slope = slope_of_row(rows, i * (rows->count - 1) / (count - 1));
-        if (slope > 0 && isfinite(slope))
-            source->breaks[kept++] = slope;
-    }
-    source->base.breaks = source->breaks;
-    source->base.break_count = kept;
-}
-
-/* Leaves out rows at slope 0 and at 90 degrees. */
-static void fill_rows(csv_source *source, const csv_rows *given)
-{
-    many_rows *rows = &source->rows;
-    const curve *c = &source->curve;
-    for (size_t i = 0; i < given->count; i++) {
-        double r = slope_of_row(given, i), f = p22_of_row(given, i) * r * r, bend = 0;
-        if (!(r > 0) || !isfinite(r))
-            continue;
-        if (i + 1 < given->count) { /* of the curve from its chord, in its own unit */
-            double h = c->x[i + 1] - c->x[i], rise = c->y[i + 1] - c->y[i];
-            bend = 4.0 / 27 * (fabs(c->slope[i] * h - rise) + fabs(c->slope[i + 1] * h - rise));
-        }
-        double unit = source->logarithmic ? f : given->value[i] > 0 ? f / given->value[i] : 0;
-        rows->u[rows->count] = log(r);
-        rows->f[rows->count] = f;
-        rows->bend[rows->count++] = bend * unit;
-    }
-}
-
-/* How far rounding moves the rows, relative: two standard deviations. The last digits of many rows make fourth
- * differences of 6.7 standard deviations in the mean. Differences above ROUNDING_MOST do not come from
- * rounding. */
-static double rounding_of(const csv_source *source)
-{
-    const double *y = source->curve.y;
-    double sum = 0, most = 0;
-    for (size_t i = 2; i + 2 < source->curve.count; i++) {
-        sum += fabs(y[i - 2] - 4 * y[i - 1] + 6 * y[i] - 4 * y[i + 1] + y[i + 2]);
-        most = fmax(most, fabs(y[i]));
-    }
-    double deviation = sum / (double)source->curve.count / 6.7;
-    return fmin(2 * deviation / (source->logarithmic ? 1 : fmax(most, DBL_MIN)), ROUNDING_MOST);
-}
-
 /* The curve through rows that have been checked; it copies them and takes description, also where it fails. */
 static vndf_source *curve_through(const csv_rows *rows, char *description, vndf_error *error)
 {
     csv_source *source = calloc(1, sizeof *source);
     size_t n = rows->count;
-    double *block = malloc(((n > BREAKS ? 6 : 3) * n + BREAKS) * sizeof *block);
+    double *block = malloc(4 * n * sizeof *block);
     if (!source || !block) {
         free(source);
         free(block);
@@ -320,19 +239,22 @@ static vndf_source *curve_through(const csv_rows *rows, char *description, vndf_
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", n);
         return NULL;
     }
-    source->base = (vndf_source){
-        .p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS, .reach = reach};
+    source->base = (vndf_source){.p22 = p22,
+                                 .destroy = destroy,
+                                 .description = description,
+                                 .operations = OPERATIONS,
+                                 .reach = reach,
+                                 .breaks = block};
     source->over = rows->over;
     source->of = rows->of;
     source->breaks = block;
-    source->curve = (curve){block + BREAKS, block + BREAKS + n, block + BREAKS + 2 * n, n};
+    source->curve = (curve){block + n, block + 2 * n, block + 3 * n, n};
     fit_curve(source, rows);
     fit_tail(source, rows);
-    fill_breaks(source, rows);
-    if (n > BREAKS) {
-        source->rows = (many_rows){block + BREAKS + 3 * n, block + BREAKS + 4 * n, block + BREAKS + 5 * n, 0};
-        fill_rows(source, rows);
-        source->base.rounding = rounding_of(source);
+    for (size_t i = 0; i < n; i++) {
+        double slope = slope_of_row(rows, i);
+        if (slope > 0 && isfinite(slope))
+            block[source->base.break_count++] = slope;
     }
     return &source->base;
 }

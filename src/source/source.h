@@ -19,11 +19,10 @@ struct vndf_source {
     void (*p22)(const vndf_source *self, const double *r, size_t count, double *p22);
     void (*destroy)(vndf_source *self); /* frees self and all it owns */
     char *description;                  /* arguments of `vndf build`, owned */
-    const double *breaks;               /* ascending slopes of known kinks and jumps, or NULL */
+    const double *breaks;               /* ascending slopes of rows, or NULL */
     size_t break_count;
     int rebuildable;   /* the description alone makes the same source again */
     double operations; /* what an evaluation costs (vndf_build.h, limits) */
-    double rounding;   /* relative: P22 is no smoother than that */
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */
 };
 

@@ -18,83 +18,59 @@
 #  include <dirent.h>
 
 void *__real_malloc(size_t size);
-void *__real_calloc(size_t count, size_t size);
-void *__real_realloc(void *block, size_t size);
 void __real_free(void *block);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *block, size_t size);
 void __wrap_free(void *block);
 
-/* Allocations that succeed before one fails, blocks that are live, failures so far. */
-static long left = -1, live, failed;
-
-/* What stays of a load: blocks taken while `counting`, in bytes. */
-enum { BLOCKS_MAX = 256 };
-static struct counted {
-    const void *at;
-    size_t size;
-} blocks[BLOCKS_MAX];
-static size_t block_count, held;
-static int counting;
-
-static void count(const void *block, size_t size)
-{
-    if (!counting || !block || !TEST(block_count < BLOCKS_MAX))
-        return;
-    blocks[block_count++] = (struct counted){block, size};
-    held += size;
-}
-
-static void discount(const void *block)
-{
-    for (size_t i = 0; i < block_count; i++)
-        if (blocks[i].at == block) {
-            held -= blocks[i].size;
-            blocks[i] = blocks[--block_count];
-            return;
-        }
-}
-
-static int fails(void)
-{
-    if (left < 0 || left-- > 0)
-        return 0;
-    failed++;
-    return 1;
-}
+/* Allocations that succeed before one fails, failures so far, blocks that are live and their bytes. Each block stands
+ * behind its size. */
+enum { HEAD = 16 };
+static long left = -1, failed, live;
+static size_t held;
 
 void *__wrap_malloc(size_t size)
 {
-    void *block = fails() ? NULL : __real_malloc(size);
-    live += block != NULL;
-    count(block, size);
-    return block;
+    int fails = left >= 0 && left-- == 0;
+    failed += fails;
+    char *block = fails ? NULL : __real_malloc(size + HEAD);
+    if (!block)
+        return NULL;
+    memcpy(block, &size, sizeof size);
+    live++;
+    held += size;
+    return block + HEAD;
 }
 
-void *__wrap_calloc(size_t elements, size_t size)
+void *__wrap_calloc(size_t count, size_t size)
 {
-    void *block = fails() ? NULL : __real_calloc(elements, size);
-    live += block != NULL;
-    count(block, elements * size);
-    return block;
-}
-
-void *__wrap_realloc(void *block, size_t size)
-{
-    void *grown = fails() ? NULL : __real_realloc(block, size);
-    live += !block && grown;
-    if (grown)
-        discount(block);
-    count(grown, size);
-    return grown;
+    void *block = __wrap_malloc(count * size);
+    return block ? memset(block, 0, count * size) : NULL;
 }
 
 void __wrap_free(void *block)
 {
-    live -= block != NULL;
-    discount(block);
-    __real_free(block);
+    size_t size;
+    if (!block)
+        return;
+    memcpy(&size, (char *)block - HEAD, sizeof size);
+    live--;
+    held -= size;
+    __real_free((char *)block - HEAD);
+}
+
+void *__wrap_realloc(void *block, size_t size)
+{
+    size_t old = 0;
+    void *grown = __wrap_malloc(size);
+    if (block)
+        memcpy(&old, (char *)block - HEAD, sizeof old);
+    if (grown && block)
+        memcpy(grown, block, old < size ? old : size);
+    if (grown)
+        __wrap_free(block);
+    return grown;
 }
 
 /* ---- operations: each frees what it made ---- */
@@ -255,16 +231,15 @@ static void test_memory(const char *folder, const char *name, double most)
 {
     char path[1024];
     snprintf(path, sizeof path, VNDF_SOURCE_DIR "/%s/%s", folder, name);
-    counting = 1;
+    size_t before = held;
     vndf_distribution *table = vndf_load(path, NULL);
-    counting = 0;
+    size_t more = held - before;
     vndf_info info = vndf_distribution_info(table);
-    int told = TEST(table != NULL) && TEST(info.memory == held);
-    if (!told || !TEST(most <= 0 || (double)held <= most * (double)info.bytes + 448))
-        fprintf(stderr, "  %s: says %lu, holds %lu, its file %lu\n", name, (unsigned long)info.memory,
-                (unsigned long)held, (unsigned long)info.bytes);
+    int told = TEST(table != NULL) && TEST(info.memory == more);
+    if (!told || !TEST(most <= 0 || (double)more <= most * (double)info.bytes + 448))
+        fprintf(stderr, "  %s: says %zu, holds %zu, its file %zu\n", name, info.memory, more, info.bytes);
     vndf_free(table);
-    TEST(held == 0);
+    TEST(held == before);
 }
 
 static void test_memories(void)

@@ -37,7 +37,6 @@ static const form forms[] = {
     {SLOPE, "exp(-r)+k*pow(2,-((r-a)/s)^2)"},
     {SLOPE, "(1+r^2)^-2+k*(1+((r^2-a^2)/(2*a*s))^2)^-2.5"},
     {SLOPE, "exp(-r)+k*sqrt(max(0,1-((r-a)/s)^2))"},
-    {SLOPE, "exp(-r)+k/gamma(3+((r-a)/s)^2)"},
     {SLOPE, "exp(-r)+k*max(exp(-((r-a)/s)^2)-0.1,0)"},
     {SLOPE, "exp(-r)+k*exp(-((r-a)/s)^2)*cos(3*(r-a)/s)^2"},
     {TANGENT, "1+k*exp(-((t-a)/s)^2)"},

@@ -138,7 +138,7 @@ int main(void)
     test_ring(1e-9, 1e-3, 1, 20);
     test_measured();
     test_rows(5000, 3000);
-    test_rows(100000, 12345);
+    test_rows(16384, 12345);
     test_mass(family_of("mix:(0.5,1e-9,ggx)+(0.5,1e3,ggx)"), NULL, 1, 1e-5, 0);
     test_mass(family_of("mix:(0.5,1e-6,epd:1000)+(0.5,1e6,epd:1000)"), NULL, 1, 1e-5, 0);
     test_mass(family_of("mix:(0.001,1e-6,beckmann)+(0.999,1,epd:1000)"), NULL, 1, 1e-5, 0);

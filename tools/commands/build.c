@@ -1,17 +1,19 @@
-/* vndf build: a table from what the user brings, or a family of tables along a parameter. Reads the options, makes the
- * source, calls the builder, saves, prints what came out. */
+/* vndf build: a table from what the user brings - formula, rows, family, measurements - or a family of tables along a
+ * parameter. Reads the options, makes the source, calls the builder, saves, prints what came out. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
-#include "commands/parts/build_measured.h"
-#include "commands/parts/describe.h"
 #include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/source_words.h"
 #include "cli/subject.h"
+#include "command.h"
+#include "commands/parts/describe.h"
+#include "core/checksum.h"
+#include "measured/brdf.h"
+#include "measured/surface.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf build";
@@ -57,7 +59,22 @@ static const char *const help[] = {
     "  --knots N       2 to 256 knots, where that distance is least\n"
     "  with --max-bytes N, --moments N    these of each table\n"
     "\n",
-    MEASURED_HELP,
+    "From measurements (tools/measured/README.md says what is assumed of each). What was found is printed with the\n"
+    "table: errors, residuals that say how well D explains the data, and for stretched surfaces the matrix of the\n"
+    "surface that they are: vndf sample FILE --matrix XX,XY,YX,YY.\n"
+    "\n"
+    "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
+    "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
+    "    --channel red|green|blue|luminance    (default luminance)\n"
+    "  --height FILE   heights of a surface: PFM, PGM, or numbers between blanks\n"
+    "    --step X[,Y]  how far samples are apart, in the unit of the heights (default 1)\n"
+    "    --cutoff N    takes waves shorter than N samples away first, 2 to 256 (Gaussian, ISO 16610-21)\n"
+    "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
+    "  --profile OUT   the curve that was found, as a CSV for --csv\n"
+    "\n"
+    "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
+    "         vndf build --merl gold-paint.binary --channel red -o gold-paint.vndf\n"
+    "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n",
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
@@ -74,6 +91,139 @@ static int print_list(void)
     for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
         puts(material);
     return STATUS_GOOD;
+}
+
+/* ---- files of measurements ----------------------------------------------------------------------- */
+
+/* And the options that go with one of them alone. */
+static const struct {
+    const char *option, *with[3];
+} measured[] = {
+    {"--merl", {"--channel"}}, {"--rgl", {NULL}}, {"--height", {"--step", "--cutoff"}}, {"--normal-map", {NULL}}};
+
+enum { MEASURED = sizeof measured / sizeof measured[0], MEASURED_BYTES = 1 << 28, NOTES = 4096 };
+
+static size_t measured_count(const arguments *given)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < MEASURED; i++)
+        count += option_value(given, measured[i].option) != NULL;
+    return count;
+}
+
+/* Whether every option stands with its file; 0 after a complaint. */
+static int check_measured(const arguments *given)
+{
+    const char *profile_path = option_value(given, "--profile");
+    for (size_t i = 0; i < MEASURED; i++) {
+        const char *lost = option_value(given, measured[i].option) ? NULL : option_among(given, measured[i].with);
+        if (lost)
+            return complain(name, "%s is for %s", lost, measured[i].option), 0;
+    }
+    if (profile_path && !measured_count(given))
+        return complain(name, "--profile is for files of measurements"), 0;
+    if (profile_path && output_is_stdout(profile_path))
+        return complain(name, "--profile '-': a file is needed"), 0;
+    if (profile_path && files_same(profile_path, option_value(given, "-o")))
+        return complain(name, "-o and --profile both name '%s'", profile_path), 0;
+    return 1;
+}
+
+static int height_slopes(const arguments *given, data_file *file, slope_set *slopes)
+{
+    const char *apart = option_value(given, "--step");
+    unsigned long long cutoff = 0;
+    double step[2] = {1, 1};
+    size_t steps = 1;
+    height_field field;
+    if (!option_count(given, "--cutoff", 2, CUTOFF_MAX, &cutoff))
+        return 0;
+    if (apart)
+        steps = parse_numbers(name, "--step", apart, 1e-30, 1e30, 1, 2, step);
+    if (!steps || !heights_read(file, &field))
+        return 0;
+    field.step_x = step[0];
+    field.step_y = step[steps - 1];
+    note(file, "heights %d x %d, %.6g x %.6g apart", field.width, field.height, field.step_x, field.step_y);
+    if (cutoff)
+        note(file, "cutoff %llu", cutoff);
+    int good =
+        !cutoff || heights_smooth(&field, (int)cutoff) || refuse(file, "there is no memory for the cut-off");
+    good = good && heights_slopes(&field, (int)cutoff / 2, slopes, file);
+    heights_free(&field);
+    return good;
+}
+
+/* 0 after a complaint, or with the reason in the file. */
+static int read_rows(const arguments *given, data_file *file, profile *rows)
+{
+    slope_set slopes;
+    if (option_value(given, "--rgl"))
+        return rgl_read(file, rows);
+    if (option_value(given, "--merl"))
+        return merl_read(file, (merl_channel)option_choice(given, "--channel", MERL_LUMINANCE), rows);
+    if (option_value(given, "--height") ? !height_slopes(given, file, &slopes) : !normals_slopes(file, &slopes))
+        return 0;
+    int good = slopes_law(&slopes, file, rows);
+    slopes_free(&slopes);
+    return good;
+}
+
+/* "--height surface.pfm --cutoff 8 (crc32 ...)"; 0 after a complaint. */
+static int describe_measured(const arguments *given, const data_file *file, vndf_source *source)
+{
+    char text[VNDF_LIMIT_NAME_LENGTH + 2] = "", end[32];
+    vndf_error error = {VNDF_OK, ""};
+    for (size_t i = 0; i < MEASURED; i++) {
+        source_text_add(given, measured[i].option, text, sizeof text);
+        for (const char *const *with = measured[i].with; *with; with++)
+            source_text_add(given, *with, text, sizeof text);
+    }
+    snprintf(end, sizeof end, " (crc32 %08lx)", (unsigned long)vndf_crc32(0, file->bytes, file->size));
+    if (strlen(text) + strlen(end) < sizeof text)
+        strcat(text, end);
+    if (vndf_source_describe(source, text, &error) == VNDF_OK)
+        return 1;
+    return complain(name, "%.100s: %s", file->name, error.message), 0;
+}
+
+/* The rows of a source that says what it is, to --profile; 0 after a complaint. */
+static int write_profile(const char *path, const profile *rows, const vndf_source *source)
+{
+    output_file output;
+    if (!output_open(&output, name, path))
+        return 0;
+    if (profile_write(output.file, rows, vndf_source_description(source)))
+        return output_commit(&output) == STATUS_GOOD;
+    return output_give_up(&output, "no place on the disk"), 0;
+}
+
+/* What was found on the way goes to found[], as lines of a key and a value. NULL after a complaint. */
+static vndf_source *measured_source(const arguments *given, char found[NOTES])
+{
+    const char *profile_path = option_value(given, "--profile"), *implausible;
+    data_file file = {.name = NULL};
+    profile rows = {0};
+    vndf_source *source = NULL;
+    for (size_t i = 0; i < MEASURED && !file.name; i++)
+        file.name = option_value(given, measured[i].option);
+    char *bytes = input_read(name, file.name, MEASURED_BYTES, &file.size);
+    file.bytes = (const unsigned char *)bytes;
+    if (bytes && read_rows(given, &file, &rows))
+        source = profile_source(&rows, &file);
+    if (!source && file.refused[0])
+        complain(name, "%s", file.refused);
+    if (source && (implausible = strstr(file.notes, "implausible ")) != NULL)
+        complain(name, "%s: %.*s", file.name, (int)strcspn(implausible, "\n"), implausible);
+    if (source && (!describe_measured(given, &file, source) ||
+                   (profile_path && !write_profile(profile_path, &rows, source)))) {
+        vndf_source_free(source);
+        source = NULL;
+    }
+    memcpy(found, file.notes, NOTES);
+    profile_free(&rows);
+    free(bytes);
+    return source;
 }
 
 /* ---- building ------------------------------------------------------------------------------------ */
@@ -205,13 +355,13 @@ static int check_words(const arguments *given)
     else if (!is_family && is_family_file(path))
         complain(name, "'%s': a family of tables is known by .vndfs, and this is one table", path);
     else
-        return measured_check(given);
+        return check_measured(given);
     return 0;
 }
 
 static int run(const arguments *given)
 {
-    char found[MEASURED_NOTES] = "";
+    char found[NOTES] = "";
     vndf_source *source = NULL;
     built made = {NULL, NULL};
     if (option_value(given, "--list"))

@@ -75,7 +75,7 @@ void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf
         point[i] = (vndf_profile_point){r[i], vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i]};
 }
 
-double vndf_panels_exponent(const vndf_profile *profile, double r0, double r1)
+double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1)
 {
     double p0 = vndf_profile_p22(profile, r0), p1 = vndf_profile_p22(profile, r1);
     return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
@@ -154,44 +154,31 @@ static double roughness(const vndf_profile *profile, double r0, double r1)
     return width < HUGE_VAL ? 2 * width * (r1 - r0) / r0 : 0.0;
 }
 
-/* Whether the source is proven to give next to nothing between two slopes, so that nothing narrow lies there. The
- * points say where it is worth while to ask. */
-static int is_nothing(const vndf_profile *profile, double r0, double r1, const estimate *whole, double least)
-{
-    const double part = 0.01;
-    vndf_reach bound;
-    if (!(whole->m0 <= part * least) || !reach(profile, r0, r1, &bound))
-        return 0;
-    return bound.low >= 0.0 && profile->normalization * bound.high * r1 * r1 * log(r1 / r0) <= part * least;
-}
-
 static int agree(double a, double b, double part, double least)
 {
     return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
 }
 
-/* `simple`: nothing narrow lies here. */
-static void resolve(vndf_profile *profile, double r0, double r1, const estimate *whole, int depth, double least,
-                    int simple)
+static void resolve(vndf_profile *profile, double r0, double r1, const estimate *whole, int depth, double least)
 {
     double middle = r0 + r0 * expm1(VNDF_UNEVEN * log1p((r1 - r0) / r0)), gap = middle - r0;
     estimate l = estimate_of(profile, r0, middle), r = estimate_of(profile, middle, r1);
     double m0 = l.m0 + r.m0, m1 = l.m1 + r.m1 + r.m0 * gap;
     if (vndf_profile_stopped(profile))
         return;
-    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE + profile->source->rounding;
+    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE;
     int seen = depth >= (profile->source->reach ? DEPTH_BOUNDED : DEPTH_SAMPLED), good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
         slack += rough ? roughness(profile, r0, r1) : 0;
         good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);
     }
-    if (good ? simple || seen : depth >= DEPTH_MAX) {
+    if (good ? seen : depth >= DEPTH_MAX) {
         push(profile, r0, m0, m1, whole->point);
         return;
     }
     size_t first = profile->count;
-    resolve(profile, r0, middle, &l, depth + 1, least, 0);
-    resolve(profile, middle, r1, &r, depth + 1, least, 0);
+    resolve(profile, r0, middle, &l, depth + 1, least);
+    resolve(profile, middle, r1, &r, depth + 1, least);
     if (good && !seen && profile->count == first + 2 && !vndf_profile_stopped(profile)) {
         profile->count = first; /* neither half needed more: the whole is enough */
         push(profile, r0, m0, m1, whole->point);
@@ -214,20 +201,17 @@ vndf_peak vndf_panels_peak(const vndf_profile *profile)
     return most;
 }
 
-/* Octaves, the known breaks of the source and other edges, ascending and apart; to be freed. */
+/* Octaves and other edges, ascending and apart; to be freed. */
 static double *make_edges(const vndf_profile *profile, size_t *count)
 {
-    const vndf_source *source = profile->source;
     double first = exp2(-VNDF_OCTAVES), last = exp2(VNDF_OCTAVES);
-    double *edge = malloc((2 * VNDF_OCTAVES + 1 + source->break_count + profile->edge_count) * sizeof *edge);
+    double *edge = malloc((2 * VNDF_OCTAVES + 1 + profile->edge_count) * sizeof *edge);
     size_t n = 0, kept = 0;
     for (int i = -VNDF_OCTAVES; edge && i <= VNDF_OCTAVES; i++)
         edge[n++] = exp2(i);
-    for (size_t i = 0; edge && i < source->break_count + profile->edge_count; i++) {
-        double r = i < source->break_count ? source->breaks[i] : profile->edge[i - source->break_count];
-        if (r > first && r < last)
-            edge[n++] = r;
-    }
+    for (size_t i = 0; edge && i < profile->edge_count; i++)
+        if (profile->edge[i] > first && profile->edge[i] < last)
+            edge[n++] = profile->edge[i];
     if (edge)
         qsort(edge, n, sizeof *edge, vndf_ascending);
     for (size_t i = 0; i < n; i++)
@@ -247,8 +231,7 @@ void vndf_panels_fill(vndf_profile *profile, vndf_peak peak)
         double part = profile->normalization * fmin(peak.mass, peak.along / edge[i + 1]);
         double least = fmax(NEGLIGIBLE * part, LEAST);
         estimate whole = estimate_of(profile, edge[i], edge[i + 1]);
-        int simple = is_nothing(profile, edge[i], edge[i + 1], &whole, least);
-        resolve(profile, edge[i], edge[i + 1], &whole, 0, least, simple);
+        resolve(profile, edge[i], edge[i + 1], &whole, 0, least);
     }
     if (edge && !vndf_profile_stopped(profile) && grow(profile))
         profile->panel[profile->count] = (vndf_panel){.r = edge[edges - 1]};
@@ -259,7 +242,7 @@ void vndf_panels_fill(vndf_profile *profile, vndf_peak peak)
 static void measure_tail(vndf_profile *profile)
 {
     double end = profile->panel[profile->count].r, p = vndf_profile_p22(profile, end),
-           n = vndf_panels_exponent(profile, end / 4, end);
+           n = vndf_profile_exponent(profile, end / 4, end);
     profile->tail_m0 = profile->tail_m1 = 0.0;
     if (p > 0.0 && n > 3.0 + VNDF_POWER_MARGIN && n < HUGE_VAL) {
         profile->tail_m0 = p * end * end / (n - 2);

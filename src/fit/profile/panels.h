@@ -32,9 +32,6 @@ void vndf_panels_fill(vndf_profile *profile, vndf_peak peak);
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);
 
-/* -d log P / d log r between two slopes; infinite if P vanishes there. */
-double vndf_panels_exponent(const vndf_profile *profile, double r0, double r1);
-
 /* What panels missed. */
 typedef struct vndf_proof {
     double hidden;       /* bound on what panels missed, of the mass or of the area at grazing incidence */

@@ -42,8 +42,8 @@ static vndf_status check_values(const vndf_profile *profile, double peak, vndf_e
 /* Checks that both ends are integrable, and that little lies beyond the panels. */
 static vndf_status check_ends(const vndf_profile *profile, vndf_error *error)
 {
-    double tail = vndf_panels_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
-    double pole = vndf_panels_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
+    double tail = vndf_profile_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
+    double pole = vndf_profile_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
     const vndf_panel *p = profile->panel;
     size_t n = profile->count;
     if (pole < HUGE_VAL && pole >= 2.0 - VNDF_POWER_MARGIN)
@@ -101,7 +101,8 @@ static int add_edges(vndf_profile *profile, const double *more, size_t count)
     if (!edge)
         return 0;
     profile->edge = edge;
-    memcpy(edge + profile->edge_count, more, count * sizeof *edge);
+    if (count)
+        memcpy(edge + profile->edge_count, more, count * sizeof *edge);
     profile->edge_count += count;
     return 1;
 }
@@ -210,6 +211,8 @@ static vndf_status make(vndf_profile *profile, const vndf_resolution *given, vnd
     profile->description = vndf_resolution_describe(given, profile->source->description, error);
     if (!profile->description)
         return VNDF_ERROR_MEMORY;
+    if (!add_edges(profile, profile->source->breaks, profile->source->break_count))
+        return no_memory(error);
     for (size_t i = 0; i < given->break_count; i++)
         if (!add_break(profile, given->breaks[i]))
             return no_memory(error);

@@ -44,7 +44,7 @@ typedef struct vndf_reference {
     double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
     double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     int rough;               /* needs more panels than the limit */
-    double *edge;            /* slopes in the source's unit where panels end, beside its own breaks */
+    double *edge;            /* slopes in the source's unit where panels end */
     size_t edge_count;
     double hidden; /* a bound of the missed part of the mass, or of the area at grazing incidence; 1 if */
     double finest; /* this is not 0: then the relative width down to which the source was sampled */
@@ -61,6 +61,9 @@ double vndf_profile_p22(const vndf_profile *profile, double r);
 
 /* The same at up to VNDF_SOURCE_MANY slopes. */
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22);
+
+/* -d log P / d log r between two slopes; infinite if P vanishes there. */
+double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1);
 
 /* The points of the rule over [from, to], even in log r. */
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS]);

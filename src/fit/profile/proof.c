@@ -13,7 +13,6 @@ enum { PIECES_MAX = 400000, ROUNDS_MAX = 2000, SAMPLE_EDGES = 1 << 16 };
 static const double STRAY = 5e-6, MISS = 5e-6; /* of all: how much may stray, and how much panels may miss */
 static const double NOTHING = 1e-200;          /* a P22 that nowhere exceeds this counts as 0 */
 static const double NARROW = 4e-16;            /* of its slope: a piece that cannot be halved */
-static const double BESIDE = 1e-13;            /* pieces end on both sides of a known break */
 
 /* From slope low to high: how much of the integral of P22 r^2 du may stray, and the integral by the value in the
  * middle. */
@@ -63,26 +62,6 @@ static void add(pieces *s, double low, double high, size_t panel)
     if (isinf(reach.stray) && is_narrow(&p))
         p.stray = 2 * width * (integrand(profile, low) + integrand(profile, high));
     s->at[s->count++] = p;
-}
-
-/* A piece for each panel; three where a known break may be an end: there doubles and bounds may be on different
- * sides. */
-static void begin(pieces *s)
-{
-    const vndf_source *source = s->profile->source;
-    const vndf_panel *panel = s->profile->panel;
-    size_t next = 0;
-    for (size_t i = 0; i < s->profile->count; i++) {
-        double low = panel[i].r, high = panel[i + 1].r, inner = low * (1 + BESIDE), outer = high * (1 - BESIDE);
-        while (next < source->break_count && source->breaks[next] <= low * (1 - BESIDE))
-            next++;
-        int meets = next < source->break_count && source->breaks[next] < high * (1 + BESIDE) && outer > inner;
-        add(s, low, meets ? inner : high, i);
-        if (meets) {
-            add(s, inner, outer, i);
-            add(s, outer, high, i);
-        }
-    }
 }
 
 static void measure(pieces *s)
@@ -214,7 +193,8 @@ int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile)
     double *miss = NULL;
     memset(proof, 0, sizeof *proof);
     if (s.at && s.before) {
-        begin(&s);
+        for (size_t i = 0; i < profile->count; i++)
+            add(&s, profile->panel[i].r, profile->panel[i + 1].r, i);
         measure(&s);
         for (int i = 0; i < ROUNDS_MAX && !vndf_guard_stopped(profile->guard); i++) {
             double enough = s.mass > 0.0 ? STRAY : NOTHING;

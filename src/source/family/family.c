@@ -215,7 +215,7 @@ double vndf_family_mass(const vndf_family_form *form, const double *parameter)
     for (int i = -end; i <= end; i++) {
         double r = exp((double)i / steps), value;
         vndf_points variables[1] = {{r}};
-        vndf_expression_run(&formula, formula.count, variables, 1, &value, NULL);
+        vndf_expression_run(&formula, variables, 1, &value);
         sum += value * r * r;
     }
     vndf_expression_free(&formula);

@@ -39,12 +39,11 @@ static void combine(const vndf_instruction *instruction, double *x, const double
     }
 }
 
-void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_points *variables, size_t count,
-                         double *values, double *below)
+void vndf_expression_run(const vndf_expression *expression, vndf_points *variables, size_t count, double *values)
 {
     row stack[VNDF_EXPRESSION_STACK];
     size_t top = 0; /* number of operands */
-    for (const vndf_instruction *at = expression->program; at < expression->program + length; at++) {
+    for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
         if (at->operation == VNDF_PUSH_NUMBER) {
             for (size_t i = 0; i < count; i++)
                 stack[top].at[i] = at->number;
@@ -60,9 +59,7 @@ void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_
             combine(at, stack[top - 1].at, stack[top].at, count);
         }
     }
-    memcpy(values, stack[top > 1 ? top - 1 : 0].at, count * sizeof *values);
-    for (size_t i = 0; below && i < count; i++)
-        below[i] = top > 1 ? stack[top - 2].at[i] : 0;
+    memcpy(values, stack->at, count * sizeof *values);
 }
 
 void vndf_expression_free(vndf_expression *expression)

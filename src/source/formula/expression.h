@@ -8,8 +8,7 @@
  *
  * A name stands for a variable of the formula, for pi or for a parameter of the caller. A parenthesis behind a
  * name makes it a function, so a parameter may be called gamma. Blanks separate. parse.c reads, functions.c has the
- * functions, expression.c runs the program over numbers and over bounds, breaks.c finds kinks and jumps, and formula.c
- * makes a distribution of it. */
+ * functions, expression.c runs the program over numbers and over bounds, and formula.c makes a distribution of it. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
@@ -22,16 +21,11 @@ enum {
     VNDF_EXPRESSION_STACK = 320 /* operands on the stack: at most 4 for each level of depth, see the grammar */
 };
 
-/* Where a function is not smooth: nowhere that we look for, where its argument changes sign, or where its
- * two arguments are equal. */
-typedef enum vndf_kink { VNDF_KINK_NONE, VNDF_KINK_ZERO, VNDF_KINK_EQUAL } vndf_kink;
-
 /* A function of one argument or of two; the other pointer is NULL. */
 typedef struct vndf_function {
     const char *name;
     double (*one)(double);
     double (*two)(double, double);
-    vndf_kink kink;
 } vndf_function;
 
 typedef enum vndf_operation {
@@ -76,11 +70,9 @@ void vndf_expression_free(vndf_expression *expression);
 /* The values of variable i at up to VNDF_SOURCE_MANY points: variables[i]. */
 typedef double vndf_points[VNDF_SOURCE_MANY];
 
-/* Runs the first `length` instructions at `count` points: values[] receives what is on top of the stack, and
- * below[], unless NULL, what is under it (0 if there is nothing). All instructions: the values of the formula. An
- * instruction is looked at once for all points; a point alone gets the same bits. */
-void vndf_expression_run(const vndf_expression *expression, size_t length, vndf_points *variables, size_t count,
-                         double *values, double *below);
+/* The values of the formula at `count` points. An instruction is looked at once for all points; a point alone gets the
+ * same bits. */
+void vndf_expression_run(const vndf_expression *expression, vndf_points *variables, size_t count, double *values);
 
 /* Bounds on all slopes between two: r itself, the value of the formula, and p22 with the stray of p22 r^2. */
 vndf_jet vndf_jet_of_slope(double low, double high);
@@ -94,15 +86,6 @@ const vndf_function *vndf_function_at(size_t index);
 /* Its bounds; y is of no matter where it has one argument. */
 vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y);
 
-/* The slopes where an argument of step, abs, min or max changes sides, ascending; each is the last double before
- * the change. Bisection finds them between the points of a grid from 1e-9 to 1e9 and, for nested calls, between
- * the breaks of the inner calls. `variables` fills the variables at slopes. A search that becomes too long ends
- * and keeps the breaks found so far. Writes at most `limit` of them to breaks and their number to *count; returns
- * 0 if there is no memory. */
-typedef void vndf_variables_of_slope(const double *r, size_t count, vndf_points *variables);
-int vndf_expression_breaks(const vndf_expression *expression, vndf_variables_of_slope *variables, double *breaks,
-                           size_t limit, size_t *count);
-
 /* ---- distributions ---- */
 
 /* One lobe of P22: factor F(r/scale), F by a formula in r, or by one of D in c, theta, t. */
@@ -114,8 +97,7 @@ typedef struct vndf_lobe {
 enum { VNDF_LOBES = 2 };
 typedef enum vndf_formula_of { VNDF_FORMULA_OF_P22, VNDF_FORMULA_OF_NDF } vndf_formula_of;
 
-/* The source that is the sum of `count` lobes, of which only the first may have kinks. It takes the formulas and the
- * description, also where it fails. */
+/* The source that is the sum of `count` lobes. It takes the formulas and the description, also where it fails. */
 vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
                                  vndf_error *error);
 

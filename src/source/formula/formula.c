@@ -11,9 +11,8 @@
 #include "source/words.h"
 
 enum {
-    BREAKS = 4096,
     OPERATIONS = 4,     /* the cost of an evaluation besides its instructions */
-    CALL_OPERATIONS = 8 /* of a power, or a function other than abs, min, max and step */
+    CALL_OPERATIONS = 8 /* of a power or a function */
 };
 
 static const double TIGHT = 1e-9; /* bounds this close count as a value */
@@ -23,7 +22,6 @@ typedef struct formula_source {
     vndf_formula_of of;
     vndf_lobe lobe[VNDF_LOBES];
     size_t count;
-    double *breaks; /* owned */
 } formula_source;
 
 /* ---- the two kinds of formula ---- */
@@ -95,7 +93,7 @@ static void p22(const vndf_source *self, const double *r, size_t count, double *
         for (size_t i = 0; i < count; i++)
             unit[i] = r[i] / l->scale;
         (source->of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables)(unit, count, variables);
-        vndf_expression_run(&l->formula, l->formula.count, variables, count, value, NULL);
+        vndf_expression_run(&l->formula, variables, count, value);
         for (size_t i = 0; i < count; i++) {
             double c2 = source->of == VNDF_FORMULA_OF_NDF ? variables[0][i] * variables[0][i] : 1;
             values[i] = (k ? values[i] : 0) + l->factor * (value[i] * c2 * c2);
@@ -110,7 +108,6 @@ static void release(formula_source *source)
 {
     for (size_t i = 0; i < source->count; i++)
         vndf_expression_free(&source->lobe[i].formula);
-    free(source->breaks);
     free(source->base.description);
 }
 
@@ -127,8 +124,7 @@ static double operations_of(const vndf_expression *expression)
     double sum = OPERATIONS;
     for (size_t i = 0; i < expression->count; i++) {
         const vndf_instruction *at = &expression->program[i];
-        int long_call = at->operation == VNDF_CALL && at->function->kink == VNDF_KINK_NONE;
-        sum += long_call || at->operation == VNDF_POWER ? CALL_OPERATIONS : 1;
+        sum += at->operation == VNDF_CALL || at->operation == VNDF_POWER ? CALL_OPERATIONS : 1;
     }
     return sum;
 }
@@ -136,27 +132,21 @@ static double operations_of(const vndf_expression *expression)
 vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
                                  vndf_error *error)
 {
-    formula_source made = {.of = of, .count = count, .breaks = malloc(BREAKS * sizeof *made.breaks)};
+    formula_source made = {.of = of, .count = count};
     formula_source *source = malloc(sizeof *source);
-    vndf_variables_of_slope *variables = of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables;
-    made.base = (vndf_source){.p22 = p22,
-                              .destroy = destroy,
-                              .description = description,
-                              .breaks = made.breaks,
-                              .rebuildable = 1,
-                              .reach = reach};
+    made.base = (vndf_source){
+        .p22 = p22, .destroy = destroy, .description = description, .rebuildable = 1, .reach = reach};
     for (size_t i = 0; i < count; i++) {
         made.lobe[i] = lobes[i];
         made.base.operations += operations_of(&lobes[i].formula);
     }
-    if (source && description && made.breaks &&
-        vndf_expression_breaks(&lobes->formula, variables, made.breaks, BREAKS, &made.base.break_count)) {
+    if (source && description) {
         *source = made;
         return &source->base;
     }
     release(&made);
     free(source);
-    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source"); /* without breaks the table would be another */
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a source");
     return NULL;
 }
 

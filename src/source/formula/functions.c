@@ -1,4 +1,4 @@
-/* The functions of formulas: of each its value, its bounds, and where it is not smooth. Every function lets NaN pass,
+/* The functions of formulas: of each its value and its bounds. Every function lets NaN pass,
  * so that the builder can say where a formula has no value; fmin and fmax of the C library would hide it. */
 #include <math.h>
 
@@ -151,43 +151,10 @@ static vndf_interval erfc_of_negative(vndf_interval x)
 
 /* ---- gamma ---- */
 
-static vndf_interval lgamma_between(double low, double high)
+/* Of a number alone: formulas have it in constants. */
+static vndf_jet gamma_of(double (*f)(double), vndf_jet x)
 {
-    static const double place = 1.4616321449683623, least = -0.12148629053584961, error = 3e-15;
-    if (!(low > 0)) /* poles, unless x is a single number */
-        return low == high && low != floor(low) ? vndf_interval_of_library(lgamma(low), lgamma(low))
-                                                : vndf_interval_all();
-    double a = lgamma(low), b = lgamma(high), bottom = low <= place && high >= place ? least : fmin(a, b);
-    return vndf_interval_of_library(bottom - error, fmax(a, b) + error);
-}
-
-/* The derivative of lgamma, which rises: by the recurrence up to 20, from where the next term of the series is below
- * 1e-14. */
-static double digamma(double x)
-{
-    double sum = 0;
-    for (; x < 20; x++)
-        sum -= 1 / x;
-    double y = 1 / (x * x);
-    return sum + log(x) - 0.5 / x - y * (1.0 / 12 - y * (1.0 / 120 - y * (1.0 / 252 - y / 240)));
-}
-
-/* Of its derivatives the first alone is bounded: enough for a function that hardly any formula has. */
-static vndf_jet lgamma_of(vndf_jet x)
-{
-    double low = low_of(x), high = high_of(x);
-    vndf_interval y = lgamma_between(low, high);
-    if (x.constant || !(low > 0))
-        return vndf_jet_value(y, x);
-    double a = digamma(low), b = digamma(high), error = 1e-12 * (1 + fmax(fabs(a), fabs(b)));
-    return vndf_jet_integral(y, x, vndf_jet_value(vndf_interval_from(a - error, b + error), x));
-}
-
-static vndf_jet gamma_of(vndf_jet x)
-{
-    double value = tgamma(low_of(x)), error = 1e-13 * fabs(value);
-    if (x.at[0].low.m > 0)
-        return vndf_jet_exp(lgamma_of(x));
+    double value = f(low_of(x)), error = 1e-13 * (1 + fabs(value));
     int known = vndf_jet_is_number(x) && isfinite(value);
     return vndf_jet_value(known ? vndf_interval_from(value - error, value + error) : vndf_interval_all(), x);
 }
@@ -212,17 +179,14 @@ static double larger(double x, double y)
 /* ---- the list ---- */
 
 static const vndf_function functions[] = {
-    [EXP] = {"exp", exp, NULL, VNDF_KINK_NONE},        [LOG] = {"log", log, NULL, VNDF_KINK_NONE},
-    [LOG1P] = {"log1p", log1p, NULL, VNDF_KINK_NONE},  [SQRT] = {"sqrt", sqrt, NULL, VNDF_KINK_NONE},
-    [SIN] = {"sin", sin, NULL, VNDF_KINK_NONE},        [COS] = {"cos", cos, NULL, VNDF_KINK_NONE},
-    [TAN] = {"tan", tan, NULL, VNDF_KINK_NONE},        [ASIN] = {"asin", asin, NULL, VNDF_KINK_NONE},
-    [ACOS] = {"acos", acos, NULL, VNDF_KINK_NONE},     [ATAN] = {"atan", atan, NULL, VNDF_KINK_NONE},
-    [SINH] = {"sinh", sinh, NULL, VNDF_KINK_NONE},     [COSH] = {"cosh", cosh, NULL, VNDF_KINK_NONE},
-    [TANH] = {"tanh", tanh, NULL, VNDF_KINK_NONE},     [ERF] = {"erf", erf, NULL, VNDF_KINK_NONE},
-    [ERFC] = {"erfc", erfc, NULL, VNDF_KINK_NONE},     [LGAMMA] = {"lgamma", lgamma, NULL, VNDF_KINK_NONE},
-    [GAMMA] = {"gamma", tgamma, NULL, VNDF_KINK_NONE}, [ABS] = {"abs", fabs, NULL, VNDF_KINK_ZERO},
-    [MIN] = {"min", NULL, smaller, VNDF_KINK_EQUAL},   [MAX] = {"max", NULL, larger, VNDF_KINK_EQUAL},
-    [POW] = {"pow", NULL, pow, VNDF_KINK_NONE},        [STEP] = {"step", step, NULL, VNDF_KINK_ZERO},
+    [EXP] = {"exp", exp, NULL},          [LOG] = {"log", log, NULL},        [LOG1P] = {"log1p", log1p, NULL},
+    [SQRT] = {"sqrt", sqrt, NULL},       [SIN] = {"sin", sin, NULL},        [COS] = {"cos", cos, NULL},
+    [TAN] = {"tan", tan, NULL},          [ASIN] = {"asin", asin, NULL},     [ACOS] = {"acos", acos, NULL},
+    [ATAN] = {"atan", atan, NULL},       [SINH] = {"sinh", sinh, NULL},     [COSH] = {"cosh", cosh, NULL},
+    [TANH] = {"tanh", tanh, NULL},       [ERF] = {"erf", erf, NULL},        [ERFC] = {"erfc", erfc, NULL},
+    [LGAMMA] = {"lgamma", lgamma, NULL}, [GAMMA] = {"gamma", tgamma, NULL}, [ABS] = {"abs", fabs, NULL},
+    [MIN] = {"min", NULL, smaller},      [MAX] = {"max", NULL, larger},     [POW] = {"pow", NULL, pow},
+    [STEP] = {"step", step, NULL},
 };
 
 static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
@@ -249,8 +213,8 @@ static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
         return vndf_jet_integral(saturating(tanh, x, 20), x, vndf_jet_power(bounds(COSH, x, x), -2));
     case ERF: return vndf_jet_integral(saturating(erf, x, 6), x, bell(x, 1));
     case ERFC: return vndf_jet_integral(rising(erfc_of_negative, negative.at[0]), x, bell(x, -1));
-    case LGAMMA: return lgamma_of(x);
-    case GAMMA: return gamma_of(x);
+    case LGAMMA:
+    case GAMMA: return gamma_of(function == LGAMMA ? lgamma : tgamma, x);
     case ABS: return vndf_jet_max(x, negative);
     case MIN: return vndf_jet_negative(vndf_jet_max(negative, vndf_jet_negative(y)));
     case MAX: return vndf_jet_max(x, y);
