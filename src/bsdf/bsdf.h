@@ -50,6 +50,7 @@ extern const vndf_routines vndf_routines_walk, vndf_routines_unbent;
 /* Scatters nothing, in so many wavelengths, 0 being 3: a wrong description resolves to it, and a hit that sees no
  * surface has it. */
 extern const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1];
+void vndf_eval_nothing(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 
 /* Whether single scattering is compensated. */
 VNDF_INLINE int vndf_compensates(const vndf_effects *e)

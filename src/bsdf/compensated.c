@@ -92,7 +92,7 @@ const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, ev
 
 static float average_lost(const vndf_bsdf *b, float side)
 {
-    return 1.0f - vndf_albedo_average(b->material->is.albedo, b->compensation.alpha, side > 0.0f ? 1 : -1);
+    return 1.0f - vndf_albedo_average(b->material->is.albedo, b->compensation.alpha, (int)side);
 }
 
 static float per_of(float lost)

@@ -1,4 +1,5 @@
-/* A description becomes a material. Nothing else looks at the effects. */
+/* A description becomes a material: which routines its hits call. Those of a single event (single.c) look at the
+ * effects once more, for Fresnel's term, masking and normals. */
 #include "bsdf/bsdf.h"
 #include "core/error.h"
 #include "math/turn.h"
@@ -12,14 +13,14 @@ static void sample_nothing(const vndf_bsdf *b, const float u[3], vndf_scattered 
     vndf_scatter_nothing(s);
 }
 
-static void eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+void vndf_eval_nothing(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     (void)wo;
     (void)seed;
     vndf_see_nothing(b, value, pdf);
 }
 
-static const vndf_routines nothing = {NULL, sample_nothing, eval_nothing, NULL};
+static const vndf_routines nothing = {NULL, sample_nothing, vndf_eval_nothing, NULL};
 const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {
     {.routines = &nothing, .specular = &nothing, .is = {.wavelengths = 3}},
     {.routines = &nothing, .specular = &nothing, .is = {.wavelengths = 1}},
@@ -28,23 +29,6 @@ const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1] = {
     {.routines = &nothing, .specular = &nothing, .is = {.wavelengths = 4}}};
 
 /* ---- effects to routines ---- */
-
-/* A walk, single scattering, or that with compensation around it. */
-static const vndf_routines *single_of(const vndf_description *is)
-{
-    const vndf_effects *e = &is->effects;
-    if (e->scattering != VNDF_SCATTERING_MULTIPLE)
-        return vndf_single_of(e);
-    int straight = e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f;
-    return straight ? &vndf_routines_unbent : &vndf_routines_walk;
-}
-
-static const vndf_routines *specular_of(const vndf_routines *single, vndf_scattering scattering)
-{
-    return scattering == VNDF_SCATTERING_TURQUIN       ? &vndf_routines_turquin
-           : scattering == VNDF_SCATTERING_KULLA_CONTY ? &vndf_routines_kulla_conty
-                                                       : single;
-}
 
 /* The surface of hits that bring none. */
 static void set_surface(vndf_material *m)
@@ -79,8 +63,13 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
     m->is.wavelengths = is->wavelengths ? is->wavelengths : 3;
     m->per_wavelength = 1.0 / m->is.wavelengths;
-    m->single = single_of(is);
-    m->specular = specular_of(m->single, e->scattering);
+    int straight = e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_DIELECTRIC && is->eta == 1.0f;
+    m->single = e->scattering != VNDF_SCATTERING_MULTIPLE ? vndf_single_of(e)
+                : straight                                ? &vndf_routines_unbent
+                                                          : &vndf_routines_walk;
+    m->specular = e->scattering == VNDF_SCATTERING_TURQUIN       ? &vndf_routines_turquin
+                  : e->scattering == VNDF_SCATTERING_KULLA_CONTY ? &vndf_routines_kulla_conty
+                                                                 : m->single;
     m->routines = e->reflection == VNDF_REFLECTION_RETRO ? &vndf_routines_retro : m->specular;
     m->two_sided = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
     set_surface(m);

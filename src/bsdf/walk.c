@@ -397,11 +397,4 @@ static void sample_unbent(const vndf_bsdf *b, const float u[3], vndf_scattered *
         s->weight[i] = 1.0f;
 }
 
-static void eval_unbent(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    (void)wo;
-    (void)seed;
-    vndf_see_nothing(b, value, pdf);
-}
-
-const vndf_routines vndf_routines_unbent = {NULL, sample_unbent, eval_unbent, NULL};
+const vndf_routines vndf_routines_unbent = {NULL, sample_unbent, vndf_eval_nothing, NULL};

@@ -36,27 +36,22 @@ typedef struct mean {
     double value, error;
 } mean;
 
-static mean mean_weight(const vndf_bsdf *b, size_t samples, unsigned long long *state)
+/* The mean weight of samples of a hit. */
+static mean furnace(const vndf_description *is, double z, size_t samples, unsigned long long *state)
 {
     double sum = 0, square = 0, n = (double)samples;
+    vndf_material m;
+    vndf_bsdf b;
+    TEST(vndf_material_resolve(is, &m, NULL) == VNDF_OK && vndf_bsdf_at(&b, &m, oracle_toward(z, 1)));
     for (size_t i = 0; i < samples; i++) {
         float u[3];
         vndf_scattered s;
         bsdf_numbers(state, u);
-        vndf_bsdf_sample(b, u, &s);
+        vndf_bsdf_sample(&b, u, &s);
         sum += (double)s.weight[0];
         square += (double)s.weight[0] * (double)s.weight[0];
     }
     return (mean){sum / n, sqrt(fmax(square / n - sum / n * sum / n, 0) / n)};
-}
-
-/* The mean weight of samples of a hit. */
-static mean furnace(const vndf_description *is, double z, size_t samples, unsigned long long *state)
-{
-    vndf_material m;
-    vndf_bsdf b;
-    TEST(vndf_material_resolve(is, &m, NULL) == VNDF_OK && vndf_bsdf_at(&b, &m, oracle_toward(z, 1)));
-    return mean_weight(&b, samples, state);
 }
 
 static void test_furnace(const subject *s, const char *name)

@@ -142,7 +142,7 @@ int main(void)
     unsigned char *bytes = malloc(ROOM), *out = malloc(ROOM);
     if (!TEST(bytes && out))
         return test_done();
-    test_png("studio", 200, 100, 0.5f, bytes, out);
+    test_png("studio", 300, 200, 0.5f, bytes, out); /* three blocks */
     test_png("grid", 131, 77, 1.0f, bytes, out);
     test_png("tiles", 1, 1, 1.0f, bytes, out);
     test_full_disk();

@@ -35,7 +35,7 @@ static void test_distribution(const vndf_distribution *d, const char *name, size
         const stress_finding *found = &result.found[id];
         if (TEST(found->failed == 0) & TEST(found->checked > 0))
             continue;
-        fprintf(stderr, "  %s: %lu of %lu fail, worst %g\n", stress_property_of((stress_id)id)->name,
+        fprintf(stderr, "  %s: %lu of %lu fail, worst %g\n", stress_properties[id].name,
                 (unsigned long)found->failed, (unsigned long)found->checked, found->worst);
         print_point(&found->at);
     }

@@ -5,53 +5,36 @@
 # line of a source is longer than 120 columns.
 cmake_minimum_required(VERSION 3.16)
 
-# ---- the order ----------------------------------------------------------------------------------
-
-set(rooms_src core math table kernel sampler bsdf source fit)
-set(below_core "")
-set(below_math core)
-set(below_table core)
-# The kernel knows of a table what it reads while it draws: its numbers.
-set(below_kernel core table)
-set(below_sampler core table kernel)
-set(below_bsdf core math table kernel sampler)
-set(below_source core math)
-# The certificate measures what the run time draws, hence the sampler.
-set(below_fit core math source table kernel sampler)
+# A line a room: the room / its sub-rooms, of which each may use those before it : the rooms that it may use. The kernel
+# knows of a table what it reads while it draws, its numbers; the certificate measures what the run time draws, hence
+# fit uses the sampler.
+set(order_src "core:" "math: core" "table / family: core" "kernel: core table" "sampler / batch: core table kernel"
+    "bsdf / walk: core math table kernel sampler" "source / interval formula family: core math"
+    "fit / profile: core math source table kernel sampler")
+set(order_tools "cli:" "draw: cli" "bake: cli draw" "evidence / measure methods page: cli draw" "render: cli draw"
+    "export: draw" "measured: cli render" "manual: cli"
+    "commands / parts: cli draw bake evidence render export measured manual")
 set(run_time core math table kernel sampler bsdf)
-# What tools/ share with src/ beside include/: it knows nothing of distributions.
+# What tools/ share with src/ beside include/, which knows nothing of distributions, and what the build writes.
 set(shared core/replace_file.h core/checksum.h core/nearest.h)
-# What the build writes: the kernel of tools/export in C.
 set(written exported_kernel.h)
-
-set(subs_table family)
-set(subs_sampler batch)
-set(subs_bsdf walk)
-set(subs_source interval formula family)
-set(subs_fit profile)
-
-set(rooms_tools cli draw bake evidence render export measured manual commands)
-set(below_cli "")
-set(below_draw cli)
-set(below_bake cli draw)
-set(below_evidence cli draw)
-set(below_render cli draw)
-set(below_export draw)
-set(below_measured cli render)
-set(below_manual cli)
-set(below_commands cli draw bake evidence render export measured manual)
-
-set(subs_evidence measure methods page)
-set(subs_commands parts)
-
 set(c_library assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign
     stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype)
 # A file that is replaced keeps its mode and links and is flushed to the disk, which the C library has no calls for.
 set(system_core fcntl sys/stat unistd)
 # Lanes are the processor's own.
 set(system_kernel emmintrin immintrin)
-
 set(most_files 20)
+
+foreach(tower src tools)
+    foreach(line IN LISTS order_${tower})
+        string(REGEX MATCH "^([a-z]+)( / ([a-z ]+))?:([a-z ]*)$" line "${line}")
+        set(room ${CMAKE_MATCH_1})
+        list(APPEND rooms_${tower} ${room})
+        separate_arguments(subs_${room} UNIX_COMMAND "${CMAKE_MATCH_3}")
+        separate_arguments(below_${room} UNIX_COMMAND "${CMAKE_MATCH_4}")
+    endforeach()
+endforeach()
 
 # ---- one include --------------------------------------------------------------------------------
 

@@ -3,8 +3,6 @@
  * Noticed: a fit to points in the place of the light, a warp that is turned, noise. */
 #include "measured/measured_case.h"
 
-#include "measured/grid.h"
-#include "measured/model.h"
 #include "measured/brdf.h"
 #include "measured/tensor.h"
 
@@ -131,6 +129,32 @@ static void test_warp(void)
     TEST(!warp_make(&to, nothing, 2, 2));
 }
 
+/* A function that ends within cells, at x + y = 1.3: what interpolates the grid has its light and, nearly, its
+ * values. */
+static void test_fit(void)
+{
+    enum { SIDE = 9, POINTS = 4, FINE = (SIDE - 1) * POINTS };
+    static float value[FINE * FINE], is_known[FINE * FINE];
+    double grid[SIDE * SIDE], light = 0, found = 0, worst = 0;
+    for (int i = 0; i < FINE * FINE; i++) {
+        double x = (i % FINE + 0.5) / FINE, y = ((double)(i / FINE) + 0.5) / FINE;
+        is_known[i] = x + y < 1.3;
+        value[i] = x + y < 1.3 ? (float)(1 + x - y * y) : 0;
+    }
+    grid_fit(value, is_known, SIDE, POINTS, 8, grid);
+    for (int i = 0; i < FINE * FINE; i++) {
+        int y = i / FINE, x = i % FINE;
+        const double *at = grid + y / POINTS * SIDE + x / POINTS;
+        double v = (y % POINTS + 0.5) / POINTS, u = (x % POINTS + 0.5) / POINTS;
+        double here = (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[SIDE] + u * at[SIDE + 1]);
+        light += (double)value[i];
+        found += is_known[i] > 0 ? here : 0;
+        worst = fmax(worst, is_known[i] > 0 ? fabs(here - (double)value[i]) : 0);
+    }
+    TEST_RELATIVE(found, light, 1e-6);
+    TEST(worst < 0.02);
+}
+
 /* ---- refusals ------------------------------------------------------------------------------------ */
 
 static void refused(data_file file, const char *reason)
@@ -207,6 +231,7 @@ int main(void)
 {
     vndf_distribution *table = vndf_load(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", NULL);
     test_warp();
+    test_fit();
     test_model(table);
     test_round_trip(vndf_ggx(), 0.5f);
     if (!test_quick())

@@ -31,18 +31,26 @@ static void test_round_trip(void)
     fclose(file);
 }
 
+/* Either byte order, one channel, whole numbers of 16 bits, CR LF: the first two pixels. */
 static void test_forms(void)
 {
-    static const char big[] = "PF\n1 1\n2.5\n\x3f\x80\0\0\x40\0\0\0\xc0\0\0\0",
-                      grey[] = "Pf\r\n1 2\r\n-1\r\n\0\0\x80\x3f\0\0\0\x40";
-    image made;
-    image_error error;
-    if (TEST(image_read_bytes(&made, "x", big, sizeof big - 1, &error)))
-        TEST(made.rgb[0] == 1.0f && made.rgb[1] == 2.0f && made.rgb[2] == -2.0f);
-    image_free(&made);
-    if (TEST(image_read_bytes(&made, "x", grey, sizeof grey - 1, &error)))
-        TEST(made.rgb[0] == 2.0f && made.rgb[2] == 2.0f && made.rgb[3] == 1.0f && made.rgb[5] == 1.0f);
-    image_free(&made);
+#define BYTES(literal) literal, sizeof literal - 1
+    static const struct {
+        const char *bytes;
+        size_t size;
+        float rgb[6];
+    } forms[] = {
+        {BYTES("PF\n1 1\n2.5\n\x3f\x80\0\0\x40\0\0\0\xc0\0\0\0"), {1, 2, -2}},
+        {BYTES("Pf\r\n1 2\r\n-1\r\n\0\0\x80\x3f\0\0\0\x40"), {2, 2, 2, 1, 1, 1}},
+        {BYTES("P6\n# two\n2 1\n1024\n\0\0\2\0\4\0\1\0\0\0\0\0"), {0, 0.5f, 1, 0.25f}},
+    };
+    for (size_t i = 0; i < sizeof forms / sizeof *forms; i++) {
+        image made;
+        image_error error = {""};
+        if (TEST(image_read_bytes(&made, "x", forms[i].bytes, forms[i].size, &error)))
+            TEST(memcmp(made.rgb, forms[i].rgb, (i ? 6 : 3) * sizeof(float)) == 0);
+        image_free(&made);
+    }
 }
 
 static void refuse_images(void)
@@ -55,16 +63,13 @@ static void refuse_images(void)
     } bad[] = {
         {"", 0, "x: this is no PFM, PGM or PPM image"},
         {"P4\n1 1\n255\n", 11, "x: this is no PFM, PGM or PPM image"},
-        {"PFx\n1 1\n-1\n", 11, "x: this is no PFM, PGM or PPM image"},
         {"PF\n1 1\n", 7, "the head of the image is not whole: after PF come width, height, a scale and a blank"},
         {"P6\n1 1\n65536\n123", 15, "the largest value is '65536'; it must be from 1 to 65535"},
         {"P5\n1 2\n256\n\0\0\1", 14, "1 x 2 pixels take 4 bytes after the head, and there are 3"},
         {"Pf\n0 1\n-1\n" PIXEL, 14, "width 0 and height 1: both must be whole numbers"},
-        {"Pf\n1 1.5\n-1\n" PIXEL, 16, "both must be whole numbers from 1 to 16384"},
         {"Pf\n16384 16384\n-1\n" PIXEL, 22, "16384 x 16384 pixels are more than"},
         {"Pf\n1 1\n0\n" PIXEL, 13, "'0' must be a number other than 0"},
         {"Pf\n1 1\n-1\n" PIXEL "\0", 15, "1 x 1 pixels take 4 bytes after the head, and there are 5"},
-        {"Pf\n2 1\n-1\n" PIXEL, 14, "2 x 1 pixels take 8 bytes after the head, and there are 4"},
         {"Pf\n2 1\n-1\n" PIXEL "\0\0\x80\x7f", 18,
          "the pixel in column 1 of row 0 (from the top, from 0) is not finite"},
     };
@@ -95,13 +100,10 @@ static void refuse_meshes(void)
         {"", "x.obj:1: the file ends here without a triangle that has an area"},
         {"v 0 0 0\nv 1 0\n", "x.obj:2: there are 2 numbers of 3 in this line"},
         {"v 0 0 nan\n", "x.obj:1: 'nan' should be a number"},
-        {"v 0 0 0x1\n", "x.obj:1: '0x1' should be a number"},
         {"v 0 0 1e99\n", "x.obj:1: corners (v) lie within 1e+07 of 0, and these do not"},
         {"v 0 0 1e9\n", "x.obj:1: corners (v) lie within 1e+07 of 0"},
-        {"vt 1e9\n", "x.obj:1: texture coordinates (vt) lie within 1e+06 of 0"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2\n", "x.obj:4: a face has 3 corners or more, this one has 2"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", "x.obj:4: number 4 is none of 3 corners (v) so far"},
-        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n", "x.obj:4: number -4 is none of 3 corners (v) so far"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 0 1 2\n",
          "x.obj:4: number 0 is none of 3 corners (v) so far, which are counted from 1"},
         {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2 3\n", "x.obj:4: number 1 is none of 0 texture coordinates (vt)"},
@@ -111,14 +113,14 @@ static void refuse_meshes(void)
         {"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "x.obj:4: the file ends here without a triangle"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        geometry g = {NULL, 0, 0, NULL};
+        geometry g = {0};
         char message[256];
         if (!(TEST(!read_text(&g, bad[i].text, &as_it_is, message)) & TEST_HAS(message, bad[i].says) &
               TEST(g.count == 0)))
             fprintf(stderr, "    %s    says %s\n", bad[i].text, message);
         geometry_free(&g);
     }
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     TEST(!obj_read_text(&g, "x.obj", "v 0\0 0", 6, &as_it_is, 0, message, sizeof message));
     TEST_HAS(message, "x.obj:1: the file has a byte 0");
@@ -128,7 +130,7 @@ static void refuse_meshes(void)
 
 static void test_square(const char *text)
 {
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     if (!TEST(read_text(&g, text, &as_it_is, message)) || !TEST(g.count == 2 && geometry_build(&g))) {
         fprintf(stderr, "    %s    says %s\n", text, message);
@@ -150,7 +152,7 @@ static void test_square(const char *text)
 static void test_placement(void)
 {
     const placement where = {2, 90, {10, 20, 30}};
-    geometry g = {NULL, 0, 0, NULL};
+    geometry g = {0};
     char message[256];
     TEST(read_text(&g, "v 0 0 1\nv 0 0 2\nv 0 1 1\nvn 0 0 3\nf 1//1 2//1 3//1\n", &where, message) &&
          g.count == 1);
@@ -180,29 +182,20 @@ static const struct {
     {"camera from 0 0 5 to 0 0 0 from 1 2 3\n", ":1:28: 'from' stands in this statement twice"},
     {"camera from 0 0 5 to 0 0\n", ":1:19: the statement ends before all of 'to X Y Z' was there"},
     {"camera from 0 0 nan to 0 0 0\n", ":1:17: 'nan' is no number"},
-    {"camera from 0 0 1-2 to 0 0 0\n", ":1:17: '1-2' is no number"},
     {"camera from 0 0 1e7 to 0 0 0\n", ":1:17: from is 10000000, it must be from -1000000 to 1000000"},
     {"camera from 0 0 5 to 0 0 5\n", ":1:19: 'from' and 'to' are the same place"},
     {"camera from 0 5 0 to 0 0 0\n", ":1:1: 'up' is the direction of the view"},
     {"camera from 0 0 5 to 0 0 0 fild 3\n", ":1:28: 'fild' is no clause here; did you mean 'field'?"},
     {"film width 1.5 height 3\n", ":1:12: width is 1.5, it must be a whole number"},
     {"film width 16384 height 16384\n", ":1:6: 16384 x 16384 pixels are more than"},
-    {"integrator depth 0\n", ":1:18: depth is 0, it must be from 1 to 10000"},
     {"environment scale 2\n", ":1:1: 'environment' needs one of 'constant R G B' and 'image NAME'"},
     {"environment constant 1 1 1 turn 3\n", ":1:28: 'turn' stands beside 'image' only"},
-    {"environment image sky\n",
-     ":1:19: 'sky' is no image that is defined before this; it must be one of: (none yet)"},
     {"image a pattern tils\n", ":1:17: there is no pattern 'tils', but tiles, grid and studio"},
-    {"image a pattern tiles width 0\n", ":1:29: width is 0, it must be from 1 to 16384"},
     {"image a file none.pfm\n", "none.pfm: No such file"},
-    {"image a file none.pfm width 3\n", ":1:23: 'width' stands beside 'pattern' only"},
     {"image a pattern tiles\nimage a pattern grid\n", ":2:7: there is another image 'a' already"},
     {"image a\n", ":1:1: 'image' needs a name and what it is"},
     {GOLD GOLD, ":2:10: there is another material 'm' already"},
-    {"material m metal of gold\n",
-     ":1:12: 'metal' is no kind of material; it must be one of: conductor, dielectric"},
     {"material m matte\n", ":1:12: 'matte' needs 'colour R G B'"},
-    {"material m matte colour 1 1 2\n", ":1:29: colour is 2, it must be from 0 to 1"},
     {"material m matte colour 1 1 1 alpha 2\n",
      ":1:31: 'alpha' is no clause here; it must be one of: colour, colour-map"},
     {"material m conductor distribution ggx alpha 1\n",
@@ -211,31 +204,24 @@ static const struct {
      ":1:12: 'conductor' needs one of 'k R G B' and 'of METAL'"},
     {"material m conductor of glod distribution ggx alpha 1\n", ":1:25: 'glod' is no metal; did you mean 'gold'?"},
     {"material m conductor eta 0 0 0 k 0 0 0 distribution ggx alpha 1\n", ":1:10: "},
-    {"material m dielectric distribution ggx alpha 1\n", ":1:12: 'dielectric' needs 'index N'"},
     {"material m conductor of gold distribution ggx\n",
      ":1:30: 'distribution ggx' needs 'alpha A' or 'alpha AX AY'"},
-    {"material m conductor of gold distribution ggx alpha 0\n",
-     ":1:53: alpha is 0, it must be from 1e-06 to 1000"},
     {"material m shape distribution ggx 2 alpha 1\n", ":1:35: 'distribution ggx' takes nothing more"},
     {"material m shape distribution ggx alpha 1 bytes 4096\n", ":1:43: 'bytes' is of tables that are made here"},
     {"material m shape distribution slope alpha 1\n",
      ":1:31: 'distribution slope' needs a formula between quotes"},
     {"material m shape distribution slope \"exp(-\" alpha 1\n", ":1:37: "},
     {"material m shape distribution table none.vndf\n", "none.vndf"},
-    {"material m shape distribution gx alpha 1\n", ":1:31: 'gx' is no distribution; did you mean 'ggx'?"},
     {"image a pattern studio width 8 height 4\nmaterial m matte colour 1 1 1 colour-map a\n",
      ":2:42: as colour the image must be from 0 to 1; it is "},
     {"sphere centre 0 0 0 radius 1 material m\n", ":1:39: 'm' is no material that is defined before this"},
-    {GOLD "sphere centre 0 0 0 radius 0 material m\n", ":2:28: radius is 0, it must be from 1e-06"},
     {GOLD "rectangle corner 0 0 0 edge-u 1 0 0 edge-v 1 1 0 material m\n",
      "right angles; these are at 45 degrees"},
     {GOLD "rectangle corner 0 0 0 edge-u 0 0 0 edge-v 1 1 0 material m\n", ":2:24: this edge has no length"},
-    {GOLD "mesh file none.obj material m\n", ":2:11: "},
     {"material l light radiance 1 1 1\nmesh file none.obj material l\n",
      ":2:29: a light is a sphere or a rectangle"},
     {"camera \"from 0\n", ":1:8: the quote that begins here does not end on its line"},
     {"camera \"from\"x\n", ":1:14: a blank is missing before this"},
-    {"camera fr\001om\n", ":1:10: a blank is missing before this"},
     {"camera \"from\" 0 0 5 to 0 0 0\n", ":1:8: 'from' is no clause here"},
 };
 

@@ -18,6 +18,17 @@ static int put_quarters(const char *name, const float (*pixels)[3])
     return fclose(file) == 0 && good;
 }
 
+/* A scene whose files are in the folder at hand. */
+static scene *here(const char *text)
+{
+    char message[1024], copy[2048];
+    snprintf(copy, sizeof copy, "%s", text);
+    scene *s = scene_read_text("here", copy, strlen(copy), message, sizeof message);
+    if (!TEST(s != NULL))
+        fprintf(stderr, "    %s\n", message);
+    return s;
+}
+
 /* The colours seen in the corners: 0 to 2, or 3 for none. */
 static void test_upright(const char *shapes, const char *camera, const int want[4])
 {
@@ -26,14 +37,10 @@ static void test_upright(const char *shapes, const char *camera, const int want[
              "film width 4 height 4\n%s\nintegrator depth 1\nenvironment constant 1 1 1\n"
              "image q file \"render_quarters.pfm\"\nmaterial m matte colour 1 1 1 colour-map q\n%s",
              camera, shapes);
-    char message[1024], copy[2048];
-    memcpy(copy, text, sizeof copy);
-    scene *s = scene_read_text("here", copy, strlen(copy), message, sizeof message);
-    film f = {.sum = NULL};
-    if (!TEST(s != NULL)) {
-        fprintf(stderr, "    %s\n", message);
+    scene *s = here(text);
+    if (!s)
         return;
-    }
+    film f = {.sum = NULL};
     case_render(&f, s, SAMPLER_VISIBLE, 64, 1);
     for (int i = 0; i < 4; i++) {
         static const size_t pixels[4] = {0, 3, 12, 15};
@@ -46,47 +53,45 @@ static void test_upright(const char *shapes, const char *camera, const int want[
     scene_free(s);
 }
 
+/* A map of 1/2 halves the roughness. */
 static void test_roughness(void)
 {
-#define ROUGH                                                        \
+#define LAMP                                                         \
   "camera from 0 1 2 to 0 0 0\nmaterial lamp light radiance 9 9 9\n" \
   "sphere centre 0 2 -2 radius 0.3 material lamp\n"
 #define FLAT "rectangle corner -1 0 1 edge-u 2 0 0 edge-v 0 0 -2 material m\n"
     static const float half[4][3] = {{0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}};
-    char message[1024], text[2][1024];
-    scene *s[2];
-    snprintf(text[0], sizeof text[0], ROUGH "material m conductor of gold distribution ggx alpha 0.2 0.1\n" FLAT);
-    snprintf(text[1], sizeof text[1],
-             ROUGH "image h file render_half.pfm\n"
-                   "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h\n" FLAT);
+    static const char *const texts[2] = {
+        LAMP "material m conductor of gold distribution ggx alpha 0.2 0.1\n" FLAT,
+        LAMP "image h file \"render_half.pfm\"\n"
+             "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h\n" FLAT};
+    double light[2] = {0, 1};
     TEST(put_quarters("render_half.pfm", half));
-    for (int i = 0; i < 2; i++)
-        s[i] = scene_read_text("here", text[i], strlen(text[i]), message, sizeof message);
-    if (TEST(s[0] && s[1])) {
-        for (int i = 0; i < 2; i++)
-            s[i]->width = s[i]->height = 8;
-        TEST_RELATIVE(case_light(s[1], SAMPLER_VISIBLE, 64).value, case_light(s[0], SAMPLER_VISIBLE, 64).value,
-                      1e-6);
+    for (int i = 0; i < 2; i++) {
+        scene *s = here(texts[i]);
+        if (!s)
+            continue;
+        s->width = s->height = 8;
+        light[i] = case_light(s, SAMPLER_VISIBLE, 64).value;
+        scene_free(s);
     }
-    scene_free(s[0]);
-    scene_free(s[1]);
+    TEST_RELATIVE(light[1], light[0], 1e-6);
     remove("render_half.pfm");
 }
 
 static void test_bilinear(void)
 {
+    static const float want[][5] = {
+        {0.25f, 0.25f, 1, 0, 0}, {0.375f, 0.25f, 0.75f, 0.25f, 0}, {-2.75f, 7.75f, 0, 0, 1}};
     image of;
     float rgb[3];
     if (!TEST(image_make(&of, 2, 2)))
         return;
     memcpy(of.rgb, quarters, sizeof quarters);
-    image_bilinear(&of, 0.25, 0.25, rgb);
-    TEST(rgb[0] == 1.0f && rgb[1] == 0.0f && rgb[2] == 0.0f);
-    image_bilinear(&of, 0.375, 0.25, rgb);
-    TEST_NEAR((double)rgb[0], 0.75, 1e-6);
-    TEST_NEAR((double)rgb[1], 0.25, 1e-6);
-    image_bilinear(&of, -2.75, 7.75, rgb);
-    TEST(rgb[2] == 1.0f);
+    for (int i = 0; i < 9; i++) {
+        image_bilinear(&of, (double)want[i / 3][0], (double)want[i / 3][1], rgb);
+        TEST_NEAR((double)rgb[i % 3], (double)want[i / 3][2 + i % 3], 1e-6);
+    }
     image_free(&of);
 }
 

@@ -8,6 +8,10 @@
 #include "statistics/slopes.h"
 #include "vndf.h"
 
+#if defined(__SSE2__)
+#  include <xmmintrin.h>
+#endif
+
 typedef enum seen_kind { SEEN_SURFACE, SEEN_AFFINE, SEEN_MIXTURE } seen_kind;
 
 typedef struct seen {
@@ -102,6 +106,17 @@ static inline void seen_print(const seen *s, const char *name)
         fprintf(stderr, "    (%.9g %.9g; %.9g %.9g) mean %.9g %.9g weight %.9g\n", (double)a->xx, (double)a->xy,
                 (double)a->yx, (double)a->yy, (double)a->mean_x, (double)a->mean_y, (double)s->of.lobe[i].weight);
     }
+}
+
+/* Whether denormals are flushed to zero, and read as zero, from now on; returns 0 where no way is known. */
+static inline int set_flushing(int flushing)
+{
+#if defined(__SSE2__)
+    _mm_setcsr((_mm_getcsr() & ~0x8040u) | (flushing ? 0x8040u : 0));
+    return 1;
+#else
+    return flushing & 0;
+#endif
 }
 
 /* ---- subjects ---- */

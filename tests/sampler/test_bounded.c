@@ -128,7 +128,7 @@ static void test_setting(const subject *of, law which, const float alpha[2], vnd
     const vndf_affine shape = seen_straight(of->d, alpha[0], alpha[1]);
     const drawn d = {which, vndf_view_from(&surface, wi)};
     const slope_frame frame = slope_frame_from(&shape, wi, which == ALL);
-    const size_t samples = test_amount(20000, 100000, 1000000);
+    const size_t samples = test_amount(20000, 100000, 300000);
     test_samples(&d, &surface, wi, of->name, test_amount(1000, 5000, 100000));
     if (which == BOUNDED && (!of->owned || alpha[0] != alpha[1])) { /* what is lost has no density */
         test_means(&d, wi, of->name, samples);

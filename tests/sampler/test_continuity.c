@@ -93,7 +93,7 @@ static void test_subject(const subject *of, size_t index)
         seen s = seen_surface(of->d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1,
                               oracle_direction(thetas[j / 2], 17.0 * (double)j));
         if (seen_quantity(&s, AREA, s.wi) > 1e-4f)
-            test_view(&s, of->name, (int)test_amount(100, 400, 20000), &state);
+            test_view(&s, of->name, (int)test_amount(100, 400, 5000), &state);
     }
 }
 

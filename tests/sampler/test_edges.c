@@ -1,7 +1,7 @@
 /* What is invalid has the one result that vndf.h states, for surfaces, matrices and mixtures; and mixtures, with
  * weights 1e-30 to 1e30 and lobes up to 1e4 apart, give a unit normal with wm.z >= 0 that faces wi, with a density
  * within [FLT_MIN, FLT_MAX], from straight up to where 1e-10 of the area is left; where areas vanish weights are
- * shares. (One distribution: test_stress.) */
+ * shares; one lobe has the bits of its surface. (One distribution: test_stress.) */
 #include <float.h>
 
 #include "sampler/seen.h"
@@ -47,6 +47,11 @@ static void check_mixtures(const vndf_distribution *d, const char *name, unsigne
         const double wi[3] = {across * cos(phi), across * sin(phi), z};
         seen s = seen_from(SEEN_MIXTURE, &of, vec3_of(wi));
         check_view(&s, name, state);
+        const vndf_mixture alone = {1, {of.lobe[0]}};
+        const seen one = seen_from(SEEN_AFFINE, &alone, s.wi), mixed = seen_from(SEEN_MIXTURE, &alone, s.wi);
+        float u1 = test_uniform(state), u2 = test_uniform(state), pdf, density;
+        vndf_vec3 a_wm = seen_draw(&one, u1, u2, &pdf), b_wm = seen_draw(&mixed, u1, u2, &density);
+        TEST(memcmp(&a_wm, &b_wm, sizeof a_wm) == 0 && pdf == density);
     }
 }
 

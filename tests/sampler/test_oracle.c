@@ -172,7 +172,7 @@ static void test_subject(const subject *of, size_t index)
                                   &table, NULL};
     if (index < 2 || TEST(oracle_table_of(&table, of->d)))
         for (int f = 0; f < FAMILIES; f++)
-            test_family(of, &slopes, (family)f, test_amount(1000, 5000, 200000));
+            test_family(of, &slopes, (family)f, test_amount(1000, 5000, 30000));
     oracle_table_free(&table);
 }
 

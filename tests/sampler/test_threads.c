@@ -1,6 +1,6 @@
 /* One distribution and one view, shared by eight threads that sample, evaluate, invert and load, give every thread the
  * bits that it gets alone. The threads run first: what would be made at the first use, would be made there.
- * test_threads_sanitized.cmake runs this under ThreadSanitizer. */
+ * threads_valgrind looks for data races. */
 #include "harness/hash.h"
 
 #if !defined(VNDF_TEST_PTHREADS)

@@ -125,7 +125,7 @@ static void test_setting(const subject *of, const setting *at, size_t samples)
 static void test_subject(const subject *of, size_t index)
 {
     for (size_t j = index % 2; j < SETTINGS; j += test_long() ? 1 : 2)
-        test_setting(of, &settings[j], test_amount(10000, 50000, 1000000));
+        test_setting(of, &settings[j], test_amount(10000, 50000, 200000));
 }
 
 int main(int arguments, char **argument)

@@ -87,7 +87,7 @@ static void test_formula(const char *text, int moments, size_t samples)
 int main(void)
 {
     unsigned long long state = 2026;
-    size_t count = test_amount(6, 60, 300), samples = test_amount(200, 400, 4000);
+    size_t count = test_amount(6, 60, 300), samples = test_amount(200, 400, 1000);
     for (size_t i = 0; i < count; i++) {
         char text[1024];
         random_formula(text, &state);

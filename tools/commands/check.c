@@ -238,7 +238,7 @@ static void check_hard(checking *c, int is_whole)
     figures_number(&c->to, "roughnesses_left_out", 9, (double)result.outside, "");
     figures_list(&c->to, "hard");
     for (int id = 0; id < STRESS_COUNT; id++) {
-        const stress_property *property = stress_property_of((stress_id)id);
+        const stress_property *property = &stress_properties[id];
         const stress_finding *found = &result.found[id];
         const vndf_affine *m = &found->at.surface;
         const float at[] = {m->xx,          m->xy,          m->yx,          m->yy,          m->mean_x,

@@ -51,19 +51,10 @@ int page_file_end(html_page *page)
 
 int page_data_end(html_page *page, const char *what)
 {
-    const page_file *file = &page->file[page->count - 1];
-    if (!page_file_end(page))
-        return 0;
-    size_t lines = 0;
-    for (size_t i = 0; i < file->size; i++)
-        lines += file->text[i] == '\n';
-    fprintf(page->html,
-            "<details class=\"data\"><summary>Data: %s (%zu rows)</summary>\n"
-            "<p><a href=\"%s\" download=\"%s\">%s</a></p>\n<pre>",
-            what, lines - 1, file->name, file->name, file->name);
-    svg_escape(page->html, file->text);
-    fputs("</pre></details>\n", page->html);
-    return 1;
+    const char *name = page->file[page->count - 1].name;
+    fprintf(page->html, "<p class=\"note\">Data: <a href=\"%s\" download=\"%s\">%s</a>, %s.</p>\n", name, name,
+            name, what);
+    return page_file_end(page);
 }
 
 int page_data(html_page *page, const char *name, const char *what, text_table t)
@@ -101,11 +92,9 @@ static const char style[] =
     "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
     ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"
-    ".data{margin:.4em 0;font-size:.9em}.data pre{max-height:24em;overflow:auto;border:1px solid var(--rule);"
-    "padding:.6em}summary{cursor:pointer;color:var(--quiet)}\n"
     "@media screen{.wide svg.chart[role]{min-width:760px}}@media (max-width:600px){body{padding:12px}}\n"
     "@page{size:A4 landscape;margin:12mm}\n"
-    "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}.data,nav{display:none}\n"
+    "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}nav{display:none}\n"
     ".scroll{overflow:visible}h2{margin-top:1em}h2,h3,.lead{break-after:avoid}"
     "figure,table,.advice,.lead{break-inside:avoid}.panels{flex-wrap:nowrap}.panels svg{min-width:0;flex:0 1 auto}"
     ".wide svg[role]{max-height:145mm}"

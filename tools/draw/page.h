@@ -1,5 +1,5 @@
-/* A page in a folder: a head with its style, sections with a title, and the data behind each plot, in a file
- * beside the page and again inside it. Memory holds all of it until the files are written together. */
+/* A page in a folder: a head with its style, sections with a title, and the data behind each plot in a file beside
+ * the page. Memory holds all of it until the files are written together. */
 #ifndef TOOLS_DRAW_PAGE_H
 #define TOOLS_DRAW_PAGE_H
 
@@ -36,7 +36,7 @@ void page_section(html_page *page, const char *id, const char *title, const char
 FILE *page_file_begin(html_page *page, const char *name);
 int page_file_end(html_page *page);
 
-/* Ends the file; the page links it and shows it inside, folded. */
+/* Ends the file; the page links it. */
 int page_data_end(html_page *page, const char *what);
 
 /* A table as a whole file of data; it is freed. 0 if there is no memory. */

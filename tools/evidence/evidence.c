@@ -134,7 +134,7 @@ vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_e
     if (status == VNDF_OK)
         status = measure(r, error);
     if (status == VNDF_OK) {
-        status = evidence_time(&r->list, plan);
+        status = evidence_time(&r->list, plan, &r->block);
         if (status != VNDF_OK)
             fail(error, status, status == VNDF_ERROR_MEMORY ? "no memory" : "interrupted");
     }

@@ -91,8 +91,8 @@ typedef struct evidence_list {
     vndf_error *error;
 } evidence_list;
 
-/* Everything the plan asks for. Free it whatever this returns; an error if a table or a material cannot be made or
- * `only` fits nothing. */
+/* Everything the plan asks for: at most 8 x 29 materials fit. Free it whatever this returns; an error if a table
+ * or a material cannot be made or `only` fits nothing. */
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error);
 void evidence_list_free(evidence_list *list);
 
@@ -122,6 +122,6 @@ double worth_fresnel(double cosine, double n, double k);
 
 /* Fills the times of all entries that are not wrong: turns until the plan's seconds are spent, some at least.
  * VNDF_ERROR_ARGUMENT: stopped. */
-vndf_status evidence_time(evidence_list *list, const evidence_plan *plan);
+vndf_status evidence_time(evidence_list *list, const evidence_plan *plan, block *b);
 
 #endif

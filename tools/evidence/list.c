@@ -148,13 +148,13 @@ static vndf_status add_at_hand(evidence_list *to)
 {
     subject *s = to->plan->at_hand;
     size_t before = to->count;
-    const method warp = method_warp(NULL);
+    const method published[] = {method_all_normals(NULL), method_warp(NULL)};
     for (size_t i = 0; i < SIZES; i++) {
         method_call last = i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE;
         if (add_table(to, AT_HAND, s, i, last) != VNDF_OK)
             return to->error->status;
     }
-    if (to->count == before && !is_wanted(to, &warp, s->name))
+    if (to->count == before && !is_wanted(to, &published[0], s->name) && !is_wanted(to, &published[1], s->name))
         return VNDF_OK;
     if (!subject_table(s, SIZE_FINE, to->plan, to->error))
         return to->error->status;

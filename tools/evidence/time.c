@@ -75,12 +75,11 @@ static void conclude(entry *e, const double *number, size_t stride, size_t turns
     }
 }
 
-vndf_status evidence_time(evidence_list *list, const evidence_plan *plan)
+vndf_status evidence_time(evidence_list *list, const evidence_plan *plan, block *b)
 {
     size_t stride = list->count * SERIES, turns = 0;
-    block *b = malloc(sizeof *b);
     double *number = malloc((stride + 1) * TURNS_MOST * sizeof *number), *room = number + stride * TURNS_MOST;
-    vndf_status status = b && number ? VNDF_OK : VNDF_ERROR_MEMORY;
+    vndf_status status = number ? VNDF_OK : VNDF_ERROR_MEMORY;
     if (status == VNDF_OK && !take_turn(list, plan, b, 0, number))
         status = VNDF_ERROR_ARGUMENT;
     while (status == VNDF_OK && turns < TURNS_MOST &&
@@ -91,7 +90,6 @@ vndf_status evidence_time(evidence_list *list, const evidence_plan *plan)
     }
     for (size_t i = 0; i < list->count && status == VNDF_OK; i++)
         conclude(&list->entry[i], number + i * SERIES, stride, turns, room);
-    free(b);
     free(number);
     return status;
 }

@@ -1,4 +1,4 @@
-#include "measured/model.h"
+#include "measured/brdf.h"
 
 #include <math.h>
 #include <string.h>

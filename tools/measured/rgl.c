@@ -4,14 +4,13 @@
  *
  * Out: D stands at NORMALS + 1 angles. The vndf is coarser in theta by FINE, and each of its numbers is the mean over
  * the cells beside it, so that no ring of D falls between two of them: what is reflected there has to be drawn as
- * well. rgb is fitted (grid.h) to R at POINTS^2 places of each cell, so that the light of a cell where wo meets the
+ * well. rgb is fitted (tensor.h) to R at POINTS^2 places of each cell, so that the light of a cell where wo meets the
  * horizon is right. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "measured/brdf.h"
-#include "measured/grid.h"
 #include "measured/tensor.h"
 
 enum { ANGLES_LEAST = 8, ANGLES_MOST = 65536, GRID_MOST = 4096, PROBES = 24 };                          /* in */

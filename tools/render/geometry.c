@@ -110,82 +110,66 @@ static box box_of(const shape *s)
 
 enum { LEAF_MAX = 3, DEPTH_MAX = 96, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds them all */ };
 
-typedef struct reference {
-    box box;
-    float centre[3];
-    uint32_t shape;
-} reference;
-
-typedef struct builder {
-    bvh_node *nodes;
-    uint32_t count; /* of nodes */
-    reference *references;
-} builder;
-
-/* Moves the references before the middle of the longest side of all centres to the front; how many they are. */
-static uint32_t split(reference *references, uint32_t count, int depth)
+static void centre_of(const shape *s, float centre[3])
 {
-    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX};
+    const box b = box_of(s);
+    for (int k = 0; k < 3; k++)
+        centre[k] = 0.5f * b.low[k] + 0.5f * b.high[k];
+}
+
+/* Moves the shapes before the middle of the longest side of all centres to the front; how many they are. */
+static uint32_t split(shape *shapes, uint32_t count, int depth)
+{
+    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX}, centre[3];
     uint32_t left = 0;
     int axis = 0;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
+        centre_of(&shapes[i], centre);
         for (int k = 0; k < 3; k++) {
-            low[k] = fminf(low[k], references[i].centre[k]);
-            high[k] = fmaxf(high[k], references[i].centre[k]);
+            low[k] = fminf(low[k], centre[k]);
+            high[k] = fmaxf(high[k], centre[k]);
         }
+    }
     for (int k = 1; k < 3; k++)
         axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
     const float middle = 0.5f * low[axis] + 0.5f * high[axis];
-    for (uint32_t i = 0; i < count && depth < MIDDLES_DEPTH; i++)
-        if (references[i].centre[axis] < middle) {
-            const reference moved = references[i];
-            references[i] = references[left];
-            references[left++] = moved;
+    for (uint32_t i = 0; i < count && depth < MIDDLES_DEPTH; i++) {
+        centre_of(&shapes[i], centre);
+        if (centre[axis] < middle) {
+            const shape moved = shapes[i];
+            shapes[i] = shapes[left];
+            shapes[left++] = moved;
         }
+    }
     return left > 0 && left < count ? left : count / 2;
 }
 
-static void build(builder *b, uint32_t first, uint32_t count, int depth)
+/* A node over some of the shapes, and those below it. */
+static void build(geometry *g, uint32_t first, uint32_t count, int depth)
 {
-    bvh_node *node = &b->nodes[b->count++];
-    reference *references = b->references + first;
+    bvh_node *node = &g->nodes[g->node_count++];
     *node = (bvh_node){no_box, first, count};
-    for (uint32_t i = 0; i < count; i++)
-        enclose(&node->box, &references[i].box);
+    for (uint32_t i = first; i < first + count; i++) {
+        const box b = box_of(&g->shapes[i]);
+        enclose(&node->box, &b);
+    }
     if (count <= LEAF_MAX)
         return;
-    const uint32_t left = split(references, count, depth);
-    build(b, first, left, depth + 1);
-    node->at = b->count;
+    const uint32_t left = split(g->shapes + first, count, depth);
+    build(g, first, left, depth + 1);
+    node->at = g->node_count;
     node->count = 0;
-    build(b, first + left, count - left, depth + 1);
+    build(g, first + left, count - left, depth + 1);
 }
 
 int geometry_build(geometry *g)
 {
     if (!g->count)
         return 1;
-    reference *references = malloc(g->count * sizeof *references);
-    shape *sorted = malloc(g->count * sizeof *sorted);
     g->nodes = malloc((2 * g->count - 1) * sizeof *g->nodes);
-    if (!references || !sorted || !g->nodes) {
-        free(references);
-        free(sorted);
+    if (!g->nodes)
         return 0;
-    }
-    for (size_t i = 0; i < g->count; i++) {
-        references[i] = (reference){.box = box_of(&g->shapes[i]), .shape = (uint32_t)i};
-        for (int k = 0; k < 3; k++)
-            references[i].centre[k] = 0.5f * references[i].box.low[k] + 0.5f * references[i].box.high[k];
-    }
-    builder b = {g->nodes, 0, references};
-    build(&b, 0, (uint32_t)g->count, 0);
-    for (size_t i = 0; i < g->count; i++)
-        sorted[i] = g->shapes[references[i].shape];
-    free(g->shapes);
-    free(references);
-    g->shapes = sorted;
-    g->room = g->count;
+    build(g, 0, (uint32_t)g->count, 0);
     return 1;
 }
 
@@ -207,7 +191,7 @@ void geometry_free(geometry *g)
 {
     free(g->shapes);
     free(g->nodes);
-    *g = (geometry){NULL, 0, 0, NULL};
+    *g = (geometry){0};
 }
 
 /* ---- the walk ---- */

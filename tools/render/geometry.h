@@ -35,6 +35,7 @@ typedef struct geometry {
     shape *shapes; /* owned, as all arrays here; geometry_build changes their order */
     size_t count, room;
     bvh_node *nodes;
+    uint32_t node_count;
 } geometry;
 
 /* 0 if there is no memory. */

@@ -31,12 +31,8 @@ typedef struct word {
 } word;
 
 typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
-typedef enum key_rule {
-    MAY_BE,
-    NEEDED,
-    OR,
-    BESIDE
-} key_rule; /* OR: one of it and `other`; BESIDE: only with that */
+/* OR: one of it and `other`; BESIDE: only with that. */
+typedef enum key_rule { MAY_BE, NEEDED, OR, BESIDE } key_rule;
 
 /* A keyword of a statement, with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
 typedef struct key {
@@ -161,69 +157,54 @@ static int read_choice(reader *r, const word *at, const char *what, const char *
 
 /* ---- words ---- */
 
-/* Takes the word at *at, which moves behind it. */
-static int take_word(reader *r, char **at, const char *line_start, unsigned line)
+static int add_word(reader *r, const word *added)
 {
-    const word taken = {*at + (**at == '"'), line, (unsigned)(*at - line_start) + 1, **at == '"',
-                        *at == line_start};
-    char *end = taken.text;
-    if (taken.is_quoted)
-        end += strcspn(end, "\"\n");
-    else
-        while ((unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
-            end++;
-    if (taken.is_quoted && *end != '"')
-        return refuse(r, &taken, "the quote that begins here does not end on its line");
-    if (end == taken.text && !taken.is_quoted)
-        return refuse(r, &taken, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
-    char *behind = end + taken.is_quoted;
-    if (*behind && !strchr(" \t\r\n#", *behind)) {
-        const word here = {NULL, line, (unsigned)(behind - line_start) + 1, 0, 0};
-        return refuse(r, &here, "a blank is missing before this");
-    }
     if (r->word_count == r->room) {
         const size_t room = 256 + 2 * r->room;
         word *larger = realloc(r->words, room * sizeof *larger);
         if (!larger)
-            return refuse(r, &taken, "there is no memory for the words of this file");
+            return refuse(r, added, "there is no memory for the words of this file");
         r->words = larger;
         r->room = room;
     }
-    r->words[r->word_count++] = taken;
-    *at = behind;
-    return 1;
+    r->words[r->word_count++] = *added;
+    return r->words[0].begins ||
+           refuse(r, added,
+                  "a statement begins in the first column; lines that begin with a blank go on with the one "
+                  "before");
 }
 
-/* Words end with a 0 only when the character behind them has been read. */
+/* Splits the text, which has a 0 behind its bytes and is changed, into words. The list is to be freed in any case. */
 static int split_words(reader *r, char *text, size_t length)
 {
-    char *at = text, *line_start = text, *unended = NULL;
     unsigned line = 1;
-    while (at < text + length) {
-        char c = *at;
-        if (unended)
-            *unended = '\0';
-        unended = NULL;
-        if (c == '#') {
-            at++; /* it may just have become the end of a word */
-            at += strcspn(at, "\n");
-        } else if (c == '\n') {
-            line_start = ++at;
-            line++;
-        } else if (c == ' ' || c == '\t' || c == '\r') {
-            at++;
-        } else {
-            if (!take_word(r, &at, line_start, line))
-                return 0;
-            unended = at - r->words[r->word_count - 1].is_quoted;
-            if (!r->words[0].begins)
-                return refuse(r, &r->words[0],
-                              "a statement begins in the first column; lines that begin with a "
-                              "blank go on with the one before");
+    for (char *at = text, *start = text; at < text + length;) { /* start: of the line */
+        const word w = {at + (*at == '"'), line, (unsigned)(at - start) + 1, *at == '"', at == start};
+        if (strchr(" \t\r\n#", *at) && *at) {
+            line += *at == '\n';
+            start = *at == '\n' ? at + 1 : start;
+            at += *at == '#' ? strcspn(at, "\n") : 1;
+            continue;
         }
+        char *end = w.text;
+        while (w.is_quoted ? *end && *end != '"' && *end != '\n'
+                           : (unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
+            end++;
+        const word behind = {end + w.is_quoted, line, (unsigned)(end + w.is_quoted - start) + 1, 0, 0};
+        if (w.is_quoted && *end != '"')
+            return refuse(r, &w, "the quote that begins here does not end on its line");
+        if (end == w.text && !w.is_quoted)
+            return refuse(r, &w, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
+        if (*behind.text && !strchr(" \t\r\n#", *behind.text))
+            return refuse(r, &behind, "a blank is missing before this");
+        if (!add_word(r, &w))
+            return 0;
+        at = behind.text; /* read what ends the word before the 0 that takes its place */
+        line += *at == '\n';
+        start = *at == '\n' ? at + 1 : start;
+        at += *at == '#' ? strcspn(at, "\n") : *at != '\0';
+        *end = '\0';
     }
-    if (unended)
-        *unended = '\0';
     return 1;
 }
 

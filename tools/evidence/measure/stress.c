@@ -11,7 +11,7 @@
 /* Below it certificates do not measure either: the whole lobe is the far end of a tail. */
 static const float least_area = 1e-12f;
 
-static const stress_property properties[STRESS_COUNT] = {
+const stress_property stress_properties[STRESS_COUNT] = {
     {"unit", "|length - 1| in ulps of 2^-23", 4},
     {"above", "-wm.z", 0},
     {"facing", "-wi.wm over the sum of |terms|, in 2^-24", 2},
@@ -24,15 +24,10 @@ static const stress_property properties[STRESS_COUNT] = {
     {"g2", "G2 outside [0, 1]; separable <= correlated <= least G1", 2e-6},
 };
 
-const stress_property *stress_property_of(stress_id id)
-{
-    return &properties[id];
-}
-
 int stress_note(stress_result *result, stress_id id, double value, const stress_point *at)
 {
     stress_finding *found = &result->found[id];
-    int good = value <= properties[id].limit; /* not for NaN */
+    int good = value <= stress_properties[id].limit; /* not for NaN */
     if (found->checked++ == 0 || !(value <= found->worst)) {
         found->worst = isnan(value) ? INFINITY : value;
         found->at = *at;

@@ -1,16 +1,9 @@
-/* Hard cases: what a renderer hands to vndf.h on a bad day. First the product of
- *
- *     incident directions   exactly along z and 1e-7, 1e-4, 0.01 degrees from it; 30 to 89.9999 degrees; cosines
- *                           1e-7, 1e-20, 1e-42 (a denormal), 0 and -0, and the negative ones; 91, 130, 179.9 and
- *                           exactly 180 degrees; each along x, along y, diagonally and at 200 degrees; each of
- *                           length 1 and 1 +- 1e-6
- *     roughness             1e-8 1e-6 1e-4 0.01 0.1 0.5 1 2 10 1e4 in all pairs up to a ratio of 1e8
- *     uniform numbers       0, the least float, 2^-24, 1/2 and its neighbours, 1 - 2^-24, 1 in all pairs, and
- *                           random
- *
- * then random surfaces: matrices of either sign with singular values from 1e-5 to 10 and a condition of up to
- * 1e4, mean slopes up to 2, seen also from the mean plane. Each property is a number that is 0 at best and must
- * not exceed its limit. */
+/* Hard cases: what a renderer hands to vndf.h on a bad day. First the product of incident directions along the
+ * axes, a hair beside them, at and beyond the horizon, of length 1 and nearly 1; of roughnesses from 1e-8 to 1e4
+ * in all pairs up to a ratio of 1e8; and of uniform numbers at their ends and at 1/2 in all pairs, and random ones
+ * (stress.c lists them). Then random surfaces: matrices of either sign with singular values from 1e-5 to 10 and a
+ * condition of up to 1e4, mean slopes up to 2, seen also from the mean plane. Each property is a number that is 0
+ * at best and must not exceed its limit. */
 #ifndef TOOLS_EVIDENCE_MEASURE_STRESS_H
 #define TOOLS_EVIDENCE_MEASURE_STRESS_H
 
@@ -40,7 +33,7 @@ typedef struct stress_property {
     double limit;
 } stress_property;
 
-const stress_property *stress_property_of(stress_id id);
+extern const stress_property stress_properties[STRESS_COUNT];
 
 /* One input, whole: nine digits of each number give it again. */
 typedef struct stress_point {
