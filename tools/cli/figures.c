@@ -176,12 +176,8 @@ static int print_to(const char *command, const char *path, rows_printer *print, 
 int rows_print(const arguments *given, rows_printer *print, const void *rows)
 {
     const char *command = given->command, *path = option_value(given, "-o");
-<<<<<<< HEAD
     const figures_form form = form_of_stdout(given);
     int to_file = STATUS_GOOD;
-=======
-    int form = (int)form_of_stdout(given), to_file = STATUS_GOOD;
->>>>>>> main
     int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, form);
     if (path && !output_is_stdout(path))
         to_file =
