@@ -1,9 +1,12 @@
-/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`. And bytes that grow. */
+/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`. Bytes that grow, and files
+ * that are read at once. */
 #ifndef VNDF_CORE_CURSOR_H
 #define VNDF_CORE_CURSOR_H
 
 #include <stddef.h>
 #include <stdint.h>
+
+#include "vndf.h"
 
 typedef struct vndf_reader {
     const unsigned char *bytes;
@@ -33,5 +36,9 @@ void vndf_write_u32(vndf_writer *writer, uint32_t value);
 void vndf_write_f32(vndf_writer *writer, float value);
 void vndf_write_f64(vndf_writer *writer, double value);
 void vndf_write_text(vndf_writer *writer, const char *text);
+
+/* The bytes of a file, to be freed; of one that has more than `most`, most + 1 of them, since a pipe may be endless.
+ * NULL and an error that names the file. */
+unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_error *error);
 
 #endif

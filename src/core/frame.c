@@ -7,7 +7,6 @@
 #include "core/checksum.h"
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/read_file.h"
 #include "core/replace_file.h"
 
 enum { MAGIC = 8 };

@@ -1,4 +1,4 @@
-#include "fit/strips.h"
+#include "fit/law.h"
 
 #include <math.h>
 #include <stdlib.h>

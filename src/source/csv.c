@@ -31,7 +31,6 @@
 
 #include "core/checksum.h"
 #include "core/error.h"
-#include "core/read_file.h"
 #include "math/ascending.h"
 #include "source/source.h"
 #include "source/words.h"
@@ -265,13 +264,8 @@ static vndf_source *curve_through(const csv_rows *rows, char *description, vndf_
 static const char *const first_names[] = {"theta_deg", "theta", "slope"};
 static const char *const second_names[] = {"ndf", "p22"};
 
-typedef struct span {
-    const char *text;
-    size_t size;
-} span;
-
 typedef struct reader {
-    span rest;         /* the text that has not been read */
+    vndf_span rest;    /* the text that has not been read */
     const char *unit;  /* "line", or "row" of numbers in memory */
     size_t at, before; /* number of the current one; of that of the row before */
     const char *name;  /* of the text, NULL for numbers in memory */
@@ -359,7 +353,7 @@ static vndf_status take_row(reader *r, double given, double value)
 
 /* ---- lines ------------------------------------------------------------------------------------ */
 
-static span trim(span s)
+static vndf_span trim(vndf_span s)
 {
     while (s.size > 0 && (*s.text == ' ' || *s.text == '\t')) {
         s.text++;
@@ -370,23 +364,12 @@ static span trim(span s)
     return s;
 }
 
-/* Cuts the text before the first separator off s (all of it if there is none). */
-static span cut(span *s, char separator)
-{
-    const char *end = s->size > 0 ? memchr(s->text, separator, s->size) : NULL;
-    span head = {s->text, end ? (size_t)(end - s->text) : s->size};
-    size_t used = head.size + (end != NULL);
-    s->text += used;
-    s->size -= used;
-    return head;
-}
-
 /* The two fields of the next line that is neither blank nor a comment; *found is 0 at the end of the text. */
-static vndf_status next_line(reader *r, span field[2], int *found)
+static vndf_status next_line(reader *r, vndf_span field[2], int *found)
 {
     size_t count = 1;
     for (*found = 0; r->rest.size > 0;) {
-        span line = cut(&r->rest, '\n');
+        vndf_span line = vndf_cut(&r->rest, '\n');
         r->at++;
         if (line.size > VNDF_LIMIT_CSV_LINE)
             return refuse(r, "%zu characters; at most %d are possible", line.size, VNDF_LIMIT_CSV_LINE);
@@ -400,7 +383,7 @@ static vndf_status next_line(reader *r, span field[2], int *found)
         if (count != 2)
             return refuse(r, "%zu field%s; two are needed, separated by a comma: an angle or slope, and a density",
                           count, count == 1 ? "" : "s");
-        field[0] = trim(cut(&line, ','));
+        field[0] = trim(vndf_cut(&line, ','));
         field[1] = trim(line);
         *found = 1;
         break;
@@ -411,7 +394,7 @@ static vndf_status next_line(reader *r, span field[2], int *found)
 static vndf_status read_header(reader *r)
 {
     char excerpt[VNDF_EXCERPT];
-    span field[2];
+    vndf_span field[2];
     int found, first = 0, second = 0;
     vndf_status status = next_line(r, field, &found);
     r->at += status == VNDF_OK && r->at == 0; /* an empty file lacks its header on line 1 */
@@ -435,7 +418,7 @@ static vndf_status read_header(reader *r)
     return VNDF_OK;
 }
 
-static vndf_status read_number(reader *r, span field, const char *name, double *value)
+static vndf_status read_number(reader *r, vndf_span field, const char *name, double *value)
 {
     char excerpt[VNDF_EXCERPT];
     size_t used = vndf_number_read(field.text, field.size, value);
@@ -451,7 +434,7 @@ static vndf_status read_number(reader *r, span field, const char *name, double *
 
 static vndf_status read_all(reader *r)
 {
-    span field[2];
+    vndf_span field[2];
     double x = 0, value = 0;
     int found = 1;
     vndf_status status = read_header(r);
@@ -469,7 +452,7 @@ static vndf_status read_all(reader *r)
 vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error)
 {
     vndf_error own;
-    reader r = {.rest = {text, size},
+    reader r = {.rest = {text, size, 1},
                 .unit = "line",
                 .name = name ? name : "unnamed",
                 .refusal = VNDF_ERROR_SYNTAX,
@@ -479,7 +462,7 @@ vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t siz
         return NULL;
     }
     if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8 by spreadsheets */
-        r.rest = (span){text + 3, size - 3};
+        r.rest = (vndf_span){text + 3, size - 3, 1};
     vndf_status status = read_all(&r);
     return source_of(&r, status, "--csv", name, vndf_crc32(0, text, size));
 }

@@ -122,6 +122,15 @@ void vndf_words_free(vndf_words *words)
     *words = (vndf_words){NULL, NULL, 0};
 }
 
+vndf_span vndf_cut(vndf_span *rest, char separator)
+{
+    const char *end = rest->size > 0 ? memchr(rest->text, separator, rest->size) : NULL;
+    vndf_span head = {rest->text, end ? (size_t)(end - rest->text) : rest->size, rest->column};
+    size_t used = head.size + (end != NULL);
+    *rest = (vndf_span){rest->text + used, rest->size - used, rest->column + used};
+    return head;
+}
+
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size)
 {
     size_t most = VNDF_EXCERPT - 4, length = size < most ? size : most;

@@ -32,6 +32,14 @@ typedef struct vndf_words {
 vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *error);
 void vndf_words_free(vndf_words *words);
 
+/* A part of a text; the column of its first character, from 1. vndf_cut takes what is before the first separator off
+ * the rest, or all if there is none. */
+typedef struct vndf_span {
+    const char *text;
+    size_t size, column;
+} vndf_span;
+vndf_span vndf_cut(vndf_span *rest, char separator);
+
 /* The first characters of text, for a message: '?' for an unprintable character, "..." where it is cut. */
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);

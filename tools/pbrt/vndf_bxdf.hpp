@@ -1,4 +1,4 @@
-// vndf_bxdf.hpp - any distribution of normals as a BxDF of pbrt-v4, for the renderers that run on processors.
+// vndf_bxdf.hpp - any distribution of normals as a BxDF of pbrt-v4, for builds of it without GPU.
 //
 // What to copy, and what to change in pbrt's src/pbrt:
 //

@@ -307,48 +307,34 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
 
 /* ---- preparing ---- */
 
-static void place_film(path_plan *plan)
-{
-    const scene *s = plan->scene;
-    const vec3 forward = unit(subtract(s->to, s->from)), right = unit(cross(forward, s->up));
-    const double step = 2 * tan(0.5 * s->field) / s->height;
-    plan->right = scale(right, step);
-    plan->down = scale(cross(forward, right), step);
-    plan->corner = along(along(forward, -0.5 * s->width, plan->right), -0.5 * s->height, plan->down);
-}
-
-static int resolve_all(path_plan *plan, char *message, size_t size)
-{
-    static const vndf_normals_drawn normals[SAMPLERS] = {VNDF_NORMALS_VISIBLE, VNDF_NORMALS_ALL,
-                                                         VNDF_NORMALS_VISIBLE};
-    for (size_t i = 0; i < plan->scene->material_count; i++) {
-        const material *m = &plan->scene->materials[i];
-        vndf_description is = m->is;
-        vndf_error error = {VNDF_OK, ""};
-        is.effects.normals = normals[plan->sampler];
-        if (m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &plan->materials[i], &error) == VNDF_OK)
-            continue;
-        snprintf(message, size, "material '%s' cannot have the sampler '%s': %s", m->name,
-                 path_sampler_names[plan->sampler], error.message);
-        return 0;
-    }
-    return 1;
-}
-
 path_plan *path_prepare(const scene *s, path_sampler sampler, char *message, size_t size)
 {
     path_plan *plan = calloc(1, sizeof *plan);
-    if (plan)
-        *plan = (path_plan){
-            .scene = s, .sampler = sampler, .materials = calloc(s->material_count + 1, sizeof *plan->materials)};
-    if (!plan || !plan->materials) {
+    vndf_material *materials = calloc(s->material_count + 1, sizeof *materials);
+    int good = plan && materials;
+    if (!good)
         snprintf(message, size, "no memory for %zu materials", s->material_count);
-    } else if (resolve_all(plan, message, size)) {
-        place_film(plan);
-        return plan;
+    for (size_t i = 0; i < s->material_count && good; i++) {
+        const material *m = &s->materials[i];
+        vndf_description is = m->is;
+        vndf_error error = {VNDF_OK, ""};
+        is.effects.normals = sampler == SAMPLER_ALL ? VNDF_NORMALS_ALL : VNDF_NORMALS_VISIBLE;
+        good = m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &materials[i], &error) == VNDF_OK;
+        if (!good)
+            snprintf(message, size, "material '%s' cannot have the sampler '%s': %s", m->name,
+                     path_sampler_names[sampler], error.message);
     }
-    path_free(plan);
-    return NULL;
+    if (!good) {
+        free(materials);
+        free(plan);
+        return NULL;
+    }
+    const vec3 forward = unit(subtract(s->to, s->from)), right = unit(cross(forward, s->up));
+    const double step = 2 * tan(0.5 * s->field) / s->height;
+    *plan = (path_plan){.scene = s, .sampler = sampler, .materials = materials, .right = scale(right, step)};
+    plan->down = scale(cross(forward, right), step);
+    plan->corner = along(along(forward, -0.5 * s->width, plan->right), -0.5 * s->height, plan->down);
+    return plan;
 }
 
 void path_free(path_plan *plan)

@@ -31,12 +31,8 @@ typedef struct word {
 } word;
 
 typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
-typedef enum key_rule {
-    MAY_BE,
-    NEEDED,
-    OR,
-    BESIDE
-} key_rule; /* OR: one of it and `other`; BESIDE: only with that */
+/* OR: one of it and `other`; BESIDE: only with that. */
+typedef enum key_rule { MAY_BE, NEEDED, OR, BESIDE } key_rule;
 
 /* A keyword of a statement, with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
 typedef struct key {

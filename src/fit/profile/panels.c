@@ -1,7 +1,6 @@
-/* Panels: P22 cut into pieces on which ten points resolve it, and sums over them. The recursion first halves every
- * octave a few times unconditionally, so that it meets a narrow ring, and merges two halves where the whole is as
- * good. Where the proof can bound the source it finds what points have missed; then one halving is enough. */
-#include "fit/profile/panels.h"
+/* Panels: P22 cut into pieces on which ten points resolve it, and sums over them. The recursion halves every octave
+ * once, and merges two halves where the whole is as good. What the points have missed is found by proof.c. */
+#include "fit/profile/profile.h"
 
 #include <float.h>
 #include <math.h>
@@ -10,7 +9,7 @@
 
 #include "math/ascending.h"
 
-enum { DEPTH_BOUNDED = 1, DEPTH_SAMPLED = 4, DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
+enum { DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
 static const double PANEL_TOLERANCE = 1e-10;
 static const double NEGLIGIBLE = 1e-34; /* of both peaks: less than numbers of tables tell from nothing */
@@ -167,7 +166,7 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     if (vndf_profile_stopped(profile))
         return;
     double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE;
-    int seen = depth >= (profile->source->reach ? DEPTH_BOUNDED : DEPTH_SAMPLED), good = 0;
+    int seen = depth > 0, good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
         slack += rough ? roughness(profile, r0, r1) : 0;
         good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);

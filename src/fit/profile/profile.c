@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "fit/profile/panels.h"
+#include "fit/profile/profile.h"
 
 static const double PI = 3.14159265358979323846;
 static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */

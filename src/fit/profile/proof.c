@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/profile/panels.h"
+#include "fit/profile/profile.h"
 
 enum { PIECES_MAX = 400000, ROUNDS_MAX = 2000, SAMPLE_EDGES = 1 << 16 };
 

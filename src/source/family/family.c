@@ -26,25 +26,9 @@ typedef struct lobe {
     double weight, scale; /* weight 0: P22 as it is, not divided by its mass */
 } lobe;
 
-/* A part of the specification; `column` is the column of its first character, from 1. */
-typedef struct part {
-    const char *text;
-    size_t size, column;
-} part;
+/* ---- numbers ---------------------------------------------------------------------------------- */
 
-/* ---- parts ------------------------------------------------------------------------------------ */
-
-/* Cuts the text before the first separator off `rest`; without a separator it takes all, and `rest` is empty. */
-static part cut(part *rest, char separator)
-{
-    const char *end = memchr(rest->text, separator, rest->size);
-    part head = {rest->text, end ? (size_t)(end - rest->text) : rest->size, rest->column};
-    size_t used = head.size + (end != NULL);
-    *rest = (part){rest->text + used, rest->size - used, rest->column + used};
-    return head;
-}
-
-static vndf_status read_number(part p, const char *usage, double *value, vndf_error *error)
+static vndf_status read_number(vndf_span p, const char *usage, double *value, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
     if (vndf_number_is_all(p.text, p.size, value))
@@ -69,7 +53,7 @@ static vndf_status check_range(const vndf_family_range *range, double value, con
 
 /* ---- one lobe --------------------------------------------------------------------------------- */
 
-static vndf_status unknown_family(part name, vndf_error *error)
+static vndf_status unknown_family(vndf_span name, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT], known[160] = "", hint[48] = "";
     size_t used = 0, least = vndf_word_slip(name.size);
@@ -86,7 +70,7 @@ static vndf_status unknown_family(part name, vndf_error *error)
                      vndf_excerpt(excerpt, name.text, name.size), hint, known);
 }
 
-static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
+static vndf_status read_parameters(vndf_span rest, lobe *l, vndf_error *error)
 {
     const vndf_family_form *form = l->form;
     size_t given = 0;
@@ -97,7 +81,7 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
         if (given == form->count)
             return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: too many parameters; right would be %s",
                              rest.column, form->usage);
-        if (read_number(cut(&rest, ','), form->usage, &l->parameter[given], error) != VNDF_OK ||
+        if (read_number(vndf_cut(&rest, ','), form->usage, &l->parameter[given], error) != VNDF_OK ||
             check_range(&form->range[given], l->parameter[given], form->name, form->reason, error) != VNDF_OK)
             return VNDF_ERROR_SYNTAX;
         given++;
@@ -112,10 +96,10 @@ static vndf_status read_parameters(part rest, lobe *l, vndf_error *error)
 
 /* A material's whole name, "sgd:alum-bronze/r", is in the list; it starts with a letter behind the family, as a number
  * does not. */
-static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
+static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
 {
-    char excerpt[VNDF_EXCERPT], nearest[VNDF_MATERIALS_NEAR];
-    part rest = whole, name = cut(&rest, ':');
+    char excerpt[VNDF_EXCERPT];
+    vndf_span rest = whole, name = vndf_cut(&rest, ':');
     const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
     *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
     if (!l->form)
@@ -126,15 +110,15 @@ static vndf_status read_lobe(part whole, lobe *l, vndf_error *error)
     }
     int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
     if (has_materials && rest.size > 0 && ((rest.text[0] | 32) >= 'a' && (rest.text[0] | 32) <= 'z'))
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest are %s",
+        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest is %s",
                          whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
-                         vndf_materials_near(nearest, whole.text, whole.size));
+                         vndf_material_near(whole.text, whole.size));
     return read_parameters(rest, l, error);
 }
 
 /* ---- mix -------------------------------------------------------------------------------------- */
 
-static vndf_status bad_mix(part at, vndf_error *error)
+static vndf_status bad_mix(vndf_span at, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
     if (at.size == 0)
@@ -145,15 +129,15 @@ static vndf_status bad_mix(part at, vndf_error *error)
 }
 
 /* "(W,S,FAMILY)" at the start of `rest`, which moves behind it. */
-static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
+static vndf_status read_component(vndf_span *rest, lobe *l, vndf_error *error)
 {
     static const vndf_family_range weights = {"the weight W", 0, 1e12, 1, 0};
     static const vndf_family_range scales = {"the scale S", 1e-9, 1e9, 0, 0};
     double weight = 0, scale = 0;
-    part open = cut(rest, '(');
+    vndf_span open = vndf_cut(rest, '(');
     if (open.size > 0 || rest->size == 0 || !memchr(rest->text, ')', rest->size))
         return bad_mix(open.size > 0 ? open : *rest, error);
-    part inside = cut(rest, ')'), first = cut(&inside, ','), second = cut(&inside, ',');
+    vndf_span inside = vndf_cut(rest, ')'), first = vndf_cut(&inside, ','), second = vndf_cut(&inside, ',');
     if (read_number(first, mix_usage, &weight, error) != VNDF_OK ||
         read_number(second, mix_usage, &scale, error) != VNDF_OK ||
         check_range(&weights, weight, "mix", "", error) != VNDF_OK ||
@@ -164,12 +148,12 @@ static vndf_status read_component(part *rest, lobe *l, vndf_error *error)
     return VNDF_OK;
 }
 
-static vndf_status read_mix(part rest, lobe lobes[VNDF_LOBES], vndf_error *error)
+static vndf_status read_mix(vndf_span rest, lobe lobes[VNDF_LOBES], vndf_error *error)
 {
     if (read_component(&rest, &lobes[0], error) != VNDF_OK)
         return VNDF_ERROR_SYNTAX;
-    part plus = rest;
-    if (cut(&rest, '+').size > 0)
+    vndf_span plus = rest;
+    if (vndf_cut(&rest, '+').size > 0)
         return bad_mix(plus, error);
     if (read_component(&rest, &lobes[1], error) != VNDF_OK)
         return VNDF_ERROR_SYNTAX;
@@ -183,7 +167,7 @@ static vndf_status read_specification(const char *specification, lobe lobes[VNDF
 {
     if (!specification)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
-    part whole = {specification, strlen(specification), 1}, rest = whole, name = cut(&rest, ':');
+    vndf_span whole = {specification, strlen(specification), 1}, rest = whole, name = vndf_cut(&rest, ':');
     if (whole.size > VNDF_LIMIT_FAMILY_LENGTH)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %zu characters; at most %d are possible",
                          whole.size, VNDF_LIMIT_FAMILY_LENGTH);

@@ -39,13 +39,13 @@ typedef struct vndf_material_fit {
     double parameter[2]; /* of its family: alpha, p or B, C */
 } vndf_material_fit;
 
-enum { VNDF_MATERIAL_FITS = 312, VNDF_MATERIALS_NEAR = 192 };
+enum { VNDF_MATERIAL_FITS = 312 };
 extern const vndf_material_fit vndf_material_fits[VNDF_MATERIAL_FITS];
 
 /* The material with this name; NULL if there is none. */
 const vndf_material_fit *vndf_material_fit_find(const char *name, size_t size);
 
-/* Writes the names that differ from the given one by the fewest letters, "a, b, c"; returns out. */
-const char *vndf_materials_near(char out[VNDF_MATERIALS_NEAR], const char *name, size_t size);
+/* The name that differs from the given one by the fewest letters. */
+const char *vndf_material_near(const char *name, size_t size);
 
 #endif

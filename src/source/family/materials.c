@@ -146,24 +146,13 @@ const char *vndf_family_material(size_t index)
     return index < VNDF_MATERIAL_FITS ? vndf_material_fits[index].name : NULL;
 }
 
-const char *vndf_materials_near(char out[VNDF_MATERIALS_NEAR], const char *name, size_t size)
+const char *vndf_material_near(const char *name, size_t size)
 {
-    enum { SHOWN = 3 };
-    size_t distance[SHOWN + 1], nearest[SHOWN + 1], count = 0;
+    size_t best = 0, least = (size_t)-1;
     for (size_t i = 0; i < VNDF_MATERIAL_FITS; i++) {
-        size_t here = vndf_word_distance(name, size, vndf_material_fits[i].name), at = count;
-        for (; at > 0 && here < distance[at - 1]; at--) {
-            distance[at] = distance[at - 1];
-            nearest[at] = nearest[at - 1];
-        }
-        distance[at] = here;
-        nearest[at] = i;
-        count += count < SHOWN;
+        size_t here = vndf_word_distance(name, size, vndf_material_fits[i].name);
+        best = here < least ? i : best;
+        least = here < least ? here : least;
     }
-    out[0] = '\0';
-    for (size_t i = 0; i < SHOWN; i++) {
-        strncat(out, i > 0 ? ", " : "", VNDF_MATERIALS_NEAR - 1 - strlen(out));
-        strncat(out, vndf_material_fits[nearest[i]].name, VNDF_MATERIALS_NEAR - 1 - strlen(out));
-    }
-    return out;
+    return vndf_material_fits[best].name;
 }
