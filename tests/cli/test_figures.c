@@ -143,7 +143,7 @@ static void test_albedo(void)
     char *csv =
         PRINTED(NULL, "albedo", "ggx", "--eta", "1.5", "--alpha", "0.2,1", "--theta", "0,45,80", "-o", "-");
     const char *row = strstr(text, "\n      0 ");
-    double first = 0, second = 0;
+    double first = NAN, second = NAN;
     int lines = 0;
     TEST_HAS(text, "ggx, mirror\n");
     TEST(row && sscanf(row, " 0 %lf %lf", &first, &second) == 2);

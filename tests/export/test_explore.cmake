@@ -2,7 +2,7 @@
 # are; it refuses wrong use; and in a headless Chromium, which compiles its shaders, what the page draws and measures is
 # right: the density integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have
 # light on them. Without WebGL2 it says so. Chromium takes a quarter of a minute for a setting where it has no GPU:
-# LONG=ON (more_explore) has three of them, else there is one.
+# LONG=ON (long_explore) has three of them, else there is one.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -28,7 +28,7 @@ if(NOT WIN32)
     has(text ">a&lt;b&gt;&amp;</option>")
 endif()
 has(text "const int VNDF_STUDENT_T_2_5 = ")
-has(text "vndf_sampled vndf_sample(vndf_view view, float u1, float u2) {")
+has(text "vndf_sampled vndf_sample(vndf_view view, float w1, float w2) {")
 foreach(word "{{" "a<b>")
     string(FIND "${text}" "${word}" at)
     expect("the page has '${word}'" at EQUAL -1)

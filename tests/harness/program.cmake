@@ -19,12 +19,13 @@ macro(run expected)
     endif()
 endmacro()
 
-# has(VARIABLE text): the text that a run printed contains this.
-macro(has variable text)
-    string(FIND "${${variable}}" "${text}" place)
+# has(VARIABLE text): the text that a run printed contains this. An argument of a macro named as the variable that is
+# given, text say, would be compared with itself.
+macro(has has_variable has_text)
+    string(FIND "${${has_variable}}" "${has_text}" place)
     if(place EQUAL -1)
         math(EXPR failures "${failures} + 1")
-        message("FAILED: ${variable} has no '${text}':\n${${variable}}")
+        message("FAILED: ${has_variable} has no '${has_text}':\n${${has_variable}}")
     endif()
 endmacro()
 

@@ -161,11 +161,11 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
         return complain(given->command, "%s is given twice", name), 0;
     if (choices_of(&term, text, choices) && word_among(given->command, name, value, choices) < 0)
         return 0;
-    if (given->name.count == WORDS_MAX)
+    if (given->count == WORDS_MAX)
         return complain(given->command, "%s: these are more than %d options", name, WORDS_MAX), 0;
-    given->length[given->name.count] = length;
-    given->name.item[given->name.count++] = word;
-    given->value.item[given->value.count++] = value;
+    given->option[given->count].name = word;
+    given->option[given->count].length = length;
+    given->option[given->count++].value = value;
     return 1;
 }
 
@@ -193,9 +193,9 @@ words option_values(const arguments *given, const char *name)
         complain(given->command, "its help has no item %s, for which its code asks", name);
         abort();
     }
-    for (size_t i = 0; i < given->name.count; i++)
-        if (given->length[i] == strlen(name) && strncmp(given->name.item[i], name, given->length[i]) == 0)
-            found.item[found.count++] = given->value.item[i];
+    for (size_t i = 0; i < given->count; i++)
+        if (given->option[i].length == strlen(name) && memcmp(given->option[i].name, name, strlen(name)) == 0)
+            found.item[found.count++] = given->option[i].value;
     return found;
 }
 

@@ -28,9 +28,12 @@ typedef struct words {
 typedef struct arguments {
     const char *command; /* "vndf build": opens every message */
     const char *help;
-    words positional;         /* what is no option */
-    words name, value;        /* of options, name as it was typed; the value of a flag is its name */
-    size_t length[WORDS_MAX]; /* of the names, which may go on with '=' */
+    words positional; /* what is no option */
+    size_t count;     /* of options */
+    struct {
+        const char *name, *value; /* as they were typed; the value of a flag is its name */
+        size_t length;            /* of the name, which may go on with '=' */
+    } option[WORDS_MAX];
 } arguments;
 
 /* Reads argv; command and help are there already. Returns 1, or 0 after a complaint. */

@@ -163,21 +163,24 @@ int rows_check(const arguments *given)
     return 1;
 }
 
-static int print_to(const char *command, const char *path, rows_printer *print, const void *rows, int form)
+static int print_to(const char *command, const char *path, rows_printer *print, const void *rows,
+                    figures_form form)
 {
     output_file output;
     if (!output_open(&output, command, path))
         return STATUS_USE;
-    return print(output.file, rows, (figures_form)form) ? output_commit(&output)
-                                                        : output_give_up(&output, "no memory for the table");
+    return print(output.file, rows, form) ? output_commit(&output)
+                                          : output_give_up(&output, "no memory for the table");
 }
 
 int rows_print(const arguments *given, rows_printer *print, const void *rows)
 {
     const char *command = given->command, *path = option_value(given, "-o");
-    int form = (int)form_of_stdout(given), to_file = STATUS_GOOD;
+    const figures_form form = form_of_stdout(given);
+    int to_file = STATUS_GOOD;
     int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, form);
     if (path && !output_is_stdout(path))
-        to_file = print_to(command, path, print, rows, 1 + output_form(command, path, NULL, forms + 1));
+        to_file =
+            print_to(command, path, print, rows, (figures_form)(1 + output_form(command, path, NULL, forms + 1)));
     return status == STATUS_GOOD ? to_file : status;
 }

@@ -1,0 +1,283 @@
+#include "judge/judge.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/random.h"
+#include "cli/sort.h"
+#include "cli/subject.h"
+#include "evidence/measure/bins.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* From straight down to grazing, at azimuths that no axis of a surface has. */
+static const double angles[JUDGE_VIEWS][2] = {{0, 0}, {20, 40}, {45, 100}, {65, 200}, {80, 290}, {88, 335}};
+
+enum { PILOTS = 2000, STRATA = 64, STRATIFIED = STRATA * STRATA };
+
+/* The larger one; what is no number is the worst. */
+static double worst(double a, double b)
+{
+    return isnan(b) ? HUGE_VAL : fmax(a, b);
+}
+
+/* ---- samples ------------------------------------------------------------------------------------- */
+
+/* theta and the azimuth from wi; NaN of what is no direction. */
+static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
+{
+    *theta = isfinite(a->x + a->y + a->z) ? atan2(hypot(a->x, a->y), a->z) : NAN;
+    *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
+}
+
+static void place_borders(double *border, size_t parts, double low, double high, double sorted[PILOTS])
+{
+    sort_numbers(sorted, PILOTS);
+    for (size_t i = 0; i <= parts; i++)
+        border[i] = i % 2 ? fmin(fmax(sorted[PILOTS * i / parts], low), high)
+                          : low + (high - low) * (double)i / (double)parts;
+    sort_numbers(border, parts + 1);
+}
+
+static void place_bins(judge_view *v, const answer *pilots)
+{
+    double theta[PILOTS], phi[PILOTS];
+    for (size_t i = 0; i < PILOTS; i++) {
+        locate(v, &pilots[i], &theta[i], &phi[i]);
+        if (isnan(theta[i]))
+            theta[i] = phi[i] = 0;
+    }
+    place_borders(v->ring, JUDGE_RINGS, 0, pi / 2, theta);
+    place_borders(v->sector, JUDGE_SECTORS, -pi, pi, phi);
+}
+
+static void take_sample(judge_view *v, const answer *a, double counts[JUDGE_BINS + 1])
+{
+    double theta, phi, length = sqrt(a->x * a->x + a->y * a->y + a->z * a->z);
+    double facing = a->x * (double)v->wi.x + a->y * (double)v->wi.y + a->z * (double)v->wi.z;
+    v->found[JUDGE_UNIT] = worst(v->found[JUDGE_UNIT], fabs(length - 1));
+    v->found[JUDGE_FACING] = worst(v->found[JUDGE_FACING], -fmin(facing, a->z));
+    v->found[JUDGE_VALID] += !(a->pdf > 0 && isfinite(a->pdf));
+    locate(v, a, &theta, &phi);
+    counts[theta <= pi / 2 + 1e-6 ? bins_interval(v->ring, JUDGE_RINGS, theta) * JUDGE_SECTORS +
+                                        bins_interval(v->sector, JUDGE_SECTORS, phi)
+                                  : JUDGE_BINS] += 1;
+}
+
+/* Queries with random numbers, of which the last 64 x 64 are stratified. */
+static void fill_samples(query *to, const judge_view *v, size_t samples, random_stream *stream)
+{
+    for (size_t i = 0; i < PILOTS + samples + STRATIFIED; i++) {
+        float u[3] = {random_float(stream), 0, 0};
+        u[1] = random_float(stream);
+        u[2] = random_float(stream);
+        if (i >= PILOTS + samples) { /* of 18 bits in their stratum, so that none is rounded to 1 */
+            u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(i % STRATA)) / STRATA;
+            u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(i / STRATA % STRATA)) / STRATA;
+        }
+        to[i] = (query){'s', v->wi, {u[0], u[1], u[2]}};
+    }
+}
+
+static int draw(const judge_task *task, judge_view *views)
+{
+    const size_t each = PILOTS + task->samples + STRATIFIED, count = each * JUDGE_VIEWS;
+    random_stream stream = random_from(task->seed);
+    query *asked = malloc(count * sizeof *asked);
+    for (size_t i = 0; i < JUDGE_VIEWS && asked; i++)
+        fill_samples(asked + i * each, &views[i], task->samples, &stream);
+    answer *got = process_ask(task->who, task->command, asked, count);
+    for (size_t i = 0; i < JUDGE_VIEWS && got; i++) {
+        judge_view *v = &views[i];
+        const answer *its = got + i * each;
+        place_bins(v, its);
+        memcpy(v->first, its + PILOTS, sizeof v->first);
+        for (size_t k = PILOTS; k < each; k++)
+            take_sample(v, &its[k], k < PILOTS + task->samples ? v->observed : v->stratified);
+    }
+    free(asked);
+    free(got);
+    return got != NULL;
+}
+
+/* Densities of samples, asked for. What is no direction has none, so anything is asked in its place. */
+static int agree(const judge_task *task, judge_view *views)
+{
+    query asked[JUDGE_VIEWS * JUDGE_ASKED];
+    for (int i = 0; i < JUDGE_VIEWS * JUDGE_ASKED; i++) {
+        const judge_view *v = &views[i / JUDGE_ASKED];
+        const answer *a = &v->first[i % JUDGE_ASKED];
+        vndf_vec3 wm = {(float)a->x, (float)a->y, (float)a->z};
+        asked[i] = (query){'p', v->wi, isfinite(wm.x + wm.y + wm.z) ? wm : v->wi};
+    }
+    answer *got = process_ask(task->who, task->command, asked, JUDGE_VIEWS * JUDGE_ASKED);
+    for (int i = 0; i < JUDGE_VIEWS && got; i++) {
+        double differs[JUDGE_ASKED];
+        for (int k = 0; k < JUDGE_ASKED; k++)
+            differs[k] = worst(0, fabs(views[i].first[k].pdf / got[i * JUDGE_ASKED + k].pdf - 1));
+        sort_numbers(differs, JUDGE_ASKED);
+        views[i].found[JUDGE_AGREES] = differs[JUDGE_ASKED * 99 / 100];
+    }
+    free(got);
+    return got != NULL;
+}
+
+/* ---- integrals ----------------------------------------------------------------------------------- */
+
+/* Gauss' 5 nodes on [-1, 1], exact to degree 9, and the rule of degree 3 on three of them. */
+enum { NODES = 5, POINTS = NODES * NODES };
+static const double node[NODES] = {-0.90617984593866399, -0.53846931010568309, 0, 0.53846931010568309,
+                                   0.90617984593866399};
+static const double fine[NODES] = {0.23692688505618909, 0.47862867049936647, 0.56888888888888889,
+                                   0.47862867049936647, 0.23692688505618909};
+static const double coarse[NODES] = {0.40592887709596639, 0, 1.1881422458080672, 0, 0.40592887709596639};
+
+/* A cell counts when its two rules differ by no more than this part of all mass, or in the last round. */
+static const double CLOSE = 1e-6;
+enum { ROUNDS = 8, CELLS_MAX = 100000 };
+
+typedef struct cell {
+    int view, bin;
+    double theta, phi, half_theta, half_phi; /* its middle and half its size, radians; the azimuth from wi */
+} cell;
+
+static size_t first_cells(const judge_view *views, cell *to)
+{
+    size_t count = 0;
+    for (int i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++) {
+        const judge_view *v = &views[i / JUDGE_BINS];
+        const int bin = i % JUDGE_BINS;
+        const double *theta = &v->ring[bin / JUDGE_SECTORS], *phi = &v->sector[bin % JUDGE_SECTORS];
+        if (theta[0] < theta[1] && phi[0] < phi[1])
+            to[count++] = (cell){i / JUDGE_BINS,
+                                 bin,
+                                 (theta[0] + theta[1]) / 2,
+                                 (phi[0] + phi[1]) / 2,
+                                 (theta[1] - theta[0]) / 2,
+                                 (phi[1] - phi[0]) / 2};
+    }
+    return count;
+}
+
+static void ask_cell(const cell *c, const judge_view *v, query to[POINTS])
+{
+    for (int k = 0; k < POINTS; k++) {
+        double theta = c->theta + node[k / NODES] * c->half_theta;
+        double phi = c->phi + node[k % NODES] * c->half_phi + v->turn, sine = sin(theta);
+        to[k] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(theta)}};
+    }
+}
+
+/* Adds a cell to its bin, unless its rules differ by more than `close`; then 0. */
+static int add_cell(const cell *c, judge_view *view, const vndf_surface *surface, const query *asked,
+                    const answer *got, double close)
+{
+    double all_p = 0, few_p = 0, all_v = 0, few_v = 0, distance = 0, square = 0, uncovered = 0, invalid = 0;
+    vndf_view truth = vndf_view_from(surface, view->wi); /* without a distribution all is 0 */
+    for (int k = 0; k < POINTS; k++) {
+        const int i = k / NODES, j = k % NODES, is_valid = got[k].pdf >= 0 && isfinite(got[k].pdf);
+        double p = is_valid ? got[k].pdf : 0, v = (double)vndf_visible(&truth, asked[k].x);
+        double area = c->half_theta * c->half_phi * sin(c->theta + node[i] * c->half_theta);
+        double weight = area * fine[i] * fine[j];
+        few_p += area * coarse[i] * coarse[j] * p;
+        few_v += area * coarse[i] * coarse[j] * v;
+        all_p += weight * p;
+        all_v += weight * v;
+        distance += weight * fabs(p - v) / 2;
+        *(p > 0 ? &square : &uncovered) += weight * (p > 0 ? v / p * v : v);
+        invalid += !is_valid;
+    }
+    double error = fmax(fabs(few_p - all_p), fabs(few_v - all_v));
+    if (error > close)
+        return 0;
+    view->expected[c->bin] += all_p;
+    view->mass += all_p;
+    view->mass_error += error;
+    view->tv += distance;
+    view->efficiency += square; /* its reciprocal, until all is there */
+    view->found[JUDGE_COVERS] += uncovered;
+    view->found[JUDGE_VALID] += invalid;
+    return 1;
+}
+
+/* Rounds: what is asked for in the next stands behind what was asked for before. */
+static int integrate(const judge_task *task, judge_view *views, progress *bar)
+{
+    cell *cells = malloc(CELLS_MAX * sizeof *cells);
+    size_t begin = 0, end = cells ? first_cells(views, cells) : 1;
+    int good = 1;
+    for (int round = 1; begin < end && good; round++) {
+        const size_t count = end - begin;
+        query *asked = cells ? malloc(count * POINTS * sizeof *asked) : NULL;
+        for (size_t i = 0; i < count && asked; i++)
+            ask_cell(&cells[begin + i], &views[cells[begin + i].view], asked + i * POINTS);
+        progress_show((double)round / ROUNDS, "densities", bar);
+        answer *got = process_ask(task->who, task->command, asked, count * POINTS);
+        good = got != NULL;
+        for (size_t i = 0; i < count * POINTS && good; i += POINTS, begin++) {
+            const cell c = cells[begin];
+            double close = round == ROUNDS || end + 4 > CELLS_MAX ? HUGE_VAL : CLOSE;
+            if (add_cell(&c, &views[c.view], &task->surface, asked + i, got + i, close))
+                continue;
+            for (int k = 0; k < 4; k++) {
+                double theta = c.theta + (k / 2 - 0.5) * c.half_theta, phi = c.phi + (k % 2 - 0.5) * c.half_phi;
+                cells[end++] = (cell){c.view, c.bin, theta, phi, c.half_theta / 2, c.half_phi / 2};
+            }
+        }
+        free(asked);
+        free(got);
+    }
+    free(cells);
+    return good;
+}
+
+/* ---- counts -------------------------------------------------------------------------------------- */
+
+int judge_is_hole(const judge_view *view, size_t bin)
+{
+    return view->expected[bin] >= 20 && view->observed[bin] == 0;
+}
+
+/* From integrals to what is expected of the samples: a density that is wrong by a factor alone has the right shape. */
+static void compare_counts(judge_view *v, size_t samples)
+{
+    double ring[2][JUDGE_RINGS + 1] = {{0}}, sector[2][JUDGE_SECTORS + 1] = {{0}}, even[JUDGE_BINS + 1];
+    double scale = v->mass > 0 ? (double)samples / v->mass : 0;
+    for (size_t i = 0; i <= JUDGE_BINS; i++) {
+        size_t its_sector = i < JUDGE_BINS ? i % JUDGE_SECTORS : JUDGE_SECTORS;
+        v->expected[i] *= scale;
+        even[i] = v->expected[i] * STRATIFIED / (double)samples;
+        ring[0][i / JUDGE_SECTORS] += v->expected[i];
+        ring[1][i / JUDGE_SECTORS] += v->observed[i];
+        sector[0][its_sector] += v->expected[i];
+        sector[1][its_sector] += v->observed[i];
+        v->found[JUDGE_HOLES] += judge_is_hole(v, i);
+    }
+    v->bins = pearson_of(v->expected, v->observed, NULL, JUDGE_BINS + 1, 5);
+    v->rings = pearson_of(ring[0], ring[1], NULL, JUDGE_RINGS + 1, 5);
+    v->sectors = pearson_of(sector[0], sector[1], NULL, JUDGE_SECTORS + 1, 5);
+    pearson spread = pearson_of(even, v->stratified, NULL, JUDGE_BINS + 1, 5);
+    v->scatter = spread.classes > 1 ? spread.statistic / (double)(spread.classes - 1) : 1;
+    v->found[JUDGE_MASS] = worst(0, fabs(v->mass - 1) - v->mass_error);
+    v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->mass) : 0;
+}
+
+int judge_views(const judge_task *task, progress *bar, judge_view views[JUDGE_VIEWS])
+{
+    for (int i = 0; i < JUDGE_VIEWS; i++) {
+        vndf_vec3 wi = direction_from(angles[i][0], angles[i][1]);
+        double turn = atan2((double)wi.y, (double)wi.x);
+        views[i] = (judge_view){.theta = angles[i][0], .phi = angles[i][1], .wi = wi, .turn = turn};
+    }
+    progress_step(bar, 0.5);
+    progress_show(0, "samples", bar);
+    if (!draw(task, views) || !agree(task, views))
+        return 0;
+    progress_step(bar, 1);
+    if (!integrate(task, views, bar))
+        return 0;
+    for (int i = 0; i < JUDGE_VIEWS; i++)
+        compare_counts(&views[i], task->samples);
+    return 1;
+}
