@@ -4,20 +4,12 @@
  * the largest change until they are 2^-23. It notices a jump where two cells, two sides or two formulas meet. */
 #include "sampler/seen.h"
 
-/* The normal in the stretched frame, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */
-static void turned(const seen *s, vndf_vec3 wm, double n[3])
-{
-    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
-    double u = wm.x / f.xx, v = wm.y / f.yy, length = sqrt(u * u + v * v + (double)wm.z * wm.z);
-    n[0] = (f.x * u + f.y * v) / length, n[1] = (f.x * v - f.y * u) / length, n[2] = wm.z / length;
-}
-
 /* What u1 moves (which 0) and what u2 moves. */
 static double coordinate(const seen *s, int which, vndf_vec3 wm)
 {
     const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
     double n[3], length = hypot(f.s, f.c), facing;
-    turned(s, wm, n);
+    seen_over(&f, wm, n);
     if (s->of.lobe[0].surface.distribution == vndf_beckmann())
         return n[which] / n[2];
     if (s->of.lobe[0].surface.distribution == vndf_ggx()) {
@@ -38,10 +30,8 @@ static vndf_vec3 at(const seen *s, int which, double u, double other)
 /* Between unit normals over the roughness, where the slope is at most 100. */
 static double change(const seen *s, int which, double u, double v, double other)
 {
-    double a[3], b[3];
-    turned(s, at(s, which, u, other), a);
-    turned(s, at(s, which, v, other), b);
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
+    return seen_apart(&f, at(s, which, u, other), at(s, which, v, other));
 }
 
 static double largest_jump(const seen *s, int which, double u, double v, double other)

@@ -4,22 +4,6 @@
  * coarsely, a wrong half turn, a cell's neighbour, and lobes that are counted without those of weight 0. */
 #include "sampler/seen.h"
 
-/* Between unit normals over the roughness. */
-static double distance_over(const slope_frame *f, vndf_vec3 a, vndf_vec3 b)
-{
-    const vndf_vec3 w[2] = {a, b};
-    double n[2][3], sum = 0;
-    for (int i = 0; i < 2; i++) {
-        double x = w[i].x + f->mean_x * w[i].z, y = w[i].y + f->mean_y * w[i].z, d = f->xx * f->yy - f->xy * f->yx;
-        double u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d,
-               length = sqrt(u * u + v * v + (double)w[i].z * w[i].z);
-        n[i][0] = u / length, n[i][1] = v / length, n[i][2] = w[i].z / length;
-    }
-    for (int i = 0; i < 3; i++)
-        sum += (n[0][i] - n[1][i]) * (n[0][i] - n[1][i]);
-    return sqrt(sum);
-}
-
 static int invert(const seen *s, vndf_vec3 wm, int lobe, float *u1, float *u2)
 {
     if (s->kind == SEEN_MIXTURE)
@@ -37,9 +21,8 @@ static double led_by_steps(const seen *s, const slope_frame *f, float u1, float 
 {
     double most = 0;
     for (int i = 0; i < 9; i++)
-        most =
-            fmax(most,
-                 distance_over(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
+        most = fmax(most,
+                    seen_apart(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
     return most;
 }
 
@@ -58,7 +41,7 @@ static int comes_back(const seen *s, float u1, float u2, double *lost)
     slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi, 0);
     float v1 = -1, v2 = -1;
     int lobe = invert(s, wm, drawn, &v1, &v2);
-    *lost = distance_over(&f, wm, seen_draw(s, v1, v2, NULL));
+    *lost = seen_apart(&f, wm, seen_draw(s, v1, v2, NULL));
     if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
     return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, u1, u2, wm);
