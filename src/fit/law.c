@@ -145,12 +145,6 @@ static int part_of(double rho)
     return (int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1);
 }
 
-static unsigned first_above(const vndf_laws *laws, double rounded)
-{
-    unsigned i = vndf_laws_cell(laws, rounded);
-    return i < laws->cells && vndf_table_turn(laws->draft, i + 1) <= rounded ? i + 1 : i;
-}
-
 vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
 {
     /* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments */
@@ -168,38 +162,34 @@ vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
         law.b1 = d->b1[i] + law.xi * ((double)d->b1[next] - d->b1[i]);
         return law;
     }
-    law.first = first_above(laws, vndf_rounded_rho(part_of(rho)));
+    int part = part_of(rho);
+    double rounded = vndf_rounded_rho(part);
+    i = vndf_laws_cell(laws, rounded);
+    law.first = i < laws->cells && vndf_table_turn(d, i + 1) <= rounded ? i + 1 : i;
     law.near = (vndf_weight){0, c, 0, 0};
     law.far = (vndf_weight){s * k[0] / PI, c * k[1] / PI, c * rho * k[2] / PI,
                             rho < 1e-3 ? 0 : c * pow(rho, 4) * k[3] / PI};
     law.end = (vndf_weight){law.far.w1, c, 0, 0};
-    if (law.first == laws->cells || part_of(rho) == VNDF_RHO_PARTS - 1)
+    if (law.first == laws->cells || part == VNDF_RHO_PARTS - 1)
         law.far = law.end;
     return law;
 }
 
-/* The mass of the cell that rho lies in, as it is estimated: W vanishes at rho and grows about evenly. */
-static double estimate(const vndf_cell *c, double rho, double xi, double b0, double b1)
-{
-    double here = c->g0 + xi * (c->g1 - c->g0);
-    return (1 - xi) * below_flat(c, rho, b0, b1) * (c->g1 / 3 + here / 6);
-}
-
-/* The estimate is scaled so that it is exact where rho is the left knot. */
+/* The mass of the cell that rho lies in is estimated: W vanishes at rho and grows about evenly. The estimate is scaled
+ * so that it is exact where rho is the left knot. */
 static vndf_drawn partial_cell(const vndf_law *law)
 {
-    const vndf_laws *laws = law->laws;
-    const vndf_cell *c = &laws->cell[law->first];
-    double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, near = estimate(c, c->r, 0, law->b0, law->b1);
-    double mass = fmin(all / near, 1e3) * estimate(c, law->rho, law->xi, law->b0, law->b1);
-    return (vndf_drawn){mass, 0,
-                        fmin((1 - law->xi) * c->g1 * below_flat(c, law->rho, law->b0, law->b1), 1e4 * mass)};
+    const vndf_cell *c = &law->laws->cell[law->first];
+    double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, here = c->g0 + law->xi * (c->g1 - c->g0);
+    double near = below_flat(c, c->r, law->b0, law->b1) * (c->g1 / 3 + c->g0 / 6);
+    double end = (1 - law->xi) * below_flat(c, law->rho, law->b0, law->b1);
+    double mass = fmin(all / near, 1e3) * (end * (c->g1 / 3 + here / 6));
+    return (vndf_drawn){mass, 0, fmin(end * c->g1, 1e4 * mass)};
 }
 
 vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)
 {
-    const vndf_laws *laws = law->laws;
-    const vndf_cell *c = &laws->cell[i];
+    const vndf_cell *c = &law->laws->cell[i];
     if (!law->below)
         return vndf_drawn_by(c, i < law->first ? &law->near : i == 0 ? &law->end : &law->far);
     vndf_drawn drawn = i == law->first ? partial_cell(law) : vndf_drawn_below(c, law->rho, law->b0, law->b1);
