@@ -18,7 +18,8 @@ static int measure_cells(vndf_draft *draft, const vndf_profile *profile, int put
     vndf_table_draft *t = &draft->table;
     vndf_strips *s = &draft->strips;
     draft->first = malloc((t->cells + 2) * sizeof *draft->first);
-    if (!draft->first || !vndf_strips_from(s, profile, t->knot, t->cells + 1, VNDF_STRIPS(t->cells)))
+    draft->cell = malloc((t->cells + 1) * sizeof *draft->cell);
+    if (!draft->first || !draft->cell || !vndf_strips_from(s, profile, t->knot, t->cells + 1, t->cells))
         return 0;
     for (unsigned i = 0; i <= t->cells; i++)
         draft->first[i] = vndf_strips_edge(s, t->knot[i]);
@@ -37,7 +38,9 @@ static int measure_cells(vndf_draft *draft, const vndf_profile *profile, int put
         beyond += (double)t->cubes[i] * t->m0[i];
         t->cubes[i] = beyond > FOURTH_LEAST ? t->cubes[i] : 0;
     }
-    return vndf_laws_from(&draft->laws, t);
+    for (unsigned i = 0; i <= t->cells; i++)
+        draft->cell[i] = vndf_cell_of(t, i);
+    return 1;
 }
 
 /* ---- shares below the horizon ---- */
@@ -109,7 +112,7 @@ static void put_shares(vndf_draft *draft, const double *below, double *grazing, 
         look(draft, i, rho, grazing, room);
         put_best(room, &t->b0[i], &t->b1[i]);
         for (unsigned k = i; i > 0 && k <= t->cells; k++)
-            drawn += vndf_drawn_below(&draft->laws.cell[k], rho, t->b0[i], t->b1[i]).mass / PI;
+            drawn += vndf_drawn_below(&draft->cell[k], rho, t->b0[i], t->b1[i]).mass / PI;
         if (drawn > 0 && area > 1e-30)
             factor = fmin(fmax(area / drawn, 0.5), 2);
         t->b0[i] *= (float)factor;
@@ -165,7 +168,7 @@ int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_
 void vndf_draft_free(vndf_draft *draft)
 {
     free(draft->table.knot);
-    vndf_laws_free(&draft->laws);
+    free(draft->cell);
     vndf_strips_free(&draft->strips);
     free(draft->first);
 }

@@ -134,29 +134,22 @@ static void push(vndf_profile *profile, double r, double m0, double m1, const vn
     memcpy(panel->point, point, sizeof panel->point);
 }
 
-/* The bounds of P22 between two slopes, if the source has bounds and the guard has time. */
-static int reach(const vndf_profile *profile, double r0, double r1, vndf_reach *bound)
+/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one slope, if
+ * the source has bounds. */
+static double roughness(const vndf_profile *profile, double r0, double r1)
 {
     const vndf_source *source = profile->source;
     if (!source->reach || !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * source->operations))
-        return 0;
-    *bound = source->reach(source, r0, r1);
-    return 1;
-}
-
-/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one
- * slope. */
-static double roughness(const vndf_profile *profile, double r0, double r1)
-{
+        return 0.0;
     double r = sqrt(r0 * r1);
-    vndf_reach at;
-    double width = reach(profile, r, r, &at) ? profile->normalization * (at.high - at.low) * r * r : 0.0;
+    vndf_reach at = source->reach(source, r, r);
+    double width = profile->normalization * (at.high - at.low) * r * r;
     return width < HUGE_VAL ? 2 * width * (r1 - r0) / r0 : 0.0;
 }
 
-static int agree(double a, double b, double part, double least)
+static int agree(double a, double b, double least)
 {
-    return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
+    return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
 }
 
 static void resolve(vndf_profile *profile, double r0, double r1, const estimate *whole, int depth, double least)
@@ -166,11 +159,11 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     double m0 = l.m0 + r.m0, m1 = l.m1 + r.m1 + r.m0 * gap;
     if (vndf_guard_stopped(profile->guard))
         return;
-    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE;
+    double slack = least + whole->noise + l.noise + r.noise;
     int seen = depth > 0, good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
         slack += rough ? roughness(profile, r0, r1) : 0;
-        good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);
+        good = agree(m0, whole->m0, slack) && agree(m1, whole->m1, slack * gap + ROUNDED * r0 * m0);
     }
     if (good ? seen : depth >= DEPTH_MAX) {
         push(profile, r0, m0, m1, whole->point);
