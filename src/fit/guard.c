@@ -20,7 +20,7 @@ vndf_error *vndf_guard_why(vndf_guard *guard)
 
 void vndf_guard_starve(vndf_guard *guard)
 {
-    vndf_fail(vndf_guard_why(guard), VNDF_ERROR_MEMORY, "no memory to build the table");
+    vndf_fail(vndf_guard_why(guard), VNDF_ERROR_MEMORY, "no memory for this build");
 }
 
 static void ask(vndf_guard *guard)
