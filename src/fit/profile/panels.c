@@ -4,7 +4,6 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
@@ -107,27 +106,13 @@ static estimate estimate_of(const vndf_profile *profile, double r0, double r1)
     return sum;
 }
 
-/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
-static int grow(vndf_profile *profile)
-{
-    if (profile->count + 1 < profile->capacity)
-        return 1;
-    size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
-    vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
-    profile->panel = panel ? panel : profile->panel;
-    profile->capacity = panel ? capacity : profile->capacity;
-    if (!panel)
-        vndf_guard_starve(profile->guard);
-    return panel != NULL;
-}
-
 static void push(vndf_profile *profile, double r, double m0, double m1, const vndf_profile_point *point)
 {
     if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
         vndf_fail(vndf_guard_why(profile->guard), VNDF_ERROR_DISTRIBUTION,
                   "P22 is too rough: not resolved by %d panels; the last one began at slope %g",
                   VNDF_LIMIT_BUILD_PANELS, profile->panel[profile->count - 1].r);
-    if (vndf_guard_stopped(profile->guard) || !grow(profile))
+    if (vndf_guard_stopped(profile->guard))
         return;
     vndf_panel *panel = &profile->panel[profile->count++];
     *panel = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
@@ -180,25 +165,19 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
 
 /* ---- all panels ---- */
 
-/* Adds the moments beyond the panels, by the power with which P falls there. */
-static void measure_tail(vndf_profile *profile)
-{
-    double end = profile->panel[profile->count].r, p = vndf_profile_p22(profile, end),
-           n = vndf_profile_exponent(profile, end / 4, end);
-    profile->tail_m0 = profile->tail_m1 = 0.0;
-    if (p > 0.0 && n > 3.0 + VNDF_POWER_MARGIN && n < HUGE_VAL) {
-        profile->tail_m0 = p * end * end / (n - 2);
-        profile->tail_m1 = p * end * end * end / (n - 3) - end * profile->tail_m0;
-    }
-}
-
-/* Sums from both ends; every term is positive. */
+/* Sums from both ends; every term is positive. Beyond the panels P falls by the power that it has before their end. */
 void vndf_panels_sum(vndf_profile *profile)
 {
     vndf_panel *p = profile->panel;
     size_t n = profile->count;
-    measure_tail(profile);
+    double end = p[n].r, last = vndf_profile_p22(profile, end),
+           power = vndf_profile_exponent(profile, end / 4, end);
     double before = 0.0; /* the integral of P r^2 */
+    profile->tail_m0 = profile->tail_m1 = 0.0;
+    if (last > 0.0 && power > 3.0 + VNDF_POWER_MARGIN && power < HUGE_VAL) {
+        profile->tail_m0 = last * end * end / (power - 2);
+        profile->tail_m1 = last * end * end * end / (power - 3) - end * profile->tail_m0;
+    }
     p[0].f0 = 0.0;
     p[n].t0 = profile->tail_m0;
     p[n].s = profile->tail_m1;
@@ -243,7 +222,7 @@ double vndf_panels_make(vndf_profile *profile)
         estimate whole = estimate_of(profile, edge[i], edge[i + 1]);
         resolve(profile, edge[i], edge[i + 1], &whole, 0, least);
     }
-    if (!vndf_guard_stopped(profile->guard) && grow(profile)) {
+    if (!vndf_guard_stopped(profile->guard)) {
         profile->panel[profile->count] = (vndf_panel){.r = edge[edges - 1]};
         vndf_panels_sum(profile);
     }

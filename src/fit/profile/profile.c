@@ -192,7 +192,8 @@ vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution
         double octave[2 * VNDF_OCTAVES + 1];
         for (int i = 0; i <= 2 * VNDF_OCTAVES; i++)
             octave[i] = exp2(i - VNDF_OCTAVES);
-        good = add_edges(profile, octave, 2 * VNDF_OCTAVES + 1) &&
+        profile->panel = malloc((VNDF_LIMIT_BUILD_PANELS + 1) * sizeof *profile->panel);
+        good = profile->panel && add_edges(profile, octave, 2 * VNDF_OCTAVES + 1) &&
                add_edges(profile, source->breaks, source->break_count);
         for (size_t i = 0; good && i < given->break_count; i++)
             good = add_break(profile, given->breaks[i]);

@@ -39,8 +39,8 @@ typedef struct vndf_reference {
     double sampled;    /* the given `finest`; 0: none */
     vndf_guard *guard; /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale;
-    size_t count, capacity; /* panels; panel[count] is the outer end */
-    vndf_panel *panel;
+    size_t count;            /* of panels */
+    vndf_panel *panel;       /* room for the limit of them; panel[count] is the outer end */
     double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
     double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     double *edge;            /* slopes in the source's unit where panels end, ascending and apart */
