@@ -121,9 +121,6 @@ static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
 static vndf_status bad_mix(vndf_span at, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    if (at.size == 0)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: something is missing; right would be %s",
-                         at.column, mix_usage);
     return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; right would be %s", at.column,
                      vndf_excerpt(excerpt, at.text, at.size), mix_usage);
 }

@@ -12,11 +12,11 @@ typedef struct row {
 static double combined(const vndf_instruction *at, double x, double y)
 {
     switch (at->operation) {
-    case VNDF_ADD: return x + y;
-    case VNDF_SUBTRACT: return x - y;
-    case VNDF_MULTIPLY: return x * y;
-    case VNDF_DIVIDE: return x / y;
-    case VNDF_POWER: return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
+    case '+': return x + y;
+    case '-': return x - y;
+    case '*': return x * y;
+    case '/': return x / y;
+    case '^': return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
     default: return at->function->two(x, y);
     }
 }
@@ -56,11 +56,11 @@ void vndf_expression_free(vndf_expression *expression)
 static vndf_jet combine_jets(const vndf_instruction *at, vndf_jet x, vndf_jet y)
 {
     switch (at->operation) {
-    case VNDF_ADD: return vndf_jet_sum(x, y);
-    case VNDF_SUBTRACT: return vndf_jet_difference(x, y);
-    case VNDF_MULTIPLY: return vndf_jet_product(x, y);
-    case VNDF_DIVIDE: return vndf_jet_quotient(x, y);
-    case VNDF_POWER: return vndf_jet_pow(x, y);
+    case '+': return vndf_jet_sum(x, y);
+    case '-': return vndf_jet_difference(x, y);
+    case '*': return vndf_jet_product(x, y);
+    case '/': return vndf_jet_quotient(x, y);
+    case '^': return vndf_jet_pow(x, y);
     default: return vndf_function_jet(at->function, x, y);
     }
 }
