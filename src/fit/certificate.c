@@ -145,9 +145,9 @@ static void look_around(survey *s)
             look_near_worst(s, side, figure, 4);
 }
 
-static void take(vndf_certificate *c, const direction *at, double rho, int side, double scale)
+/* Takes what is worst so far. */
+static void take(vndf_certificate *c, const double *f, double rho, int side, double scale)
 {
-    const double *f = at->side[side];
     double angle = atan2(1, rho * scale) * 180 / PI, theta = side ? 180 - angle : angle;
     if (f[TV] > c->tv) {
         c->tv = (float)f[TV];
@@ -207,7 +207,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const
         c->max_weight = 1;
         for (size_t i = 0; i < 2 * n; i++)
             if (s.at[i / 2].known)
-                take(c, &s.at[i / 2], draft->strips.at[i / 2].edge, i % 2, profile->scale);
+                take(c, s.at[i / 2].side[i % 2], draft->strips.at[i / 2].edge, i % 2, profile->scale);
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;

@@ -278,16 +278,6 @@ static size_t find_jumps(const vndf_profile *profile, float *jump)
 
 /* ---- the whole ---- */
 
-/* The least with which R^2 P22, by xi, stays finite in the tail. */
-static unsigned squarings_of(const vndf_profile *profile)
-{
-    double end = profile->panel[profile->count].r, power = vndf_profile_exponent(profile, end / 64, end / 4);
-    unsigned n = 0;
-    while (n < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << n) < 1 - 1e-3)
-        n++;
-    return n;
-}
-
 int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
 {
     const double margin = 0.5;
@@ -295,7 +285,10 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
     size_t jumps = find_jumps(profile, jump);
     memset(k, 0, sizeof *k);
     k->profile = profile;
-    k->squarings = squarings_of(profile);
+    double end = profile->panel[profile->count].r, power = vndf_profile_exponent(profile, end / 64, end / 4);
+    /* the least with which R^2 P22, by xi, stays finite in the tail */
+    while (k->squarings < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << k->squarings) < 1 - 1e-3)
+        k->squarings++;
     int good = vndf_strips_from(&k->strips, profile, jump, jumps, most);
     size_t n = k->strips.count, next = jumps - 1;
     k->rim = good ? calloc(n + 1, sizeof *k->rim) : NULL;

@@ -11,7 +11,6 @@
 static const double PI = 3.14159265358979323846;
 static const double POLE_LOST = 1e-6;  /* part of the mass that may lie below the first panel, */
 static const double TAIL_LOST = 2e-3;  /* of the area at grazing incidence beyond the last: one cell draws it */
-static const double FINEST = 1e-3;     /* the default width of features that samples find */
 static const double SAME_EDGE = 1e-13; /* of a slope: below the width that resolve() calls a jump */
 
 /* ---- what a microsurface must be ---- */
@@ -71,33 +70,19 @@ static int add_edges(vndf_profile *profile, const double *more, size_t count)
     return 1;
 }
 
-/* Tries the proof; without one, samples. 0 if there is no memory. */
-static int look_between(vndf_profile *profile, vndf_proof *proof)
-{
-    int bounded = profile->source->reach != NULL;
-    profile->finest = 0.0;
-    if (bounded && !vndf_proof_from(proof, profile))
-        return 0;
-    if (bounded && (proof->proven || proof->edge_count || profile->sampled == 0.0))
-        return 1;
-    free(proof->edge);
-    profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
-    return vndf_proof_by_samples(proof, profile, profile->finest);
-}
-
 /* What the panels found wrong is told only if nothing hides from them. */
 static void look(vndf_profile *profile)
 {
     enum { LOOKS = 12 };
     vndf_guard *guard = profile->guard;
     for (int i = 1, more = 1; more; i++) {
-        vndf_proof proof = {0};
+        vndf_proof proof;
         vndf_error found = {VNDF_OK, ""};
         double peak = vndf_panels_make(profile);
         if (vndf_guard_stopped(guard))
             return;
         check(profile, peak, &found);
-        if (!look_between(profile, &proof) || !add_edges(profile, proof.edge, proof.edge_count))
+        if (!vndf_proof_from(&proof, profile) || !add_edges(profile, proof.edge, proof.edge_count))
             vndf_guard_starve(guard);
         free(proof.edge);
         profile->hidden = fmin(proof.hidden, 1.0);

@@ -129,11 +129,8 @@ typedef struct vndf_proof {
     size_t edge_count;
 } vndf_proof;
 
-/* By bounds, for a source that has them (proof.c). 0 if there is no memory or the build must end; free it either
- * way. */
-int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile);
-/* By values at most half of `width` times their slope apart, which meet a feature of that width. Narrower features are
- * not excluded; `proven` then means that no more was found. */
-int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width);
+/* By bounds, for a source that has them; where they are not enough by values, as far apart as `finest` allows, which is
+ * put. 0 if there is no memory or the build must end; free the edges either way. */
+int vndf_proof_from(vndf_proof *proof, vndf_profile *profile);
 
 #endif

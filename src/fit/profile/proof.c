@@ -4,7 +4,6 @@
  * point does. Then it compares these values with the polynomials through the points of the panels. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "fit/profile/profile.h"
 
@@ -12,6 +11,7 @@ enum { PIECES_MAX = 400000, ROUNDS_MAX = 2000, SAMPLE_EDGES = 1 << 16 };
 
 static const double STRAY = 5e-6, MISS = 5e-6; /* of all: how much may stray, and how much panels may miss */
 static const double NOTHING = 1e-200;          /* a P22 that nowhere exceeds this counts as 0 */
+static const double FINEST = 1e-3;             /* the default width of features that samples find */
 static const double NARROW = 4e-16;            /* of its slope: a piece that cannot be halved */
 
 /* From slope low to high: how much of the integral of P22 r^2 du may stray, and the integral by the value in the
@@ -186,12 +186,11 @@ static void judge(vndf_proof *proof, const pieces *s, double *miss)
         }
 }
 
-int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile)
+static int prove(vndf_proof *proof, const vndf_profile *profile)
 {
     pieces s = {
         .profile = profile, .at = malloc(PIECES_MAX * sizeof *s.at), .before = malloc(PIECES_MAX * sizeof *s.at)};
     double *miss = NULL;
-    memset(proof, 0, sizeof *proof);
     if (s.at && s.before) {
         for (size_t i = 0; i < profile->count; i++)
             add(&s, profile->panel[i].r, profile->panel[i + 1].r, i);
@@ -214,11 +213,12 @@ int vndf_proof_from(vndf_proof *proof, const vndf_profile *profile)
     return good;
 }
 
-int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double width)
+/* By values at most half of `width` times their slope apart, which meet a feature of that width. Narrower features are
+ * not excluded; `proven` then means that no more was found. */
+static int sample(vndf_proof *proof, const vndf_profile *profile, double width)
 {
     double least = MISS * width / (2 * log(profile->panel[profile->count].r / profile->panel[0].r));
-    memset(proof, 0, sizeof *proof);
-    proof->edge = malloc(SAMPLE_EDGES * sizeof *proof->edge);
+    *proof = (vndf_proof){.edge = malloc(SAMPLE_EDGES * sizeof *proof->edge)};
     for (size_t i = 0; proof->edge && i < profile->count; i++) {
         view v;
         view_panel(&v, profile, i);
@@ -238,4 +238,18 @@ int vndf_proof_by_samples(vndf_proof *proof, const vndf_profile *profile, double
         proof->edge_count = 0;
     proof->hidden = 1.0;
     return proof->edge != NULL;
+}
+
+int vndf_proof_from(vndf_proof *proof, vndf_profile *profile)
+{
+    int bounded = profile->source->reach != NULL;
+    *proof = (vndf_proof){0};
+    profile->finest = 0.0;
+    if (bounded && !prove(proof, profile))
+        return 0;
+    if (bounded && (proof->proven || proof->edge_count || profile->sampled == 0.0))
+        return 1;
+    free(proof->edge);
+    profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
+    return sample(proof, profile, profile->finest);
 }
