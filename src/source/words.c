@@ -166,17 +166,12 @@ static size_t number_length(const char *text, size_t size, size_t *point)
 size_t vndf_number_read(const char *text, size_t size, double *value)
 {
     char copy[VNDF_NUMBER_LENGTH + 32];
-    const char *mark = localeconv()->decimal_point;
-    size_t point, length = number_length(text, size, &point), mark_length = strlen(mark);
-    if (length == 0 || length > VNDF_NUMBER_LENGTH || mark_length > 16)
+    size_t point, length = number_length(text, size, &point);
+    if (length == 0 || length > VNDF_NUMBER_LENGTH)
         return 0;
-    memcpy(copy, text, point);
-    if (point == length || text[point] != '.')
-        mark_length = 0;
-    memcpy(copy + point, mark, mark_length);
-    size_t rest = point + (mark_length > 0);
-    memcpy(copy + point + mark_length, text + rest, length - rest);
-    copy[length - rest + point + mark_length] = '\0';
+    int has_point = point < length && text[point] == '.';
+    snprintf(copy, sizeof copy, "%.*s%s%.*s", (int)point, text, has_point ? localeconv()->decimal_point : "",
+             (int)length - (int)point - has_point, text + point + has_point);
     *value = strtod(copy, NULL);
     return length;
 }

@@ -79,12 +79,14 @@ static vndf_wide larger(vndf_wide a, vndf_wide b)
 /* x moved down by this part of it. Exponents beyond 2^50 are rounded too. */
 static vndf_wide down(vndf_wide x, double part)
 {
-    double spread = fabs(x.e) > 0x1p50 ? 4 * ROUNDING * fabs(x.e) : 0;
+    double m = x.m - fabs(x.m) * part, spread = fabs(x.e) > 0x1p50 ? 4 * ROUNDING * fabs(x.e) : 0;
+    if (x.e == 0 && plain(m)) /* nearly always */
+        return (vndf_wide){m, 0};
     if (isinf(x.m))
         return x.m > 0 ? (vndf_wide){0.5, EXPONENT_LARGEST} : x;
     if (x.m > 0 && x.e <= -EXPONENT_LARGEST)
         return (vndf_wide){0, 0};
-    return settled(x.m - fabs(x.m) * part, floor(x.e + (x.m > 0 ? -spread : spread)));
+    return settled(m, floor(x.e + (x.m > 0 ? -spread : spread)));
 }
 
 /* Both ends moved by this part of them; the whole line if one is not a number. */
