@@ -23,18 +23,12 @@ void vndf_guard_starve(vndf_guard *guard)
     vndf_fail(vndf_guard_why(guard), VNDF_ERROR_MEMORY, "no memory for this build");
 }
 
-static void ask(vndf_guard *guard)
-{
-    if (guard->progress && guard->progress(guard->done, guard->what, guard->progress_user))
-        vndf_fail(vndf_guard_why(guard), VNDF_ERROR_ARGUMENT, "interrupted (%s)", guard->what);
-}
-
 void vndf_guard_stage(vndf_guard *guard, double done, const char *what)
 {
     guard->done = done;
     guard->what = what;
-    if (!vndf_guard_stopped(guard))
-        ask(guard);
+    if (!vndf_guard_stopped(guard) && guard->progress && guard->progress(done, what, guard->progress_user))
+        vndf_fail(&guard->why, VNDF_ERROR_ARGUMENT, "interrupted (%s)", what);
 }
 
 int vndf_guard_spend(vndf_guard *guard, double operations)
@@ -46,7 +40,7 @@ int vndf_guard_spend(vndf_guard *guard, double operations)
     guard->spent += operations;
     if (guard->spent >= guard->next) {
         guard->next = guard->spent + GUARD_INTERVAL;
-        ask(guard);
+        vndf_guard_stage(guard, guard->done, guard->what);
     }
     if (guard->spent > OPERATIONS_MOST)
         vndf_fail(vndf_guard_why(guard), VNDF_ERROR_DISTRIBUTION,

@@ -52,6 +52,7 @@ static vndf_status check(const vndf_profile *profile, double peak, vndf_error *e
 
 /* ---- panels until nothing hides ---- */
 
+/* Adds slopes at which panels are to end; all are kept ascending and apart. 0 if there is no memory. */
 static int add_edges(vndf_profile *profile, const double *more, size_t count)
 {
     size_t n = profile->edge_count, kept = 0;
