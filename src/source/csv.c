@@ -460,9 +460,7 @@ static vndf_status check_arguments(vndf_rows_over over, vndf_rows_of of, const d
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22");
     if (!x || !value)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the array of %s is NULL",
-                         x                              ? second_names[of]
-                         : over == VNDF_ROWS_OVER_SLOPE ? "slope"
-                                                        : "theta");
+                         x ? second_names[of] : first_names[1 + over]);
     if (count < 2 || count > VNDF_LIMIT_CSV_ROWS)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu rows; from 2 to %d are possible", count,
                          VNDF_LIMIT_CSV_ROWS);

@@ -5,10 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct row {
-    vndf_points at;
-} row;
-
 static double combined(const vndf_instruction *at, double x, double y)
 {
     switch (at->operation) {
@@ -23,26 +19,26 @@ static double combined(const vndf_instruction *at, double x, double y)
 
 void vndf_expression_run(const vndf_expression *expression, vndf_points *variables, size_t count, double *values)
 {
-    row stack[VNDF_EXPRESSION_STACK];
+    vndf_points stack[VNDF_EXPRESSION_STACK];
     size_t top = 0; /* number of operands */
     for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
         if (at->operation == VNDF_PUSH_NUMBER) {
             for (size_t i = 0; i < count; i++)
-                stack[top].at[i] = at->number;
+                stack[top][i] = at->number;
             top++;
         } else if (at->operation == VNDF_PUSH_VARIABLE) {
-            memcpy(stack[top++].at, variables[at->variable], count * sizeof(double));
+            memcpy(stack[top++], variables[at->variable], count * sizeof(double));
         } else if (at->operation == VNDF_NEGATE || (at->operation == VNDF_CALL && at->function->one)) {
-            row *x = &stack[top - 1];
+            double *x = stack[top - 1];
             for (size_t i = 0; i < count; i++)
-                x->at[i] = at->operation == VNDF_NEGATE ? -x->at[i] : at->function->one(x->at[i]);
+                x[i] = at->operation == VNDF_NEGATE ? -x[i] : at->function->one(x[i]);
         } else {
-            row *x = &stack[--top - 1], *y = &stack[top];
+            double *x = stack[--top - 1], *y = stack[top];
             for (size_t i = 0; i < count; i++)
-                x->at[i] = combined(at, x->at[i], y->at[i]);
+                x[i] = combined(at, x[i], y[i]);
         }
     }
-    memcpy(values, stack->at, count * sizeof *values);
+    memcpy(values, stack[0], count * sizeof *values);
 }
 
 void vndf_expression_free(vndf_expression *expression)
