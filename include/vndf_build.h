@@ -173,11 +173,11 @@ VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);
 VNDF_API double vndf_reference_area(const vndf_reference *reference, double theta);
 VNDF_API void vndf_reference_free(vndf_reference *reference);
 
-/* Writes the table to a file: first to a temporary file beside it, vndf.PROCESS.tmp, which is flushed to the disk
+/* Writes the table to a file: first to a temporary file beside it, vndf.NUMBER.tmp, which is flushed to the disk
  * and renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced
- * keeps its permissions, and a symbolic link stays one; other hard links keep the old file. Anything but a regular
- * file is refused. A signal that ends the process meanwhile may leave the temporary: block it, as `vndf build`
- * does. */
+ * keeps its permissions, and a symbolic link that leads to one stays; other hard links keep the old file. Anything
+ * but a regular file is refused. A signal that ends the process meanwhile may leave the temporary: block it, as
+ * `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 /* The same to memory, for vndf_load_memory: `size` bytes, which is `bytes` of vndf_distribution_info. */

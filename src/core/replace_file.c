@@ -1,6 +1,7 @@
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  include <fcntl.h>
+#  include <limits.h>
 #  include <sys/stat.h>
 #  include <unistd.h>
 #  define VNDF_HAS_POSIX 1
@@ -12,60 +13,29 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    NAMES_MAX = 100,
-    SUFFIX_MAX = 48,
-    LINKS_MAX = 40, /* as many as the system follows */
-    LINK_BYTES = 4096
-};
+enum { NAMES_MAX = 1000, SUFFIX_MAX = 32 };
 
-/* Bytes of path before its last name. */
-static size_t folder_length(const char *path)
+/* With room for a temporary's name; to be freed. NULL and ENOMEM. */
+static char *copy_of(const char *path)
 {
-    size_t length = strlen(path);
-    while (length && path[length - 1] != '/')
-        length--;
-    return length;
-}
-
-/* The first bytes of `folder`, then `name`, with room for a suffix; to be freed. NULL and ENOMEM. */
-static char *join(const char *folder, size_t length, const char *name)
-{
-    size_t size = strlen(name) + 1;
-    char *path = malloc(length + size + SUFFIX_MAX);
-    if (!path) {
-        errno = ENOMEM;
-        return NULL;
-    }
-    memcpy(path, folder, length);
-    memcpy(path + length, name, size);
-    return path;
+    char *copy = malloc(strlen(path) + SUFFIX_MAX);
+    if (copy)
+        return strcpy(copy, path);
+    errno = ENOMEM;
+    return NULL;
 }
 
 /* ---- what systems differ in ---------------------------------------------------------------------- */
 
 #ifdef VNDF_HAS_POSIX
 
-/* The name at the end of all links, also where nothing is there yet; to be freed. NULL and errno. */
+/* The file at the end of all links; to be freed. NULL and errno. */
 static char *end_of_links(const char *path)
 {
-    char held[LINK_BYTES], *at = join(path, 0, path);
-    int reason = ELOOP;
-    for (int i = 0; at && i < LINKS_MAX; i++) {
-        ssize_t length = readlink(at, held, sizeof held - 1);
-        if (length < 0 && (errno == EINVAL || errno == ENOENT))
-            return at;
-        reason = length < 0 ? errno : reason;
-        if (length < 0)
-            break;
-        held[length] = '\0';
-        char *next = join(at, held[0] == '/' ? 0 : folder_length(at), held);
-        free(at);
-        at = next;
-    }
-    errno = at ? reason : ENOMEM;
-    free(at);
-    return NULL;
+    char end[PATH_MAX];
+    if (realpath(path, end))
+        return copy_of(end);
+    return errno == ENOENT ? copy_of(path) : NULL;
 }
 
 /* A new file with the mode of the file that it replaces. O_EXCL: never write through something that is there
@@ -87,11 +57,6 @@ static FILE *create_new(const char *name, const char *target)
     }
     errno = reason;
     return file;
-}
-
-static long process_number(void)
-{
-    return (long)getpid();
 }
 
 /* To the disk; not every file can be synced. */
@@ -116,18 +81,13 @@ int vndf_replace_flush(FILE *file)
 
 static char *end_of_links(const char *path)
 {
-    return join(path, 0, path);
+    return copy_of(path);
 }
 
 static FILE *create_new(const char *name, const char *target)
 {
     (void)target;
     return fopen(name, "wbx");
-}
-
-static long process_number(void)
-{
-    return 0;
 }
 
 static int reaches_disk(FILE *file)
@@ -144,14 +104,12 @@ int vndf_replace_flush(FILE *file)
 
 /* ---- the calls ----------------------------------------------------------------------------------- */
 
-/* Closes the file if there is one, removes it unless `good`, and keeps errno. Returns `good`. */
+/* Ends r, whose file is closed if there was one, and removes it unless `good`. Returns `good`, keeps errno. */
 static int finish(vndf_replacement *r, int good)
 {
     int reason = errno;
-    if (!good && r->file) {
-        fclose(r->file);
+    if (!good && r->file)
         remove(r->temporary);
-    }
     free(r->target);
     free(r->temporary);
     *r = (vndf_replacement){NULL, NULL, NULL};
@@ -159,14 +117,16 @@ static int finish(vndf_replacement *r, int good)
     return good;
 }
 
-/* To vndf.PROCESS.tmp in the folder of the target, or another number where a crash left one of that name. */
+/* To vndf.NUMBER.tmp in the folder of the target, with the first number that no other write or crash has taken. */
 int vndf_replace_begin(vndf_replacement *r, const char *path)
 {
     *r = (vndf_replacement){end_of_links(path), NULL, NULL};
-    size_t length = r->target ? folder_length(r->target) : 0;
-    r->temporary = r->target ? join(r->target, length, "") : NULL;
+    size_t folder = r->target ? strlen(r->target) : 0;
+    while (folder && r->target[folder - 1] != '/')
+        folder--;
+    r->temporary = r->target ? copy_of(r->target) : NULL;
     for (int i = 0; r->temporary && !r->file && i < NAMES_MAX && (i == 0 || errno == EEXIST); i++) {
-        snprintf(r->temporary + length, SUFFIX_MAX, i ? "vndf.%ld.%d.tmp" : "vndf.%ld.tmp", process_number(), i);
+        snprintf(r->temporary + folder, SUFFIX_MAX, "vndf.%d.tmp", i);
         r->file = create_new(r->temporary, r->target);
     }
     return r->file ? 1 : finish(r, 0);
@@ -176,19 +136,14 @@ int vndf_replace_begin(vndf_replacement *r, const char *path)
 int vndf_replace_commit(vndf_replacement *r)
 {
     int good = vndf_replace_flush(r->file) && reaches_disk(r->file), reason = errno, closed = fclose(r->file) == 0;
-    r->file = NULL;
     if (!good)
         errno = reason;
-    good = good && closed && rename(r->temporary, r->target) == 0;
-    reason = errno;
-    if (!good)
-        remove(r->temporary);
-    errno = reason;
-    return finish(r, good);
+    return finish(r, good && closed && rename(r->temporary, r->target) == 0);
 }
 
 void vndf_replace_discard(vndf_replacement *r)
 {
+    fclose(r->file);
     finish(r, 0);
 }
 
@@ -197,5 +152,6 @@ int vndf_replace_whole(const char *path, const void *bytes, size_t size)
     vndf_replacement r;
     if (!vndf_replace_begin(&r, path))
         return 0;
-    return fwrite(bytes, 1, size, r.file) == size ? vndf_replace_commit(&r) : finish(&r, 0);
+    fwrite(bytes, 1, size, r.file);
+    return vndf_replace_commit(&r);
 }

@@ -34,7 +34,7 @@ static double excess_of(const vndf_certificate *c, double tv)
 }
 
 /* The table as it would be read back from its file: certificate and texts included. */
-static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error *why)
+static vndf_distribution *finish(const builder *b, vndf_draft *draft)
 {
     draft->table.source = b->profile->description;
     draft->table.tool = TOOL;
@@ -44,10 +44,10 @@ static vndf_distribution *finish(const builder *b, vndf_draft *draft, vndf_error
     vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
     free(file.bytes);
     if (!table && inner.status == VNDF_ERROR_MEMORY)
-        b->profile->guard->starved = 1;
+        vndf_guard_starve(b->profile->guard);
     else if (!table)
-        vndf_fail(why, VNDF_ERROR_DISTRIBUTION, "the distribution cannot be held in a table of floats: %s",
-                  inner.message);
+        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_DISTRIBUTION,
+                  "the distribution cannot be held in a table of floats: %s", inner.message);
     return table;
 }
 
@@ -58,7 +58,8 @@ static double try_knots(builder *b, unsigned knots, vndf_draft *draft)
     vndf_knots_place(&b->knots, knots);
     int good = vndf_draft_from(draft, &b->knots, b->moments) &&
                vndf_certificate_measure(&draft->table.certificate, draft, b->profile);
-    b->profile->guard->starved |= !good;
+    if (!good)
+        vndf_guard_starve(b->profile->guard);
     return good ? excess_of(&draft->table.certificate, b->max_tv) : 0;
 }
 
@@ -102,23 +103,23 @@ static unsigned knots_in(const builder *b, size_t bytes)
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
-static vndf_distribution *make_table(builder *b, vndf_error *error)
+static vndf_distribution *make_table(builder *b)
 {
     unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes), least = CELLS_LEAST + 1;
     if (most >= least && !vndf_knots_from(&b->knots, b->profile, most)) {
-        b->profile->guard->starved = 1;
+        vndf_guard_starve(b->profile->guard);
         return NULL;
     }
     least = b->knots.least > least ? b->knots.least : least;
     if (most < least) {
-        vndf_fail(error, VNDF_ERROR_TARGET,
+        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
         return NULL;
     }
     vndf_draft draft = {.first = NULL};
     search(b, !(b->max_tv > 0) ? most : few > least ? few : least, most, &draft);
-    vndf_distribution *table = vndf_guard_stopped(b->profile->guard) ? NULL : finish(b, &draft, error);
+    vndf_distribution *table = vndf_guard_stopped(b->profile->guard) ? NULL : finish(b, &draft);
     vndf_draft_free(&draft);
     return table;
 }
@@ -140,15 +141,15 @@ static vndf_status check_request(const vndf_source *source, const builder *b, vn
     return VNDF_OK;
 }
 
-static vndf_status target_missed(const vndf_distribution *table, double max_tv, vndf_error *error)
+static void check_target(const vndf_distribution *table, double max_tv, vndf_error *error)
 {
     const vndf_certificate *c = &table->certificate;
     int above = c->tv_above > max_tv;
-    return vndf_fail(error, VNDF_ERROR_TARGET,
-                     "a total variation of %g%s cannot be met within the size: %lu bytes reach %.3g at %g degrees",
-                     above ? max_tv : BELOW * max_tv, above ? "" : " below the horizon",
-                     (unsigned long)table->bytes, (double)(above ? c->tv_above : c->tv),
-                     (double)(above ? c->tv_above_theta : c->tv_theta));
+    if (excess_of(c, max_tv) > 1)
+        vndf_fail(error, VNDF_ERROR_TARGET,
+                  "a total variation of %g%s cannot be met within the size: %lu bytes reach %.3g at %g degrees",
+                  above ? max_tv : BELOW * max_tv, above ? "" : " below the horizon", (unsigned long)table->bytes,
+                  (double)(above ? c->tv_above : c->tv), (double)(above ? c->tv_above_theta : c->tv_theta));
 }
 
 vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
@@ -170,19 +171,15 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
     if (!profile)
         return NULL;
-    vndf_status status = VNDF_OK;
     b.profile = profile;
     vndf_guard_stage(&guard, 0.5, "knots and certificate");
-    vndf_distribution *table = make_table(&b, error);
-    if (vndf_guard_stopped(&guard))
-        status = vndf_guard_status(&guard, error);
-    else if (table && given.max_tv > 0.0 && excess_of(&table->certificate, given.max_tv) > 1)
-        status = target_missed(table, given.max_tv, error);
-    if (status != VNDF_OK) {
+    vndf_distribution *table = make_table(&b);
+    if (table)
+        check_target(table, given.max_tv, vndf_guard_why(&guard));
+    if (vndf_guard_status(&guard, error) != VNDF_OK) {
         vndf_free(table);
         table = NULL;
-    }
-    if (table && certificate)
+    } else if (certificate)
         *certificate = table->certificate;
     vndf_knots_free(&b.knots);
     vndf_profile_free(profile);
@@ -196,28 +193,25 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "a table, a source and a place for the certificate are needed");
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    vndf_error inner = {VNDF_OK, ""};
     vndf_resolution as_built;
     double breaks[VNDF_LIMIT_BREAKS];
-    if (vndf_resolution_read(distribution->source, breaks, &as_built, error) != VNDF_OK)
-        return error ? error->status : VNDF_ERROR_ARGUMENT;
-    vndf_profile *profile = vndf_profile_from(source, &as_built, &guard, &inner);
+    vndf_profile *profile = NULL;
+    if (vndf_resolution_read(distribution->source, breaks, &as_built, &guard.why) == VNDF_OK)
+        profile = vndf_profile_from(source, &as_built, &guard, NULL);
     if (!profile)
-        return vndf_fail(error, inner.status, "%s", inner.message);
+        return vndf_guard_status(&guard, error);
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
-    vndf_status status = VNDF_OK;
     vndf_draft draft = {.first = NULL};
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))
-        status =
-            vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                      "the table is of another distribution: scale %.9g and normalization %.9g, "
-                      "the source has %.9g and %.9g",
-                      distribution->scale, distribution->normalization, profile->scale, profile->normalization);
+        vndf_fail(vndf_guard_why(&guard), VNDF_ERROR_DISTRIBUTION,
+                  "the table is of another distribution: scale %.9g and normalization %.9g, "
+                  "the source has %.9g and %.9g",
+                  distribution->scale, distribution->normalization, profile->scale, profile->normalization);
     else if (!vndf_draft_of(&draft, distribution, profile) ||
              !vndf_certificate_measure(certificate, &draft, profile))
-        guard.starved = 1;
+        vndf_guard_starve(&guard);
     vndf_draft_free(&draft);
     vndf_profile_free(profile);
-    return status == VNDF_OK ? vndf_guard_status(&guard, error) : status;
+    return vndf_guard_status(&guard, error);
 }

@@ -73,8 +73,8 @@ static void look(survey *s, size_t edge, int below, double *figure)
 {
     const vndf_draft *d = s->draft;
     double rho = d->strips.at[edge].edge;
-    vndf_law law = vndf_law_of(&d->laws, rho, below);
-    unsigned cell = vndf_laws_cell(&d->laws, rho), first = below ? law.first : 0;
+    vndf_law law = vndf_law_of(d, rho, below);
+    unsigned cell = vndf_draft_cell(d, rho), first = below ? law.first : 0;
     double drawn = 0, seen = below ? 0 : PI * rho, beyond = 0;
     float rounded = 0;
     for (unsigned i = d->table.cells + 1; i-- > first;) {
@@ -88,7 +88,7 @@ static void look(survey *s, size_t edge, int below, double *figure)
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
         return;
     figure[CONSISTENCY] = fabs(rounded / drawn - 1);
-    if (cell == d->table.cells || d->laws.cell[cell + 1].r - d->laws.cell[cell].r > VNDF_GRAIN * rho)
+    if (cell == d->table.cells || d->cell[cell + 1].r - d->cell[cell].r > VNDF_GRAIN * rho)
         figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / seen - 1);
     compare(s, &law, edge, seen, drawn, figure);
 }
@@ -173,7 +173,7 @@ static double ndf_error(const survey *s)
     for (unsigned i = 0; i <= d->table.cells; i++) {
         int tail = i == d->table.cells;
         const vndf_weight all = {tail, !tail, 0, 0};
-        vndf_drawn cell = vndf_drawn_by(&d->laws.cell[i], &all);
+        vndf_drawn cell = vndf_drawn_by(&d->cell[i], &all);
         double before = 0;
         for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
             const vndf_strip *strip = &d->strips.at[n];
@@ -201,7 +201,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const
     if (good) {
         for (unsigned i = 0; i <= draft->table.cells; i++)
             for (size_t k = draft->first[i]; k < draft->first[i + 1]; k++)
-                s.xi[k] = vndf_cell_place(&draft->laws.cell[i], draft->strips.at[k].edge);
+                s.xi[k] = vndf_cell_place(&draft->cell[i], draft->strips.at[k].edge);
         look_around(&s);
         memset(c, 0, sizeof *c);
         c->max_weight = 1;

@@ -18,7 +18,8 @@ static int measure_cells(vndf_draft *draft, const vndf_profile *profile, int put
     vndf_table_draft *t = &draft->table;
     vndf_strips *s = &draft->strips;
     draft->first = malloc((t->cells + 2) * sizeof *draft->first);
-    if (!draft->first || !vndf_strips_from(s, profile, t->knot, t->cells + 1, VNDF_STRIPS(t->cells)))
+    draft->cell = malloc((t->cells + 1) * sizeof *draft->cell);
+    if (!draft->first || !draft->cell || !vndf_strips_from(s, profile, t->knot, t->cells + 1, t->cells))
         return 0;
     for (unsigned i = 0; i <= t->cells; i++)
         draft->first[i] = vndf_strips_edge(s, t->knot[i]);
@@ -37,55 +38,56 @@ static int measure_cells(vndf_draft *draft, const vndf_profile *profile, int put
         beyond += (double)t->cubes[i] * t->m0[i];
         t->cubes[i] = beyond > FOURTH_LEAST ? t->cubes[i] : 0;
     }
-    return vndf_laws_from(&draft->laws, t);
+    for (unsigned i = 0; i <= t->cells; i++)
+        draft->cell[i] = vndf_cell_of(t, i);
+    return 1;
 }
 
 /* ---- shares below the horizon ---- */
 
-/* What is seen from below, in points: the true kernel times f dR, and the two of which shares are drawn. */
-typedef struct rays {
-    double *k, *near, *far;
-    size_t count;
-} rays;
+/* What is seen from below at one point: the true kernel times f dR, and the two of which shares are drawn. */
+typedef struct ray {
+    double k, near, far;
+} ray;
 
 /* From rho on, in `cell` and beyond. Far out, where next to nothing is added, the rays end. grazing[i]: the integral of
- * R f from cell i on. */
-static void look(const vndf_draft *draft, unsigned cell, double rho, const double *grazing, rays *out)
+ * R f from cell i on. Returns their number. */
+static size_t look(const vndf_draft *draft, unsigned cell, double rho, const double *grazing, ray *out)
 {
     const double little = 1e-7;
     const vndf_strips *s = &draft->strips;
     double seen = 0;
-    out->count = 0;
+    size_t count = 0;
     for (unsigned i = cell; i <= draft->table.cells && !(grazing[i] < little * seen); i++)
         for (size_t k = 2 * draft->first[i]; k < 2 * draft->first[i + 1]; k++) {
             double mass = s->at[k / 2].mass[k % 2], r = s->at[k / 2].r[k % 2], way = r - rho;
             if (!(way > 0 && mass > 0))
                 continue;
-            seen += out->k[out->count] = mass * vndf_profile_kernel(r, rho);
-            out->near[out->count] = mass * way;
-            out->far[out->count++] = mass * way * way / r;
+            out[count] = (ray){mass * vndf_profile_kernel(r, rho), mass * way, mass * way * way / r};
+            seen += out[count++].k;
         }
+    return count;
 }
 
 /* The shares with the least total variation among those of the right area: that is convex in the first share. */
-static void put_best(const rays *at, float *b0, float *b1)
+static void put_best(const ray *at, size_t count, float *b0, float *b1)
 {
     enum { STEPS = 20 };
     const double least = 0.02;
     double area = 0, near = 0, far = 0;
-    for (size_t i = 0; i < at->count; i++) {
-        area += at->k[i];
-        near += at->near[i];
-        far += at->far[i];
+    for (size_t i = 0; i < count; i++) {
+        area += at[i].k;
+        near += at[i].near;
+        far += at[i].far;
     }
     if (!(area > 1e-30 && far > 1e-9 * near))
         return;
     double low = 0, high = area / near, per = near / far;
     for (int step = 0; step < STEPS; step++) {
         double first = (low + high) / 2, second = (area - first * near) / far, slope = 0;
-        for (size_t i = 0; i < at->count; i++) {
-            double change = at->near[i] - per * at->far[i];
-            slope += first * at->near[i] + second * at->far[i] > at->k[i] ? change : -change;
+        for (size_t i = 0; i < count; i++) {
+            double change = at[i].near - per * at[i].far;
+            slope += first * at[i].near + second * at[i].far > at[i].k ? change : -change;
         }
         *(slope > 0 ? &high : &low) = first;
     }
@@ -94,7 +96,7 @@ static void put_best(const rays *at, float *b0, float *b1)
 }
 
 /* Puts the shares of all knots, scaled so that the area that is drawn from there is the true one, below[i]. */
-static void put_shares(vndf_draft *draft, const double *below, double *grazing, rays *room)
+static void put_shares(vndf_draft *draft, const double *below, double *grazing, ray *room)
 {
     vndf_table_draft *t = &draft->table;
     double sum = 0;
@@ -106,10 +108,9 @@ static void put_shares(vndf_draft *draft, const double *below, double *grazing, 
         double area = below[i] * (1 + rho);
         t->b0[i] = i ? t->b0[i - 1] : 0.43f;
         t->b1[i] = i ? t->b1[i - 1] : 0.57f;
-        look(draft, i, rho, grazing, room);
-        put_best(room, &t->b0[i], &t->b1[i]);
+        put_best(room, look(draft, i, rho, grazing, room), &t->b0[i], &t->b1[i]);
         for (unsigned k = i; i > 0 && k <= t->cells; k++)
-            drawn += vndf_drawn_below(&draft->laws.cell[k], rho, t->b0[i], t->b1[i]).mass / PI;
+            drawn += vndf_drawn_below(&draft->cell[k], rho, t->b0[i], t->b1[i]).mass / PI;
         if (drawn > 0 && area > 1e-30)
             factor = fmin(fmax(area / drawn, 0.5), 2);
         t->b0[i] *= (float)factor;
@@ -131,7 +132,7 @@ int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments)
                                     .source = profile->description}};
     vndf_table_draft *t = &draft->table;
     double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
-    rays at = {NULL, NULL, NULL, 0};
+    ray *rays = NULL;
     if (room && vndf_table_draft_allocate(t)) {
         for (unsigned i = 0; i < count; i++) {
             const vndf_area *area = vndf_knots_area(knots, knots->at[i]);
@@ -140,17 +141,14 @@ int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments)
             t->slope[i] = (float)(1 - area->turned - area->along);
             below[i] = area->below;
         }
-        size_t points = 2 * (measure_cells(draft, profile, 1) ? draft->strips.count : 0);
-        at.k = points ? malloc(3 * points * sizeof *at.k) : NULL;
-        if (at.k) {
-            at.near = at.k + points;
-            at.far = at.near + points;
-            put_shares(draft, below, grazing, &at);
-        }
+        rays = measure_cells(draft, profile, 1) ? malloc(2 * draft->strips.count * sizeof *rays) : NULL;
     }
+    int good = rays != NULL;
+    if (good)
+        put_shares(draft, below, grazing, rays);
     free(room);
-    free(at.k);
-    return at.k != NULL;
+    free(rays);
+    return good;
 }
 
 int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_profile *profile)
@@ -165,7 +163,7 @@ int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_
 void vndf_draft_free(vndf_draft *draft)
 {
     free(draft->table.knot);
-    vndf_laws_free(&draft->laws);
+    free(draft->cell);
     vndf_strips_free(&draft->strips);
     free(draft->first);
 }

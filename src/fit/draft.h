@@ -43,17 +43,6 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 /* ---- tables ---- */
 
-/* How many strips laws are compared in. */
-#define VNDF_STRIPS(cells) (6 * (size_t)(cells) + 360)
-
-/* A table, its laws, and the profile in strips that end at its knots: those of cell i from first[i] to first[i + 1]. */
-typedef struct vndf_draft {
-    vndf_table_draft table;
-    vndf_laws laws;
-    vndf_strips strips;
-    size_t *first;
-} vndf_draft;
-
 /* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free it either way. */
 int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments);
 

@@ -13,57 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/error.h"
+#include "fit/guard.h"
 #include "source/words.h"
 #include "table/family/family.h"
-#include "vndf_build.h"
-
-/* ---- patterns ---- */
 
 static const char PLACE[] = "{p}";
-
-/* With seven digits: what knots and probes are rounded to, so that a specification shows all of them. */
-static double number_of(double p)
-{
-    char text[VNDF_NUMBER_TEXT];
-    snprintf(text, sizeof text, "%.6e", p);
-    return strtod(text, NULL);
-}
-
-/* The source at p, whose number takes the places in the pattern; NULL and an error. */
-static vndf_source *source_at(const char *pattern, double p, vndf_error *error)
-{
-    char number[VNDF_NUMBER_TEXT];
-    const char *place;
-    int alone = !strchr(pattern, ':') && !strstr(pattern, PLACE);
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_number_print(number, p);
-    for (; (place = strstr(pattern, PLACE)) != NULL; pattern = place + strlen(PLACE)) {
-        vndf_write_bytes(&text, pattern, (size_t)(place - pattern));
-        vndf_text_add(&text, number);
-    }
-    vndf_text_add(&text, pattern);
-    vndf_text_add(&text, alone ? ":" : "");
-    vndf_text_add(&text, alone ? number : "");
-    char *specification = vndf_text_finish(&text, error);
-    vndf_source *source = specification ? vndf_source_family(specification, error) : NULL;
-    free(specification);
-    return source;
-}
-
-/* Arguments of `vndf build`, to be freed; NULL and an error. */
-static char *describe(const char *pattern, double low, double high, vndf_error *error)
-{
-    char number[VNDF_NUMBER_TEXT];
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_text_add_word(&text, "--family");
-    vndf_text_add_word(&text, pattern);
-    vndf_text_add_word(&text, "--parameter");
-    vndf_text_add_word(&text, vndf_number_print(number, low));
-    vndf_text_add(&text, "..");
-    vndf_text_add(&text, vndf_number_print(number, high));
-    return vndf_text_finish(&text, error);
-}
 
 enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
 enum { SLOPES_TO_E = 16, SLOPES = SLOPES_TO_E * 94 };
@@ -84,6 +38,7 @@ typedef struct shares {
 } shares;
 
 typedef struct builder {
+    vndf_guard guard;
     const char *pattern;
     vndf_family_options options;
     double low, high;
@@ -95,8 +50,7 @@ typedef struct builder {
     char stage[48];
 } builder;
 
-/* ---- progress ---- */
-
+/* What a table's build shows, as a part of the whole. */
 static int show(double done, const char *what, void *user)
 {
     builder *b = user;
@@ -106,30 +60,51 @@ static int show(double done, const char *what, void *user)
                                : 0;
 }
 
-static vndf_status show_all(builder *b, double done, vndf_error *error)
-{
-    return show(done, NULL, b) ? vndf_fail(error, VNDF_ERROR_ARGUMENT, "interrupted (%s)", b->stage) : VNDF_OK;
-}
-
-static vndf_status no_memory(vndf_error *error)
-{
-    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to build a family");
-}
-
 /* ---- distances ---- */
+
+/* With seven digits: what knots and probes are rounded to, so that a specification shows all of them. */
+static double number_of(double p)
+{
+    char text[VNDF_NUMBER_TEXT];
+    snprintf(text, sizeof text, "%.6e", p);
+    return strtod(text, NULL);
+}
+
+/* The source at p, whose number takes the places in the pattern. */
+static vndf_source *source_at(builder *b, double p)
+{
+    const char *pattern = b->pattern, *place;
+    int alone = !strchr(pattern, ':') && !strstr(pattern, PLACE);
+    vndf_error error = {VNDF_OK, ""};
+    vndf_writer text = {NULL, 0, 0, 0};
+    for (; (place = strstr(pattern, PLACE)) != NULL; pattern = place + strlen(PLACE)) {
+        vndf_write_bytes(&text, pattern, (size_t)(place - pattern));
+        vndf_text_add_number(&text, p);
+    }
+    vndf_text_add(&text, pattern);
+    if (alone) {
+        vndf_text_add(&text, ":");
+        vndf_text_add_number(&text, p);
+    }
+    char *specification = vndf_text_finish(&text, &error);
+    vndf_source *source = specification ? vndf_source_family(specification, &error) : NULL;
+    if (!source)
+        vndf_fail(vndf_guard_why(&b->guard), error.status, "at the parameter %.7g: %s", p, error.message);
+    free(specification);
+    return source;
+}
 
 static double slope_at(size_t i)
 {
     return SLOPE_LEAST * exp((double)i / SLOPES_TO_E);
 }
 
-static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *error)
+static void tabulate(builder *b, double p, shares *to)
 {
-    vndf_error inner = {VNDF_OK, ""};
-    vndf_source *source = source_at(b->pattern, p, &inner);
+    vndf_source *source = source_at(b, p);
     double sum = 0, along = 0;
     if (!source)
-        return vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
+        return;
     for (size_t i = 0; i < SLOPES; i++) {
         double r = slope_at(i), value = vndf_source_p22(source, r) * r * r;
         to->slope[i] = value > 0 && value < HUGE_VAL ? value : 0;
@@ -140,26 +115,17 @@ static vndf_status tabulate(const builder *b, double p, shares *to, vndf_error *
         to->slope[i] /= sum;
     to->grazing = sum > 0 ? along / sum : 1;
     vndf_source_free(source);
-    return VNDF_OK;
-}
-
-/* The parameter at which the weight of the upper of two knots is t. */
-static double between(double low, double high, double t, int reciprocal)
-{
-    return reciprocal ? low * high / (high - t * (high - low)) : low + t * (high - low);
 }
 
 /* The largest distance at the probes between two knots, which are tabulated. */
-static vndf_status measure_between(builder *b, double low, double high, double *slopes, double *grazing,
-                                   vndf_error *error)
+static void measure_between(builder *b, double low, double high, double *slopes, double *grazing)
 {
     *slopes = 0;
-    for (int k = 1; k <= PROBES; k++) {
-        double p = between(low, high, (double)k / (PROBES + 1), b->reciprocal), sum = 0, along = 0;
+    for (int k = 1; k <= PROBES && !vndf_guard_stopped(&b->guard); k++) {
+        double sum = 0, along = 0, part = (double)k / (PROBES + 1); /* the weight of the upper knot */
+        double p = b->reciprocal ? low * high / (high - part * (high - low)) : low + part * (high - low);
         double t = vndf_family_weight(low, high, p, b->reciprocal);
-        vndf_status status = tabulate(b, p, &b->own, error);
-        if (status != VNDF_OK)
-            return status;
+        tabulate(b, p, &b->own);
         double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
         for (size_t i = 0; i < SLOPES; i++) {
             double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
@@ -169,33 +135,30 @@ static vndf_status measure_between(builder *b, double low, double high, double *
         *slopes = fmax(*slopes, sum / 2);
         *grazing = fmax(*grazing, along / 2);
     }
-    return VNDF_OK;
 }
 
-static vndf_status measure(builder *b, spread *s, vndf_error *error)
+static void measure(builder *b, spread *s)
 {
-    vndf_status status = tabulate(b, s->knot[0], &b->right, error);
+    tabulate(b, s->knot[0], &b->right);
     s->worst = s->grazing = 0;
-    for (size_t i = 0; i + 1 < b->count && status == VNDF_OK; i++) {
+    for (size_t i = 0; i + 1 < b->count && !vndf_guard_stopped(&b->guard); i++) {
         b->left = b->right;
-        status = tabulate(b, s->knot[i + 1], &b->right, error);
-        if (status == VNDF_OK)
-            status = measure_between(b, s->knot[i], s->knot[i + 1], &s->distance[i], &s->grazing, error);
-        if (status == VNDF_OK)
-            status = show_all(b, 0, error);
+        tabulate(b, s->knot[i + 1], &b->right);
+        measure_between(b, s->knot[i], s->knot[i + 1], &s->distance[i], &s->grazing);
+        vndf_guard_stage(&b->guard, b->begin, b->stage);
         s->worst = fmax(s->worst, s->distance[i]);
     }
-    return status;
 }
 
 /* ---- knots ---- */
 
 /* Moves knots to where the sum of roots, spread evenly between the old ones, reaches its parts; along log p, or along p
- * where that begins at 0 or below. At first all roots are the same. */
-static void share_out(const builder *b, const spread *old, spread *s)
+ * where that begins at 0 or below. At first the old ones are both ends. 0 if floats do not tell the new ones apart. */
+static int share_out(const builder *b, const spread *old, spread *s)
 {
     double whole = 0, before = 0;
     size_t i = 0, n = b->count;
+    int ascends = 1;
     for (size_t k = 0; k + 1 < n; k++)
         whole += sqrt(old->distance[k]);
     s->knot[0] = b->low;
@@ -208,155 +171,142 @@ static void share_out(const builder *b, const spread *old, spread *s)
         double part = root > 0 ? fmin((target - before) / root, 1) : 0.5;
         s->knot[k] = number_of(b->low > 0 ? from * pow(to / from, part) : from + (to - from) * part);
     }
+    for (size_t k = 0; k + 1 < n; k++)
+        ascends &= (float)s->knot[k] < (float)s->knot[k + 1];
+    return ascends;
 }
 
-static int ascends(const builder *b, const spread *s)
+/* Places b->count knots for the least distance; 0 if the build must end. */
+static int spread_knots(builder *b)
 {
-    for (size_t i = 0; i + 1 < b->count; i++)
-        if (!((float)s->knot[i] < (float)s->knot[i + 1]))
-            return 0;
-    return 1;
-}
-
-/* Places b->count knots for the least distance. */
-static vndf_status spread_knots(builder *b, vndf_error *error)
-{
-    double n = (double)(b->count - 1), mean = 0;
-    for (size_t i = 0; i < b->count; i++) {
-        double part = (double)i / n, p = b->low + (b->high - b->low) * part;
-        b->trial.knot[i] = i == 0              ? b->low
-                           : i + 1 == b->count ? b->high
-                                               : number_of(b->low > 0 ? b->low * pow(b->high / b->low, part) : p);
-    }
+    spread *s = &b->trial, old = {.knot = {b->low, b->high}, .distance = {1}};
     b->spread.worst = HUGE_VAL;
-    for (int sweep = 0; sweep < SWEEPS && ascends(b, &b->trial); sweep++) {
-        spread *s = &b->trial;
-        vndf_status status = measure(b, s, error);
-        if (status != VNDF_OK)
-            return status;
-        mean = 0;
+    for (int sweep = 0; sweep < SWEEPS && share_out(b, &old, s); sweep++) {
+        measure(b, s);
+        if (vndf_guard_stopped(&b->guard))
+            return 0;
+        double sum = 0;
         for (size_t i = 0; i + 1 < b->count; i++)
-            mean += s->distance[i] / n;
+            sum += s->distance[i];
         if (s->worst < b->spread.worst)
             b->spread = *s;
-        if (s->worst <= EVEN * mean)
+        if (s->worst * (double)(b->count - 1) <= EVEN * sum)
             break;
-        spread old = *s;
-        share_out(b, &old, s);
+        old = *s;
     }
-    if (b->spread.worst < HUGE_VAL)
-        return VNDF_OK;
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                     "parameters from %.7g to %.7g are too close for %lu knots of seven digits", b->low, b->high,
-                     (unsigned long)b->count);
-}
-
-static vndf_status choose_map(builder *b, vndf_error *error)
-{
-    b->count = MAP_KNOTS;
-    vndf_status status = b->low > 0 ? spread_knots(b, error) : VNDF_OK;
-    double linear = b->spread.worst;
-    if (status != VNDF_OK || !(b->low > 0))
-        return status;
-    b->reciprocal = 1;
-    status = spread_knots(b, error);
-    b->reciprocal = b->spread.worst < MAP_GAIN * linear;
-    return status;
+    if (b->spread.worst == HUGE_VAL)
+        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_ARGUMENT,
+                  "parameters from %.7g to %.7g are too close for %lu knots of seven digits", b->low, b->high,
+                  (unsigned long)b->count);
+    return !vndf_guard_stopped(&b->guard);
 }
 
 /* As few knots as reach the distance, which falls as the square of their number: an estimate from below, then one by
  * one downwards. */
-static vndf_status reach_distance(builder *b, vndf_error *error)
+static void reach_distance(builder *b)
 {
     double target = b->options.max_distance;
-    size_t few = 1;
-    spread reached;
-    for (b->count = 2;;) {
-        vndf_status status = spread_knots(b, error);
-        if (status != VNDF_OK)
-            return status;
-        if (b->spread.worst <= target)
-            break;
-        if (b->count == KNOTS_MOST)
-            return vndf_fail(error, VNDF_ERROR_TARGET,
-                             "a distance of %g between family and mixture cannot be met: %lu knots reach %.3g",
-                             target, (unsigned long)b->count, b->spread.worst);
+    size_t few = 1, enough = 0;
+    spread reached = {.worst = 0};
+    for (b->count = 2; enough != few + 1;) {
+        if (!spread_knots(b))
+            return;
+        if (b->spread.worst <= target) {
+            reached = b->spread;
+            enough = b->count;
+            b->count--;
+            continue;
+        }
         few = b->count;
+        if (few == KNOTS_MOST) {
+            vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
+                      "a distance of %g between family and mixture cannot be met: %lu knots reach %.3g", target,
+                      (unsigned long)few, b->spread.worst);
+            return;
+        }
         double more = 1 + ceil((double)(few - 1) * sqrt(b->spread.worst / target));
         b->count = (size_t)fmin(fmax(more, (double)(few + 1)), KNOTS_MOST);
     }
-    for (reached = b->spread; b->count > few + 1; reached = b->spread) {
-        b->count--;
-        vndf_status status = spread_knots(b, error);
-        if (status != VNDF_OK)
-            return status;
-        if (b->spread.worst > target) {
-            b->count++;
-            break;
-        }
-    }
+    b->count = enough;
     b->spread = reached;
-    return VNDF_OK;
 }
 
-static vndf_status place(builder *b, vndf_error *error)
+/* Chooses between mixtures that are linear in p and in 1/p, then places knots. */
+static void place(builder *b)
 {
+    double linear = 0;
     b->width = PLACED;
     snprintf(b->stage, sizeof b->stage, "placing knots");
-    vndf_status status = show_all(b, 0, error);
-    if (status == VNDF_OK)
-        status = choose_map(b, error);
-    if (status != VNDF_OK || !b->options.knots)
-        return status == VNDF_OK ? reach_distance(b, error) : status;
+    vndf_guard_stage(&b->guard, b->begin, b->stage);
+    b->count = MAP_KNOTS;
+    for (int map = 0; map < 2 && b->low > 0 && !vndf_guard_stopped(&b->guard); map++) {
+        linear = b->spread.worst;
+        b->reciprocal = map;
+        spread_knots(b);
+    }
+    b->reciprocal = b->low > 0 && b->spread.worst < MAP_GAIN * linear;
     b->count = b->options.knots;
-    return spread_knots(b, error);
+    if (vndf_guard_stopped(&b->guard))
+        return;
+    if (b->options.knots)
+        spread_knots(b);
+    else
+        reach_distance(b);
 }
 
 /* ---- tables ---- */
 
-static vndf_status build_table(builder *b, vndf_family *family, size_t index, vndf_error *error)
+/* Arguments of `vndf build`, to be freed. */
+static char *describe(builder *b)
 {
-    vndf_build_options options = {
-        .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
-    vndf_error inner = {VNDF_OK, ""};
-    b->width = (1 - PLACED) / (double)b->count;
-    b->begin = PLACED + b->width * (double)index;
-    snprintf(b->stage, sizeof b->stage, "table %lu of %lu", (unsigned long)index + 1, (unsigned long)b->count);
-    vndf_status status = show_all(b, 0, error);
-    if (status != VNDF_OK)
-        return status;
-    double p = b->spread.knot[index];
-    vndf_source *source = source_at(b->pattern, p, &inner);
-    family->parameter[index] = (float)p;
-    family->distance[index] = index + 1 < b->count ? (float)fmin(b->spread.distance[index], 1) : 0.0f;
-    family->distribution[index] = source ? vndf_build(source, &options, NULL, &inner) : NULL;
-    vndf_source_free(source);
-    return family->distribution[index]
-               ? VNDF_OK
-               : vndf_fail(error, inner.status, "at the parameter %.7g: %s", p, inner.message);
+    vndf_writer text = {NULL, 0, 0, 0};
+    vndf_text_add_word(&text, "--family");
+    vndf_text_add_word(&text, b->pattern);
+    vndf_text_add(&text, " --parameter ");
+    vndf_text_add_number(&text, b->low);
+    vndf_text_add(&text, "..");
+    vndf_text_add_number(&text, b->high);
+    return vndf_text_finish(&text, vndf_guard_why(&b->guard));
 }
 
-static vndf_status fill(builder *b, vndf_family *family, vndf_error *error)
+static void fill(builder *b, vndf_family *family)
 {
     static const char tool[] = "vndf " VNDF_VERSION;
+    const vndf_build_options options = {
+        .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
     family->owns = 1;
     family->reciprocal = b->reciprocal;
     family->grazing = (float)fmin(b->spread.grazing, 1);
-    family->source = describe(b->pattern, b->low, b->high, error);
+    family->source = describe(b);
     family->tool = malloc(sizeof tool);
-    if (!family->source || !family->tool)
-        return no_memory(error);
-    memcpy(family->tool, tool, sizeof tool);
+    if (family->tool)
+        memcpy(family->tool, tool, sizeof tool);
+    else
+        vndf_guard_starve(&b->guard);
+    b->width = (1 - PLACED) / (double)b->count;
     for (size_t i = 0; i < b->count; i++) {
-        vndf_status status = build_table(b, family, i, error);
-        if (status != VNDF_OK)
-            return status;
+        vndf_error inner = {VNDF_OK, ""};
+        double p = b->spread.knot[i];
+        b->begin = PLACED + b->width * (double)i;
+        snprintf(b->stage, sizeof b->stage, "table %lu of %lu", (unsigned long)i + 1, (unsigned long)b->count);
+        vndf_guard_stage(&b->guard, b->begin, b->stage);
+        if (vndf_guard_stopped(&b->guard))
+            return;
+        vndf_source *source = source_at(b, p);
+        family->parameter[i] = (float)p;
+        family->distance[i] = i + 1 < b->count ? (float)fmin(b->spread.distance[i], 1) : 0.0f;
+        family->distribution[i] = source ? vndf_build(source, &options, NULL, &inner) : NULL;
+        vndf_source_free(source);
+        if (!family->distribution[i])
+            vndf_fail(vndf_guard_why(&b->guard), inner.status, "at the parameter %.7g: %s", p, inner.message);
     }
+    if (vndf_guard_stopped(&b->guard))
+        return;
     family->bytes = vndf_family_size(family);
     if (family->bytes > VNDF_LIMIT_FAMILY_BYTES)
-        return vndf_fail(error, VNDF_ERROR_TARGET, "%lu tables take %lu bytes; at most %d are possible",
-                         (unsigned long)b->count, (unsigned long)family->bytes, VNDF_LIMIT_FAMILY_BYTES);
-    return VNDF_OK;
+        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
+                  "%lu tables take %lu bytes; at most %d are possible", (unsigned long)b->count,
+                  (unsigned long)family->bytes, VNDF_LIMIT_FAMILY_BYTES);
 }
 
 /* ---- the call ---- */
@@ -401,20 +351,23 @@ vndf_family *vndf_build_family(const char *specification, double low, double hig
         return NULL;
     builder *b = calloc(1, sizeof *b);
     if (!b) {
-        no_memory(error);
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to build a family");
         return NULL;
     }
+    b->guard = vndf_guard_from(options->progress, options->progress_user);
     b->pattern = specification;
     b->options = *options;
     if (!options->knots && !(options->max_distance > 0.0))
         b->options.max_distance = DISTANCE_DEFAULT;
     b->low = number_of(low);
     b->high = number_of(high);
-    vndf_family *family = NULL;
-    vndf_status status = place(b, error);
-    if (status == VNDF_OK && !(family = vndf_family_allocate(b->count)))
-        no_memory(error);
-    if (family && fill(b, family, error) != VNDF_OK) {
+    place(b);
+    vndf_family *family = vndf_guard_stopped(&b->guard) ? NULL : vndf_family_allocate(b->count);
+    if (family)
+        fill(b, family);
+    else
+        vndf_guard_starve(&b->guard);
+    if (vndf_guard_status(&b->guard, error) != VNDF_OK) {
         vndf_family_free(family);
         family = NULL;
     }

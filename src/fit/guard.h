@@ -4,21 +4,22 @@
  * sums beside them. So the limit is the same on every machine, and builds stay deterministic. Every GUARD_INTERVAL
  * operations the guard asks the caller's progress function whether to go on.
  *
- * Once a build must end, nothing evaluates the source any more, and all loops run out quickly. The function that
- * began the build then asks vndf_guard_status for the reason, and throws the results away. */
+ * The first reason why a build must end is kept here, whatever it is. From then on nothing evaluates the source any
+ * more, and all loops run out quickly. The function that began the build asks for the reason, and throws the results
+ * away. */
 #ifndef VNDF_FIT_GUARD_H
 #define VNDF_FIT_GUARD_H
 
+#include "core/error.h"
 #include "vndf_build.h"
 
 typedef struct vndf_guard {
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
-    const char *what;        /* the stage that the build is in, */
-    double done;             /* and where it stands */
-    double spent, next;      /* operations; when to ask again */
-    double bad_r, bad_value; /* where the source was no density, in its own unit, and its value */
-    int bad, exhausted, interrupted, starved;
+    const char *what;   /* the stage that the build is in, */
+    double done;        /* and where it stands */
+    double spent, next; /* operations; when to ask again */
+    vndf_error why;     /* why the build must end; VNDF_OK until then */
 } vndf_guard;
 
 /* progress may be NULL. */
@@ -30,10 +31,11 @@ void vndf_guard_stage(vndf_guard *guard, double done, const char *what);
 /* Counts operations; 0 if the build must end. NULL is a guard that lets every build go on. */
 int vndf_guard_spend(vndf_guard *guard, double operations);
 
-/* Notes that P22 is negative, infinite or NaN at slope r; keeps the first such slope. */
-void vndf_guard_note(vndf_guard *guard, double r, double value);
-
 int vndf_guard_stopped(const vndf_guard *guard);
+
+/* Where vndf_fail may put the reason: NULL, which it takes, if there is one already. */
+vndf_error *vndf_guard_why(vndf_guard *guard);
+void vndf_guard_starve(vndf_guard *guard); /* there is no memory */
 
 /* VNDF_OK, or the error that says why the build must end. */
 vndf_status vndf_guard_status(const vndf_guard *guard, vndf_error *error);

@@ -247,38 +247,30 @@ const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 
 /* ---- jumps ---- */
 
-/* A jump or a pole; a knot there has the side with more normals in one cell. */
-static int jumps_at(const vndf_profile *profile, double r, int *up)
-{
-    const double beside = 1e-9, widely = 1e-4; /* of the slope: just beyond it, and away from it */
-    const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
-    double before = vndf_profile_p22(profile, r * (1 - beside)),
-           after = vndf_profile_p22(profile, r * (1 + beside));
-    double around = fmax(vndf_profile_p22(profile, r * (1 - widely)), vndf_profile_p22(profile, r * (1 + widely)));
-    double most = fmax(before, after);
-    *up = before > after;
-    return most * r * r > worth && most < needle * around &&
-           (fabs(before - after) > jump_least * most || most > pole_least * around);
-}
-
 enum { JUMPS_MAX = 16 };
 
-/* A jump or a pole made panels narrow. Returns how many there are, after a 0. */
+/* A jump or a pole made panels narrow; a knot there has the side with more normals in one cell. Returns how many there
+ * are, after a 0. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-10, apart = 0x1p-21; /* of a slope */
+    const double narrow = 1e-10,
+                 apart = 0x1p-21; /* of a slope, as the next two: just beyond it, and away from it */
+    const double beside = 1e-9, widely = 1e-4;
+    const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
     const vndf_panel *p = profile->panel;
     size_t n = 1;
     jump[0] = 0;
     for (size_t i = 1; i < profile->count && n <= JUMPS_MAX; i++) {
-        double r = p[i].r;
-        int up;
-        if (fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r || r < KNOT_LEAST || r > KNOT_MOST ||
-            !jumps_at(profile, r, &up))
+        double r = p[i].r, at[4] = {r * (1 - beside), r * (1 + beside), r * (1 - widely), r * (1 + widely)},
+               p22[4];
+        if (fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r || r < KNOT_LEAST || r > KNOT_MOST)
             continue;
+        vndf_profile_p22_many(profile, at, 4, p22);
+        double most = fmax(p22[0], p22[1]), around = fmax(p22[2], p22[3]);
+        int jumps = fabs(p22[0] - p22[1]) > jump_least * most || most > pole_least * around, up = p22[0] > p22[1];
         float knot = (float)r;
         knot = up && knot < r ? nextafterf(knot, HUGE_VALF) : !up && knot > r ? nextafterf(knot, 0.0f) : knot;
-        if (knot > jump[n - 1] * (1 + apart))
+        if (jumps && most * r * r > worth && most < needle * around && knot > jump[n - 1] * (1 + apart))
             jump[n++] = knot;
     }
     return n;
@@ -304,8 +296,8 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
     memset(k, 0, sizeof *k);
     k->profile = profile;
     k->squarings = squarings_of(profile);
-    int good = vndf_strips_from(&k->strips, profile, jump, jumps, 6 * (size_t)most + 360);
-    size_t n = k->strips.count, next = 0;
+    int good = vndf_strips_from(&k->strips, profile, jump, jumps, most);
+    size_t n = k->strips.count, next = jumps - 1;
     k->rim = good ? calloc(n + 1, sizeof *k->rim) : NULL;
     k->xi = good ? malloc((n + 1) * sizeof *k->xi) : NULL;
     if (!k->rim || !k->xi)
@@ -317,19 +309,17 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
         m2 += gap * (2 * m1 + gap * m0) + s->m2;
         m1 += gap * m0 + s->m1;
         m0 += s->m0;
-        k->rim[i] = (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2};
+        while (next > 0 && (double)jump[next] > r)
+            next--;
+        k->rim[i] =
+            (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2, .stop = next > 0 && (double)jump[next] == r};
         if (k->last == 0 && r <= KNOT_MOST && m0 > M0_LEAST)
             k->last = k->strips.at[i + 1].edge <= KNOT_MOST ? i + 1 : i;
+        k->last = k->last == 0 && k->rim[i].stop ? i : k->last;
         k->deep = k->deep == 0 && r <= RHO_MOST && k->rim[i].s1 > least ? i : k->deep;
     }
     while (k->first < k->last && k->strips.at[k->first].edge < KNOT_LEAST)
         k->first++;
-    for (size_t i = 1; i < n; i++) {
-        while (next + 1 < jumps && (double)jump[next] < k->strips.at[i].edge)
-            next++;
-        k->rim[i].stop = (double)jump[next] == k->strips.at[i].edge;
-        k->last = k->rim[i].stop && i > k->last ? i : k->last;
-    }
     k->least = march(k, 2 * MOST, VNDF_CELLS_MAX + 1);
     k->least = k->least < 3 ? 3 : k->least;
     return 1;

@@ -1,7 +1,6 @@
 #include "fit/law.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "math/ascending.h"
 #include "table/file.h"
@@ -108,31 +107,21 @@ vndf_drawn vndf_drawn_below(const vndf_cell *c, double rho, double b0, double b1
 
 /* ---- tables ---- */
 
-int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *d)
+vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
 {
-    *laws = (vndf_laws){d, d->cells, malloc((d->cells + 1) * sizeof *laws->cell)};
-    for (unsigned i = 0; laws->cell && i <= d->cells; i++) {
-        vndf_cell *c = &laws->cell[i];
-        *c = cell_between(d->knot[i], i < d->cells ? (double)d->knot[i + 1] : HUGE_VAL, d->squarings);
-        c->g0 = d->g0[i];
-        c->g1 = d->g1[i];
-        c->m0 = d->m0[i];
-        c->m1 = d->m1[i];
-        c->m2 = d->m2[i];
-        c->cube = d->cubes && i > 0 ? d->cubes[i] : 0;
-    }
-    return laws->cell != NULL;
+    vndf_cell c = cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
+    c.g0 = t->g0[i];
+    c.g1 = t->g1[i];
+    c.m0 = t->m0[i];
+    c.m1 = t->m1[i];
+    c.m2 = t->m2[i];
+    c.cube = t->cubes && i > 0 ? t->cubes[i] : 0;
+    return c;
 }
 
-void vndf_laws_free(vndf_laws *laws)
+unsigned vndf_draft_cell(const vndf_draft *draft, double r)
 {
-    free(laws->cell);
-    laws->cell = NULL;
-}
-
-unsigned vndf_laws_cell(const vndf_laws *laws, double r)
-{
-    return (unsigned)vndf_last_before(&laws->cell->r, sizeof *laws->cell, laws->cells + 1, r);
+    return (unsigned)vndf_last_before(&draft->cell->r, sizeof *draft->cell, draft->table.cells + 1, r);
 }
 
 /* ---- directions ---- */
@@ -145,61 +134,51 @@ static int part_of(double rho)
     return (int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1);
 }
 
-static unsigned first_above(const vndf_laws *laws, double rounded)
-{
-    unsigned i = vndf_laws_cell(laws, rounded);
-    return i < laws->cells && vndf_table_turn(laws->draft, i + 1) <= rounded ? i + 1 : i;
-}
-
-vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below)
+vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below)
 {
     /* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments */
     static const double term[3][4] = {{.934604, 2.206989, 0, 0},
                                       {1.00473604, 1.48847826, 0.64837836, 0},
                                       {0.99928177, 1.58441365, 0.47441838, 0.08347885}};
-    const vndf_table_draft *d = laws->draft;
+    const vndf_table_draft *d = &draft->table;
     const double *k = term[d->moments - 2];
     double s = 1 / (1 + rho), c = rho * s;
-    unsigned i = vndf_laws_cell(laws, rho), next = i < laws->cells ? i + 1 : i;
-    vndf_law law = {.laws = laws, .rho = rho, .s = s, .c = c, .below = below, .first = i};
+    unsigned i = vndf_draft_cell(draft, rho), next = i < d->cells ? i + 1 : i;
+    vndf_law law = {.draft = draft, .rho = rho, .s = s, .c = c, .below = below, .first = i};
     if (below) {
-        law.xi = vndf_cell_place(&laws->cell[i], rho);
+        law.xi = vndf_cell_place(&draft->cell[i], rho);
         law.b0 = d->b0[i] + law.xi * ((double)d->b0[next] - d->b0[i]);
         law.b1 = d->b1[i] + law.xi * ((double)d->b1[next] - d->b1[i]);
         return law;
     }
-    law.first = first_above(laws, vndf_rounded_rho(part_of(rho)));
+    int part = part_of(rho);
+    double rounded = vndf_rounded_rho(part);
+    i = vndf_draft_cell(draft, rounded);
+    law.first = i < d->cells && vndf_table_turn(d, i + 1) <= rounded ? i + 1 : i;
     law.near = (vndf_weight){0, c, 0, 0};
     law.far = (vndf_weight){s * k[0] / PI, c * k[1] / PI, c * rho * k[2] / PI,
                             rho < 1e-3 ? 0 : c * pow(rho, 4) * k[3] / PI};
     law.end = (vndf_weight){law.far.w1, c, 0, 0};
-    if (law.first == laws->cells || part_of(rho) == VNDF_RHO_PARTS - 1)
+    if (law.first == d->cells || part == VNDF_RHO_PARTS - 1)
         law.far = law.end;
     return law;
 }
 
-/* The mass of the cell that rho lies in, as it is estimated: W vanishes at rho and grows about evenly. */
-static double estimate(const vndf_cell *c, double rho, double xi, double b0, double b1)
-{
-    double here = c->g0 + xi * (c->g1 - c->g0);
-    return (1 - xi) * below_flat(c, rho, b0, b1) * (c->g1 / 3 + here / 6);
-}
-
-/* The estimate is scaled so that it is exact where rho is the left knot. */
+/* The mass of the cell that rho lies in is estimated: W vanishes at rho and grows about evenly. The estimate is scaled
+ * so that it is exact where rho is the left knot. */
 static vndf_drawn partial_cell(const vndf_law *law)
 {
-    const vndf_laws *laws = law->laws;
-    const vndf_cell *c = &laws->cell[law->first];
-    double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, near = estimate(c, c->r, 0, law->b0, law->b1);
-    double mass = fmin(all / near, 1e3) * estimate(c, law->rho, law->xi, law->b0, law->b1);
-    return (vndf_drawn){mass, 0,
-                        fmin((1 - law->xi) * c->g1 * below_flat(c, law->rho, law->b0, law->b1), 1e4 * mass)};
+    const vndf_cell *c = &law->draft->cell[law->first];
+    double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, here = c->g0 + law->xi * (c->g1 - c->g0);
+    double near = below_flat(c, c->r, law->b0, law->b1) * (c->g1 / 3 + c->g0 / 6);
+    double end = (1 - law->xi) * below_flat(c, law->rho, law->b0, law->b1);
+    double mass = fmin(all / near, 1e3) * (end * (c->g1 / 3 + here / 6));
+    return (vndf_drawn){mass, 0, fmin(end * c->g1, 1e4 * mass)};
 }
 
 vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)
 {
-    const vndf_laws *laws = law->laws;
-    const vndf_cell *c = &laws->cell[i];
+    const vndf_cell *c = &law->draft->cell[i];
     if (!law->below)
         return vndf_drawn_by(c, i < law->first ? &law->near : i == 0 ? &law->end : &law->far);
     vndf_drawn drawn = i == law->first ? partial_cell(law) : vndf_drawn_below(c, law->rho, law->b0, law->b1);
@@ -209,11 +188,10 @@ vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)
 
 double vndf_law_public_area(const vndf_law *law, double drawn)
 {
-    const vndf_laws *laws = law->laws;
-    const vndf_table_draft *d = laws->draft;
-    unsigned i = vndf_laws_cell(laws, law->rho);
-    const vndf_cell *c = &laws->cell[i];
-    int last = i == laws->cells;
+    const vndf_table_draft *d = &law->draft->table;
+    unsigned i = vndf_draft_cell(law->draft, law->rho);
+    const vndf_cell *c = &law->draft->cell[i];
+    int last = i == d->cells;
     double width = last ? c->z : c->h, t = last ? 1 - law->s / c->z : vndf_cell_place(c, law->rho), u = 1 - t;
     double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1];
     double d0 = d->slope[i] * width, d1 = (last ? 1 : d->slope[i + 1]) * width;

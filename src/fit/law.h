@@ -34,10 +34,10 @@ typedef struct vndf_strips {
     vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
 } vndf_strips;
 
-/* About `count` strips; some end at knots, which ascend from 0. 0 if there is no memory; free them either
- * way. */
+/* About as many as a table of so many cells needs; some end at knots, which ascend from 0. 0 if there is no memory;
+ * free them either way. */
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
-                     size_t count);
+                     size_t cells);
 void vndf_strips_free(vndf_strips *strips);
 
 /* The last edge at or before a slope. */
@@ -56,6 +56,9 @@ typedef struct vndf_cell {
  * little that is even. */
 vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
                             unsigned squarings);
+
+/* That of a table. */
+vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
 
 /* xi of a slope in the cell. */
 double vndf_cell_place(const vndf_cell *cell, double r);
@@ -82,23 +85,21 @@ static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
     return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
 }
 
-/* A table as laws read it; the draft must stay. */
-typedef struct vndf_laws {
-    const vndf_table_draft *draft;
-    unsigned cells; /* and a tail cell */
+/* A table, its cells with the tail cell, and the profile in strips that end at its knots: those of cell i from
+ * first[i] to first[i + 1]. */
+typedef struct vndf_draft {
+    vndf_table_draft table;
     vndf_cell *cell;
-} vndf_laws;
-
-/* 0 if there is no memory; free it either way. */
-int vndf_laws_from(vndf_laws *laws, const vndf_table_draft *draft);
-void vndf_laws_free(vndf_laws *laws);
+    vndf_strips strips;
+    size_t *first;
+} vndf_draft;
 
 /* The cell of a slope. */
-unsigned vndf_laws_cell(const vndf_laws *laws, double r);
+unsigned vndf_draft_cell(const vndf_draft *draft, double r);
 
 /* A direction. */
 typedef struct vndf_law {
-    const vndf_laws *laws;
+    const vndf_draft *draft;
     double rho, s, c; /* c >= 0 on either side */
     int below;
     unsigned first;             /* above: the switch knot; below: the cell of rho */
@@ -106,7 +107,7 @@ typedef struct vndf_law {
     double xi, b0, b1;          /* below: of rho in its cell; the shares */
 } vndf_law;
 
-vndf_law vndf_law_of(const vndf_laws *laws, double rho, int below);
+vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below);
 
 /* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
  * is 0 at rho: (xi - law.xi)/(1 - law.xi). */

@@ -195,8 +195,9 @@ static void add_piece(maker *m, size_t i, double from, double to, double edge, d
 }
 
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
-                     size_t count)
+                     size_t cells)
 {
+    const double count = 6 * (double)cells + 360;
     maker m = {.to = strips, .profile = profile};
     double all = 0, *need = malloc((profile->count + 1) * sizeof *need);
     const vndf_panel *p = profile->panel;
@@ -210,7 +211,7 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
     for (size_t i = 0; i < profile->count; i++)
         all += fmax(need[i] = need_of(profile, i), 0);
     for (size_t i = 0; i < profile->count && !m.starved; i++) {
-        double per = need[i] * (double)count / (all * log(p[i + 1].r / p[i].r));
+        double per = need[i] * count / (all * log(p[i + 1].r / p[i].r));
         for (double from = p[i].r, to; from < p[i + 1].r; from = to) {
             double end = p[i + 1].r, slope = m.knot = next < knots ? (double)knot[next] : HUGE_VAL;
             to = fmin(slope, end);

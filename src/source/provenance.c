@@ -43,20 +43,16 @@ char *vndf_resolution_describe(const vndf_resolution *r, const char *description
     return vndf_text_finish(&text, error);
 }
 
-static int is_pair(const vndf_words *words, size_t i)
-{
-    double value;
-    const char *option = words->word[i], *number = words->word[i + 1];
-    return (strcmp(option, "--break") == 0 || strcmp(option, "--finest") == 0) &&
-           vndf_number_is_all(number, strlen(number), &value);
-}
-
 /* How many words of a description are the source's own: the first two always are. */
 static size_t own_words(const vndf_words *words)
 {
     size_t count = words->count;
-    while (count >= 4 && is_pair(words, count - 2))
-        count -= 2;
+    for (double value; count >= 4; count -= 2) {
+        const char *option = words->word[count - 2], *number = words->word[count - 1];
+        if ((strcmp(option, "--break") != 0 && strcmp(option, "--finest") != 0) ||
+            !vndf_number_is_all(number, strlen(number), &value))
+            break;
+    }
     return count;
 }
 
@@ -153,41 +149,35 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
 
 /* ---- other words --------------------------------------------------------------------------------- */
 
-static vndf_status check_words(const char *text, vndf_error *error)
+vndf_status vndf_source_describe(vndf_source *source, const char *text, vndf_error *error)
 {
     vndf_words words;
     vndf_error inner = {VNDF_OK, ""};
-    size_t length = strlen(text);
+    size_t length = text ? strlen(text) : 0, printable = 0;
+    if (!source || !text)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the %s is NULL", source ? "description" : "source");
+    if (source->rebuildable)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the description '%.100s' makes this source again; it stays",
+                         source->description);
     if (length == 0 || length > VNDF_LIMIT_NAME_LENGTH)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a description of %zu characters; 1 to %d are possible",
                          length, VNDF_LIMIT_NAME_LENGTH);
-    for (size_t i = 0; i < length; i++)
-        if ((unsigned char)text[i] < 32 || text[i] == 127)
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "column %zu of the description: a control character",
-                             i + 1);
+    while ((unsigned char)text[printable] >= 32 && text[printable] != 127)
+        printable++;
+    if (printable < length)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "column %zu of the description: a control character",
+                         printable + 1);
     if (vndf_words_split(text, &words, &inner) != VNDF_OK)
         return vndf_fail(error, inner.status == VNDF_ERROR_MEMORY ? inner.status : VNDF_ERROR_ARGUMENT,
                          "the description, %s", inner.message);
     int taken = option_of(&words) != OTHER;
     vndf_words_free(&words);
-    return taken ? vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                             "the description begins as that of a formula or a family does, which it is not")
-                 : VNDF_OK;
-}
-
-vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error)
-{
-    vndf_writer text = {NULL, 0, 0, 0};
-    if (!source || !words)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the %s is NULL", source ? "description" : "source");
-    if (source->rebuildable)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the description '%.100s' makes this source again; it stays",
-                         source->description);
-    vndf_status status = check_words(words, error);
-    if (status != VNDF_OK)
-        return status;
-    vndf_text_add(&text, words);
-    char *description = vndf_text_finish(&text, error);
+    if (taken)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
+                         "the description begins as that of a formula or a family does, which it is not");
+    vndf_writer copy = {NULL, 0, 0, 0};
+    vndf_text_add(&copy, text);
+    char *description = vndf_text_finish(&copy, error);
     if (!description)
         return VNDF_ERROR_MEMORY;
     free(source->description);

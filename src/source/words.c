@@ -70,26 +70,6 @@ static int is_blank(char c)
     return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
-/* Copies one word from *from to *to, without its quotes; 0 if a quote is not closed. */
-static int copy_word(const char **from, char **to)
-{
-    const char *in = *from;
-    char *out = *to;
-    int quoted = 0;
-    for (; *in && (quoted || !is_blank(*in)); in++) {
-        if (*in == '\'')
-            quoted = !quoted;
-        else if (*in == '\\' && !quoted && in[1])
-            *out++ = *++in;
-        else
-            *out++ = *in;
-    }
-    *out++ = '\0';
-    *from = in;
-    *to = out;
-    return !quoted;
-}
-
 vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *error)
 {
     size_t length = strlen(line);
@@ -101,13 +81,20 @@ vndf_status vndf_words_split(const char *line, vndf_words *words, vndf_error *er
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a line of %zu characters", length);
     }
     for (;;) {
+        int quoted = 0;
         while (is_blank(*in))
             in++;
         if (!*in)
             return VNDF_OK;
         size_t start = (size_t)(in - line);
         words->word[words->count++] = out;
-        if (!copy_word(&in, &out)) {
+        for (; *in && (quoted || !is_blank(*in)); in++)
+            if (*in == '\'')
+                quoted = !quoted;
+            else
+                *out++ = *in == '\\' && !quoted && in[1] ? *++in : *in;
+        *out++ = '\0';
+        if (quoted) {
             vndf_words_free(words);
             return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: a quote in this word is not closed",
                              start + 1);
@@ -179,17 +166,12 @@ static size_t number_length(const char *text, size_t size, size_t *point)
 size_t vndf_number_read(const char *text, size_t size, double *value)
 {
     char copy[VNDF_NUMBER_LENGTH + 32];
-    const char *mark = localeconv()->decimal_point;
-    size_t point, length = number_length(text, size, &point), mark_length = strlen(mark);
-    if (length == 0 || length > VNDF_NUMBER_LENGTH || mark_length > 16)
+    size_t point, length = number_length(text, size, &point);
+    if (length == 0 || length > VNDF_NUMBER_LENGTH)
         return 0;
-    memcpy(copy, text, point);
-    if (point == length || text[point] != '.')
-        mark_length = 0;
-    memcpy(copy + point, mark, mark_length);
-    size_t rest = point + (mark_length > 0);
-    memcpy(copy + point + mark_length, text + rest, length - rest);
-    copy[length - rest + point + mark_length] = '\0';
+    int has_point = point < length && text[point] == '.';
+    snprintf(copy, sizeof copy, "%.*s%s%.*s", (int)point, text, has_point ? localeconv()->decimal_point : "",
+             (int)length - (int)point - has_point, text + point + has_point);
     *value = strtod(copy, NULL);
     return length;
 }

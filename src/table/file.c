@@ -46,43 +46,31 @@ size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const
 
 /* ---- reading ---- */
 
-static int counts_valid(const vndf_table_draft *d)
-{
-    return d->cells >= 2 && d->cells <= VNDF_CELLS_MAX && d->moments >= 2 && d->moments <= 4 &&
-           d->squarings <= VNDF_SQUARINGS_MAX;
-}
-
-/* Everything after the counts; 0 if the bytes end early (the reader fails) or memory is short. */
-static int read_body(vndf_reader *bytes, vndf_distribution *table, vndf_table_draft *d)
-{
-    float *claims = &d->certificate.tv;
-    for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
-        claims[i] = vndf_read_f32(bytes);
-    table->source = vndf_read_text(bytes);
-    table->tool = vndf_read_text(bytes);
-    if (!table->source || !table->tool || !vndf_table_draft_allocate(d))
-        return 0;
-    for (int i = 0; i < VNDF_ARRAYS; i++)
-        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
-            d->array[i][j] = vndf_read_f32(bytes);
-    if (d->moments < 4)
-        d->cubes = NULL;
-    bytes->failed |= bytes->at + 4 != bytes->size;
-    return !bytes->failed;
-}
-
-/* VNDF_OK and a table, or an error. */
+/* VNDF_OK and a table, or an error: also where the bytes end early (the reader fails). */
 static vndf_status read_table(vndf_reader *bytes, vndf_distribution *table, vndf_table_draft *d, vndf_error *error)
 {
+    const char *why = NULL;
+    float *claims = &d->certificate.tv;
     d->normalization = vndf_read_f64(bytes);
     d->scale = vndf_read_f64(bytes);
     d->cells = vndf_read_u32(bytes);
     d->moments = vndf_read_u32(bytes);
     d->squarings = vndf_read_u32(bytes);
-    if (!counts_valid(d))
+    if (d->cells < 2 || d->cells > VNDF_CELLS_MAX || d->moments < 2 || d->moments > 4 ||
+        d->squarings > VNDF_SQUARINGS_MAX)
         return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
-    const char *why = NULL;
-    int good = read_body(bytes, table, d) && vndf_table_fill(table, d, &why);
+    for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
+        claims[i] = vndf_read_f32(bytes);
+    table->source = vndf_read_text(bytes);
+    table->tool = vndf_read_text(bytes);
+    int good = table->source && table->tool && vndf_table_draft_allocate(d);
+    for (int i = 0; good && i < VNDF_ARRAYS; i++)
+        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
+            d->array[i][j] = vndf_read_f32(bytes);
+    if (d->moments < 4)
+        d->cubes = NULL;
+    bytes->failed |= good && bytes->at + 4 != bytes->size;
+    good = good && !bytes->failed && vndf_table_fill(table, d, &why);
     if (good && !why)
         return VNDF_OK;
     if (!why && !bytes->failed)

@@ -24,7 +24,7 @@ enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
 typedef struct run_setting {
     const char *in;     /* what stdin is opened from; NULL: /dev/null */
     const char *append; /* what stdout is appended to; NULL: `out` */
-    int left;           /* a temporary of the same process number is there already */
+    int left;           /* the first temporary is there already, from a crash */
     int out;            /* a descriptor in the place of stdout; 0: `text` of the outcome, as stderr */
     rlim_t file_limit;  /* bytes of a file, for a full disk; 0: none */
     int ignores_pipe;
@@ -38,12 +38,10 @@ typedef struct run_outcome {
     char text[RUN_TEXT]; /* stdout and stderr, their first bytes */
 } run_outcome;
 
-/* What a crash of this very process would have left: it holds "left". */
+/* What a crash would have left: it holds "left". */
 static inline int run_leave(void)
 {
-    char temporary[64];
-    snprintf(temporary, sizeof temporary, "vndf.%ld.tmp", (long)getpid());
-    int file = open(temporary, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    int file = open("vndf.0.tmp", O_WRONLY | O_CREAT | O_EXCL, 0666);
     return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
 }
 

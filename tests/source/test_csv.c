@@ -204,9 +204,9 @@ static void test_refused_texts(void)
         {"slope,p22\n0,1\n1\n", "line 3: 1 field;"},
         {"material,channel,alpha\n", "line 1: 3 fields; two are needed"},
         {"slope,p22\n0,1\n#\n\n1,abc\n", "line 5: p22 is 'abc', which is no number"},
-        {"slope,p22\n0,1\n1,2x\n", "line 3: p22 is '2x', a number with something behind it"},
-        {"slope,p22\n0,1\n1 1,2\n", "line 3: slope is '1 1', a number with something behind it"},
-        {"slope,p22\n0,1\n,2\n", "line 3: slope is missing"},
+        {"slope,p22\n0,1\n1,2x\n", "line 3: p22 is '2x', which is no number"},
+        {"slope,p22\n0,1\n1 1,2\n", "line 3: slope is '1 1', which is no number"},
+        {"slope,p22\n0,1\n,2\n", "line 3: slope is '', which is no number"},
         {"slope,p22\n0,1\n1,nan\n", "line 3: p22 is 'nan', which is no number"},
         {"slope,p22\n0,1\n1,1e999\n", "line 3: p22 is '1e999', too large"},
         {"slope,p22\n0,1\n1,-1e-9\n", "t.csv: line 3: p22 is -1e-09; it must be finite and not negative"},
@@ -218,7 +218,7 @@ static void test_refused_texts(void)
     static char line[5000];
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         refuse_text(texts[i][0], strlen(texts[i][0]), texts[i][1]);
-    refuse_text("slope,p22\n0,1\n1\0,2\n", 20, "line 3: a byte of value 0");
+    refuse_text("slope,p22\n0,1\n1\0,2\n", 20, "line 3: slope is '1?', which is no number");
     memset(line, ' ', sizeof line);
     memcpy(line, "slope,p22\n", 10);
     refuse_text(line, sizeof line, "line 2: 4990 characters; at most 4096");

@@ -111,7 +111,7 @@ static void test_errors(void)
 {
     static const char *const texts[][2] = {
         {"exp(-2*foo)+a*r",
-         "column 8: unknown name 'foo'; known are r, a, pi, and with parentheses exp log log1p "},
+         "column 8: unknown name 'foo'; known are r, pi, a, and with parentheses exp log log1p "},
         {"1 + theta", "column 5: unknown name 'theta'"},
         {"foo(1)", "column 1: unknown name 'foo'; known are r, pi"},
         {"exp(-r)*cso(r)", "column 9: unknown name 'cso'; did you mean 'cos'? known are"},
@@ -122,9 +122,9 @@ static void test_errors(void)
         {"1 + * 2", "column 5: unexpected '*'; a number, a name or '(' would be right"},
         {"exp(-r**2)", "column 8: unexpected '*'; a power is written with ^, as in r^2"},
         {"2 r",
-         "column 3: unexpected 'r'; an operator (+ - * / ^) or the end would be right; a product is written 2*r"},
+         "column 3: unexpected 'r'; an operator (+ - * / ^) or the end would be right; a product is written with *"},
         {"exp(-3r)", "column 7: unexpected 'r'; an operator, or ')' for the '(' of column 4, would be right; a "
-                     "product is written 3*r"},
+                     "product is written with *, as in 3*r"},
         {"(r)(r)", "column 4: unexpected '('; an operator (+ - * / ^) or the end would be right; a product is "
                    "written with *"},
         {"1.2.3", "column 4: unexpected '.'; an operator (+ - * / ^) or the end would be right"},

@@ -52,22 +52,16 @@ static void add_far(vndf_area *sum, const vndf_panel *p, double rho)
     sum->along += t1 - square * p->less / 2 - square * square * p->least / 8;
 }
 
-/* Whether the root of the kernel at rho shows in a panel: if it is nearer than this part of the panel's width, ten
- * points err by more than 1e-9. */
-static int is_near(const vndf_panel *p, double rho)
-{
-    return p->r - rho < 0.3 * (p[1].r - p->r);
-}
-
 /* Adds a panel, anew near rho, or several that are slim together beside their distance, by their mean slope, which errs
  * by 1e-6 of them; returns the next. */
 static size_t add_panels(vndf_area *sum, const vndf_profile *profile, size_t i, double rho)
 {
-    const double slim = 0.01;
+    const double slim = 0.01,
+                 near = 0.3; /* nearer than this part of a panel's width ten points err by over 1e-9 */
     const vndf_panel *p = &profile->panel[i], *end = p + 1;
     const vndf_profile_point *point = p->point;
     double most = p->r + slim * (p->r - rho), m0 = p->m0, m1 = p->m1;
-    if (is_near(p, rho))
+    if (p->r - rho < near * (p[1].r - p->r))
         add_near(sum, profile, rho, fmax(p->r, rho), end->r);
     else if (end->r < most) {
         for (; end < profile->panel + profile->count && end[1].r < most; end++) {

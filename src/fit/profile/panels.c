@@ -4,17 +4,14 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-#include "math/ascending.h"
 
 enum { DEPTH_ROUGH = 10, DEPTH_MAX = 40 };
 
+static const double DEGREES = 57.295779513082323; /* to a radian */
 static const double PANEL_TOLERANCE = 1e-10;
 static const double NEGLIGIBLE = 1e-34; /* of both peaks: less than numbers of tables tell from nothing */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
-static const double SAME_EDGE = 1e-13;  /* of a slope: below the width that resolve() calls a jump */
 static const double ROUNDED = 4e-16;    /* of a slope: the error of points */
 
 const double vndf_gauss_node[VNDF_GAUSS] = {
@@ -40,7 +37,12 @@ static double p22_of(const vndf_profile *profile, double r, double given)
     double p = profile->normalization * scale * scale * given;
     if (given >= 0.0 && p < HUGE_VAL)
         return p;
-    vndf_guard_note(profile->guard, at, given);
+    vndf_fail(vndf_guard_why(profile->guard), VNDF_ERROR_DISTRIBUTION,
+              "P22 is %s at slope %g (theta_m = %.9g degrees)",
+              given < 0.0    ? "negative"
+              : isnan(given) ? "not a number"
+                             : "infinite",
+              at, atan(at) * DEGREES);
     return 0.0;
 }
 
@@ -82,11 +84,6 @@ double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1)
 
 /* ---- one panel ---- */
 
-int vndf_profile_stopped(const vndf_profile *profile)
-{
-    return profile->rough || vndf_guard_stopped(profile->guard);
-}
-
 /* A panel by ten points: its moments, and how far rounding of the points and of P may move m0. */
 typedef struct estimate {
     double m0, m1, noise;
@@ -109,53 +106,35 @@ static estimate estimate_of(const vndf_profile *profile, double r0, double r1)
     return sum;
 }
 
-/* Makes room for one more panel and the outer end; 0, and a note to the guard, if there is no memory. */
-static int grow(vndf_profile *profile)
-{
-    if (profile->count + 1 < profile->capacity)
-        return 1;
-    size_t capacity = profile->capacity ? 2 * profile->capacity : 1024;
-    vndf_panel *panel = realloc(profile->panel, capacity * sizeof *panel);
-    profile->panel = panel ? panel : profile->panel;
-    profile->capacity = panel ? capacity : profile->capacity;
-    profile->guard->starved |= !panel;
-    return panel != NULL;
-}
-
 static void push(vndf_profile *profile, double r, double m0, double m1, const vndf_profile_point *point)
 {
     if (profile->count >= VNDF_LIMIT_BUILD_PANELS)
-        profile->rough = 1;
-    if (profile->rough || !grow(profile))
+        vndf_fail(vndf_guard_why(profile->guard), VNDF_ERROR_DISTRIBUTION,
+                  "P22 is too rough: not resolved by %d panels; the last one began at slope %g",
+                  VNDF_LIMIT_BUILD_PANELS, profile->panel[profile->count - 1].r);
+    if (vndf_guard_stopped(profile->guard))
         return;
     vndf_panel *panel = &profile->panel[profile->count++];
     *panel = (vndf_panel){.r = r, .m0 = m0, .m1 = m1};
     memcpy(panel->point, point, sizeof panel->point);
 }
 
-/* The bounds of P22 between two slopes, if the source has bounds and the guard has time. */
-static int reach(const vndf_profile *profile, double r0, double r1, vndf_reach *bound)
+/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one slope, if
+ * the source has bounds. */
+static double roughness(const vndf_profile *profile, double r0, double r1)
 {
     const vndf_source *source = profile->source;
     if (!source->reach || !vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * source->operations))
-        return 0;
-    *bound = source->reach(source, r0, r1);
-    return 1;
-}
-
-/* How much rounding inside a formula, as in 1 - cos r, may add to m0: twice the distance of the bounds at one
- * slope. */
-static double roughness(const vndf_profile *profile, double r0, double r1)
-{
+        return 0.0;
     double r = sqrt(r0 * r1);
-    vndf_reach at;
-    double width = reach(profile, r, r, &at) ? profile->normalization * (at.high - at.low) * r * r : 0.0;
+    vndf_reach at = source->reach(source, r, r);
+    double width = profile->normalization * (at.high - at.low) * r * r;
     return width < HUGE_VAL ? 2 * width * (r1 - r0) / r0 : 0.0;
 }
 
-static int agree(double a, double b, double part, double least)
+static int agree(double a, double b, double least)
 {
-    return fabs(a - b) <= part * (fabs(a) + fabs(b)) / 2 + least;
+    return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
 }
 
 static void resolve(vndf_profile *profile, double r0, double r1, const estimate *whole, int depth, double least)
@@ -163,13 +142,13 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     double middle = r0 + r0 * expm1(VNDF_UNEVEN * log1p((r1 - r0) / r0)), gap = middle - r0;
     estimate l = estimate_of(profile, r0, middle), r = estimate_of(profile, middle, r1);
     double m0 = l.m0 + r.m0, m1 = l.m1 + r.m1 + r.m0 * gap;
-    if (vndf_profile_stopped(profile))
+    if (vndf_guard_stopped(profile->guard))
         return;
-    double slack = least + whole->noise + l.noise + r.noise, part = PANEL_TOLERANCE;
+    double slack = least + whole->noise + l.noise + r.noise;
     int seen = depth > 0, good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
         slack += rough ? roughness(profile, r0, r1) : 0;
-        good = agree(m0, whole->m0, part, slack) && agree(m1, whole->m1, part, slack * gap + ROUNDED * r0 * m0);
+        good = agree(m0, whole->m0, slack) && agree(m1, whole->m1, slack * gap + ROUNDED * r0 * m0);
     }
     if (good ? seen : depth >= DEPTH_MAX) {
         push(profile, r0, m0, m1, whole->point);
@@ -178,7 +157,7 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     size_t first = profile->count;
     resolve(profile, r0, middle, &l, depth + 1, least);
     resolve(profile, middle, r1, &r, depth + 1, least);
-    if (good && !seen && profile->count == first + 2 && !vndf_profile_stopped(profile)) {
+    if (good && !seen && profile->count == first + 2 && !vndf_guard_stopped(profile->guard)) {
         profile->count = first; /* neither half needed more: the whole is enough */
         push(profile, r0, m0, m1, whole->point);
     }
@@ -186,76 +165,19 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
 
 /* ---- all panels ---- */
 
-vndf_peak vndf_panels_peak(const vndf_profile *profile)
-{
-    vndf_peak most = {0, 0};
-    for (int i = -16 * VNDF_OCTAVES; i < 16 * VNDF_OCTAVES && !vndf_profile_stopped(profile); i++) {
-        double r = exp2(i / 16.0), f = vndf_profile_p22(profile, r) * r * r;
-        most = (vndf_peak){fmax(most.mass, f), fmax(most.along, f * r)};
-    }
-    for (size_t i = 0; i < profile->edge_count && !vndf_profile_stopped(profile); i++) {
-        double r = profile->edge[i], f = vndf_profile_p22(profile, r) * r * r;
-        most = (vndf_peak){fmax(most.mass, f), fmax(most.along, f * r)};
-    }
-    return most;
-}
-
-/* Octaves and other edges, ascending and apart; to be freed. */
-static double *make_edges(const vndf_profile *profile, size_t *count)
-{
-    double first = exp2(-VNDF_OCTAVES), last = exp2(VNDF_OCTAVES);
-    double *edge = malloc((2 * VNDF_OCTAVES + 1 + profile->edge_count) * sizeof *edge);
-    size_t n = 0, kept = 0;
-    for (int i = -VNDF_OCTAVES; edge && i <= VNDF_OCTAVES; i++)
-        edge[n++] = exp2(i);
-    for (size_t i = 0; edge && i < profile->edge_count; i++)
-        if (profile->edge[i] > first && profile->edge[i] < last)
-            edge[n++] = profile->edge[i];
-    if (edge)
-        qsort(edge, n, sizeof *edge, vndf_ascending);
-    for (size_t i = 0; i < n; i++)
-        if (kept == 0 || edge[i] - edge[kept - 1] > SAME_EDGE * edge[i])
-            edge[kept++] = edge[i];
-    *count = kept;
-    return edge;
-}
-
-void vndf_panels_fill(vndf_profile *profile, vndf_peak peak)
-{
-    size_t edges;
-    double *edge = make_edges(profile, &edges);
-    profile->count = 0;
-    profile->guard->starved |= !edge;
-    for (size_t i = 0; i + 1 < edges && !vndf_profile_stopped(profile); i++) {
-        double part = profile->normalization * fmin(peak.mass, peak.along / edge[i + 1]);
-        double least = fmax(NEGLIGIBLE * part, LEAST);
-        estimate whole = estimate_of(profile, edge[i], edge[i + 1]);
-        resolve(profile, edge[i], edge[i + 1], &whole, 0, least);
-    }
-    if (edge && !vndf_profile_stopped(profile) && grow(profile))
-        profile->panel[profile->count] = (vndf_panel){.r = edge[edges - 1]};
-    free(edge);
-}
-
-/* Adds the moments beyond the panels, by the power with which P falls there. */
-static void measure_tail(vndf_profile *profile)
-{
-    double end = profile->panel[profile->count].r, p = vndf_profile_p22(profile, end),
-           n = vndf_profile_exponent(profile, end / 4, end);
-    profile->tail_m0 = profile->tail_m1 = 0.0;
-    if (p > 0.0 && n > 3.0 + VNDF_POWER_MARGIN && n < HUGE_VAL) {
-        profile->tail_m0 = p * end * end / (n - 2);
-        profile->tail_m1 = p * end * end * end / (n - 3) - end * profile->tail_m0;
-    }
-}
-
-/* Sums from both ends; every term is positive. */
+/* Sums from both ends; every term is positive. Beyond the panels P falls by the power that it has before their end. */
 void vndf_panels_sum(vndf_profile *profile)
 {
     vndf_panel *p = profile->panel;
     size_t n = profile->count;
-    measure_tail(profile);
+    double end = p[n].r, last = vndf_profile_p22(profile, end),
+           power = vndf_profile_exponent(profile, end / 4, end);
     double before = 0.0; /* the integral of P r^2 */
+    profile->tail_m0 = profile->tail_m1 = 0.0;
+    if (last > 0.0 && power > 3.0 + VNDF_POWER_MARGIN && power < HUGE_VAL) {
+        profile->tail_m0 = last * end * end / (power - 2);
+        profile->tail_m1 = last * end * end * end / (power - 3) - end * profile->tail_m0;
+    }
     p[0].f0 = 0.0;
     p[n].t0 = profile->tail_m0;
     p[n].s = profile->tail_m1;
@@ -277,4 +199,32 @@ void vndf_panels_sum(vndf_profile *profile)
     }
     profile->f0 = p[n].f0 + profile->tail_m0;
     profile->f1 = before + profile->tail_m1 + p[n].r * profile->tail_m0;
+}
+
+double vndf_panels_make(vndf_profile *profile)
+{
+    enum { PER_OCTAVE = 16, SLOPES = 2 * VNDF_OCTAVES * PER_OCTAVE };
+    const double *edge = profile->edge;
+    size_t edges = profile->edge_count;
+    double mass = 0, along = 0; /* the largest P22 r^2 and P22 r^3, to see what is negligible */
+    profile->normalization = profile->scale = 1.0;
+    for (size_t i = 0; i < SLOPES + edges && !vndf_guard_stopped(profile->guard); i++) {
+        double r = i < SLOPES ? exp2((double)i / PER_OCTAVE - VNDF_OCTAVES) : edge[i - SLOPES];
+        double f = vndf_profile_p22(profile, r) * r * r;
+        mass = fmax(mass, f);
+        along = fmax(along, f * r);
+    }
+    if (mass >= VNDF_LEAST_PEAK)
+        profile->normalization = 1.0 / mass;
+    profile->count = 0;
+    for (size_t i = 0; i + 1 < edges && !vndf_guard_stopped(profile->guard); i++) {
+        double least = fmax(NEGLIGIBLE * (profile->normalization * fmin(mass, along / edge[i + 1])), LEAST);
+        estimate whole = estimate_of(profile, edge[i], edge[i + 1]);
+        resolve(profile, edge[i], edge[i + 1], &whole, 0, least);
+    }
+    if (!vndf_guard_stopped(profile->guard)) {
+        profile->panel[profile->count] = (vndf_panel){.r = edge[edges - 1]};
+        vndf_panels_sum(profile);
+    }
+    return mass;
 }

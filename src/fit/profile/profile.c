@@ -3,45 +3,29 @@
  * canonical scale. The public oracle is a profile without a table. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/error.h"
 #include "fit/profile/profile.h"
+#include "math/ascending.h"
 
 static const double PI = 3.14159265358979323846;
-static const double LEAST_PEAK = 1e-307; /* of P22 r^2: doubles lose their digits below, and have no reciprocal */
-static const double POLE_LOST = 1e-6;    /* part of the mass that may lie below the first panel, */
-static const double TAIL_LOST = 2e-3;    /* of the area at grazing incidence beyond the last: one cell draws it */
-static const double FINEST = 1e-3;       /* the default width of features that samples find */
-
-static vndf_status no_memory(vndf_error *error)
-{
-    return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to resolve the distribution");
-}
+static const double POLE_LOST = 1e-6;  /* part of the mass that may lie below the first panel, */
+static const double TAIL_LOST = 2e-3;  /* of the area at grazing incidence beyond the last: one cell draws it */
+static const double FINEST = 1e-3;     /* the default width of features that samples find */
+static const double SAME_EDGE = 1e-13; /* of a slope: below the width that resolve() calls a jump */
 
 /* ---- what a microsurface must be ---- */
 
-static vndf_status check_values(const vndf_profile *profile, double peak, vndf_error *error)
+/* There is mass, both ends are integrable, and little lies beyond the panels. */
+static vndf_status check(const vndf_profile *profile, double peak, vndf_error *error)
 {
-    if (vndf_guard_stopped(profile->guard))
-        return vndf_guard_status(profile->guard, error);
-    if (peak > 0.0 && peak < LEAST_PEAK)
+    if (peak > 0.0 && peak < VNDF_LEAST_PEAK)
         return vndf_fail(
             error, VNDF_ERROR_DISTRIBUTION,
             "P22 r^2 is no more than %.3g at any slope: too small for doubles; multiply P22 by a factor", peak);
-    if (profile->rough)
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "P22 is too rough: not resolved by %d panels; the last one began at slope %g",
-                         VNDF_LIMIT_BUILD_PANELS, profile->count ? profile->panel[profile->count - 1].r : 0.0);
     if (!(profile->f0 > 0.0))
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
-    return VNDF_OK;
-}
-
-/* Checks that both ends are integrable, and that little lies beyond the panels. */
-static vndf_status check_ends(const vndf_profile *profile, vndf_error *error)
-{
     double tail = vndf_profile_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
     double pole = vndf_profile_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
     const vndf_panel *p = profile->panel;
@@ -67,43 +51,23 @@ static vndf_status check_ends(const vndf_profile *profile, vndf_error *error)
     return VNDF_OK;
 }
 
-static vndf_status unproven(const vndf_proof *proof, vndf_error *error)
-{
-    if (isinf(proof->worst))
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "P22 cannot be bounded at slope %.9g: it may be infinite or not a number there",
-                         proof->where);
-    return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                     "P22 cannot be resolved at slope %.9g: up to %.3g of the mass, or of the area at grazing "
-                     "incidence, may lie between the points that were looked at, %.3g of it there",
-                     proof->where, proof->hidden, proof->worst);
-}
-
 /* ---- panels until nothing hides ---- */
-
-static vndf_status measure(vndf_profile *profile, vndf_error *error)
-{
-    profile->normalization = profile->scale = 1.0;
-    profile->f0 = 0.0;
-    vndf_peak peak = vndf_panels_peak(profile);
-    if (peak.mass >= LEAST_PEAK)
-        profile->normalization = 1.0 / peak.mass;
-    vndf_panels_fill(profile, peak);
-    if (!vndf_profile_stopped(profile))
-        vndf_panels_sum(profile);
-    vndf_status status = check_values(profile, peak.mass, error);
-    return status == VNDF_OK ? check_ends(profile, error) : status;
-}
 
 static int add_edges(vndf_profile *profile, const double *more, size_t count)
 {
-    double *edge = realloc(profile->edge, (profile->edge_count + count + 1) * sizeof *edge);
+    size_t n = profile->edge_count, kept = 0;
+    double *edge = realloc(profile->edge, (n + count + 1) * sizeof *edge);
     if (!edge)
         return 0;
     profile->edge = edge;
-    if (count)
-        memcpy(edge + profile->edge_count, more, count * sizeof *edge);
-    profile->edge_count += count;
+    for (size_t i = 0; i < count; i++)
+        if (more[i] >= exp2(-VNDF_OCTAVES) && more[i] <= exp2(VNDF_OCTAVES))
+            edge[n++] = more[i];
+    qsort(edge, n, sizeof *edge, vndf_ascending);
+    for (size_t i = 0; i < n; i++)
+        if (kept == 0 || edge[i] - edge[kept - 1] > SAME_EDGE * edge[i])
+            edge[kept++] = edge[i];
+    profile->edge_count = kept;
     return 1;
 }
 
@@ -122,24 +86,35 @@ static int look_between(vndf_profile *profile, vndf_proof *proof)
 }
 
 /* What the panels found wrong is told only if nothing hides from them. */
-static vndf_status look(vndf_profile *profile, vndf_error *error)
+static void look(vndf_profile *profile)
 {
     enum { LOOKS = 12 };
-    for (int i = 1;; i++) {
+    vndf_guard *guard = profile->guard;
+    for (int i = 1, more = 1; more; i++) {
         vndf_proof proof = {0};
-        vndf_status status = measure(profile, error);
-        if (vndf_profile_stopped(profile) || profile->count == 0)
-            return status;
-        int good = look_between(profile, &proof) && add_edges(profile, proof.edge, proof.edge_count);
+        vndf_error found = {VNDF_OK, ""};
+        double peak = vndf_panels_make(profile);
+        if (vndf_guard_stopped(guard))
+            return;
+        check(profile, peak, &found);
+        if (!look_between(profile, &proof) || !add_edges(profile, proof.edge, proof.edge_count))
+            vndf_guard_starve(guard);
         free(proof.edge);
         profile->hidden = fmin(proof.hidden, 1.0);
-        if (vndf_guard_stopped(profile->guard))
-            return vndf_guard_status(profile->guard, error);
-        if (!good)
-            return no_memory(error);
-        if (proof.edge_count && i < LOOKS)
+        more = proof.edge_count > 0 && i < LOOKS;
+        if (more || vndf_guard_stopped(guard))
             continue;
-        return proof.proven || (status != VNDF_OK && profile->f0 > 0.0) ? status : unproven(&proof, error);
+        if (proof.proven || (found.status != VNDF_OK && profile->f0 > 0.0))
+            guard->why = found;
+        else if (isinf(proof.worst))
+            vndf_fail(&guard->why, VNDF_ERROR_DISTRIBUTION,
+                      "P22 cannot be bounded at slope %.9g: it may be infinite or not a number there",
+                      proof.where);
+        else
+            vndf_fail(&guard->why, VNDF_ERROR_DISTRIBUTION,
+                      "P22 cannot be resolved at slope %.9g: up to %.3g of the mass, or of the area at grazing "
+                      "incidence, may lie between the points that were looked at, %.3g of it there",
+                      proof.where, proof.hidden, proof.worst);
     }
 }
 
@@ -167,14 +142,14 @@ static double median_of(const vndf_profile *profile)
     return low;
 }
 
-static vndf_status make_canonical(vndf_profile *profile, vndf_error *error)
+static void make_canonical(vndf_profile *profile)
 {
     double mass = 2 * PI * profile->f0, scale = median_of(profile);
-    if (vndf_guard_stopped(profile->guard))
-        return vndf_guard_status(profile->guard, error);
     if (!(scale > 1e-17 && scale < 1e17))
-        return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
-                         "the median slope is %g; from 1e-17 to 1e17 can be tabulated", scale);
+        vndf_fail(vndf_guard_why(profile->guard), VNDF_ERROR_DISTRIBUTION,
+                  "the median slope is %g; from 1e-17 to 1e17 can be tabulated", scale);
+    if (vndf_guard_stopped(profile->guard))
+        return;
     profile->scale = scale;
     profile->normalization /= mass;
     for (vndf_panel *p = profile->panel; p <= profile->panel + profile->count; p++) {
@@ -187,7 +162,6 @@ static vndf_status make_canonical(vndf_profile *profile, vndf_error *error)
         }
     }
     vndf_panels_sum(profile);
-    return vndf_guard_status(profile->guard, error);
 }
 
 /* ---- the whole ---- */
@@ -205,36 +179,33 @@ static int add_break(vndf_profile *profile, double r)
     return add_edges(profile, edge, 2 * SHELLS + 1);
 }
 
-static vndf_status make(vndf_profile *profile, const vndf_resolution *given, vndf_error *error)
-{
-    profile->sampled = given->finest;
-    profile->description = vndf_resolution_describe(given, profile->source->description, error);
-    if (!profile->description)
-        return VNDF_ERROR_MEMORY;
-    if (!add_edges(profile, profile->source->breaks, profile->source->break_count))
-        return no_memory(error);
-    for (size_t i = 0; i < given->break_count; i++)
-        if (!add_break(profile, given->breaks[i]))
-            return no_memory(error);
-    vndf_status status = look(profile, error);
-    return status == VNDF_OK ? make_canonical(profile, error) : status;
-}
-
 vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
                                 vndf_error *error)
 {
     const vndf_resolution none = {NULL, 0, 0.0};
+    const vndf_resolution *given = resolution ? resolution : &none;
     vndf_profile *profile = calloc(1, sizeof *profile);
-    vndf_error inner = {VNDF_ERROR_MEMORY, ""}; /* panels that fail may precede some that succeed */
-    if (!profile) {
-        no_memory(error);
-        return NULL;
+    int good = profile != NULL;
+    if (good) {
+        *profile = (vndf_profile){.source = source, .guard = guard, .sampled = given->finest};
+        profile->description = vndf_resolution_describe(given, source->description, vndf_guard_why(guard));
+        double octave[2 * VNDF_OCTAVES + 1];
+        for (int i = 0; i <= 2 * VNDF_OCTAVES; i++)
+            octave[i] = exp2(i - VNDF_OCTAVES);
+        profile->panel = malloc((VNDF_LIMIT_BUILD_PANELS + 1) * sizeof *profile->panel);
+        good = profile->panel && add_edges(profile, octave, 2 * VNDF_OCTAVES + 1) &&
+               add_edges(profile, source->breaks, source->break_count);
+        for (size_t i = 0; good && i < given->break_count; i++)
+            good = add_break(profile, given->breaks[i]);
     }
-    profile->source = source;
-    profile->guard = guard;
-    if (make(profile, resolution ? resolution : &none, &inner) == VNDF_OK)
+    if (!good)
+        vndf_guard_starve(guard);
+    if (!vndf_guard_stopped(guard))
+        look(profile);
+    if (!vndf_guard_stopped(guard))
+        make_canonical(profile);
+    if (vndf_guard_status(guard, error) == VNDF_OK)
         return profile;
-    vndf_fail(error, inner.status, "%s", inner.message);
     vndf_profile_free(profile);
     return NULL;
 }

@@ -39,12 +39,11 @@ typedef struct vndf_reference {
     double sampled;    /* the given `finest`; 0: none */
     vndf_guard *guard; /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale;
-    size_t count, capacity; /* panels; panel[count] is the outer end */
-    vndf_panel *panel;
+    size_t count;            /* of panels */
+    vndf_panel *panel;       /* room for the limit of them; panel[count] is the outer end */
     double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
     double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
-    int rough;               /* needs more panels than the limit */
-    double *edge;            /* slopes in the source's unit where panels end */
+    double *edge;            /* slopes in the source's unit where panels end, ascending and apart */
     size_t edge_count;
     double hidden; /* a bound of the missed part of the mass, or of the area at grazing incidence; 1 if */
     double finest; /* this is not 0: then the relative width down to which the source was sampled */
@@ -111,17 +110,12 @@ static const double VNDF_UNEVEN = 0.43;
 /* The cost of a bound (vndf_reach), over the cost of a value. */
 static const double VNDF_REACH_OPERATIONS = 12;
 
-/* Whether the guard or the limit of panels stops the work. */
-int vndf_profile_stopped(const vndf_profile *profile);
+/* Of P22 r^2: doubles lose their digits below, and have no reciprocal. */
+static const double VNDF_LEAST_PEAK = 1e-307;
 
-/* The largest P r^2 and P r^3 at a few thousand slopes, to see what is negligible. */
-typedef struct vndf_peak {
-    double mass, along;
-} vndf_peak;
-vndf_peak vndf_panels_peak(const vndf_profile *profile);
-
-/* Makes the panels with their points, unless something stops it. */
-void vndf_panels_fill(vndf_profile *profile, vndf_peak peak);
+/* Makes the panels between the edges, with their points and sums, unless something stops it; P is normalised to a peak
+ * of 1. Returns the largest P22 r^2 at a few thousand slopes. */
+double vndf_panels_make(vndf_profile *profile);
 
 /* Fills what lies before and beyond each panel, and the totals. */
 void vndf_panels_sum(vndf_profile *profile);

@@ -100,20 +100,18 @@ static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
     vndf_span rest = whole, name = vndf_cut(&rest, ':');
-    const vndf_material_fit *material = vndf_material_fit_find(whole.text, whole.size);
     *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
     if (!l->form)
         return unknown_family(name, error);
-    if (material) {
-        memcpy(l->parameter, material->parameter, sizeof l->parameter);
-        return VNDF_OK;
-    }
     int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
-    if (has_materials && rest.size > 0 && ((rest.text[0] | 32) >= 'a' && (rest.text[0] | 32) <= 'z'))
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest is %s",
-                         whole.column, vndf_excerpt(excerpt, whole.text, whole.size),
-                         vndf_material_near(whole.text, whole.size));
-    return read_parameters(rest, l, error);
+    if (!has_materials || rest.size == 0 || (rest.text[0] | 32) < 'a' || (rest.text[0] | 32) > 'z')
+        return read_parameters(rest, l, error);
+    const vndf_material_fit *material = vndf_material_near(whole.text, whole.size);
+    memcpy(l->parameter, material->parameter, sizeof l->parameter);
+    if (vndf_is_word(whole.text, whole.size, material->name))
+        return VNDF_OK;
+    return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown material '%s'; the nearest is %s",
+                     whole.column, vndf_excerpt(excerpt, whole.text, whole.size), material->name);
 }
 
 /* ---- mix -------------------------------------------------------------------------------------- */
@@ -121,9 +119,6 @@ static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
 static vndf_status bad_mix(vndf_span at, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    if (at.size == 0)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: something is missing; right would be %s",
-                         at.column, mix_usage);
     return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; right would be %s", at.column,
                      vndf_excerpt(excerpt, at.text, at.size), mix_usage);
 }

@@ -42,10 +42,7 @@ typedef struct vndf_material_fit {
 enum { VNDF_MATERIAL_FITS = 312 };
 extern const vndf_material_fit vndf_material_fits[VNDF_MATERIAL_FITS];
 
-/* The material with this name; NULL if there is none. */
-const vndf_material_fit *vndf_material_fit_find(const char *name, size_t size);
-
-/* The name that differs from the given one by the fewest letters. */
-const char *vndf_material_near(const char *name, size_t size);
+/* The material whose name differs from the given one by the fewest letters. */
+const vndf_material_fit *vndf_material_near(const char *name, size_t size);
 
 #endif

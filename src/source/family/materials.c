@@ -6,11 +6,8 @@
  *      surfaces", ACM Transactions on Graphics 31(1), 2012: B and C.
  *
  * The materials come from the MERL database; numbers as published. tests/source/test_family.c has their checksum. */
-#include <string.h>
-
 #include "source/family/family.h"
 #include "core/nearest.h"
-#include "source/words.h"
 #include "vndf_build.h"
 
 /* clang-format off */
@@ -133,20 +130,12 @@ const vndf_material_fit vndf_material_fits[VNDF_MATERIAL_FITS] = {
 };
 /* clang-format on */
 
-const vndf_material_fit *vndf_material_fit_find(const char *name, size_t size)
-{
-    for (size_t i = 0; i < VNDF_MATERIAL_FITS; i++)
-        if (vndf_is_word(name, size, vndf_material_fits[i].name))
-            return &vndf_material_fits[i];
-    return NULL;
-}
-
 const char *vndf_family_material(size_t index)
 {
     return index < VNDF_MATERIAL_FITS ? vndf_material_fits[index].name : NULL;
 }
 
-const char *vndf_material_near(const char *name, size_t size)
+const vndf_material_fit *vndf_material_near(const char *name, size_t size)
 {
     size_t best = 0, least = (size_t)-1;
     for (size_t i = 0; i < VNDF_MATERIAL_FITS; i++) {
@@ -154,5 +143,5 @@ const char *vndf_material_near(const char *name, size_t size)
         best = here < least ? i : best;
         least = here < least ? here : least;
     }
-    return vndf_material_fits[best].name;
+    return &vndf_material_fits[best];
 }

@@ -9,33 +9,15 @@ typedef struct row {
     vndf_points at;
 } row;
 
-/* x becomes x combined with y. */
-static void combine(const vndf_instruction *instruction, double *x, const double *y, size_t count)
+static double combined(const vndf_instruction *at, double x, double y)
 {
-    switch (instruction->operation) {
-    case VNDF_ADD:
-        for (size_t i = 0; i < count; i++)
-            x[i] += y[i];
-        return;
-    case VNDF_SUBTRACT:
-        for (size_t i = 0; i < count; i++)
-            x[i] -= y[i];
-        return;
-    case VNDF_MULTIPLY:
-        for (size_t i = 0; i < count; i++)
-            x[i] *= y[i];
-        return;
-    case VNDF_DIVIDE:
-        for (size_t i = 0; i < count; i++)
-            x[i] /= y[i];
-        return;
-    case VNDF_POWER: /* squares are common, and powers slow */
-        for (size_t i = 0; i < count; i++)
-            x[i] = y[i] == 2.0 ? x[i] * x[i] : pow(x[i], y[i]);
-        return;
-    default:
-        for (size_t i = 0; i < count; i++)
-            x[i] = instruction->function->two(x[i], y[i]);
+    switch (at->operation) {
+    case '+': return x + y;
+    case '-': return x - y;
+    case '*': return x * y;
+    case '/': return x / y;
+    case '^': return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
+    default: return at->function->two(x, y);
     }
 }
 
@@ -55,8 +37,9 @@ void vndf_expression_run(const vndf_expression *expression, vndf_points *variabl
             for (size_t i = 0; i < count; i++)
                 x->at[i] = at->operation == VNDF_NEGATE ? -x->at[i] : at->function->one(x->at[i]);
         } else {
-            top--;
-            combine(at, stack[top - 1].at, stack[top].at, count);
+            row *x = &stack[--top - 1], *y = &stack[top];
+            for (size_t i = 0; i < count; i++)
+                x->at[i] = combined(at, x->at[i], y->at[i]);
         }
     }
     memcpy(values, stack->at, count * sizeof *values);
@@ -73,11 +56,11 @@ void vndf_expression_free(vndf_expression *expression)
 static vndf_jet combine_jets(const vndf_instruction *at, vndf_jet x, vndf_jet y)
 {
     switch (at->operation) {
-    case VNDF_ADD: return vndf_jet_sum(x, y);
-    case VNDF_SUBTRACT: return vndf_jet_difference(x, y);
-    case VNDF_MULTIPLY: return vndf_jet_product(x, y);
-    case VNDF_DIVIDE: return vndf_jet_quotient(x, y);
-    case VNDF_POWER: return vndf_jet_pow(x, y);
+    case '+': return vndf_jet_sum(x, y);
+    case '-': return vndf_jet_difference(x, y);
+    case '*': return vndf_jet_product(x, y);
+    case '/': return vndf_jet_quotient(x, y);
+    case '^': return vndf_jet_pow(x, y);
     default: return vndf_function_jet(at->function, x, y);
     }
 }

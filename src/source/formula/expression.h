@@ -28,20 +28,11 @@ typedef struct vndf_function {
     double (*two)(double, double);
 } vndf_function;
 
-typedef enum vndf_operation {
-    VNDF_PUSH_NUMBER,
-    VNDF_PUSH_VARIABLE,
-    VNDF_NEGATE,
-    VNDF_ADD,
-    VNDF_SUBTRACT,
-    VNDF_MULTIPLY,
-    VNDF_DIVIDE,
-    VNDF_POWER,
-    VNDF_CALL
-} vndf_operation;
+/* Operations beside + - * / ^, which are named as they are written. */
+enum { VNDF_PUSH_NUMBER = '#', VNDF_PUSH_VARIABLE = '$', VNDF_NEGATE = '~', VNDF_CALL = '(' };
 
 typedef struct vndf_instruction {
-    vndf_operation operation;
+    char operation;
     unsigned variable;             /* of PUSH_VARIABLE */
     double number;                 /* of PUSH_NUMBER */
     const vndf_function *function; /* of CALL */

@@ -28,14 +28,11 @@ typedef struct formula_source {
 
 static const char *const names_of_p22[] = {"r"}, *const names_of_ndf[VNDF_VARIABLES] = {"c", "theta", "t"};
 
-static void slope_variables(const double *r, size_t count, vndf_points *variables)
+static void set_variables(vndf_formula_of of, const double *r, size_t count, vndf_points *variables)
 {
-    memcpy(variables[0], r, count * sizeof *r);
-}
-
-static void ndf_variables(const double *r, size_t count, vndf_points *variables)
-{
-    for (size_t i = 0; i < count; i++) {
+    if (of == VNDF_FORMULA_OF_P22)
+        memcpy(variables[0], r, count * sizeof *r);
+    for (size_t i = 0; i < count && of == VNDF_FORMULA_OF_NDF; i++) {
         variables[0][i] = 1 / hypot(1, r[i]);
         variables[1][i] = atan(r[i]);
         variables[2][i] = r[i];
@@ -92,7 +89,7 @@ static void p22(const vndf_source *self, const double *r, size_t count, double *
         vndf_points variables[VNDF_VARIABLES], unit, value;
         for (size_t i = 0; i < count; i++)
             unit[i] = r[i] / l->scale;
-        (source->of == VNDF_FORMULA_OF_NDF ? ndf_variables : slope_variables)(unit, count, variables);
+        set_variables(source->of, unit, count, variables);
         vndf_expression_run(&l->formula, variables, count, value);
         for (size_t i = 0; i < count; i++) {
             double c2 = source->of == VNDF_FORMULA_OF_NDF ? variables[0][i] * variables[0][i] : 1;
@@ -124,7 +121,7 @@ static double operations_of(const vndf_expression *expression)
     double sum = OPERATIONS;
     for (size_t i = 0; i < expression->count; i++) {
         const vndf_instruction *at = &expression->program[i];
-        sum += at->operation == VNDF_CALL || at->operation == VNDF_POWER ? CALL_OPERATIONS : 1;
+        sum += at->operation == VNDF_CALL || at->operation == '^' ? CALL_OPERATIONS : 1;
     }
     return sum;
 }

@@ -8,10 +8,38 @@
 enum { EXP, LOG, LOG1P, SQRT, SIN, COS, TAN, ASIN, ACOS, ATAN, SINH, COSH, TANH, ERF, ERFC, LGAMMA, GAMMA };
 enum { ABS = GAMMA + 1, MIN, MAX, POW, STEP };
 
-static vndf_jet bounds(int function, vndf_jet x, vndf_jet y);
-
 static const double PI = 3.14159265358979323846;
 static const double FAR = 25; /* cosh is half an exponential in doubles; erfc is near its smallest value */
+
+/* ---- values ---- */
+
+static double step(double x)
+{
+    return isnan(x) ? x : x >= 0;
+}
+
+static double smaller(double x, double y)
+{
+    return isnan(x) || x < y ? x : y;
+}
+
+static double larger(double x, double y)
+{
+    return isnan(x) || x > y ? x : y;
+}
+
+static const vndf_function functions[] = {
+    [EXP] = {"exp", exp, NULL},          [LOG] = {"log", log, NULL},        [LOG1P] = {"log1p", log1p, NULL},
+    [SQRT] = {"sqrt", sqrt, NULL},       [SIN] = {"sin", sin, NULL},        [COS] = {"cos", cos, NULL},
+    [TAN] = {"tan", tan, NULL},          [ASIN] = {"asin", asin, NULL},     [ACOS] = {"acos", acos, NULL},
+    [ATAN] = {"atan", atan, NULL},       [SINH] = {"sinh", sinh, NULL},     [COSH] = {"cosh", cosh, NULL},
+    [TANH] = {"tanh", tanh, NULL},       [ERF] = {"erf", erf, NULL},        [ERFC] = {"erfc", erfc, NULL},
+    [LGAMMA] = {"lgamma", lgamma, NULL}, [GAMMA] = {"gamma", tgamma, NULL}, [ABS] = {"abs", fabs, NULL},
+    [MIN] = {"min", NULL, smaller},      [MAX] = {"max", NULL, larger},     [POW] = {"pow", NULL, pow},
+    [STEP] = {"step", step, NULL},
+};
+
+/* ---- bounds ---- */
 
 static double low_of(vndf_jet x)
 {
@@ -82,7 +110,7 @@ static vndf_jet tan_of(vndf_jet x)
     double low = low_of(x), high = high_of(x);
     int pole = !(high - low < PI) || fabs(low) > 1e9 || fabs(high) > 1e9 || meets(low, high, PI / 2, PI);
     vndf_interval y = pole ? vndf_interval_all() : vndf_interval_of_library(tan(low), tan(high));
-    return vndf_jet_integral(y, x, vndf_jet_power(bounds(COS, x, x), -2));
+    return vndf_jet_integral(y, x, vndf_jet_power(vndf_function_jet(&functions[COS], x, x), -2));
 }
 
 /* (1 + sign x^2)^p. */
@@ -159,41 +187,13 @@ static vndf_jet gamma_of(double (*f)(double), vndf_jet x)
     return vndf_jet_value(known ? vndf_interval_from(value - error, value + error) : vndf_interval_all(), x);
 }
 
-/* ---- kinks and jumps ---- */
-
-static double step(double x)
-{
-    return isnan(x) ? x : x >= 0;
-}
-
-static double smaller(double x, double y)
-{
-    return isnan(x) || x < y ? x : y;
-}
-
-static double larger(double x, double y)
-{
-    return isnan(x) || x > y ? x : y;
-}
-
 /* ---- the list ---- */
 
-static const vndf_function functions[] = {
-    [EXP] = {"exp", exp, NULL},          [LOG] = {"log", log, NULL},        [LOG1P] = {"log1p", log1p, NULL},
-    [SQRT] = {"sqrt", sqrt, NULL},       [SIN] = {"sin", sin, NULL},        [COS] = {"cos", cos, NULL},
-    [TAN] = {"tan", tan, NULL},          [ASIN] = {"asin", asin, NULL},     [ACOS] = {"acos", acos, NULL},
-    [ATAN] = {"atan", atan, NULL},       [SINH] = {"sinh", sinh, NULL},     [COSH] = {"cosh", cosh, NULL},
-    [TANH] = {"tanh", tanh, NULL},       [ERF] = {"erf", erf, NULL},        [ERFC] = {"erfc", erfc, NULL},
-    [LGAMMA] = {"lgamma", lgamma, NULL}, [GAMMA] = {"gamma", tgamma, NULL}, [ABS] = {"abs", fabs, NULL},
-    [MIN] = {"min", NULL, smaller},      [MAX] = {"max", NULL, larger},     [POW] = {"pow", NULL, pow},
-    [STEP] = {"step", step, NULL},
-};
-
-static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
+vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y)
 {
     vndf_interval value = x.at[0], size = vndf_interval_size(value);
     vndf_jet negative = vndf_jet_negative(x);
-    switch (function) {
+    switch (function - functions) {
     case EXP: return vndf_jet_exp(x);
     case LOG: return vndf_jet_log(x);
     case LOG1P: return log1p_of(x);
@@ -210,11 +210,12 @@ static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
     case SINH: return vndf_jet_wave(x, rising(sinh_at, value), rising(cosh_at, size), 1);
     case COSH: return vndf_jet_wave(x, rising(cosh_at, size), rising(sinh_at, value), 1);
     case TANH: /* 1 - tanh^2 would lose its digits */
-        return vndf_jet_integral(saturating(tanh, x, 20), x, vndf_jet_power(bounds(COSH, x, x), -2));
+        return vndf_jet_integral(saturating(tanh, x, 20), x,
+                                 vndf_jet_power(vndf_function_jet(&functions[COSH], x, x), -2));
     case ERF: return vndf_jet_integral(saturating(erf, x, 6), x, bell(x, 1));
     case ERFC: return vndf_jet_integral(rising(erfc_of_negative, negative.at[0]), x, bell(x, -1));
     case LGAMMA:
-    case GAMMA: return gamma_of(function == LGAMMA ? lgamma : tgamma, x);
+    case GAMMA: return gamma_of(function->one, x);
     case ABS: return vndf_jet_max(x, negative);
     case MIN: return vndf_jet_negative(vndf_jet_max(negative, vndf_jet_negative(y)));
     case MAX: return vndf_jet_max(x, y);
@@ -224,11 +225,6 @@ static vndf_jet bounds(int function, vndf_jet x, vndf_jet y)
             return vndf_jet_number(value.low.m >= 0);
         return vndf_jet_value(vndf_interval_from(0, 1), x);
     }
-}
-
-vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y)
-{
-    return bounds((int)(function - functions), x, y);
 }
 
 const vndf_function *vndf_function_at(size_t index)

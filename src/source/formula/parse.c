@@ -27,14 +27,9 @@ static int sign(parser *p);
 
 /* ---- text ------------------------------------------------------------------------------------- */
 
-static int is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n';
-}
-
 static char peek(parser *p)
 {
-    while (p->at < p->length && is_blank(p->text[p->at]))
+    while (p->at < p->length && strchr(" \t\r\n", p->text[p->at]))
         p->at++;
     return p->at < p->length ? p->text[p->at] : '\0';
 }
@@ -70,23 +65,12 @@ static int unexpected(parser *p, const char *wanted)
     return 0;
 }
 
-/* The same where two operands are side by side: "an operator ... would be right; a product is written 3*r". */
+/* The same where an operand may be side by side with another. */
 static int unexpected_operand(parser *p, const char *wanted)
 {
-    char text[160];
-    size_t end = peek(p) ? p->at : p->length, start, next = name_length(p->text + p->at, p->length - p->at);
-    if (next == 0 && !is_digit(peek(p)) && peek(p) != '(')
-        return unexpected(p, wanted);
-    while (end > 0 && is_blank(p->text[end - 1]))
-        end--;
-    for (start = end; start > 0 && (is_letter(p->text[start - 1]) || is_digit(p->text[start - 1])); start--)
-        ;
-    size_t first = end - start;
-    if (first > 0 && first <= 20 && next > 0 && next <= 20)
-        snprintf(text, sizeof text, "%s; a product is written %.*s*%.*s", wanted, (int)first, p->text + start,
-                 (int)next, p->text + p->at);
-    else
-        snprintf(text, sizeof text, "%s; a product is written with *", wanted);
+    char text[160], c = peek(p);
+    int is_operand = is_letter(c) || is_digit(c) || c == '(';
+    snprintf(text, sizeof text, "%s%s", wanted, is_operand ? "; a product is written with *, as in 3*r" : "");
     return unexpected(p, text);
 }
 
@@ -104,7 +88,7 @@ static int emit(parser *p, vndf_instruction instruction, int change)
     return 1;
 }
 
-static int emit_operation(parser *p, vndf_operation operation, int change)
+static int emit_operation(parser *p, char operation, int change)
 {
     return emit(p, (vndf_instruction){operation, 0, 0, NULL}, change);
 }
@@ -142,17 +126,16 @@ static int number(parser *p)
     return emit_number(p, value);
 }
 
-/* The known name of this index: variables, parameters, pi, functions; NULL past the last. */
+/* The known name of this index: variables, pi, parameters, functions; NULL past the last. */
 static const char *known_name(const vndf_names *n, size_t i)
 {
-    if (i < n->variable_count)
-        return n->variables[i];
-    i -= n->variable_count;
-    if (i < n->parameter_count)
-        return n->parameters[i].name;
-    i -= n->parameter_count;
-    const vndf_function *function = i > 0 ? vndf_function_at(i - 1) : NULL;
-    return i == 0 ? "pi" : function ? function->name : NULL;
+    size_t behind_pi = i - n->variable_count - 1;
+    if (i <= n->variable_count)
+        return i < n->variable_count ? n->variables[i] : "pi";
+    if (behind_pi < n->parameter_count)
+        return n->parameters[behind_pi].name;
+    const vndf_function *function = vndf_function_at(behind_pi - n->parameter_count);
+    return function ? function->name : NULL;
 }
 
 static int unknown_name(parser *p, size_t size)
@@ -185,14 +168,13 @@ static int name(parser *p, size_t size)
     p->at += size;
     if (i < n->variable_count)
         return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
-    i -= n->variable_count;
-    if (i < n->parameter_count) {
-        p->used[i] = 1;
-        return emit_number(p, n->parameters[i].value);
-    }
-    if (i == n->parameter_count)
+    if (i == n->variable_count)
         return emit_number(p, 3.14159265358979323846);
-    return unexpected(p, "the function before it needs its argument in parentheses");
+    i -= n->variable_count + 1;
+    if (i >= n->parameter_count)
+        return unexpected(p, "the function before it needs its argument in parentheses");
+    p->used[i] = 1;
+    return emit_number(p, n->parameters[i].value);
 }
 
 static int close_parenthesis(parser *p, size_t opened)
@@ -266,7 +248,7 @@ static int power(parser *p)
         return 0;
     if (peek(p) != '^')
         return 1;
-    return inner_sign(p) && emit_operation(p, VNDF_POWER, -1);
+    return inner_sign(p) && emit_operation(p, '^', -1);
 }
 
 static int sign(parser *p)
@@ -277,15 +259,14 @@ static int sign(parser *p)
     return inner_sign(p) && (c == '+' || emit_operation(p, VNDF_NEGATE, 0));
 }
 
-/* Operands between which one of two signs stands. */
-static int chain(parser *p, int (*operand)(parser *), const char *signs, vndf_operation first,
-                 vndf_operation second)
+/* Operands between which one of these signs stands. */
+static int chain(parser *p, int (*operand)(parser *), const char *signs)
 {
     if (!operand(p))
         return 0;
-    for (char c; (c = peek(p)) == signs[0] || c == signs[1];) {
+    for (char c; (c = peek(p)) != '\0' && strchr(signs, c);) {
         p->at++;
-        if (!operand(p) || !emit_operation(p, c == signs[0] ? first : second, -1))
+        if (!operand(p) || !emit_operation(p, c, -1))
             return 0;
     }
     return 1;
@@ -293,25 +274,15 @@ static int chain(parser *p, int (*operand)(parser *), const char *signs, vndf_op
 
 static int product(parser *p)
 {
-    return chain(p, sign, "*/", VNDF_MULTIPLY, VNDF_DIVIDE);
+    return chain(p, sign, "*/");
 }
 
 static int sum(parser *p)
 {
-    return chain(p, product, "+-", VNDF_ADD, VNDF_SUBTRACT);
+    return chain(p, product, "+-");
 }
 
 /* ---- the whole -------------------------------------------------------------------------------- */
-
-/* Whether a variable, a parameter before it or pi has the name of this parameter. */
-static int is_taken(const vndf_names *names, size_t parameter)
-{
-    const char *known, *text = names->parameters[parameter].name;
-    for (size_t i = 0; i < names->variable_count + parameter; i++)
-        if ((known = known_name(names, i)) != NULL && strcmp(text, known) == 0)
-            return 1;
-    return strcmp(text, "pi") == 0;
-}
 
 static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
 {
@@ -329,9 +300,10 @@ static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
             return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                              "parameter '%s': a name is a letter or _, then letters, digits or _; at most %d",
                              excerpt, VNDF_LIMIT_PARAMETER_NAME);
-        if (is_taken(names, i))
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
-                             excerpt);
+        for (size_t j = 0; j <= names->variable_count + i; j++)
+            if (strcmp(text, known_name(names, j)) == 0)
+                return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the name is taken; choose another",
+                                 excerpt);
         if (!isfinite(names->parameters[i].value))
             return vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s' is %g; a finite number is needed",
                              excerpt, names->parameters[i].value);

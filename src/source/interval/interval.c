@@ -22,18 +22,13 @@ static int plain(double m)
 static vndf_wide settled(double m, double e)
 {
     int shift = 0;
-    if (m == 0)
-        return (vndf_wide){0, 0};
+    if (m == 0 || (e == 0 && plain(m))) /* nearly always */
+        return (vndf_wide){m, 0};
     if (isnan(m) || isinf(m) || e > EXPONENT_LARGEST)
         return (vndf_wide){isnan(m) ? m : m < 0 ? -HUGE_VAL : HUGE_VAL, 0};
     m = frexp(m, &shift);
     e = fmax(e + shift, -EXPONENT_LARGEST);
     return e >= -399 && e <= 400 ? (vndf_wide){ldexp(m, (int)e), 0} : (vndf_wide){m, e};
-}
-
-static vndf_wide wide(double x)
-{
-    return plain(x) ? (vndf_wide){x, 0} : settled(x, 0);
 }
 
 static double double_of(vndf_wide x)
@@ -84,12 +79,14 @@ static vndf_wide larger(vndf_wide a, vndf_wide b)
 /* x moved down by this part of it. Exponents beyond 2^50 are rounded too. */
 static vndf_wide down(vndf_wide x, double part)
 {
-    double spread = fabs(x.e) > 0x1p50 ? 4 * ROUNDING * fabs(x.e) : 0;
+    double m = x.m - fabs(x.m) * part, spread = fabs(x.e) > 0x1p50 ? 4 * ROUNDING * fabs(x.e) : 0;
+    if (x.e == 0 && plain(m)) /* nearly always */
+        return (vndf_wide){m, 0};
     if (isinf(x.m))
         return x.m > 0 ? (vndf_wide){0.5, EXPONENT_LARGEST} : x;
     if (x.m > 0 && x.e <= -EXPONENT_LARGEST)
         return (vndf_wide){0, 0};
-    return settled(x.m - fabs(x.m) * part, floor(x.e + (x.m > 0 ? -spread : spread)));
+    return settled(m, floor(x.e + (x.m > 0 ? -spread : spread)));
 }
 
 /* Both ends moved by this part of them; the whole line if one is not a number. */
@@ -100,17 +97,9 @@ static vndf_interval widened(vndf_wide low, vndf_wide high, double part)
     return (vndf_interval){down(low, part), minus(down(minus(high), part))};
 }
 
-/* The same for low <= high that need no exponents, in less time; else returns 0. */
-static int widened_plainly(double low, double high, vndf_interval *a)
-{
-    double l = low - ROUNDING * fabs(low), h = high + ROUNDING * fabs(high);
-    *a = (vndf_interval){{l, 0}, {h, 0}};
-    return plain(l) && plain(h);
-}
-
 vndf_interval vndf_interval_from(double low, double high)
 {
-    return (vndf_interval){wide(low), wide(high)};
+    return (vndf_interval){settled(low, 0), settled(high, 0)};
 }
 
 vndf_interval vndf_interval_all(void)
@@ -125,7 +114,7 @@ vndf_interval vndf_interval_hull(vndf_interval a, vndf_interval b)
 
 vndf_interval vndf_interval_of_library(double low, double high)
 {
-    return widened(wide(low), wide(high), LIBRARY);
+    return widened(settled(low, 0), settled(high, 0), LIBRARY);
 }
 
 double vndf_interval_low(vndf_interval a)
@@ -169,20 +158,12 @@ static int is_small_whole(vndf_interval a)
     return is_number(a, x) && fabs(x) < 0x1p26 && floor(x) == x;
 }
 
-static int without_exponents(vndf_interval a, vndf_interval b)
-{
-    return a.low.e == 0 && a.high.e == 0 && b.low.e == 0 && b.high.e == 0;
-}
-
 vndf_interval vndf_interval_sum(vndf_interval a, vndf_interval b)
 {
-    vndf_interval sum;
     if (is_number(a, 0) || is_number(b, 0))
         return is_number(a, 0) ? b : a;
     if (is_small_whole(a) && is_small_whole(b))
         return vndf_interval_from(a.low.m + b.low.m, a.low.m + b.low.m);
-    if (without_exponents(a, b) && widened_plainly(a.low.m + b.low.m, a.high.m + b.high.m, &sum))
-        return sum;
     return widened(plus(a.low, b.low), plus(a.high, b.high), ROUNDING);
 }
 
@@ -191,31 +172,12 @@ vndf_interval vndf_interval_difference(vndf_interval a, vndf_interval b)
     return vndf_interval_sum(a, vndf_interval_negative(b));
 }
 
-/* fmin and fmax of the C library are calls. */
-static double least_of(double a, double b)
-{
-    return a < b ? a : b;
-}
-
-static double most_of(double a, double b)
-{
-    return a > b ? a : b;
-}
-
 vndf_interval vndf_interval_product(vndf_interval a, vndf_interval b)
 {
-    vndf_interval product;
     if (is_number(a, 1) || is_number(b, 1))
         return is_number(a, 1) ? b : a;
     if (is_small_whole(a) && is_small_whole(b))
         return vndf_interval_from(a.low.m * b.low.m, a.low.m * b.low.m);
-    if (without_exponents(a, b)) {
-        double p = a.low.m * b.low.m, q = a.low.m * b.high.m, r = a.high.m * b.low.m, s = a.high.m * b.high.m;
-        double low = least_of(least_of(p, q), least_of(r, s)), high = most_of(most_of(p, q), most_of(r, s));
-        double all = p + q + r + s; /* its difference to itself is no 0 where one of them is infinite or NaN */
-        if (all - all == 0 && widened_plainly(low, high, &product))
-            return product;
-    }
     vndf_wide p = times(a.low, b.low), q = times(a.low, b.high), r = times(a.high, b.low),
               s = times(a.high, b.high);
     return widened(smaller(smaller(p, q), smaller(r, s)), larger(larger(p, q), larger(r, s)), ROUNDING);
@@ -249,11 +211,11 @@ static vndf_wide exponential(double x, int outwards)
 {
     double error = LIBRARY + EXPONENT * fabs(x), whole = floor(x / LOG_2);
     if (fabs(x) < 270)
-        return wide(exp(x) * (1 + outwards * LIBRARY));
+        return settled(exp(x) * (1 + outwards * LIBRARY), 0);
     if (fabs(x) > 1e290 && (x > 0) != (outwards > 0))
         return settled(1, x < 0 ? -1e290 : 1e290);
     if (fabs(x) > 1e290)
-        return wide(x > 0 ? HUGE_VAL : 0);
+        return settled(x > 0 ? HUGE_VAL : 0, 0);
     if (error < 0.1)
         return settled(exp(x - whole * LOG_2) * (1 + outwards * 2 * error), whole);
     return settled(1, floor(whole + outwards * (2 * error + 2)));
@@ -283,9 +245,9 @@ static vndf_wide power_end(vndf_wide x, double exponent, int outwards)
     if (x.m == 1 && x.e == 0)
         return x;
     if (x.m <= 0)
-        return wide(exponent > 0 ? 0 : HUGE_VAL);
+        return settled(exponent > 0 ? 0 : HUGE_VAL, 0);
     if (x.e == 0 && fabs(size) < 270)
-        return wide(pow(x.m, exponent) * (1 + outwards * LIBRARY));
+        return settled(pow(x.m, exponent) * (1 + outwards * LIBRARY), 0);
     return exponential(size + outwards * fabs(size) * LIBRARY, outwards);
 }
 

@@ -3,11 +3,9 @@
  * k y_k = sum of j x_j d_(k-j), j from 1 to k. */
 #include "source/interval/interval.h"
 
-static const vndf_interval zero = {{0, 0}, {0, 0}};
-
 vndf_jet vndf_jet_constant(vndf_interval value)
 {
-    return (vndf_jet){1, {value, zero, zero, zero}};
+    return (vndf_jet){1, {value}};
 }
 
 vndf_jet vndf_jet_number(double x)
@@ -68,7 +66,7 @@ static vndf_interval folded(const vndf_jet *x, const vndf_jet *y, int first, int
 
 vndf_jet vndf_jet_product(vndf_jet x, vndf_jet y)
 {
-    vndf_jet z = {0, {zero, zero, zero, zero}};
+    vndf_jet z = {0, {x.at[0]}};
     if (x.constant || y.constant)
         return x.constant ? multiple(y, x.at[0]) : multiple(x, y.at[0]);
     for (int k = 0; k <= VNDF_JET; k++)
@@ -78,12 +76,11 @@ vndf_jet vndf_jet_product(vndf_jet x, vndf_jet y)
 
 vndf_jet vndf_jet_quotient(vndf_jet x, vndf_jet y)
 {
-    vndf_jet z = vndf_jet_constant(vndf_interval_quotient(x.at[0], y.at[0]));
+    vndf_jet z = {0, {vndf_interval_quotient(x.at[0], y.at[0])}};
     if (vndf_interval_vanishes(y.at[0]))
         return vndf_jet_value(z.at[0], x.constant ? y : x);
     if (y.constant)
         return multiple(x, vndf_interval_quotient(vndf_interval_from(1, 1), y.at[0]));
-    z.constant = 0;
     for (int k = 1; k <= VNDF_JET; k++)
         z.at[k] = vndf_interval_quotient(vndf_interval_difference(x.at[k], folded(&y, &z, 1, k)), y.at[0]);
     return z;
@@ -108,8 +105,7 @@ static vndf_interval next(const vndf_jet *dx, const vndf_jet *d, int k)
 
 vndf_jet vndf_jet_integral(vndf_interval value, vndf_jet x, vndf_jet d)
 {
-    vndf_jet y = vndf_jet_constant(value), dx = inner(x);
-    y.constant = x.constant;
+    vndf_jet y = {x.constant, {value}}, dx = inner(x);
     for (int k = 1; k <= VNDF_JET && !x.constant; k++)
         y.at[k] = next(&dx, &d, k);
     return y;
@@ -117,8 +113,7 @@ vndf_jet vndf_jet_integral(vndf_interval value, vndf_jet x, vndf_jet d)
 
 vndf_jet vndf_jet_wave(vndf_jet x, vndf_interval value, vndf_interval other, int sign)
 {
-    vndf_jet y = vndf_jet_constant(value), z = vndf_jet_constant(other), dx = inner(x);
-    y.constant = x.constant;
+    vndf_jet y = {x.constant, {value}}, z = {x.constant, {other}}, dx = inner(x);
     for (int k = 1; k <= VNDF_JET && !x.constant; k++) {
         vndf_interval back = next(&dx, &y, k);
         y.at[k] = next(&dx, &z, k);
@@ -129,11 +124,8 @@ vndf_jet vndf_jet_wave(vndf_jet x, vndf_interval value, vndf_interval other, int
 
 vndf_jet vndf_jet_exp(vndf_jet x)
 {
-    vndf_jet y = vndf_jet_constant(vndf_interval_exp(x.at[0])), dx = inner(x);
-    y.constant = x.constant;
-    for (int k = 1; k <= VNDF_JET && !x.constant; k++)
-        y.at[k] = next(&dx, &y, k);
-    return y;
+    vndf_interval y = vndf_interval_exp(x.at[0]);
+    return vndf_jet_wave(x, y, y, 1);
 }
 
 vndf_jet vndf_jet_log(vndf_jet x)
@@ -149,10 +141,9 @@ vndf_jet vndf_jet_log(vndf_jet x)
 /* k x_0 y_k = sum of (p j - (k - j)) x_j y_(k-j). */
 static vndf_jet power_off_zero(vndf_jet x, double p)
 {
-    vndf_jet y = vndf_jet_constant(vndf_interval_power(x.at[0], p));
-    y.constant = x.constant;
+    vndf_jet y = {x.constant, {vndf_interval_power(x.at[0], p)}};
     for (int k = 1; k <= VNDF_JET && !x.constant; k++) {
-        vndf_interval sum = zero;
+        vndf_interval sum = vndf_interval_from(0, 0);
         for (int j = 1; j <= k; j++) {
             vndf_interval term = vndf_interval_product(x.at[j], y.at[k - j]);
             sum = vndf_interval_sum(sum, vndf_interval_scaled(term, (p * j - (k - j)) / k));
