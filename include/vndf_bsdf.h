@@ -238,18 +238,20 @@ typedef struct vndf_roughness {
     float cos_rotation, sin_rotation;
 } vndf_roughness;
 
-/* A resolved material: a plain value, valid while its distribution lives. Its members are private. */
+/* A resolved material: a plain value, valid while its distribution lives. */
 typedef struct vndf_material {
-    vndf_description is;
-    const struct vndf_routines *routines; /* made for its effects */
-    const struct vndf_routines *specular; /* the same without retroreflection, */
-    const struct vndf_routines *single;   /* and without compensation */
-    vndf_affine surface;                  /* of hits that bring none */
-    float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
-    double per_wavelength;                /* one over their number */
-    float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
-    float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
-    int two_sided;
+    vndf_description is; /* as it was given, but for the numbers that stand for a default */
+    struct {
+        const struct vndf_routines *routines; /* made for its effects */
+        const struct vndf_routines *specular; /* the same without retroreflection, */
+        const struct vndf_routines *single;   /* and without compensation */
+        vndf_affine surface;                  /* of hits that bring none */
+        float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
+        double per_wavelength;                /* one over their number */
+        float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
+        float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
+        int two_sided;
+    } own; /* private */
 } vndf_material;
 
 /* Returns VNDF_OK, or VNDF_ERROR_ARGUMENT and an error that names the refused combination or number; *material
@@ -281,18 +283,20 @@ struct vndf_hit_view {
 };
 
 /* Everything that depends on the material and wi alone: a plain value, valid while the material lives. It points
- * to the material, which must not move. Its members are private. */
+ * to the material, which must not move. */
 typedef struct vndf_bsdf {
     const vndf_material *material;
-    double eta;          /* index on the other side over that on the side of wi */
-    double carried;      /* what transmission has more than for importance: 1/eta^2 for radiance */
-    float side;          /* -1 where wi is below the mean plane, 1 else; the frame of the hit is turned by it, */
-    vndf_vec3 wi;        /* so that this is above */
-    float rise, area;    /* of wi: its projection on the mean plane, and the projected area */
-    float tilt;          /* length of (mean slope, 1) */
-    vndf_affine surface; /* not of a mixture */
-    struct vndf_compensation compensation;
-    struct vndf_hit_view view; /* of wi */
+    struct {
+        double eta;       /* index on the other side over that on the side of wi */
+        double carried;   /* what transmission has more than for importance: 1/eta^2 for radiance */
+        float side;       /* -1 where wi is below the mean plane, 1 else; the frame of the hit is turned by it, */
+        vndf_vec3 wi;     /* so that this is above */
+        float rise, area; /* of wi: its projection on the mean plane, and the projected area */
+        float tilt;       /* length of (mean slope, 1) */
+        vndf_affine surface; /* not of a mixture */
+        struct vndf_compensation compensation;
+        struct vndf_hit_view view; /* of wi */
+    } own;                         /* private */
 } vndf_bsdf;
 
 /* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that

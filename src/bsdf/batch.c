@@ -16,7 +16,7 @@ static void hit_at(const vndf_bsdf_batch *b, size_t i, vndf_bsdf *hit)
 {
     const vndf_material *m = b->material;
     size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i;
-    vndf_roughness r = {m->is.alpha_x, m->is.alpha_y, m->cos_rotation, m->sin_rotation};
+    vndf_roughness r = {m->is.alpha_x, m->is.alpha_y, m->own.cos_rotation, m->own.sin_rotation};
     if (m->is.effects.shape == VNDF_SHAPE_MIXTURE) {
         vndf_bsdf_mixture(hit, m, b->mixture ? b->mixture + at : NULL, wi_at(b, i));
         return;
@@ -95,7 +95,7 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
 {
     const vndf_material *m = b->material;
     int in_blocks = m->is.effects.shape == VNDF_SHAPE_ALIGNED && m->is.effects.normals == VNDF_NORMALS_VISIBLE &&
-                    m->routines->scatter;
+                    m->own.routines->scatter;
     vndf_bsdf hit;
     block drawn;
     for (size_t i = 0; i < b->count; i++) {
@@ -108,7 +108,7 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
         if (in_blocks && hit.material == m) {
             const vndf_drawn_normal n = {
                 {drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
-            m->routines->scatter(&hit, &n, own[2], &s);
+            m->own.routines->scatter(&hit, &n, own[2], &s);
         } else
             vndf_bsdf_sample(&hit, own, &s);
         put(&scattered, i, &s, m->is.wavelengths);
@@ -124,8 +124,8 @@ static void look(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed
     for (size_t i = 0; i < b->count; i++) {
         float f[VNDF_WAVELENGTHS];
         step_to(b, i, &hit);
-        hit.material->routines->eval(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0,
-                                     value ? f : NULL, pdf ? pdf + i : NULL);
+        hit.material->own.routines->eval(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0,
+                                         value ? f : NULL, pdf ? pdf + i : NULL);
         for (int n = 0; value && n < b->material->is.wavelengths; n++)
             value[n][i] = f[n];
     }

@@ -119,7 +119,7 @@ VNDF_INLINE double vndf_mean_of(const vndf_material *m, const double f[VNDF_WAVE
     double sum = f[0];
     for (int i = 1; i < m->is.wavelengths; i++)
         sum += f[i];
-    return sum * m->per_wavelength;
+    return sum * m->own.per_wavelength;
 }
 
 VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)

@@ -67,23 +67,23 @@ VNDF_INLINE vndf_vec3 up_of(const event *e)
 
 VNDF_INLINE double area_of(const vndf_bsdf *b, const event *e)
 {
-    return (double)vndf_hit_area(&b->view, up_of(e));
+    return (double)vndf_hit_area(&b->own.view, up_of(e));
 }
 
 VNDF_INLINE double by_height(const vndf_bsdf *b, const event *e, int reflects)
 {
     double area = area_of(b, e);
-    return reflects ? masked_by_height((double)b->rise, e->rise, (double)b->area, area)
-                    : passed_by_height((double)b->rise, e->rise, (double)b->area, area) * b->carried;
+    return reflects ? masked_by_height((double)b->own.rise, e->rise, (double)b->own.area, area)
+                    : passed_by_height((double)b->own.rise, e->rise, (double)b->own.area, area) * b->own.carried;
 }
 
 /* G of an event; of transmission for radiance over r^2. */
 VNDF_INLINE double masked(const vndf_bsdf *b, const event *e, int reflects)
 {
-    double rise = (double)b->rise, carried = reflects ? 1.0 : b->carried;
+    double rise = (double)b->own.rise, carried = reflects ? 1.0 : b->own.carried;
     switch (b->material->is.effects.masking) {
     case VNDF_MASKING_HEIGHT_CORRELATED: break;
-    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->area, area_of(b, e)) * carried;
+    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->own.area, area_of(b, e)) * carried;
     case VNDF_MASKING_V_CAVITIES:
         return reflects ? masked_in_cavities(rise, e->rise, e->facing, e->wm.z)
                         : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z) * carried;
@@ -102,7 +102,7 @@ VNDF_RARE double masked_aside(const vndf_bsdf *b, const event *e, int reflects)
 
 VNDF_INLINE int sees_one_surface(const vndf_bsdf *b)
 {
-    return b->view.kind != VNDF_HIT_MIXTURE && b->material->is.effects.normals == VNDF_NORMALS_VISIBLE;
+    return b->own.view.kind != VNDF_HIT_MIXTURE && b->material->is.effects.normals == VNDF_NORMALS_VISIBLE;
 }
 
 VNDF_RARE vndf_drawn_normal draw_otherwise(const vndf_bsdf *b, float u1, float u2)
@@ -110,41 +110,41 @@ VNDF_RARE vndf_drawn_normal draw_otherwise(const vndf_bsdf *b, float u1, float u
     vndf_drawn_normal n;
     switch (b->material->is.effects.normals) {
     case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->view.of.one, u1, u2);
-    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->view.of.one, u1, u2);
-    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->view.of.one, u1, u2);
+    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->own.view.of.one, u1, u2);
+    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->own.view.of.one, u1, u2);
+    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->own.view.of.one, u1, u2);
     }
-    n.wm = vndf_mixture_sample(&b->view.of.mixture, u1, u2, &n.density, NULL);
-    n.weight = n.density > 0.0f ? vndf_mixture_visible(&b->view.of.mixture, n.wm) / n.density : 0.0f;
+    n.wm = vndf_mixture_sample(&b->own.view.of.mixture, u1, u2, &n.density, NULL);
+    n.weight = n.density > 0.0f ? vndf_mixture_visible(&b->own.view.of.mixture, n.wm) / n.density : 0.0f;
     return n;
 }
 
 VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
-    return sees_one_surface(b) ? vndf_sample_visible(&b->view.of.one, u1, u2) : draw_otherwise(b, u1, u2);
+    return sees_one_surface(b) ? vndf_sample_visible(&b->own.view.of.one, u1, u2) : draw_otherwise(b, u1, u2);
 }
 
 VNDF_RARE float pdf_otherwise(const vndf_bsdf *b, vndf_vec3 wm)
 {
     switch (b->material->is.effects.normals) {
     case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&b->view.of.one, wm);
-    case VNDF_NORMALS_ALL: return vndf_pdf_all(&b->view.of.one, wm);
-    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&b->view.of.one, wm);
+    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&b->own.view.of.one, wm);
+    case VNDF_NORMALS_ALL: return vndf_pdf_all(&b->own.view.of.one, wm);
+    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&b->own.view.of.one, wm);
     }
-    return vndf_mixture_pdf(&b->view.of.mixture, wm);
+    return vndf_mixture_pdf(&b->own.view.of.mixture, wm);
 }
 
 VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
 {
-    return sees_one_surface(b) ? vndf_pdf(&b->view.of.one, wm) : pdf_otherwise(b, wm);
+    return sees_one_surface(b) ? vndf_pdf(&b->own.view.of.one, wm) : pdf_otherwise(b, wm);
 }
 
 /* ---- samples ---- */
 
 VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e)
 {
-    e->rise = (double)vndf_hit_cosine(&b->view, up_of(e));
+    e->rise = (double)vndf_hit_cosine(&b->own.view, up_of(e));
     return e->rise > 0.0;
 }
 
@@ -154,9 +154,9 @@ VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, c
 {
     int reflects = lobe == VNDF_LOBE_REFLECTION, count = b->material->is.wavelengths;
     double g = bare ? by_height(b, e, 1) : masked(b, e, reflects);
-    double whole = g * e->rise * ((double)b->area * (double)n->weight);
-    s->wo = vndf_turned(up_of(e), reflects ? b->side : -b->side);
-    s->wm = vndf_turned(n->wm, b->side);
+    double whole = g * e->rise * ((double)b->own.area * (double)n->weight);
+    s->wo = vndf_turned(up_of(e), reflects ? b->own.side : -b->own.side);
+    s->wm = vndf_turned(n->wm, b->own.side);
     s->density = lobe == VNDF_LOBE_STRAIGHT
                      ? 1.0f
                      : vndf_positive(vndf_density_from((double)n->density * e->jacobian * part));
@@ -172,13 +172,13 @@ VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_co
                          double part, const int bare, vndf_scattered *s)
 {
     double own[VNDF_WAVELENGTHS];
-    event e = reflected_at(vndf_direction(b->wi), vndf_direction(n->wm), c);
+    event e = reflected_at(vndf_direction(b->own.wi), vndf_direction(n->wm), c);
     if (!e.met || !goes_up(b, &e)) {
         vndf_scatter_nothing(s);
         return;
     }
     if (!bare && !f) {
-        vndf_reflectances(b->material, c, b->eta, own);
+        vndf_reflectances(b->material, c, b->own.eta, own);
         f = own;
     }
     set_scattered(b, n, &e, f, part, VNDF_LOBE_REFLECTION, bare, s);
@@ -187,18 +187,18 @@ VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_co
 VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
                           double part, vndf_scattered *s)
 {
-    event e = refracted_at(vndf_direction(b->wi), vndf_direction(n->wm), c, b->eta);
+    event e = refracted_at(vndf_direction(b->own.wi), vndf_direction(n->wm), c, b->own.eta);
     if (!goes_up(b, &e) || !e.met) {
         vndf_scatter_nothing(s);
         return;
     }
-    vndf_lobe lobe = b->eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
+    vndf_lobe lobe = b->own.eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     set_scattered(b, n, &e, f, part, lobe, 0, s);
 }
 
 static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    const seen_cosine c = {dot_of(vndf_direction(b->wi), vndf_direction(n->wm)), 0.0};
+    const seen_cosine c = {dot_of(vndf_direction(b->own.wi), vndf_direction(n->wm)), 0.0};
     (void)u3;
     reflect(b, n, c, NULL, 1.0, 1, s);
 }
@@ -206,14 +206,14 @@ static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u
 /* Numbers outside [0, 1] do not choose what never happens. */
 static void scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    seen_cosine c = seen_cosine_of(vndf_direction(b->wi), vndf_direction(n->wm));
+    seen_cosine c = seen_cosine_of(vndf_direction(b->own.wi), vndf_direction(n->wm));
     vndf_lobes lobes = b->material->is.effects.lobes;
     double f[VNDF_WAVELENGTHS], part = 0.0;
     if (lobes == VNDF_LOBES_REFLECTION) {
         reflect(b, n, c, NULL, 1.0, 0, s);
         return;
     }
-    vndf_reflectances(b->material, c, b->eta, f);
+    vndf_reflectances(b->material, c, b->own.eta, f);
     if (lobes == VNDF_LOBES_BOTH)
         part = vndf_mean_of(b->material, f);
     if ((part > 0.0 && u3 < part) || !(part < 1.0))
@@ -242,16 +242,16 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
 {
     const vndf_material *m = b->material;
     vndf_lobes lobes = bare ? VNDF_LOBES_REFLECTION : m->is.effects.lobes;
-    vndf_vec3 wo = vndf_turned(given, b->side);
-    float rise = vndf_hit_cosine(&b->view, wo);
+    vndf_vec3 wo = vndf_turned(given, b->own.side);
+    float rise = vndf_hit_cosine(&b->own.view, wo);
     int reflects = rise > 0.0f;
     if (!vndf_is_near_unit(wo) || !(rise != 0.0f) ||
         lobes == (reflects ? VNDF_LOBES_TRANSMISSION : VNDF_LOBES_REFLECTION)) {
         vndf_see_nothing(b, value, pdf);
         return;
     }
-    direction from = vndf_direction(b->wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
-    event e = reflects ? reflecting(from, to) : refracting(from, to, b->eta);
+    direction from = vndf_direction(b->own.wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
+    event e = reflects ? reflecting(from, to) : refracting(from, to, b->own.eta);
     if (!e.met) {
         vndf_see_nothing(b, value, pdf);
         return;
@@ -261,12 +261,12 @@ VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *
     e.rise = fabs((double)rise);
     if (!bare && (value || lobes == VNDF_LOBES_BOTH)) {
         const seen_cosine c = {e.facing, reflects ? reflecting_rest(e, from, to) : e.rest};
-        vndf_reflectances(m, c, b->eta, f);
+        vndf_reflectances(m, c, b->own.eta, f);
     }
     if (value) {
         const event at = e; /* what is pointed at leaves its registers */
         double g = bare ? by_height(b, &e, 1) : masked_aside(b, &at, reflects);
-        double shape = (double)b->tilt * (double)vndf_hit_ndf(&b->view, wm) * e.facing * e.jacobian * g;
+        double shape = (double)b->own.tilt * (double)vndf_hit_ndf(&b->own.view, wm) * e.facing * e.jacobian * g;
         for (int i = 0; i < m->is.wavelengths; i++)
             value[i] = vndf_density_from(bare ? shape : shape * (reflects ? f[i] : 1.0 - f[i]));
     }
@@ -305,20 +305,20 @@ const vndf_routines *vndf_single_of(const vndf_effects *e)
 
 static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
 {
-    float turn = wo.z * b->side > 0.0f ? -1.0f : 1.0f;
+    float turn = wo.z * b->own.side > 0.0f ? -1.0f : 1.0f;
     return vndf_vec3_of(turn * wo.x, turn * wo.y, wo.z);
 }
 
 static void sample_retro(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    b->material->specular->sample(b, u, s);
+    b->material->own.specular->sample(b, u, s);
     if (s->lobe == VNDF_LOBE_REFLECTION)
         s->wo = turned_about(b, s->wo);
 }
 
 static void eval_retro(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    b->material->specular->eval(b, turned_about(b, wo), seed, value, pdf);
+    b->material->own.specular->eval(b, turned_about(b, wo), seed, value, pdf);
 }
 
 const vndf_routines vndf_routines_retro = {NULL, sample_retro, eval_retro, NULL};

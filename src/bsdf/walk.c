@@ -95,7 +95,7 @@ VNDF_INLINE int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
     if (back.z < 0.0f && !(r->depth > 0.0))
         return 0;
     r->from = back;
-    vndf_view_make(&r->view, &b->surface, back, 0);
+    vndf_view_make(&r->view, &b->own.surface, back, 0);
     return 1;
 }
 
@@ -206,14 +206,14 @@ VNDF_INLINE int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, 
 /* Of the cosine lobes. s^2 is the product of the areas along both axes of an aligned surface. */
 static double share_of(const vndf_bsdf *b)
 {
-    const vndf_affine *m = &b->surface;
-    double across = (double)vndf_view_area(&b->view.of.one, vndf_vec3_of(1.0f, 0.0f, 0.0f));
-    double determinant = fabs((double)m->xx * m->yy - (double)m->xy * m->yx), cosine = (double)b->wi.z;
+    const vndf_affine *m = &b->own.surface;
+    double across = (double)vndf_view_area(&b->own.view.of.one, vndf_vec3_of(1.0f, 0.0f, 0.0f));
+    double determinant = fabs((double)m->xx * m->yy - (double)m->xy * m->yx), cosine = (double)b->own.wi.z;
     double slope2 = across * across * determinant / ((double)m->xx * m->xx + (double)m->xy * m->xy);
-    int enters = transmits(b) && b->eta > 1.0;
+    int enters = transmits(b) && b->own.eta > 1.0;
     double times = enters ? 30.0 * slope2 : 9.0 * slope2, share = times / (1.0 + times);
     if (enters)
-        share *= 1.0 - cosine / (double)vndf_view_area(&b->view.of.one, b->wi);
+        share *= 1.0 - cosine / (double)vndf_view_area(&b->own.view.of.one, b->own.wi);
     else if (!transmits(b))
         share *= cosine / (cosine + 0.17);
     return 0.001 + 0.998 * (share > 0.0 ? share : 0.0);
@@ -222,12 +222,12 @@ static double share_of(const vndf_bsdf *b)
 static float density_towards(const vndf_bsdf *b, vndf_vec3 wo)
 {
     scattered s;
-    const vndf_view *view = &b->view.of.one;
+    const vndf_view *view = &b->own.view.of.one;
     int through = transmits(b);
     vndf_vec3 other = through ? vndf_turned(wo, -1.0f) : vndf_vec3_of(wo.x, wo.y, -wo.z);
-    double first = scatter(b, view, b->wi, b->eta, wo, 0, &s) ? s.drawn : 0.0;
-    first += scatter(b, view, b->wi, b->eta, other, through, &s) ? s.drawn : 0.0;
-    double near = !through ? 1.0 : b->eta > 1.0 ? 0.05 : 1.0 - 0.6 * (double)b->wi.z;
+    double first = scatter(b, view, b->own.wi, b->own.eta, wo, 0, &s) ? s.drawn : 0.0;
+    first += scatter(b, view, b->own.wi, b->own.eta, other, through, &s) ? s.drawn : 0.0;
+    double near = !through ? 1.0 : b->own.eta > 1.0 ? 0.05 : 1.0 - 0.6 * (double)b->own.wi.z;
     double side = wo.z > 0.0f ? near : 1.0 - near, share = share_of(b);
     double cosine = fabs((double)wo.z) * 0.31830988618379067 * side;
     return vndf_density_from((1.0 - share) * first + share * cosine);
@@ -239,17 +239,17 @@ static float density_towards(const vndf_bsdf *b, vndf_vec3 wo)
 static void leave(const vndf_bsdf *b, const ray *r, vndf_vec3 back, vndf_scattered *s)
 {
     vndf_vec3 wo = vndf_turned(back, r->turned ? 1.0f : -1.0f);
-    s->wo = vndf_turned(wo, b->side);
+    s->wo = vndf_turned(wo, b->own.side);
     s->density = vndf_positive(density_towards(b, wo));
     s->lobe = r->turned ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION;
     for (int i = 0; i < b->material->is.wavelengths; i++)
-        s->weight[i] = vndf_density_from(r->weight[i] * (r->turned ? b->carried : 1.0));
+        s->weight[i] = vndf_density_from(r->weight[i] * (r->turned ? b->own.carried : 1.0));
 }
 
 /* The first normal is drawn with u[0] and u[1], its lobe with u[2]; all other numbers are a hash of the three. */
 static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    ray r = entering(&b->view.of.one, b->wi, b->eta, seed_of(u));
+    ray r = entering(&b->own.view.of.one, b->own.wi, b->own.eta, seed_of(u));
     float pair[2] = {u[0], u[1]};
     double lobe = (double)vndf_clamp_unit(u[2]);
     vndf_scatter_nothing(s);
@@ -349,7 +349,7 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
     vndf_vec3 along;
     if (limit < 2 || !step(b, &r, &along))
         return;
-    vndf_view view = vndf_affine_view_from(&b->surface, along);
+    vndf_view view = vndf_affine_view_from(&b->own.surface, along);
     if (scatter(b, &view, along, r.eta, from->up, r.turned, &s))
         begin = s.drawn * leaving_from(depth, 0, from) / (double)from->up.z *
                 (to->beyond ? from->eta * from->eta : 1.0);
@@ -362,7 +362,7 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
 
 static void eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
-    vndf_vec3 wo = vndf_turned(given, b->side), up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
+    vndf_vec3 wo = vndf_turned(given, b->own.side), up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
     int beyond = wo.z < 0.0f;
     vndf_see_nothing(b, value, pdf);
     if (!vndf_is_near_unit(wo) || !(wo.z > 0.0f || (beyond && transmits(b))))
@@ -371,15 +371,15 @@ static void eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *valu
         *pdf = density_towards(b, wo);
     if (!value)
         return;
-    double f[VNDF_WAVELENGTHS] = {0.0}, cosine = (double)up.z, index = beyond ? b->eta * b->eta : 1.0;
-    vndf_view seen = vndf_affine_view_from(&b->surface, up);
-    end far = end_at(&seen, up, beyond ? 1.0 / b->eta : b->eta, beyond);
-    end near = end_at(&b->view.of.one, b->wi, b->eta, beyond);
+    double f[VNDF_WAVELENGTHS] = {0.0}, cosine = (double)up.z, index = beyond ? b->own.eta * b->own.eta : 1.0;
+    vndf_view seen = vndf_affine_view_from(&b->own.surface, up);
+    end far = end_at(&seen, up, beyond ? 1.0 / b->own.eta : b->own.eta, beyond);
+    end near = end_at(&b->own.view.of.one, b->own.wi, b->own.eta, beyond);
     add_single(b, &near, &far, f);
     add_walk(b, &near, &far, seed, 1.0, f);
-    add_walk(b, &far, &near, ~seed, index * cosine / (double)b->wi.z, f);
+    add_walk(b, &far, &near, ~seed, index * cosine / (double)b->own.wi.z, f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
-        value[i] = vndf_density_from(f[i] * (beyond ? b->carried : 1.0) / cosine);
+        value[i] = vndf_density_from(f[i] * (beyond ? b->own.carried : 1.0) / cosine);
 }
 
 const vndf_routines vndf_routines_walk = {NULL, sample, eval, NULL};
@@ -390,7 +390,7 @@ static void sample_unbent(const vndf_bsdf *b, const float u[3], vndf_scattered *
 {
     (void)u;
     vndf_scatter_nothing(s);
-    s->wo = vndf_turned(b->wi, -b->side);
+    s->wo = vndf_turned(b->own.wi, -b->own.side);
     s->density = 1.0f;
     s->lobe = VNDF_LOBE_STRAIGHT;
     for (int i = 0; i < b->material->is.wavelengths; i++)

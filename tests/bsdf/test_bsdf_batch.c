@@ -169,7 +169,7 @@ static void compare(const vndf_bsdf_batch *b, const inputs *in, const results *r
                     same(want, r->alone[k][i]);
         }
         if (!TEST(good))
-            bsdf_describe(&b->material->is, "batch", hit.wi, wo);
+            bsdf_describe(&b->material->is, "batch", hit.own.wi, wo);
         lobes[s.lobe]++;
     }
     for (size_t i = b->count; i < COUNT + SPARE; i++)

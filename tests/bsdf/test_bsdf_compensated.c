@@ -101,7 +101,7 @@ static void test_average(const subject *s)
                               : 0.04 + 0.96 * pow(1 - c, 5);
         want += f * sin(2 * t) * PI / 4000;
     }
-    TEST_RELATIVE((double)m.reflectance[0], want, 1e-3);
+    TEST_RELATIVE((double)m.own.reflectance[0], want, 1e-3);
 }
 
 /* ---- values ---- */

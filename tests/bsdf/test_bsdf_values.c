@@ -212,7 +212,7 @@ static int check_place(const hit *h, const vndf_scattered *s)
     int reflected = s->lobe == VNDF_LOBE_REFLECTION;
     int same = oracle_bsdf_rise(&h->oracle, i) * oracle_bsdf_rise(&h->oracle, o) > 0;
     double turn = reflected && e->reflection == VNDF_REFLECTION_RETRO ? -1 : 1;
-    double eta = reflected ? 1 : h->bsdf.eta, cosine = oracle_bsdf_cosine(&h->oracle, o);
+    double eta = reflected ? 1 : h->bsdf.own.eta, cosine = oracle_bsdf_cosine(&h->oracle, o);
     int good = TEST(reflected == same) & TEST(s->density > 0);
     good &= TEST_NEAR((double)vndf_bsdf_cosine(&h->bsdf, s->wo), cosine, 1e-6);
     for (int k = 0; k < 3; k++)
