@@ -14,6 +14,8 @@
 typedef double real;
 typedef int mask;
 
+#include "kernel/plain.h"
+
 HERE real set(double x)
 {
     return x;
@@ -23,31 +25,6 @@ HERE real set(double x)
 HERE real narrow(real x)
 {
     return (real)(float)x;
-}
-
-HERE mask less(real a, real b)
-{
-    return a < b;
-}
-
-HERE mask at_most(real a, real b)
-{
-    return a <= b;
-}
-
-HERE mask both(mask a, mask b)
-{
-    return a & b;
-}
-
-HERE int any(mask m)
-{
-    return m;
-}
-
-HERE real pick(mask m, real yes, real no)
-{
-    return m ? yes : no;
 }
 
 HERE real least(real a, real b)

@@ -14,3 +14,8 @@ vndf_status vndf_fail(vndf_error *error, vndf_status status, const char *format,
     }
     return status;
 }
+
+const char *vndf_version(void)
+{
+    return VNDF_VERSION;
+}

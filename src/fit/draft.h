@@ -1,9 +1,124 @@
-/* Where the knots of a table stand, and from knots to a table: numbers of all cells, shares below the horizon,
+/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run
+ * time computes in float. The fit and the certificate ask here, and nobody states the law again.
+ *
+ * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a
+ * direction (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the
+ * direction; a cell is drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at
+ * both ends per unit of its coordinate xi. Masses are those of the projected area: they add up to it.
+ *
+ * Then where the knots of a table stand, and from knots to a table: numbers of all cells, shares below the horizon,
  * areas. */
 #ifndef VNDF_FIT_DRAFT_H
 #define VNDF_FIT_DRAFT_H
 
-#include "fit/law.h"
+#include "fit/profile/profile.h"
+#include "table/table.h"
+
+/* ---- strips ----
+ *
+ * The measure f dR of a profile: what knots are chosen among, cells are summed from and laws are compared with. A strip
+ * is so narrow that two points in it stand for all of its f. */
+
+/* Slopes nearer than this part of themselves count as one: normals of floats hardly tell them apart. */
+#define VNDF_GRAIN 0x1p-20
+
+/* From its edge to that of the next, t = R - edge. */
+typedef struct vndf_strip {
+    double edge;
+    double m0, m1, m2, m4; /* integrals of f/R, t f/R, t^2 f/R and f/R^4 */
+    double f, along;       /* of f and of R f */
+    double p0, p1;         /* P22 inside both ends */
+    double r[2], mass[2];  /* two points: f dR = mass */
+    int gathered;          /* all of it stands at one place */
+} vndf_strip;
+
+typedef struct vndf_strips {
+    size_t count;
+    vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
+} vndf_strips;
+
+/* About as many as a table of so many cells needs; some end at knots, which ascend from 0. 0 if there is no memory;
+ * free them either way. */
+int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
+                     size_t cells);
+void vndf_strips_free(vndf_strips *strips);
+
+/* The last edge at or before a slope. */
+size_t vndf_strips_edge(const vndf_strips *strips, double r);
+
+/* ---- cells and laws ---- */
+
+/* x grows by h from the left knot; in the tail cell z falls as (1 - xi)^power, to 0. The numbers are the table's. */
+typedef struct vndf_cell {
+    double r, x, z, h;
+    double power; /* 0: not the tail */
+    double g0, g1, m0, m1, m2, cube;
+} vndf_cell;
+
+/* The cell of strips `first` to `end` - 1 and its numbers. Where less than floats can hold is in a cell, it gets a
+ * little that is even. */
+vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
+                            unsigned squarings);
+
+/* That of a table. */
+vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
+
+/* xi of a slope in the cell. */
+double vndf_cell_place(const vndf_cell *cell, double r);
+
+/* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
+typedef struct vndf_weight {
+    double w1, w0, wq, w4;
+} vndf_weight;
+
+/* What is drawn in a cell: its mass, and the densities per unit of xi at its ends. */
+typedef struct vndf_drawn {
+    double mass, d0, d1;
+} vndf_drawn;
+
+vndf_drawn vndf_drawn_by(const vndf_cell *cell, const vndf_weight *weight);
+
+/* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
+vndf_drawn vndf_drawn_below(const vndf_cell *cell, double rho, double b0, double b1);
+
+/* The mass that is drawn before xi. */
+static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
+{
+    double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
+    return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
+}
+
+/* A table, its cells with the tail cell, and the profile in strips that end at its knots: those of cell i from
+ * first[i] to first[i + 1]. */
+typedef struct vndf_draft {
+    vndf_table_draft table;
+    vndf_cell *cell;
+    vndf_strips strips;
+    size_t *first;
+} vndf_draft;
+
+/* The cell of a slope. */
+unsigned vndf_draft_cell(const vndf_draft *draft, double r);
+
+/* A direction. */
+typedef struct vndf_law {
+    const vndf_draft *draft;
+    double rho, s, c; /* c >= 0 on either side */
+    int below;
+    unsigned first;             /* above: the switch knot; below: the cell of rho */
+    vndf_weight near, far, end; /* above: before the switch, from it on, and where far is not used */
+    double xi, b0, b1;          /* below: of rho in its cell; the shares */
+} vndf_law;
+
+vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below);
+
+/* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
+ * is 0 at rho: (xi - law.xi)/(1 - law.xi). */
+vndf_drawn vndf_law_cell(const vndf_law *law, unsigned cell);
+
+/* The area that the run time gives out: above the horizon a spline of the numbers; below it that less c, or the drawn
+ * area where the two are close. */
+double vndf_law_public_area(const vndf_law *law, double drawn);
 
 /* ---- knots ----
  *

@@ -1,4 +1,4 @@
-#include "fit/law.h"
+#include "fit/draft.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -93,6 +93,17 @@ HERE real pick(mask m, real yes, real no)
     return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
 }
 
+#else
+
+#  include "kernel/plain.h"
+
+HERE mask same(whole a, int b)
+{
+    return a == b;
+}
+
+#endif
+
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
 HERE real least(real a, real b)
 {
@@ -103,55 +114,6 @@ HERE real most(real a, real b)
 {
     return a > b ? a : b;
 }
-
-#else
-
-HERE mask less(real a, real b)
-{
-    return a < b;
-}
-
-HERE mask at_most(real a, real b)
-{
-    return a <= b;
-}
-
-HERE mask same(whole a, int b)
-{
-    return a == b;
-}
-
-HERE mask both(mask a, mask b)
-{
-    return a & b;
-}
-
-HERE mask either(mask a, mask b)
-{
-    return a | b;
-}
-
-HERE int any(mask m)
-{
-    return m;
-}
-
-HERE real pick(mask m, real yes, real no)
-{
-    return m ? yes : no;
-}
-
-HERE real least(real a, real b)
-{
-    return a < b ? a : b;
-}
-
-HERE real most(real a, real b)
-{
-    return a > b ? a : b;
-}
-
-#endif
 
 HERE whole pick_whole(mask m, whole yes, whole no)
 {

@@ -100,14 +100,10 @@ vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2,
     return wm;
 }
 
-static int is_seen(const vndf_mixture_view *view, vndf_vec3 wm)
-{
-    return view->count && vndf_pdf(&view->part[0].view, wm) > 0.0f;
-}
-
 float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
 {
-    return is_seen(view, wm) ? least(most(density_with(view, wm, -1, 0.0f), FLT_MIN), FLT_MAX) : 0.0f;
+    int is_seen = view->count && vndf_pdf(&view->part[0].view, wm) > 0.0f;
+    return is_seen ? least(most(density_with(view, wm, -1, 0.0f), FLT_MIN), FLT_MAX) : 0.0f;
 }
 
 float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)

@@ -10,11 +10,6 @@
 
 #if VNDF_HAS_WIDE_LANES
 
-static int has_avx2(void)
-{
-    return __builtin_cpu_supports("avx2");
-}
-
 static int has_avx512(void)
 {
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
@@ -25,7 +20,7 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 {
     if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX512) && has_avx512())
         return VNDF_INSTRUCTIONS_AVX512;
-    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX2) && has_avx2())
+    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX2) && __builtin_cpu_supports("avx2"))
         return VNDF_INSTRUCTIONS_AVX2;
     return VNDF_INSTRUCTIONS_PORTABLE;
 }

@@ -54,21 +54,13 @@ static void one(const vndf_call *c, size_t i)
     const vndf_vec3 wi = triple(c, VNDF_READ_WI_X, i), wm = triple(c, VNDF_READ_A, i);
     vndf_view view;
     float *to = &c->write[0][i], numbers[2];
+    if (c->task < VNDF_TASK_NDF)
+        view = view_at(c, &surface, wi);
     switch (c->task) {
-    case VNDF_TASK_SAMPLE:
-        view = view_at(c, &surface, wi);
-        sample(c, i, &view);
-        break;
-    case VNDF_TASK_PDF:
-        view = view_at(c, &surface, wi);
-        *to = vndf_pdf(&view, wm);
-        break;
-    case VNDF_TASK_VISIBLE:
-        view = view_at(c, &surface, wi);
-        *to = vndf_visible(&view, wm);
-        break;
+    case VNDF_TASK_SAMPLE: sample(c, i, &view); break;
+    case VNDF_TASK_PDF: *to = vndf_pdf(&view, wm); break;
+    case VNDF_TASK_VISIBLE: *to = vndf_visible(&view, wm); break;
     case VNDF_TASK_INVERT:
-        view = view_at(c, &surface, wi);
         vndf_invert(&view, wm, &numbers[0], &numbers[1]);
         *to = numbers[0];
         c->write[1][i] = numbers[1];

@@ -812,8 +812,16 @@ HERE void sample(const block *b, float *const to[VNDF_WRITES], const vndf_kind k
 
 HERE void block_of(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
+    block plain;
     switch (b->call->task) {
-    case VNDF_TASK_SAMPLE: sample(b, to, kind); break;
+    case VNDF_TASK_SAMPLE:
+        if (b->plain) { /* once more, where the compiler knows it */
+            plain = *b;
+            plain.plain = 1;
+            sample(&plain, to, kind);
+        } else
+            sample(b, to, kind);
+        break;
     case VNDF_TASK_PDF:
         if (kind == VNDF_KIND_TABLE)
             density_table(b, to[0]);
@@ -850,29 +858,6 @@ STEP void block_of_ggx(const block *b, float *const to[VNDF_WRITES])
 STEP void block_of_beckmann(const block *b, float *const to[VNDF_WRITES])
 {
     block_of(b, to, VNDF_KIND_BECKMANN);
-}
-
-/* Samples of plain surfaces once more, where the compiler knows that they are. */
-HERE void sample_plain(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    block plain = *b;
-    plain.plain = 1;
-    sample(&plain, to, kind);
-}
-
-STEP void sample_plain_table(const block *b, float *const to[VNDF_WRITES])
-{
-    sample_plain(b, to, VNDF_KIND_TABLE);
-}
-
-STEP void sample_plain_ggx(const block *b, float *const to[VNDF_WRITES])
-{
-    sample_plain(b, to, VNDF_KIND_GGX);
-}
-
-STEP void sample_plain_beckmann(const block *b, float *const to[VNDF_WRITES])
-{
-    sample_plain(b, to, VNDF_KIND_BECKMANN);
 }
 
 /* Copies for the last lanes of a call, numbers that all elements share, and what became valid. */
@@ -950,14 +935,7 @@ HERE void set_valid(block *b, copies *c)
 static void run_block(const block *b, float *const to[VNDF_WRITES])
 {
     const vndf_kind kind = b->call->distribution->kind;
-    if (b->plain && b->call->task == VNDF_TASK_SAMPLE)
-        (kind == VNDF_KIND_TABLE ? sample_plain_table
-         : kind == VNDF_KIND_GGX ? sample_plain_ggx
-                                 : sample_plain_beckmann)(b, to);
-    else
-        (kind == VNDF_KIND_TABLE ? block_of_table
-         : kind == VNDF_KIND_GGX ? block_of_ggx
-                                 : block_of_beckmann)(b, to);
+    (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(b, to);
 }
 
 void LANES_ENTRY(const vndf_call *call)

@@ -1,0 +1,35 @@
+/* Comparisons and choices of a page whose numbers are the compiler's own: `real` is float or double, `mask` int. */
+#ifndef VNDF_KERNEL_PLAIN_H
+#define VNDF_KERNEL_PLAIN_H
+
+HERE mask less(real a, real b)
+{
+    return a < b;
+}
+
+HERE mask at_most(real a, real b)
+{
+    return a <= b;
+}
+
+HERE mask both(mask a, mask b)
+{
+    return a & b;
+}
+
+HERE mask either(mask a, mask b)
+{
+    return a | b;
+}
+
+HERE int any(mask m)
+{
+    return m;
+}
+
+HERE real pick(mask m, real yes, real no)
+{
+    return m ? yes : no;
+}
+
+#endif
