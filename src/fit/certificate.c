@@ -1,5 +1,5 @@
 /* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
- * that of the laws of R: the drawn one (fit/draft.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
+ * that of the laws of R: the drawn one (draft.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
 #include "fit/draft.h"
 
 #include <math.h>
