@@ -117,11 +117,7 @@ vndf_description = _struct(
     "pointer distribution; vndf_effects effects; float alpha_x alpha_y rotation; vndf_affine affine; pointer mixture; "
     "int wavelengths; pointer albedo; float eta f0[4] conductor_eta[4] conductor_k[4]; unsigned order_limit",
 )
-vndf_material = _struct(
-    "vndf_material",
-    "vndf_description is; pointer routines specular single; vndf_affine surface; "
-    "float cos_rotation sin_rotation; double per_wavelength; float reflectance0[4] reflectance[4]; int two_sided",
-)
+vndf_material = _struct("vndf_material", "vndf_description is; double own[14]")  # own: private
 vndf_bsdf_batch = _struct(
     "vndf_bsdf_batch",
     "pointer material; size count; unsigned shared; int limit; "
