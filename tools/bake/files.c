@@ -110,38 +110,29 @@ static void write_about(FILE *file, const baked *b, const char *made_by)
     fprintf(file, "// made by: %s\n", made_by);
 }
 
-static void write_array(FILE *file, const baked *b, const char *begin, const char *end)
-{
-    fputs(begin, file);
-    for (size_t i = 0; i < baked_size(b); i++)
-        fprintf(file, "%s%.9g", i == 0 ? "" : i % 8 ? ", " : ",\n", (double)b->value[i]);
-    fputs(end, file);
-}
-
 /* With a point or an exponent in each number, which GLSL needs for a float. */
-static void write_points(FILE *file, const baked *b)
+static void write_array(FILE *file, const baked *b, const char *end)
 {
     for (size_t i = 0; i < baked_size(b); i++) {
         char text[32];
         snprintf(text, sizeof text, "%.9g", (double)b->value[i]);
         fprintf(file, "%s%s%s", i == 0 ? "" : i % 8 ? ", " : ",\n", text, strpbrk(text, ".e") ? "" : ".0");
     }
+    fputs(end, file);
 }
 
 static void write_c(FILE *file, const baked *b, const char *made_by)
 {
-    char begin[128];
     write_about(file, b, made_by);
-    snprintf(begin, sizeof begin, "static const float %s[%zu] = {\n", b->name, baked_size(b));
-    write_array(file, b, begin, "};\n");
+    fprintf(file, "static const float %s[%zu] = {\n", b->name, baked_size(b));
+    write_array(file, b, "};\n");
 }
 
 static void write_glsl(FILE *file, const baked *b, const char *made_by)
 {
     write_about(file, b, made_by);
     fprintf(file, "const float %s[%zu] = float[%zu](\n", b->name, baked_size(b), baked_size(b));
-    write_points(file, b);
-    fputs(");\n", file);
+    write_array(file, b, ");\n");
 }
 
 static void write_js(FILE *file, const baked *b, const char *made_by)
@@ -151,7 +142,7 @@ static void write_js(FILE *file, const baked *b, const char *made_by)
     for (int i = 0; i < b->axes; i++)
         fprintf(file, "%s%zu", i ? ", " : "", b->count[i]);
     fprintf(file, "], channels: %d, data: new Float32Array([\n", b->channels);
-    write_array(file, b, "", "])};\n");
+    write_array(file, b, "])};\n");
 }
 
 /* ---- pictures ------------------------------------------------------------------------------------ */

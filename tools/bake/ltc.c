@@ -10,14 +10,16 @@
 
 enum { SIDE = 20, SAMPLES = SIDE * SIDE };
 
-/* What a texel is fitted to: samples of the BSDF, with f cos/E and their density, and room for those of the cosine. */
+/* What a texel is fitted to: samples of the BSDF with the f cos that they were drawn with, and room for those of the
+ * cosine. */
 typedef struct target {
     vndf_material material;
-    float wi[3], u[3][SAMPLES];
-    float wo[3][SAMPLES], density[SAMPLES], value[SAMPLES], weight[2][SAMPLES];
+    bake_points drawn;
+    float cosines[SAMPLES]; /* f cos of the samples */
     float other[3][SAMPLES], other_density[SAMPLES], other_value[2][SAMPLES];
-    uint8_t lobe[SAMPLES];
-    double all, grazing, x, z; /* x and z: the mean direction */
+    bake_sum sum;
+    double x, z;  /* the mean direction */
+    double wrong; /* half the integral of |f cos/E - density|, of the numbers that error_of saw last */
 } target;
 
 /* ---- the transformed cosine ---- */
@@ -34,7 +36,7 @@ static void matrix_of(const target *t, const double p[3], double m[3][3])
 static bake_cosine inverse_of(double m[3][3])
 {
     double det = m[0][0] * m[2][2] - m[0][2] * m[2][0], y = m[1][1];
-    bake_cosine c = {{m[2][2] / det * y, -m[0][2] / det * y, 1, -m[2][0] / det * y, m[0][0] / det * y}, 0, 0, 0};
+    bake_cosine c = {{m[2][2] / det * y, -m[0][2] / det * y, 1, -m[2][0] / det * y, m[0][0] / det * y}};
     return c;
 }
 
@@ -48,39 +50,34 @@ double bake_cosine_density(const bake_cosine *c, const double wo[3])
 
 /* ---- one texel ---- */
 
-static double mean_cube(const bake_cosine *c, double all, const float *const wo[3], const float *value,
-                        const float *density, double *wrong)
+/* Adds what one set of samples finds: f cos of these directions, drawn with these densities. */
+static double mean_cube(target *t, const bake_cosine *c, float *const wo[3], const float *cosines,
+                        const float *density)
 {
     double sum = 0;
     for (int i = 0; i < SAMPLES; i++) {
         const double w[3] = {(double)wo[0][i], (double)wo[1][i], (double)wo[2][i]};
-        double g = bake_cosine_density(c, w), f = fmax((double)value[i] * w[2], 0) / all,
-               p = (double)density[i] + g;
-        double miss = fabs(f - g);
+        double g = bake_cosine_density(c, w), f = fmax((double)cosines[i], 0) / t->sum.all;
+        double miss = fabs(f - g), p = (double)density[i] + g;
         if (!(p > 0) || !(w[2] > 0))
             continue;
         sum += miss * miss * miss / p;
-        *wrong += miss / p / (2 * SAMPLES);
+        t->wrong += miss / p / (2 * SAMPLES);
     }
     return sum / SAMPLES;
 }
 
-/* The error of these numbers; `wrong` is half the integral of |f cos/E - density|. */
-static double error_of(target *t, const double p[3], double *wrong)
+/* The mean cube of the difference with these numbers. */
+static double error_of(target *t, const double p[3])
 {
     double m[3][3];
     matrix_of(t, p, m);
     const bake_cosine c = inverse_of(m);
-    const vndf_bsdf_batch batch = {.material = &t->material,
-                                   .count = SAMPLES,
-                                   .shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
-                                   .wi_x = &t->wi[0],
-                                   .wi_y = &t->wi[1],
-                                   .wi_z = &t->wi[2]};
+    const vndf_bsdf_batch batch = bake_batch(&t->material, t->drawn.wi, SAMPLES);
     const vndf_normals other = {t->other[0], t->other[1], t->other[2]};
     float *const value[2] = {t->other_value[0], t->other_value[1]};
     for (int i = 0; i < SAMPLES; i++) {
-        double r = sqrt((double)t->u[0][i]), phi = 6.28318530717959 * (double)t->u[1][i];
+        double r = sqrt((double)t->drawn.u[0][i]), phi = 6.28318530717959 * (double)t->drawn.u[1][i];
         const double cosine[3] = {r * cos(phi), r * sin(phi), sqrt(1 - r * r)};
         double w[3], length = 0;
         for (int k = 0; k < 3; k++) {
@@ -92,60 +89,42 @@ static double error_of(target *t, const double p[3], double *wrong)
             t->other[k][i] = (float)(w[k] / length);
     }
     vndf_bsdf_eval_pdf_n(&batch, other, NULL, value, t->other_density);
-    *wrong = 0;
-    const float *const from[3] = {t->wo[0], t->wo[1], t->wo[2]}, *const to[3] = {t->other[0], t->other[1],
-                                                                                 t->other[2]};
-    double sum = mean_cube(&c, t->all, from, t->value, t->density, wrong);
-    return sum + mean_cube(&c, t->all, to, t->other_value[0], t->other_density, wrong);
+    for (int i = 0; i < SAMPLES; i++)
+        t->other_value[0][i] *= t->other[2][i];
+    float *const from[3] = {t->drawn.wo[0], t->drawn.wo[1], t->drawn.wo[2]};
+    float *const to[3] = {t->other[0], t->other[1], t->other[2]};
+    t->wrong = 0;
+    return mean_cube(t, &c, from, t->cosines, t->drawn.density) +
+           mean_cube(t, &c, to, t->other_value[0], t->other_density);
 }
 
 /* Samples, E and the mean direction. */
 static int target_of(target *t, const bake_settings *s, float alpha, double cosine)
 {
-    const vndf_description of = {.distribution = s->distribution,
-                                 .alpha_x = alpha,
-                                 .alpha_y = alpha,
-                                 .effects = {.fresnel = VNDF_FRESNEL_SCHLICK, .masking = s->masking},
-                                 .wavelengths = 2,
-                                 .f0 = {1, 0}};
-    const vndf_bsdf_batch batch = {.material = &t->material,
-                                   .count = SAMPLES,
-                                   .shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
-                                   .wi_x = &t->wi[0],
-                                   .wi_y = &t->wi[1],
-                                   .wi_z = &t->wi[2]};
-    const vndf_scattered_n to = {.wo = {t->wo[0], t->wo[1], t->wo[2]},
-                                 .weight = {t->weight[0], t->weight[1]},
-                                 .density = t->density,
-                                 .lobe = t->lobe};
-    const float *const u[3] = {t->u[0], t->u[1], t->u[2]};
+    const vndf_description of = bake_mirror(s, alpha);
+    bake_points *p = &t->drawn;
     vndf_error error;
     double x = 0, z = 0;
-    t->wi[0] = (float)sqrt(1 - cosine * cosine);
-    t->wi[1] = 0;
-    t->wi[2] = (float)cosine;
     for (int i = 0; i < SAMPLES; i++) {
-        t->u[0][i] = ((float)(i % SIDE) + 0.5f) / SIDE;
-        t->u[1][i] = ((float)(i / SIDE) + 0.5f) / SIDE;
-        t->u[2][i] = 0.5f;
+        p->u[0][i] = ((float)(i % SIDE) + 0.5f) / SIDE;
+        p->u[1][i] = ((float)(i / SIDE) + 0.5f) / SIDE;
+        p->u[2][i] = 0.5f;
     }
     if (vndf_material_resolve(&of, &t->material, &error) != VNDF_OK)
         return 0;
-    vndf_bsdf_sample_n(&batch, u, to);
-    /* f as it was drawn: that of a rounded direction differs on smooth surfaces. */
+    bake_sample(&t->material, cosine, SAMPLES, p);
+    /* f cos as it was drawn: that of a rounded direction differs on smooth surfaces. */
     for (int i = 0; i < SAMPLES; i++) {
-        if (t->lobe[i] == VNDF_LOBE_NONE)
-            t->wo[2][i] = -1; /* lost */
-        t->value[i] = t->weight[0][i] * t->density[i] / t->wo[2][i];
-        x += (double)t->weight[0][i] * (double)t->wo[0][i];
-        z += (double)t->weight[0][i] * (double)t->wo[2][i];
+        if (p->lobe[i] == VNDF_LOBE_NONE)
+            p->wo[2][i] = -1; /* lost */
+        t->cosines[i] = p->weight[0][i] * p->density[i];
+        x += (double)p->weight[0][i] * (double)p->wo[0][i];
+        z += (double)p->weight[0][i] * (double)p->wo[2][i];
     }
-    bake_sum sum = bake_direction(s, alpha, cosine);
-    t->all = sum.all;
-    t->grazing = sum.grazing;
+    t->sum = bake_direction(s, alpha, cosine);
     t->x = cosine > 0.9999 ? 0 : x / hypot(x, z);
     t->z = sqrt(1 - t->x * t->x);
-    return t->all > 0 && z > 0;
+    return t->sum.all > 0 && z > 0;
 }
 
 /* ---- the simplex method ---- */
@@ -160,14 +139,13 @@ typedef struct corner {
 static corner beyond(target *t, const corner *all, double by)
 {
     corner c;
-    double ignored;
     for (int k = 0; k < NUMBERS; k++) {
         double mean = 0;
         for (int i = 0; i < NUMBERS; i++)
             mean += all[i].at[k] / NUMBERS;
         c.at[k] = mean + by * (mean - all[NUMBERS].at[k]);
     }
-    c.error = error_of(t, c.at, &ignored);
+    c.error = error_of(t, c.at);
     return c;
 }
 
@@ -185,12 +163,11 @@ static void put_in_order(corner *c)
 static void minimise(target *t, double p[NUMBERS], double step)
 {
     corner c[CORNERS];
-    double ignored;
     for (int i = 0; i < CORNERS; i++) {
         memcpy(c[i].at, p, sizeof c[i].at);
         if (i < NUMBERS) /* c is a slope, and looked at in parts of the width of the lobe */
             c[i].at[i] += i < 2 ? step : step * 2 * exp(p[0]);
-        c[i].error = error_of(t, c[i].at, &ignored);
+        c[i].error = error_of(t, c[i].at);
     }
     for (int n = 0; n < STEPS; n++) {
         put_in_order(c);
@@ -209,7 +186,7 @@ static void minimise(target *t, double p[NUMBERS], double step)
         for (int i = 1; i < CORNERS; i++) {
             for (int k = 0; k < NUMBERS; k++)
                 c[i].at[k] = (c[i].at[k] + c[0].at[k]) / 2;
-            c[i].error = error_of(t, c[i].at, &ignored);
+            c[i].error = error_of(t, c[i].at);
         }
     }
     put_in_order(c);
@@ -242,7 +219,7 @@ int bake_ltc(const bake_settings *s, baked_list *list)
         float alpha = bake_alpha(s->mapping, (double)i / (double)(n - 1));
         memcpy(p, row, sizeof p);
         for (size_t j = 0; j < n; j++) {
-            double v = (double)j / (double)(n - 1), m[3][3], wrong;
+            double v = (double)j / (double)(n - 1), m[3][3];
             if (!target_of(&t, s, alpha, fmax(1 - v * v, 2e-3)))
                 return 0;
             if (j == 0)
@@ -250,15 +227,15 @@ int bake_ltc(const bake_settings *s, baked_list *list)
             minimise(&t, p, i == n - 1 && j == 0 ? 0.3 : 0.1);
             if (j == 0)
                 memcpy(row, p, sizeof p);
-            error_of(&t, p, &wrong);
+            error_of(&t, p);
             matrix_of(&t, p, m);
             bake_cosine c = inverse_of(m);
             float *k = inverse->value + 4 * (j * n + i), *e = norm->value + 3 * (j * n + i);
             k[0] = (float)c.inverse[0], k[1] = (float)c.inverse[3];
             k[2] = (float)c.inverse[1], k[3] = (float)c.inverse[4];
-            e[0] = (float)t.all, e[1] = (float)t.grazing, e[2] = (float)wrong;
-            norm->worst = fmax(norm->worst, wrong);
-            norm->mean += wrong / (double)(n * n);
+            e[0] = (float)t.sum.all, e[1] = (float)t.sum.grazing, e[2] = (float)t.wrong;
+            norm->worst = fmax(norm->worst, t.wrong);
+            norm->mean += t.wrong / (double)(n * n);
             if (progress_show((double)((n - 1 - i) * n + j) / (double)(n * n), "ltc", s->progress))
                 return 0;
         }

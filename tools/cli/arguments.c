@@ -59,6 +59,27 @@ int word_among(const char *command, const char *what, const char *word, const ch
     return -1;
 }
 
+size_t words_among(const char *command, const char *what, const char *list, const char *const *candidates,
+                   int *which)
+{
+    size_t count = 0;
+    for (const char *at = list;; at++) {
+        char word[32];
+        size_t letters = strcspn(at, ",");
+        snprintf(word, sizeof word, "%.*s", (int)(letters < sizeof word ? letters : sizeof word - 1), at);
+        int found = word_among(command, what, word, candidates);
+        if (found < 0)
+            return 0;
+        for (size_t k = 0; k < count; k++)
+            if (which[k] == found)
+                return complain(command, "%s: '%s' stands there twice", what, word), 0;
+        which[count++] = found;
+        at += letters;
+        if (!*at)
+            return count;
+    }
+}
+
 /* ---- options ------------------------------------------------------------------------------------- */
 
 int next_option(const char **at, option_term *term)

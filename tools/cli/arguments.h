@@ -63,6 +63,10 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
  * nearest. */
 int word_among(const char *command, const char *what, const char *word, const char *const *candidates);
 
+/* The same for a list between commas, each of them once, into which[]: how many, 0 after a complaint. */
+size_t words_among(const char *command, const char *what, const char *list, const char *const *candidates,
+                   int *which);
+
 /* "csv, md or json", with `before` in front of each; the candidates end with NULL. */
 enum { LISTED_LENGTH = 256 };
 void list_words(const char *const *candidates, const char *before, char listed[LISTED_LENGTH]);

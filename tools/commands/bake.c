@@ -6,6 +6,7 @@
 #include "cli/figures.h"
 #include "cli/files.h"
 #include "cli/output.h"
+#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "draw/svg.h"
@@ -39,37 +40,26 @@ static const char *const help[] = {
 
 static const char *const kinds[] = {"dfg", "energy", "ltc", "prefilter", NULL};
 
-/* Which of the candidates a list between commas names, a bit each; 0 after a complaint. All without a list. */
+/* Which of the candidates a list names, a bit each; 0 after a complaint. All without a list. */
 static unsigned listed(const arguments *given, const char *option, const char *const *candidates)
 {
-    const char *text = option_value(given, option);
+    const char *list = option_value(given, option);
+    int which[8];
     unsigned bits = 0;
-    if (!text)
+    if (!list)
         return ~0u;
-    for (;;) {
-        char word[32];
-        size_t length = strcspn(text, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(length < sizeof word ? length : sizeof word - 1), text);
-        int which = word_among(name, option, word, candidates);
-        if (which < 0)
-            return 0;
-        bits |= 1u << which;
-        text += length;
-        if (*text++ == '\0')
-            return bits;
-    }
+    for (size_t i = words_among(name, option, list, candidates, which); i-- > 0;)
+        bits |= 1u << which[i];
+    return bits;
 }
 
 /* The command as it was typed, for the files. */
 static void describe(const arguments *given, char *text, size_t size)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
-    size_t length = (size_t)snprintf(text, size, "%s %s", name, given->positional.item[0]);
-    for (int i = 0; options[i]; i++) {
-        const char *value = option_value(given, options[i]);
-        if (value && length < size)
-            length += (size_t)snprintf(text + length, size - length, " %s %s", options[i], value);
-    }
+    snprintf(text, size, "%s %s", name, given->positional.item[0]);
+    for (int i = 0; options[i]; i++)
+        source_text_add(given, options[i], text, size);
 }
 
 static int make(const bake_settings *s, unsigned what, const char *shape, baked_list *list)

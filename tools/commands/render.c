@@ -57,27 +57,20 @@ typedef struct render_work {
 static int read_samplers(const arguments *given, comparison *c)
 {
     const char *list = option_value(given, "--compare"), *one = option_value(given, "--sampler");
-    const char *what = list ? "--compare" : "--sampler", *at = list ? list : one ? one : "visible";
+    int sampler[SAMPLERS];
     if (list && one)
         return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
     if (option_value(given, "--equal") && !list)
         return complain(name, "--equal goes with --compare"), 0;
     c->has_equal_time = option_choice(given, "--equal", 0) == 0;
-    for (;; at++) {
-        char copy[32];
-        size_t letters = strcspn(at, ",");
-        snprintf(copy, sizeof copy, "%.*s", (int)(letters < sizeof copy ? letters : sizeof copy - 1), at);
-        int sampler = word_among(name, what, copy, path_sampler_names);
-        if (sampler < 0)
-            return 0;
-        for (size_t k = 0; k < c->count; k++)
-            if (c->way[k].sampler == (path_sampler)sampler)
-                return complain(name, "%s: '%s' stands there twice", what, copy), 0;
-        c->way[c->count++].sampler = (path_sampler)sampler;
-        at += letters;
-        if (!*at)
-            break;
-    }
+    if (list)
+        c->count = words_among(name, "--compare", list, path_sampler_names, sampler);
+    else
+        c->count = words_among(name, "--sampler", one ? one : "visible", path_sampler_names, sampler);
+    for (size_t k = 0; k < c->count; k++)
+        c->way[k].sampler = (path_sampler)sampler[k];
+    if (c->count == 0)
+        return 0;
     return !list == (c->count == 1) ||
            (complain(name, list ? "--compare takes two samplers at least" : "--sampler takes one; see --compare"),
             0);
