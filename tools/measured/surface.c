@@ -90,7 +90,7 @@ static int read_rows(data_file *file, height_field *made)
 
 static int read_image(data_file *file, image *made)
 {
-    image_error error = {""};
+    vndf_error error = {VNDF_OK, ""};
     if (image_read_bytes(made, file->name, file->bytes, file->size, &error))
         return 1;
     memcpy(file->refused, error.message, sizeof file->refused);
