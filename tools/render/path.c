@@ -284,9 +284,10 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error)
         vndf_description is = m->is;
         vndf_error why = {VNDF_OK, ""};
         is.effects.normals = sampler == SAMPLER_ALL ? VNDF_NORMALS_ALL : VNDF_NORMALS_VISIBLE;
-        if (m->kind == MATERIAL_ROUGH && vndf_material_resolve(&is, &materials[i], &why) != VNDF_OK)
-            good = refuse_at(error, m->name, 0, 0, "this material cannot have the sampler '%s': %s",
-                             path_sampler_names[sampler], why.message);
+        good = m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &materials[i], &why) == VNDF_OK;
+        if (!good)
+            snprintf(error->message, sizeof error->message, "material '%s' cannot have the sampler '%s': %.300s",
+                     m->name, path_sampler_names[sampler], why.message);
     }
     if (!good) {
         free(materials);
