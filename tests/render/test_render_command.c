@@ -61,7 +61,7 @@ int main(void)
     TEST(run_same("a.pfm", "b.pfm") && run_same("a.pfm", "c.pfm") && !run_same("a.pfm", "e.pfm"));
     test_refusals();
     TEST_HAS(RUN(0, "ball.scene", "--compare", "visible,all,perfect", "--spp", "32", "-o", "s.png")->text,
-             "\nperfect ");
+             " perfect ");
     const run_outcome *o =
         RUN(0, "ball.scene", "--compare", "visible,all", "--spp", "1", "--equal", "samples", "--json");
     static const char *const has[] = {"\"interrupted\": \"no\"", "\"samples\": 1,", "\"noise\": null",

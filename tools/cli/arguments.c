@@ -278,7 +278,7 @@ const char *option_alone(const arguments *given, const char *const *names)
         return one;
     list_words(names, "", known);
     if (other)
-        complain(given->command, "%s and %s are given; exactly one is needed of %s", one, other, known);
+        complain(given->command, "%s and %s are given; only one is possible of %s", one, other, known);
     else
         complain(given->command, "exactly one is needed of %s", known);
     return NULL;

@@ -32,7 +32,8 @@ static const char *const help[] = {
     "  --compare visible,all,perfect  renders by two samplers or three, and prints the noise of a pixel beside\n"
     "                  its light, the samples each needs for the noise of the first, its efficiency (one over\n"
     "                  squared noise and seconds), both without the worst thousandth of the pixels in brackets,\n"
-    "                  and whether all show the same; OUT has the pictures side by side, their noise below\n"
+    "                  and whether all show the same (unknown of fewer than 16 samples a pixel); OUT has the\n"
+    "                  pictures side by side, their noise below\n"
     "    --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
@@ -87,12 +88,12 @@ static int read_words(const arguments *given, render_work *w)
 
 /* ---- figures ---- */
 
-/* For people "1.32 +- 0.01 (1.29)", the last without fireflies; in JSON three numbers. */
+/* For people "1.32+-0.01 (1.29)", the last without fireflies; in JSON three numbers. */
 static void add_measured(text_table *t, const char *key, const measured *m, int has_json)
 {
     char text[64];
     if (!has_json) {
-        snprintf(text, sizeof text, "%.3g +- %.2g (%.3g)", m->value, m->spread, m->trimmed);
+        snprintf(text, sizeof text, "%.3g+-%.2g (%.3g)", m->value, m->spread, m->trimmed);
         table_figure(t, key, isfinite(m->value) ? text : "no variance");
         return;
     }
@@ -119,7 +120,7 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         table_number(&t, "noise", w->has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
         add_measured(&t, "samples_needed", &a->samples, w->has_json);
         add_measured(&t, "efficiency", &a->efficiency, w->has_json);
-        table_number(&t, "light_ratio", w->has_json ? "%.9g" : "%.5f", a->ratio);
+        table_number(&t, "light", w->has_json ? "%.9g" : "%.5f", a->ratio);
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
         if (w->has_json) {
             table_number(&t, "noise_trimmed", "%.9g", sqrt(a->noise.trimmed));
