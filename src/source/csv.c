@@ -16,7 +16,8 @@
  * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
  * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
  * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. A row of 0 at 90
- * degrees behind one that is not 0 stands for half of that half-way there; from there on k is at least 5, as for D ~ cos.
+ * degrees behind one that is not 0 stands for half of that half-way there; from there on k is at least 5, as for
+ * D ~ cos.
  *
  * The cubic is Steffen's (slopes by eq. 11 inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and
  * Astrophysics 239 (1990). Its first derivative is continuous, it never leaves the range of two neighbours, and it is

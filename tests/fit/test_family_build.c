@@ -1,5 +1,5 @@
-/* A family that is built is as far from the mixtures between its knots as it says: D of the mixture against the family's
- * formula, at many parameters, gives the same distances within a twentieth and what the tables add; they are about the
+/* A family that is built is as far from the mixtures between its knots as it says: D of the mixture against the
+ * family's formula, at many parameters, gives the same distances within a twentieth and what the tables add; they are about the
  * same between all knots, one knot less would not reach them, and the tables are those of vndf_build at the knots. What
  * is no family is refused by name. */
 #include "harness/constants.h"
@@ -65,7 +65,8 @@ static void test_scan(const vndf_family *family, density *f)
             grazing = fmax(grazing, d.grazing);
         }
         for (size_t k = i; k <= i + 1; k++)
-            tables = fmax(tables, vndf_distribution_info(vndf_family_distribution(family, k)).certificate.tv_above);
+            tables =
+                fmax(tables, vndf_distribution_info(vndf_family_distribution(family, k)).certificate.tv_above);
         TEST_NEAR(told, here, 0.05 * here + tables);
         TEST(told > 0.85 * (double)facts.distance);
         worst = fmax(worst, here);

@@ -1,5 +1,5 @@
-/* A formula has the value that C gives it, up to the limits of its length, depth and parameters; numbers are read and printed alike in every
- * locale; a callback is the function it was given. */
+/* A formula has the value that C gives it, up to the limits of its length, depth and parameters; numbers are read and
+ * printed alike in every locale; a callback is the function it was given. */
 #include <locale.h>
 #include <stdlib.h>
 

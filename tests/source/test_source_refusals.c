@@ -1,4 +1,4 @@
-/* What is no source is refused, in words that name the column of a formula or a family and what would be right there. */
+/* What is no source is refused, in words that name the column of a formula or a family, and what would be right. */
 #include "source/sources.h"
 
 /* Words of `vndf build`, and a part of the message. */
