@@ -45,7 +45,8 @@ static const refusal words[] = {
 
 static const refusal build[] = {
     {"exactly one is needed of --ndf", {"build", NONE}},
-    {"--slope and --family are given; only one is possible", {"build", "--slope", "exp(-r)", "--family", "ggx", NONE}},
+    {"--slope and --family are given; only one is possible",
+     {"build", "--slope", "exp(-r)", "--family", "ggx", NONE}},
     {"-o FILE is missing", {"build", "--slope", "exp(-r)"}},
     {"did you mean '--max-tv'?", {"build", "--slope", "exp(-r)", "--maxtv", "1e-3", NONE}},
     {"did you mean '--set a=0.3'?", {"build", "--slope", "exp(-a*r)", "-a", "0.3", NONE}},
