@@ -840,26 +840,24 @@ HERE mask is_ordinary(const block *b, int g)
     return both(both(less(largest, set(1e6f)), less(set(1e-9f), sum)), regular);
 }
 
-/* Reads a group of elements from copies, where those that are invalid have the unit matrix and a direction straight up.
- * Returns which were valid. */
-HERE mask make_valid(const block *b, int g, copies *c)
+/* Which elements of a group are valid. */
+HERE mask valid_at(const block *b, int g)
 {
-    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
     mask valid = affine_is_valid(map_at(b, g));
     if (b->plain)
         valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
     if (b->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                                                input(b, VNDF_READ_WI_Z, g)));
-    for (int r = 0; r < VNDF_READ_A; r++)
-        store(c->valid[r] + g * LANES, pick(valid, input(b, r, g), set(valid_one[r])));
     return valid;
 }
 
-/* Sets which elements are valid; if some are not, the block reads from copies. */
+/* Sets which elements are valid. If some are not, the block reads from copies, in which they have the unit matrix and a
+ * direction straight up. */
 HERE void set_valid(block *b, copies *c)
 {
-    mask ordinary = less(set(0.0f), set(1.0f));
+    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
+    mask ordinary = same(set_whole(0), 0);
     for (int g = 0; g < b->groups; g++) {
         b->valid[g] = is_ordinary(b, g);
         ordinary = both(ordinary, b->valid[g]);
@@ -867,9 +865,12 @@ HERE void set_valid(block *b, copies *c)
     if (all(ordinary))
         return;
     for (int g = 0; g < b->groups; g++)
-        b->valid[g] = make_valid(b, g, c);
-    for (int r = 0; r < VNDF_READ_A; r++)
+        b->valid[g] = valid_at(b, g);
+    for (int r = 0; r < VNDF_READ_A; r++) {
+        for (int g = 0; g < b->groups; g++)
+            store(c->valid[r] + g * LANES, pick(b->valid[g], input(b, r, g), set(valid_one[r])));
         b->read[r] = c->valid[r];
+    }
 }
 
 static void surfaces(const vndf_call *call)
