@@ -50,25 +50,17 @@ static const char *const help[] = {
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
-/* A list with commas, cut in `text`. */
-static int read_only(const arguments *given, export_document *document, char *text, size_t size)
+static int read_only(const arguments *given, export_document *document)
 {
-    size_t count = 0, n = 0;
-    const char *only = option_value(given, "--only");
-    snprintf(text, size, "%s", only ? only : "");
-    for (char *call = strtok(text, ","); call; call = strtok(NULL, ",")) {
-        for (n = 0; document_calls[n] && strcmp(document_calls[n], call) != 0; n++)
-            ;
-        if (!document_calls[n] || count + 1 >= EXPORT_CALLS)
-            return complain(
-                       name,
-                       "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area, mixture, family, "
-                       "bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
-                       call),
-                   0;
-        if (document_is_of_bsdf(call) && !document->effects.wanted)
-            return complain(name, "--only '%s' needs --bsdf", call), 0;
-        document->only[count++] = call;
+    const char *call = document->only = option_value(given, "--only");
+    for (size_t n; call && *call; call += n + (call[n] == ',')) {
+        const char *known = document_calls;
+        for (n = strcspn(call, ","); *known && !(strcspn(known, ",") == n && strncmp(known, call, n) == 0);)
+            known += strcspn(known, ",") + (known[strcspn(known, ",")] == ',');
+        if (!*known)
+            return complain(name, "--only '%.*s': %s are known", (int)n, call, document_calls), 0;
+        if (strncmp(call, "bsdf", 4) == 0 && !document->effects.wanted)
+            return complain(name, "--only '%.*s' needs --bsdf", (int)n, call), 0;
     }
     return 1;
 }
@@ -178,7 +170,6 @@ static int run(const arguments *given)
     const int is_brdf = option_value(given, "--rgl") != NULL;
     const char *wrong = option_among(given, is_brdf ? of_kernels : of_files);
     export_document document = {0};
-    char only[200];
     int status = STATUS_USE;
     if (wrong)
         return complain(name, is_brdf ? "%s is for kernels, not for --rgl" : "%s is for --rgl", wrong);
@@ -186,7 +177,7 @@ static int run(const arguments *given)
         return complain(name, "-o OUT is missing");
     if (is_brdf)
         return export_brdf(given);
-    if (read_settings(given, &document) && read_only(given, &document, only, sizeof only) &&
+    if (read_settings(given, &document) && read_only(given, &document) &&
         named_tables_open(name, &given->positional, 1, &document) && fits(&document))
         status = write_all(given, &document);
     named_tables_close(&document);

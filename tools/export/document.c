@@ -130,23 +130,24 @@ static const char bsdf_head[] =
     "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
     "// wo. Directions with z < 0 are on the other side of the surface.\n";
 
-static void put_all(FILE *to, const export_document *document, const char *text)
+static void put_all(const translation *t, const char *text)
 {
-    put_prefixed(&document->as, to, text, strlen(text));
+    put_prefixed(t, text, strlen(text));
 }
 
-static void put_head(FILE *to, const export_document *document)
+static void put_head(const translation *t, const export_document *document)
 {
+    FILE *to = t->file;
     fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
             document->as.to->title, VNDF_VERSION);
-    put_all(to, document, head);
+    put_all(t, head);
     for (size_t i = 0; i < document->tables; i++)
         put_table(to, document, &document->table[i]);
     if (document->effects.wanted) {
         char effects[200];
         effects_name(&document->effects, effects, sizeof effects);
         fprintf(to, "//\n// BSDF: %s.\n", effects);
-        put_all(to, document, bsdf_head);
+        put_all(t, bsdf_head);
     }
     fputs("\n", to);
 }
@@ -172,15 +173,18 @@ static int has_parts(const export_document *document, const char *mark)
 static void put_line(FILE *to, const export_document *document, const char *line, int *in)
 {
     static const char only[] = "/* only ";
-    const int length = (int)strcspn(line, "\n");
+    int length = (int)strcspn(line, "\n");
     const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
     int has = mark && mark < line + length ? has_parts(document, mark + sizeof only - 1) : -1;
     if (end && end < line + length)
         *in = 1;
     else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line))
         *in = has;
-    else if (*in && has != 0)
-        fprintf(to, "%.*s\n", has > 0 ? (int)(mark - line) : length, line);
+    else if (*in && has != 0) {
+        for (length = has > 0 ? (int)(mark - line) : length; length > 0 && line[length - 1] == ' '; length--)
+            ;
+        fprintf(to, "%.*s\n", length, line);
+    }
 }
 
 /* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
@@ -196,12 +200,10 @@ static char *whole_text(const export_document *document, const char *more, long 
     fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
         fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    fputs(" };\n\n", to);
-    for (size_t i = 0; document->embeds && i < document->count; i++) {
-        fputs(i ? ", " : "static const float VNDF_NUMBERS[] = {", to);
-        put_float(&document->as, to, (double)document->numbers[i]);
-    }
-    fputs(document->embeds && document->count ? "};\n\n" : "", to);
+    fprintf(to, " };\nstatic const float VNDF_NUMBERS[%zu] = {", document->count);
+    for (size_t i = 0; document->embeds && i < document->count; i++)
+        fprintf(to, "%s%.8e", i % 8 ? ", " : i ? ",\n    " : "", (double)document->numbers[i]);
+    fputs("};\n", to);
     for (const embedded_text *file = kernel_text; file->name; file++)
         for (const char *const *line = file->lines; *line; line++)
             put_line(to, document, *line, &in);
@@ -214,97 +216,65 @@ static char *whole_text(const export_document *document, const char *more, long 
     return NULL;
 }
 
-const char *const document_calls[EXPORT_CALLS] = {
-    "view", "sample",         "pdf",     "visible", "ndf",         "lambda",    "g1",
-    "g2",   "projected_area", "mixture", "family",  "bsdf_sample", "bsdf_eval", "bsdf_pdf"};
+const char document_calls[] = "view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family,"
+                              "bsdf_sample,bsdf_eval,bsdf_pdf";
 
-int document_is_of_bsdf(const char *call)
+/* Marks what is asked for; without --only the calls of normals, or in their place those of a BSDF. */
+static void want_all(translation *t, const export_document *document)
 {
-    return strncmp(call, "bsdf_", 5) == 0;
-}
-
-/* Of names with a blank between them. */
-static void want(const translation *t, kernel *from, const char *before, const char *names)
-{
-    for (char whole[80]; *names; names += strspn(names, " ")) {
-        const int length = (int)strcspn(names, " ");
-        const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%.*s", before, length, names), 0,
-                             0};
-        translation_want(t, from, &wanted);
-        names += length;
-    }
-}
-
-static void want_all(const export_document *document, const translation *t, kernel *from)
-{
+    const char *calls = document->only ? document->only : document_calls, *before = t->to->indents ? "" : "vndf_";
+    char name[80];
     int has_family = 0;
-    if (t->to
-            ->indents) { /* Python, whose arrays stand for many hits, has the kernel's functions without the face */
-        want(
-            t, from, "",
-            "frame_of frame_sampled frame_normal frame_density frame_reach ggx_see ggx_draw ggx_density ggx_area "
-            "ggx_p22 beckmann_see beckmann_draw beckmann_area beckmann_density beckmann_p22 table_view_of table_draw "
-            "table_pdf table_given table_p22 law_area");
-        return;
-    }
-    for (int i = 0; i < from->count && from->at[i].begin == 0; i++) /* the constants before the kernel */
-        translation_want(t, from, &from->word[from->at[i].name]);
     for (size_t i = 0; i < document->tables; i++)
         has_family |= document->table[i].family != NULL;
-    want(t, from, "VNDF_", document->embeds ? "NUMBERS" : "GGX");
-    want(t, from, "vndf_", "surface_of");
-    for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++) {
-        const int of_bsdf = document_is_of_bsdf(*call), of_family = strcmp(*call, "family") == 0;
-        if (!document->only[0] && (of_bsdf != document->effects.wanted || (of_family && !has_family)))
+    for (int i = 0; i < t->count && t->at[i].begin == 0 && *before; i++)
+        t->at[i].wanted = 1; /* constants before the kernel */
+    if (document->embeds && document->count)
+        translation_want(t, "VNDF_NUMBERS", 12);
+    if (*before)
+        translation_want(t, "vndf_surface_of", 15);
+    for (size_t length; *calls; calls += length + (calls[length] == ',')) {
+        length = strcspn(calls, ",");
+        const int of_bsdf = strncmp(calls, "bsdf_", 5) == 0, of_family = strncmp(calls, "family", 6) == 0;
+        if (!document->only && (of_bsdf != document->effects.wanted || (of_family && !has_family)))
             continue;
-        want(t, from, "vndf_", *call);
-        want(t, from, "vndf_",
-             of_bsdf                      ? "bsdf_of bsdf_cosine"
-             : of_family                  ? "family_at"
-             : strcmp(*call, "view") == 0 ? "view_of"
-             : strcmp(*call, "mixture") == 0
-                 ? "mixture_view_of mixture_pdf mixture_visible mixture_sample mixture_ndf"
-                 : "");
+        snprintf(name, sizeof name, "%s%.*s", before, (int)length, calls);
+        translation_want(t, name, strlen(name));
+        if (of_bsdf) {
+            translation_want(t, "vndf_bsdf_of", 12);
+            translation_want(t, "vndf_bsdf_cosine", 16);
+        }
     }
-}
-
-/* Only what stands behind the kernel. */
-static void want_more(const translation *t, kernel *from, const char *behind)
-{
-    int first = from->count;
-    while (first > 0 && from->word[from->at[first - 1].begin].text >= behind)
-        first--;
-    for (int i = first; i < from->count; i++)
-        translation_want(t, from, &from->word[from->at[i].name]);
-    for (int i = 0; i < first; i++)
-        from->at[i].wanted = 0;
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)
 {
-    translation as = document->as;
-    kernel from = {NULL, 0, 0, {{0}}};
+    translation as = document->as, *t = &as;
     long behind;
     char *whole = whole_text(document, more, &behind);
-    int good = whole && kernel_read(&from, whole), guarded = as.to->guarded && !more;
-    as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
-    if (good && more) {
-        want_more(&as, &from, whole + behind);
-    } else if (good) {
-        want_all(document, &as, &from);
-        if (as.to->indents)
+    const int good = whole && translation_read(t, whole), guarded = t->to->guarded && !more;
+    int first = 0;
+    t->file = to;
+    t->fetched = document->embeds ? "VNDF_NUMBERS[$1]" : t->to->fetched;
+    for (int i = t->count - 1; good && more && t->word[t->at[i].begin].text >= whole + behind; i--) {
+        translation_want(t, t->word[t->at[i].name].text, (size_t)t->word[t->at[i].name].length);
+        first = i;
+    }
+    if (good && !more) {
+        want_all(t, document);
+        if (t->to->indents)
             fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
         else
-            put_head(to, document);
-        put_all(to, document, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
-        put_all(to, document, as.to->begin);
-        fputs(*as.to->begin ? "\n" : "", to);
-        put_all(to, document, !document->embeds && as.to->bound && document->count ? as.to->bound : "");
+            put_head(t, document);
+        put_all(t, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
+        put_all(t, t->to->begin);
+        fputs(*t->to->begin ? "\n" : "", to);
+        put_all(t, !document->embeds && t->to->bound && document->count ? t->to->bound : "");
     }
     if (good)
-        translate(&as, to, &from);
+        translate(t, first);
     fputs(good && guarded ? "#endif\n" : "", to);
-    kernel_free(&from);
+    free(t->word);
     free(whole);
     return good;
 }

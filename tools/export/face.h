@@ -122,7 +122,7 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
-        if (view.below)
+        if (view.below != 0)
             n = table_unturned(view.ex, view.ey, n);
         density = table_pdf(view.t, seen_from, n, frame_reach(f), view.below);
     }
@@ -169,7 +169,7 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         weight = both_drawn.weight;
     }
     /* end */
-    const sampled s = frame_sampled(view.at, n);
+    const sampled_normal s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }

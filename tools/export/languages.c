@@ -8,10 +8,10 @@ static const char common_calls[] =
     "either: ($1 || $2); pick: ($1 ? $2 : $3); pick_whole: ($1 ? $2 : $3); root: sqrt($1); size: abs($1); "
     "to_real: float($1); to_whole: int($1); ";
 
-#define TYPED .typed = "$T $V"
+#define TYPED .typed = "$T $V", .several = "$T $V[$N]"
 #define PLAIN_STRUCTS .structs = "struct $D {", .structs_close = "};"
 #define TYPEDEF_STRUCTS .structs = "typedef struct $D {", .structs_close = "} $D;"
-#define C_CONSTANTS .constant = "enum { $D = $N };", .array_close = "};"
+#define C_CONSTANTS .constant = "enum { $D = $N };", .array_close = "\n};"
 #define BY_POINTER .fetched = "numbers[$1]"
 #define BOUND(how, declared)                                                                        \
   .fetched = "VNDF_FETCH($1)", .bound = "// Define VNDF_FETCH(i) before this to fetch number i "    \
@@ -35,7 +35,7 @@ static const char python_begin[] =
     "import struct\n\nimport drjit as dr\nimport mitsuba as mi\n\n\n"
     "class _Struct:\n    __slots__ = ()\n\n    def __init__(self, *values):\n"
     "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n"
-    "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"
+    "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__)) if isinstance(s, _Struct) else s\n\n\n"
     "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"
     "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"
     "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"
@@ -51,7 +51,7 @@ static const language languages[] = {
      .title = "C99",
      .function = "VNDF_FUNCTION $T $D($P) {",
      .begin = "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
-     .array = "static const float $D[$N] = {",
+     .array = "static const float $D[$N] = {\n    ",
      .pointer = "const float *",
      .types = "vec3: vndf_vec3; ",
      .calls =
@@ -67,7 +67,7 @@ static const language languages[] = {
      .title = "C++11",
      .function = "VNDF_FUNCTION $T $D($P) {",
      .begin = "#include <cmath>\n#include <cstring>\n" C_BEGIN,
-     .array = "static const float $D[$N] = {",
+     .array = "static const float $D[$N] = {\n    ",
      .pointer = "const float *",
      .types = "vec3: vndf_vec3; ",
      .calls = "root: std::sqrt($1); size: std::fabs($1); with_sign: std::copysign($1, $2); bits: vndf_bits($1); "
@@ -82,7 +82,7 @@ static const language languages[] = {
      .title = "CUDA",
      .function = "__device__ inline $T $D($P) {",
      .begin = "",
-     .array = "static __device__ const float $D[$N] = {",
+     .array = "static __device__ const float $D[$N] = {\n    ",
      .pointer = "const float *__restrict__ ",
      .types = "vec3: float3; ",
      .calls = "root: sqrtf($1); size: fabsf($1); with_sign: copysignf($1, $2); bits: __float_as_int($1); "
@@ -98,7 +98,7 @@ static const language languages[] = {
      .title = "OpenCL C 1.2",
      .function = "static inline $T $D($P) {",
      .begin = "",
-     .array = "__constant float $D[$N] = {",
+     .array = "__constant float $D[$N] = {\n    ",
      .pointer = "__global const float *",
      .most_embedded = 16384,
      .why = "OpenCL promises 64 KiB of constants",
@@ -115,8 +115,8 @@ static const language languages[] = {
      .function = "$T $D($P) {",
      .begin = "",
      .constant = "const int $D = $N;",
-     .array = "const float $D[$N] = float[$N](",
-     .array_close = ");",
+     .array = "const float $D[$N] = float[$N](\n    ",
+     .array_close = "\n);",
      BOUND(", as a texture", "layout(std430, binding = 0) readonly buffer vndf_buffer { float vndf_numbers[]; };"),
      .most_embedded = 4096,
      .why = "drivers copy a constant array that is read at an index into registers, or refuse it",
@@ -130,8 +130,8 @@ static const language languages[] = {
      .function = "$T $D($P) {",
      .begin = "",
      .constant = "static const int $D = $N;",
-     .array = "static const float $D[$N] = {",
-     .array_close = "};",
+     .array = "static const float $D[$N] = {\n    ",
+     .array_close = "\n};",
      BOUND("", "StructuredBuffer<float> vndf_numbers : register(t0);"),
      .most_embedded = 4096,
      .why = "a shader's constants end at 64 KiB, where each number takes 16 bytes",
@@ -143,6 +143,9 @@ static const language languages[] = {
     {.name = "wgsl",
      .title = "WGSL",
      .typed = "$V: $T",
+     .several = "$V: array<$T, $N>",
+     .given = "$V_in: $T",
+     .copied = "var $V = $V_in;",
      .apart = 1,
      .made_by_call = 1,
      .function = "fn $D($P) -> $T {",
@@ -150,8 +153,9 @@ static const language languages[] = {
      .structs_close = "}",
      .begin = "",
      .constant = "const $D: i32 = $N;",
-     .array = "var<private> $D: array<f32, $N> = array<f32, $N>(", /* naga copies constant ones at every fetch */
-     .array_close = ");",
+     .array =
+         "var<private> $D: array<f32, $N> = array<f32, $N>(\n    ", /* naga copies constant ones at every fetch */
+     .array_close = "\n);",
      .fetched = "vndf_numbers[$1]",
      .bound = "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n",
      .most_embedded = 2047,
@@ -163,7 +167,7 @@ static const language languages[] = {
      .title = "the Metal shading language",
      .function = "inline $T $D($P) {",
      .begin = "#include <metal_stdlib>\nusing namespace metal;\n",
-     .array = "constant float $D[$N] = {",
+     .array = "constant float $D[$N] = {\n    ",
      .pointer = "device const float *",
      .most_embedded = 16384,
      .why = "Metal has 64 KiB of constants",
@@ -178,14 +182,17 @@ static const language languages[] = {
     {.name = "python",
      .title = "Python, for Dr.Jit",
      .typed = "$V",
+     .given = "$V",
+     .copied = "$V = _copy($V)",
      .apart = 1,
      .made_by_call = 1,
      .indents = 1,
      .function = "def $D($P):",
-     .structs = "class $D(_Struct):",
+     .structs = "class $D(_Struct):\n    __slots__ = (",
+     .structs_close = ")",
      .begin = python_begin,
      .constant = "$D = $N",
-     .array = "$D = (",
+     .array = "$D = (\n    ",
      .array_close = ")",
      .fetched = "",
      .types = "",

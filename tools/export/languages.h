@@ -4,16 +4,16 @@
 
 #include <stddef.h>
 
-/* In patterns $T is a type, $V a variable's name, $D a declaration's name, $P its parameters and $N a number; in those
- * of `types` and `calls`, lists of "word: pattern; ", $1, $2 and $3 are arguments. vndf_ stands for the prefix. */
+/* In forms $T is a type, $V a variable's name, $D a declaration's name, $P its parameters and $N a number; in those of
+ * `types` and `calls`, lists of "word: form; ", $1, $2 and $3 are arguments. vndf_ stands for the prefix. */
 typedef struct language {
     const char *name, *title;
-    const char *typed; /* a variable, a parameter, a member */
+    const char *typed, *several; /* a variable, a parameter, a member; N of them */
+    const char *given, *copied;  /* a parameter that is assigned to, and its copy, where it must not be; or NULL */
     const char *function, *structs, *structs_close, *constant, *array, *array_close;
-    const char *zero; /* what a struct is before its members are set, where that must be said */
-    const char
-        *pointer;      /* type of the pointer to numbers, which is the first parameter of what fetches them; or */
-    const char *bound; /* declares the buffer of numbers that a host binds */
+    const char *zero;    /* what a struct is before its members are set, where that must be said */
+    const char *pointer; /* type of the pointer to numbers, the first parameter of what fetches them; or */
+    const char *bound;   /* declares the buffer of numbers that a host binds */
     const char *fetched; /* number $1 of either */
     const char *begin;   /* after the first comment */
     const char *types, *calls;
