@@ -21,8 +21,7 @@ static const char *const help[] = {
     "  -n N             the number of samples\n"
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines; OUT.f32: little-endian floats\n"
-    "                   wm.x wm.y wm.z pdf; -: stdout\n"
-    "  --format csv|f32  whatever OUT ends in (default, for -: csv)\n"
+    "                   wm.x wm.y wm.z pdf; -: the CSV on stdout\n"
     "\n"
     "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n"
     "         vndf sample ggx --theta 60 --matrix 0.5,0.2,-0.1,0.4 --mean 0.05,0 -n 1000 -o -\n",
@@ -74,7 +73,7 @@ static int run(const arguments *given)
     const char *path = option_value(given, "-o");
     if (!option_value(given, "-n") || !path)
         return complain(name, "%s is missing", path ? "-n N" : "-o OUT");
-    const int form = output_form(name, path, option_value(given, "--format"), forms);
+    const int form = output_form(name, path, forms);
     if (form < 0 || !option_count(given, "-n", 1, 1e12, &count) ||
         !option_count(given, "--seed", 0, 0x1p53, &seed) || !surface_open(&surface, given))
         return STATUS_USE;

@@ -218,7 +218,7 @@ static int write_temporary(const html_page *page, page_file *file, const char *f
     if (fwrite(file->text, 1, file->size, output->file) == file->size && fflush(output->file) == 0)
         return STATUS_GOOD;
     int reason = errno;
-    output_discard(output);
+    output_give_up(output, NULL);
     return complain(page->command, "cannot write '%s': %s", file->name, strerror(reason));
 }
 
@@ -237,6 +237,6 @@ int page_write(html_page *page, const char *folder)
     while (status == STATUS_GOOD && done < count)
         status = output_commit(&output[done++]);
     while (done < count)
-        output_discard(&output[done++]);
+        output_give_up(&output[done++], NULL);
     return status;
 }
