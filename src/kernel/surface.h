@@ -163,7 +163,7 @@ HERE sampled_normal frame_sampled(frame f, drawn n)
     }
     real per = reach * (1.0f / square);
     sampled_normal s = {w.x * per, w.y * per, w.z * per,
-                 frame_density(f, (n.density * reach) * (square / f.determinant))};
+                        frame_density(f, (n.density * reach) * (square / f.determinant))};
     return s;
 }
 

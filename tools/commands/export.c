@@ -53,14 +53,12 @@ static const char *const help[] = {
 static int read_only(const arguments *given, export_document *document)
 {
     const char *call = document->only = option_value(given, "--only");
-    for (size_t n; call && *call; call += n + (call[n] == ',')) {
-        const char *known = document_calls;
-        for (n = strcspn(call, ","); *known && !(strcspn(known, ",") == n && strncmp(known, call, n) == 0);)
-            known += strcspn(known, ",") + (known[strcspn(known, ",")] == ',');
-        if (!*known)
-            return complain(name, "--only '%.*s': %s are known", (int)n, call, document_calls), 0;
+    for (; call && *call; call += strcspn(call, ","), call += *call == ',') {
+        const int length = (int)strcspn(call, ",");
+        if (list_place(document_calls, call, (size_t)length) < 0)
+            return complain(name, "--only '%.*s': %s are known", length, call, document_calls), 0;
         if (strncmp(call, "bsdf", 4) == 0 && !document->effects.wanted)
-            return complain(name, "--only '%.*s' needs --bsdf", (int)n, call), 0;
+            return complain(name, "--only '%.*s' needs --bsdf", length, call), 0;
     }
     return 1;
 }
@@ -101,8 +99,8 @@ static int read_settings(const arguments *given, export_document *document)
     if (!option_count(given, "--lobes", 1, 8, &lobes))
         return 0;
     document->lobes = (long)lobes;
-    document->embeds = option_value(given, "--buffer") == NULL;
-    document->as.by_pointer = !document->embeds && document->as.to->pointer;
+    document->as.embeds = option_value(given, "--buffer") == NULL;
+    document->as.by_pointer = !document->as.embeds && !document->as.to->bound;
     if (effects && !effects_read(&document->effects, effects, why))
         return complain(name, "--bsdf %s", why), 0;
     return 1;
@@ -118,7 +116,7 @@ static int fits(const export_document *document)
         if (document->table[i].family && document->lobes < 2)
             return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
                    0;
-    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+    if (!document->as.embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     return complain(
                name,

@@ -29,7 +29,6 @@ typedef struct export_document {
     size_t tables, count; /* of tables; of all numbers */
     float *numbers;
     long lobes;
-    int embeds;
     unsigned kinds;
     export_effects effects;
     const char *only; /* calls that are wanted, with commas; NULL: all */
@@ -44,18 +43,15 @@ typedef struct embedded_text {
 /* Ended by a name NULL: the kernel, in the order in which it is read; the page of `vndf explore`. */
 extern const embedded_text kernel_text[], page_texts[];
 
-/* The calls that can be wanted, with commas: "view,sample,...", and those of a BSDF, "bsdf_sample,...". */
+/* The calls that can be wanted: "view, sample, ...", and those of a BSDF, "bsdf_sample, ...". */
 extern const char document_calls[];
 
-/* Adds a table or, where `distribution` is NULL, a family; 0 if its constant, named after the file, is none or another
- * one's. */
+/* Adds a table or, where `distribution` is NULL, a family, with its numbers; 0 if its constant, named after the file,
+ * is none or another one's, -1 if there is no memory. */
 int document_add(export_document *document, const char *file, vndf_distribution *distribution,
                  vndf_family *family);
 
-/* Fills in the numbers; 0 if there is no memory. */
-int document_fill(export_document *document);
-
-/* Writes the file; or what goes behind it, a text that calls the kernel, in the kernel's part of C. 0 if there is no
+/* Writes the file; or what goes behind it, a text in the kernel's part of C with a function `ask`. 0 if there is no
  * memory. */
 int document_write(const export_document *document, FILE *to, const char *more);
 

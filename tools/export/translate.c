@@ -8,19 +8,14 @@
 
 int translation_prefix(translation *t, const char *name)
 {
-    size_t n = strlen(name);
-    if (n == 0 || n > PREFIX_MAX || name[0] < 'a' || name[0] > 'z' || name[n - 1] == '_' || strstr(name, "__") ||
-        strcmp(name, "gl") == 0 || strncmp(name, "gl_", 3) == 0)
+    const size_t n = strlen(name);
+    if (n == 0 || n > PREFIX_MAX || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") < n || name[0] == '_' ||
+        isdigit((unsigned char)name[0]) || name[n - 1] == '_' || strstr(name, "__") || strcmp(name, "gl") == 0 ||
+        strncmp(name, "gl_", 3) == 0)
         return 0;
-    for (size_t i = 0; i < n; i++) {
-        int letter = name[i] >= 'a' && name[i] <= 'z', digit = name[i] >= '0' && name[i] <= '9';
-        if (!letter && !digit && name[i] != '_')
-            return 0;
-        t->lower[i] = name[i];
-        t->upper[i] = letter ? (char)(name[i] - 'a' + 'A') : name[i];
-    }
-    t->lower[n] = t->upper[n] = '_';
-    t->lower[n + 1] = t->upper[n + 1] = '\0';
+    snprintf(t->lower, sizeof t->lower, "%s_", name);
+    for (size_t i = 0; i <= n + 1; i++)
+        t->upper[i] = (char)toupper((unsigned char)t->lower[i]);
     return 1;
 }
 
@@ -55,15 +50,18 @@ static void put_declared(const translation *t, const declaration *d)
     put_prefixed(t, name->text, (size_t)name->length);
 }
 
+static int is_same(const translation *t, int a, int b)
+{
+    const word *v = &t->word[a], *w = &t->word[b];
+    return v->length == w->length && memcmp(v->text, w->text, (size_t)v->length) == 0;
+}
+
 static declaration *declared(translation *t, int name)
 {
-    const word *w = &t->word[name];
-    for (int i = 0; i < t->count && w->kind == WORD_NAME; i++) {
-        const word *own = &t->word[t->at[i].name];
-        if (own->length == w->length && memcmp(own->text, w->text, (size_t)w->length) == 0)
-            return &t->at[i];
-    }
-    return NULL;
+    int i = 0;
+    while (i < t->count && !is_same(t, t->at[i].name, name))
+        i++;
+    return i < t->count ? &t->at[i] : NULL;
 }
 
 static int is_struct(translation *t, int type)
@@ -75,34 +73,61 @@ static int is_struct(translation *t, int type)
 static void put_words(translation *t, int at, int end);
 static void put_parameters(translation *t, const declaration *d);
 
-/* A form of the language: for a type, a variable, a declaration. */
-static void put_form(translation *t, const char *form, const declaration *d, int type, int name)
+static void put_type(translation *t, int type)
 {
-    for (size_t plain; *form; form++) {
-        const word *w = &t->word[type];
-        int length;
-        plain = strcspn(form, "$");
-        put_prefixed(t, form, plain);
-        if (!*(form += plain))
-            break;
-        switch (*++form) {
-        case 'T': {
-            const char *own = language_type(t->to, w->text, w->length, &length);
-            if (own)
-                put_prefixed(t, own, (size_t)length);
-            else if (is_struct(t, type))
-                put_declared(t, declared(t, type));
-            else
-                put_name(t, w);
-            break;
-        }
+    const word *w = &t->word[type];
+    int length;
+    const char *own = language_word(t->to, w->text, w->length, ": ", &length);
+    if (own)
+        put_prefixed(t, own, (size_t)length);
+    else if (is_struct(t, type))
+        put_declared(t, declared(t, type));
+    else
+        put_name(t, w);
+}
+
+/* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
+static void put_argument(translation *t, int call, int i, const char *signs)
+{
+    const int close = t->word[call + 1].other;
+    int at = call + 2, end, brackets = 0;
+    for (; i > 0; i--)
+        at = word_find(t, at, close, ",") + 1;
+    end = word_find(t, at, close, ",");
+    for (int sign = at; sign<end; sign = t->word[sign].other> sign ? t->word[sign].other + 1 : sign + 1)
+        brackets |= t->word[sign].kind == WORD_SIGN && strchr(signs, *t->word[sign].text);
+    fputs(brackets ? "(" : "", t->file);
+    put_words(t, at, end);
+    fputs(brackets ? ")" : "", t->file);
+}
+
+/* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
+static void put_own(translation *t, const char *own, int length, const declaration *d, int type, int name)
+{
+    for (const char *at = own, *end = own + length, *plain; at < end; at++) {
+        for (plain = at; at < end && *at != '$'; at++)
+            ;
+        put_prefixed(t, plain, (size_t)(at - plain));
+        switch (at < end ? *++at : ' ') {
+        case ' ': break;
+        case 'T': put_type(t, type); break;
         case 'V': put_name(t, &t->word[name]); break;
         case 'D': put_declared(t, d); break;
         case 'P': put_parameters(t, d); break;
         case 'N': put_words(t, name + 2, d && d->kind == CONSTANT ? d->end : name + 3); break;
-        default: break;
+        default: put_argument(t, name, *at - '1', length == 2 ? "+-*/&|<>" : "&|<>");
         }
     }
+}
+
+/* 0 if the language has no such form. */
+static int put_form(translation *t, const char *form, const declaration *d, int type, int name)
+{
+    int length;
+    const char *own = language_word(t->to, form, (int)strlen(form), ": ", &length);
+    if (own)
+        put_own(t, own, length, d, type, name);
+    return own != NULL;
 }
 
 /* ---- expressions --------------------------------------------------------------------------------- */
@@ -114,64 +139,40 @@ static void put_number(const translation *t, const word *number)
     const int is_hex = length > 1 && number->text[1] == 'x', is_float = !is_hex && number->text[length - 1] == 'f';
     char text[40];
     if (is_float || !memchr(number->text, is_hex ? 'p' : '.', length)) {
-        fprintf(t->file, "%.*s", number->length - (t->to->indents && is_float), number->text);
+        fprintf(t->file, "%.*s", number->length - (t->indents && is_float), number->text);
         return;
     }
     snprintf(text, sizeof text, "%.9g", strtod(number->text, NULL));
-    fprintf(t->file, "%s%s%s", text, strpbrk(text, ".en") ? "" : ".0", t->to->indents ? "" : "f");
+    fprintf(t->file, "%s%s%s", text, strpbrk(text, ".en") ? "" : ".0", t->indents ? "" : "f");
 }
 
-/* Whether one of the signs stands outside of brackets. */
-static int has_sign(const translation *t, int at, int end, const char *signs)
+/* What the language has for a call, *length characters, or NULL. */
+static const char *own_call(const translation *t, int name, int *length)
 {
-    for (; at<end; at = t->word[at].other> at ? t->word[at].other + 1 : at + 1)
-        if (t->word[at].kind == WORD_SIGN && strchr(signs, *t->word[at].text))
-            return 1;
-    return 0;
-}
-
-/* A pattern of *length characters for a call, or NULL. */
-static const char *pattern_of(const translation *t, int name, int *length)
-{
-    if (!word_is(&t->word[name], "fetch"))
-        return language_call(t->to, t->word[name].text, t->word[name].length, length);
-    *length = (int)strlen(t->fetched);
-    return t->fetched;
+    const word *w = &t->word[name];
+    const int embedded = t->embeds && word_is(w, "fetch");
+    *length = 16;
+    return embedded ? "VNDF_NUMBERS[$1]" : language_word(t->to, w->text, w->length, " = ", length);
 }
 
 /* A name before its brackets; returns what follows them. */
 static int put_call(translation *t, int name)
 {
-    int length, close = t->word[name + 1].other;
-    const char *pattern = pattern_of(t, name, &length), *weak = length == 2 ? "+-*/&|<>" : "&|<>";
+    const int close = t->word[name + 1].other;
     const declaration *d = declared(t, name);
-    if (!pattern) {
-        if (d && d->kind == FUNCTION)
-            put_declared(t, d);
-        else
-            put_name(t, &t->word[name]);
-        fputs(!d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
-        put_words(t, name + 2, close);
-        fputs(")", t->file);
+    int length;
+    const char *own = own_call(t, name, &length);
+    if (own) {
+        put_own(t, own, length, NULL, 0, name);
         return close + 1;
     }
-    for (int i = 0; i < length; i++) {
-        if (pattern[i] != '$') {
-            int n = (int)strcspn(pattern + i, "$");
-            n = n < length - i ? n : length - i;
-            put_prefixed(t, pattern + i, (size_t)n);
-            i += n - 1;
-            continue;
-        }
-        int at = name + 2, end;
-        for (int skip = pattern[++i] - '1'; skip > 0; skip--)
-            at = word_find(t, at, close, ",") + 1;
-        end = word_find(t, at, close, ",");
-        int brackets = has_sign(t, at, end, weak);
-        fputs(brackets ? "(" : "", t->file);
-        put_words(t, at, end);
-        fputs(brackets ? ")" : "", t->file);
-    }
+    if (d && d->kind == FUNCTION)
+        put_declared(t, d);
+    else
+        put_name(t, &t->word[name]);
+    fputs(!d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
+    put_words(t, name + 2, close);
+    fputs(")", t->file);
     return close + 1;
 }
 
@@ -179,9 +180,9 @@ static int put_call(translation *t, int name)
 static void put_gap(const translation *t, int at)
 {
     const char *end = t->word[at].text, *from = end - t->word[at].gap;
-    if (t->to->indents)
+    if (t->indents)
         fputs(from < end ? " " : "", t->file);
-    for (const char *next; from < end && !t->to->indents; from = next) {
+    for (const char *next; from < end && !t->indents; from = next) {
         next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
         put_prefixed(t, from, *from == '#' ? 0 : (size_t)(next - from));
     }
@@ -200,10 +201,10 @@ static int put_word(translation *t, int at)
             put_declared(t, d);
         else
             put_name(t, w);
-    } else if (t->to->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
+    } else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
                !memchr(w[1].text, '.', (size_t)w[1].length)) {
         fputs("//", t->file); /* of whole numbers */
-    } else if (t->to->indents && word_is(w, "&&")) {
+    } else if (t->indents && word_is(w, "&&")) {
         fputs("and", t->file);
     } else {
         put_name(t, w);
@@ -233,17 +234,15 @@ static int indent_of(const translation *t, int at)
     return (int)strspn(line, " ");
 }
 
-/* Whether the words of a function assign to the name, which begins a statement then, or to a part of it. */
+/* Whether a function assigns to the name, or to a part of it: what stands before a "=" and is no declaration. */
 static int is_assigned(const translation *t, const declaration *d, int name)
 {
-    const word *own = &t->word[name];
-    for (int at = t->word[d->inner].other + 2; at < d->end; at++) {
-        const word *w = &t->word[at];
-        int block = word_is(w - 1, "{") && (word_is(w - 2, ")") || word_is(w - 2, "else"));
-        int begins = block || strchr(";})", *w[-1].text) || word_is(w - 1, "else"),
-            sets = strchr("=.[", *w[1].text) != NULL;
-        if (begins && sets && w[1].length == 1 && w->length == own->length &&
-            memcmp(w->text, own->text, (size_t)w->length) == 0)
+    for (int at = t->word[d->inner].other + 2, from; at < d->end; at++) {
+        if (!word_is(&t->word[at], "="))
+            continue;
+        for (from = at - 1; word_is(&t->word[from - 1], ".") || word_is(&t->word[from], "]");)
+            from = word_is(&t->word[from], "]") ? t->word[from].other - 1 : from - 2;
+        if (is_same(t, from, name) && (t->word[from - 1].kind != WORD_NAME || word_is(&t->word[from - 1], "else")))
             return 1;
     }
     return 0;
@@ -252,40 +251,44 @@ static int is_assigned(const translation *t, const declaration *d, int name)
 /* Python binds names to one struct where C copies it. */
 static void put_value(translation *t, int type, int at, int end)
 {
-    const int made = word_is(&t->word[at], "{"), call = made && t->to->made_by_call;
-    const int copied = t->to->indents && !made && is_struct(t, type) && !has_sign(t, at, end, "(");
-    if (call)
-        put_form(t, "$T", NULL, type, 0);
-    fputs(call ? "(" : made ? "{" : copied ? "_copy(" : "", t->file);
+    const int made = word_is(&t->word[at], "{");
+    const int copied = t->indents && !made && is_struct(t, type) && word_find(t, at, end, "(") == end;
+    if (made)
+        put_form(t, "MAKE", NULL, type, 0);
+    fputs(copied ? "_copy(" : "", t->file);
     put_words(t, at + made, end - made);
-    fputs(call || copied ? ")" : made ? "}" : "", t->file);
+    fputs(copied ? ")" : "", t->file);
+    if (made)
+        put_form(t, "MADE", NULL, 0, 0);
 }
 
 /* type a = x, b, c[N] to before `end`: variables, or members of a struct. */
 static void put_variables(translation *t, int type, int end, int members)
 {
-    const language *to = t->to;
+    int length;
+    const int zero = !members && is_struct(t, type) && language_word(t->to, "ZERO", 4, ": ", &length);
     for (int name = type + 1, stop; name < end; name = stop + 1) {
-        const int first = name == type + 1, equals = word_is(&t->word[name + 1], "=");
+        const int first = name == type + 1;
         stop = word_find(t, name, end, ",");
-        if (!first && to->apart) {
-            fprintf(t->file, "%s\n%*s", members ? "," : to->indents ? "" : ";", indent_of(t, type), "");
+        if (!first && t->apart) {
+            fprintf(t->file, "%s\n%*s", members ? "," : t->indents ? "" : ";", indent_of(t, type), "");
         } else if (!first) {
             fputs(",", t->file);
             put_gap(t, name);
         }
-        fputs(to->apart && !to->indents && !members ? "var " : "", t->file);
-        put_form(t,
-                 word_is(&t->word[name + 1], "[") ? to->several
-                 : first || to->apart             ? to->typed
-                                                  : "$V",
-                 NULL, type, name);
-        if (equals) {
+        fputs(t->apart && !t->indents && !members ? "var " : "", t->file);
+        if (first || t->apart)
+            put_form(t, word_is(&t->word[name + 1], "[") ? "SEVERAL" : "TYPED", NULL, type, name);
+        else
+            put_name(t, &t->word[name]);
+        if (word_is(&t->word[name + 1], "=")) {
             fputs(" = ", t->file);
             put_value(t, type, name + 2, stop);
-        } else if (!members && (to->indents || (to->zero && is_struct(t, type)))) {
+        } else if (zero) {
             fputs(" = ", t->file);
-            put_form(t, is_struct(t, type) ? to->zero : "0", NULL, type, 0);
+            put_form(t, "ZERO", NULL, type, 0);
+        } else if (!members && t->indents) {
+            fputs(" = 0", t->file);
         }
     }
 }
@@ -294,16 +297,16 @@ static void put_variables(translation *t, int type, int end, int members)
 static int put_governed(translation *t, int head, int at)
 {
     const int is_block = word_is(&t->word[at], "{"), close = is_block ? t->word[at].other : 0;
-    fputs(t->to->indents ? ":" : " {", t->file);
+    fputs(t->indents ? ":" : " {", t->file);
     for (at += is_block; is_block && at < close;)
         at = put_statement(t, at);
     if (!is_block)
         at = put_statement(t, at);
-    if (!t->to->indents && is_block)
+    if (!t->indents && is_block)
         put_gap(t, close);
-    else if (!t->to->indents)
+    else if (!t->indents)
         fprintf(t->file, "\n%*s", indent_of(t, head), "");
-    fputs(t->to->indents ? "" : "}", t->file);
+    fputs(t->indents ? "" : "}", t->file);
     return at + is_block;
 }
 
@@ -312,9 +315,9 @@ static void put_condition(translation *t, int at, int end)
 {
     const word *w = &t->word[at];
     int length, whole = word_is(w, "any") && w[1].other == end - 1 && word_is(w + 3, "(") && w[3].other == end - 2;
-    const char *pattern = whole ? pattern_of(t, at + 2, &length) : NULL;
+    const char *own = whole ? own_call(t, at + 2, &length) : NULL;
     const int is_not = word_is(w, "!") && at + 2 == end, is_name = at + 1 == end || is_not;
-    if (pattern && *pattern == '(' && !t->to->indents) {
+    if (own && *own == '(' && !t->indents) {
         put_call(t, at + 2);
         return;
     }
@@ -325,7 +328,7 @@ static void put_condition(translation *t, int at, int end)
 
 static int put_if(translation *t, int at)
 {
-    const int close = t->word[at + 1].other, indents = t->to->indents;
+    const int close = t->word[at + 1].other, indents = t->indents;
     fputs("if ", t->file);
     put_condition(t, at + 2, close);
     const int next = put_governed(t, at, close + 1);
@@ -347,10 +350,10 @@ static int put_for(translation *t, int at)
     const int close = t->word[at + 1].other, first = word_find(t, at + 2, close, ";"),
               second = word_find(t, first + 1, close, ";");
     const declaration *end = declared(t, first + 3);
-    if (end && end->kind == CONSTANT && t->to->unroll)
-        fprintf(t->file, "%s\n%*s", t->to->unroll, indent_of(t, at), "");
-    if (t->to->indents) {
-        put_form(t, "for $V in range(", NULL, 0, at + 3);
+    if (end && end->kind == CONSTANT && t->to->is & LANGUAGE_UNROLLS)
+        fprintf(t->file, "#pragma unroll\n%*s", indent_of(t, at), "");
+    if (t->indents) {
+        put_own(t, "for $V in range(", 16, NULL, 0, at + 3);
         put_words(t, at + 5, first);
         fputs(", ", t->file);
         put_words(t, first + 3, second);
@@ -369,7 +372,7 @@ static int put_for(translation *t, int at)
 /* Returns what follows. */
 static int put_statement(translation *t, int at)
 {
-    if (t->to->indents)
+    if (t->indents)
         fprintf(t->file, "\n%*s", indent_of(t, at), "");
     else
         put_gap(t, at);
@@ -383,7 +386,7 @@ static int put_statement(translation *t, int at)
         put_variables(t, at, end, 0);
     else
         put_words(t, at, end);
-    fputs(t->to->indents ? "" : ";", t->file);
+    fputs(t->indents ? "" : ";", t->file);
     return end + 1;
 }
 
@@ -392,11 +395,14 @@ static int put_statement(translation *t, int at)
 static void put_parameters(translation *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    if (d->fetches && t->by_pointer)
-        fprintf(t->file, "%snumbers%s", t->to->pointer, close > d->inner + 2 ? ", " : "");
+    if (d->fetches && t->by_pointer) {
+        put_form(t, "POINTER", NULL, 0, 0);
+        fputs(close > d->inner + 2 ? "numbers, " : "numbers", t->file);
+    }
     for (int at = d->inner + 1; at + 1 < close; at++) {
         at += word_is(&t->word[at], "const");
-        put_form(t, t->to->copied && is_assigned(t, d, at + 1) ? t->to->given : t->to->typed, NULL, at, at + 1);
+        if (!is_assigned(t, d, at + 1) || !put_form(t, "GIVEN", NULL, at, at + 1))
+            put_form(t, "TYPED", NULL, at, at + 1);
         at = word_find(t, at, close, ",");
         fputs(at < close ? ", " : "", t->file);
     }
@@ -405,15 +411,17 @@ static void put_parameters(translation *t, const declaration *d)
 static void put_function(translation *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    put_form(t, t->to->function, d, d->type, 0);
-    for (int at = d->inner + 1; at + 1 < close && t->to->copied; at = word_find(t, at, close, ",") + 1)
-        if (is_assigned(t, d, word_find(t, at, close, ",") - 1)) {
+    put_form(t, "FUNCTION", d, d->type, 0);
+    for (int at = d->inner + 1, end; at + 1 < close && t->apart; at = end + 1) {
+        end = word_find(t, at, close, ",");
+        if (is_assigned(t, d, end - 1)) {
             fputs("\n    ", t->file);
-            put_form(t, t->to->copied, NULL, 0, word_find(t, at, close, ",") - 1);
+            put_form(t, "COPY", NULL, 0, end - 1);
         }
+    }
     for (int at = close + 2; at < d->end - 1;)
         at = put_statement(t, at);
-    if (t->to->indents)
+    if (t->indents)
         return;
     put_gap(t, d->end - 1);
     fputs("}", t->file);
@@ -422,20 +430,20 @@ static void put_function(translation *t, const declaration *d)
 static void put_struct(translation *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    put_form(t, t->to->structs, d, 0, 0);
+    put_form(t, "STRUCT", d, 0, 0);
     for (int at = d->inner + 1, end; at < close; at = end + 1) {
         end = word_find(t, at, close, ";");
-        for (int name = at + 1; name < end && t->to->indents; name = word_find(t, name, end, ",") + 1)
-            put_form(t, "\"$V\", ", NULL, 0, name);
-        if (t->to->indents)
+        for (int name = at + 1; name < end && t->indents; name = word_find(t, name, end, ",") + 1)
+            put_own(t, "\"$V\", ", 6, NULL, 0, name);
+        if (t->indents)
             continue;
         put_gap(t, at);
         put_variables(t, at, end, 1);
-        fputs(t->to->apart ? "," : ";", t->file);
+        fputs(t->apart ? "," : ";", t->file);
     }
-    if (!t->to->indents)
+    if (!t->indents)
         put_gap(t, close);
-    put_form(t, t->to->structs_close, d, 0, 0);
+    put_form(t, "STRUCT_END", d, 0, 0);
 }
 
 /* The comment that ends on the line before. */
@@ -443,7 +451,7 @@ static void put_comment_before(const translation *t, const declaration *d)
 {
     const word *first = &t->word[d->begin];
     const char *comment = NULL;
-    if (first->gap < 5 || strncmp(first->text - 4, " */\n", 4) != 0 || t->to->indents)
+    if (first->gap < 5 || strncmp(first->text - 4, " */\n", 4) != 0 || t->indents)
         return;
     for (const char *at = first->text - first->gap; at < first->text; at++)
         comment = strncmp(at, "/*", 2) == 0 ? at : comment;
@@ -458,16 +466,16 @@ static void want(translation *t, declaration *d)
     for (int i = d->kind == CONSTANT ? d->end : d->begin, length; i < d->end; i++) {
         declaration *of = word_is(&t->word[i - (i > 0)], ".") ? NULL : declared(t, i);
         d->fetches |= word_is(&t->word[i], "fetch");
-        if (!of || of == d || (of->kind == FUNCTION && !word_is(&t->word[i + 1], "(")) ||
-            pattern_of(t, i, &length))
+        if (!of || of == d || (of->kind == FUNCTION && !word_is(&t->word[i + 1], "(")) || own_call(t, i, &length))
             continue;
         want(t, of);
         d->fetches |= of->fetches;
     }
 }
 
-void translation_want(translation *t, const char *name, size_t length)
+void translation_want(translation *t, const char *name)
 {
+    const size_t length = strlen(name);
     for (int i = 0; i < t->count; i++) {
         const word *own = &t->word[t->at[i].name];
         if (strncmp(own->text, name, length) == 0 && ((size_t)own->length == length || own->text[length] == '_'))
@@ -490,11 +498,11 @@ void translate(translation *t, int first)
         } else if (d->kind == STRUCT) {
             put_struct(t, d);
         } else if (d->kind == ARRAY) {
-            put_form(t, t->to->array, d, 0, d->name);
+            put_form(t, "ARRAY", d, 0, d->name);
             put_words(t, d->inner + 1, t->word[d->inner].other);
-            fputs(t->to->array_close, t->file);
+            put_form(t, "ARRAY_END", d, 0, 0);
         } else {
-            put_form(t, t->to->constant, d, 0, d->name);
+            put_form(t, "CONSTANT", d, 0, d->name);
         }
         fputs(in_constants ? "\n" : "\n\n", t->file);
     }

@@ -39,8 +39,9 @@ enum { PREFIX_MAX = 32, DECLARATIONS_MAX = 1024 };
 typedef struct translation {
     const language *to;
     char lower[PREFIX_MAX + 2], upper[PREFIX_MAX + 2]; /* what stands for vndf_ and VNDF_ */
-    const char *fetched;                               /* number $1 */
-    int by_pointer;                                    /* numbers are the first parameter of what fetches them */
+    int embeds;                                        /* numbers are an array */
+    int by_pointer;                                    /* or the first parameter of what fetches them */
+    int apart, indents;                                /* of the language */
     FILE *file;
     word *word; /* of the text */
     int words, count;
@@ -58,7 +59,7 @@ void put_prefixed(const translation *t, const char *from, size_t length);
 int translation_read(translation *t, const char *source);
 
 /* Marks the declarations whose name is this one, or begins with it and a '_', and what they need. */
-void translation_want(translation *t, const char *name, size_t length);
+void translation_want(translation *t, const char *name);
 
 /* Writes what is marked of the declarations from that one on to t->file. */
 void translate(translation *t, int first);

@@ -89,6 +89,8 @@ int translation_read(translation *t, const char *source)
 {
     int open[32], depth = 0, room = 0, at = 0;
     t->words = t->count = 0;
+    t->apart = (t->to->is & LANGUAGE_APART) != 0;
+    t->indents = (t->to->is & LANGUAGE_INDENTS) != 0;
     do {
         if (t->words == room) {
             word *more = realloc(t->word, (size_t)(room = 2 * room + 4096) * sizeof *more);
