@@ -64,7 +64,7 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
 {
     char title[512];
     snprintf(title, sizeof title, "Tables of %s", subject);
-    if (!page_begin(page, name, title))
+    if (!page_begin(page, title))
         return 0;
     fputs("<p class=\"lead\">Made by <code>", page->html);
     svg_escape(page->html, made_by);
@@ -77,7 +77,8 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
         if (!bake_file(page, &list->table[i], BAKE_PICTURE, made_by))
             return 0;
     }
-    return page_end(page);
+    page_end(page);
+    return 1;
 }
 
 static void print(const arguments *given, const baked_list *list, const char *folder)
@@ -105,7 +106,9 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     const char *folder = given->positional.item[1], *shape = option_value(given, "--shape");
     char made_by[1024];
     baked_list list = {.count = 0};
-    html_page page = {.count = 0};
+    html_page page;
+    if (!page_open(&page, name, folder))
+        return STATUS_USE;
     progress p = progress_begin(name, option_value(given, "-q") != NULL);
     s->progress = &p;
     snprintf(made_by, sizeof made_by, "%s %s", name, given->positional.item[0]);
@@ -115,12 +118,10 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
                  : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
                                              : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
-    if (status == STATUS_GOOD)
-        status =
-            write_page(&page, &list, listed(given, "--format"), made_by, input_name(given->positional.item[0]))
-                ? page_write(&page, folder)
-                : complain(name, "no memory for the files");
-    page_free(&page);
+    if (status == STATUS_GOOD &&
+        !write_page(&page, &list, listed(given, "--format"), made_by, input_name(given->positional.item[0])))
+        status = STATUS_USE;
+    status = page_close(&page, status);
     if (status == STATUS_GOOD)
         print(given, &list, folder);
     baked_free(&list);
@@ -129,7 +130,6 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
 
 static int run(const arguments *given)
 {
-    const char *folder = given->positional.item[1];
     unsigned long long size = 64;
     chosen_distribution chosen;
     if (!option_count(given, "--size", 4, 256, &size) ||
@@ -140,12 +140,7 @@ static int run(const arguments *given)
                        .masking = option_choice(given, "--masking", 0) ? VNDF_MASKING_SEPARABLE
                                                                        : VNDF_MASKING_HEIGHT_CORRELATED,
                        .size = (size_t)size};
-    output_hold_signals();
-    page_place place = page_examine(name, folder);
-    int status = place == PAGE_REFUSED ? STATUS_USE : bake(given, &s, listed(given, "--what"));
-    if (status != STATUS_GOOD && place == PAGE_NEW)
-        remove(folder);
-    output_release_signals();
+    int status = bake(given, &s, listed(given, "--what"));
     distribution_close(&chosen);
     return status;
 }

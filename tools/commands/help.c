@@ -80,31 +80,29 @@ void command_help_text(const subcommand *of, char text[HELP_MAX])
     memcpy(last, every, length);
 }
 
-/* `bench effects` is two words. */
+/* `bench effects` is two words, which are looked for first. */
 const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used)
 {
-    const char *names[WORDS_MAX] = {"--help", "--version"};
-    const subcommand *found = NULL;
-    char two[128] = "";
+    const char *names[WORDS_MAX] = {"--help", "--version"}, *hint = NULL, *word = NULL;
+    char two[128];
     size_t count = 2;
-    if (argc > 1)
-        snprintf(two, sizeof two, "%.60s %.60s", argv[0], argv[1]);
-    for (const subcommand *const *c = subcommands; *c; c++) {
-        const char *its = names[count++] = (*c)->name + strlen("vndf ");
-        if (strcmp(its, two) == 0 || (strcmp(its, argv[0]) == 0 && !found)) {
-            found = *c;
-            *used = 1 + (strcmp(its, two) == 0);
-        }
+    for (const subcommand *const *c = subcommands; *c; c++)
+        names[count++] = (*c)->name + strlen("vndf ");
+    snprintf(two, sizeof two, "%.60s %.60s", argv[0], argc > 1 ? argv[1] : "");
+    for (*used = argc > 1 ? 2 : 1; *used > 0 && !hint; --*used) {
+        word = *used == 2 ? two : argv[0];
+        for (const subcommand *const *c = subcommands; *c; c++)
+            if (strcmp((*c)->name + strlen("vndf "), word) == 0)
+                return *c;
+        hint = nearest_word(word, names, count);
+        hint = hint && *used == 2 && !strchr(hint, ' ') ? NULL : hint;
     }
-    const char *hint = nearest_word(found ? two : argv[0], names, count);
-    if (found && (*used == 2 || !hint || !strchr(hint, ' ')))
-        return found;
     if (hint)
-        complain(who, "there is no command '%s'; did you mean '%s'?", found ? two : argv[0], hint);
-    else if (strchr(argv[0], '.'))
-        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", argv[0], argv[0]);
+        complain(who, "there is no command '%s'; did you mean '%s'?", word, hint);
+    else if (strchr(word, '.'))
+        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", word, word);
     else
-        complain(who, "there is no command '%s'; `vndf --help` lists them", argv[0]);
+        complain(who, "there is no command '%s'; `vndf --help` lists them", word);
     return NULL;
 }
 

@@ -215,9 +215,7 @@ static int render(render_work *w, const scene *s)
     const int is_whole = render_ways(&w->ways, s, w->is_quiet);
     int status = STATUS_USE;
     if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
-        const char *why = !output_stopping() ? "no memory for the films"
-                          : compares         ? "interrupted; nothing was written"
-                                             : "interrupted before every pixel had a sample";
+        const char *why = output_stopping() ? "interrupted; nothing was written" : "no memory for the films";
         status = w->output ? output_give_up(&output, why) : complain(name, "%s", why);
     } else {
         status = w->output && !output.path ? STATUS_GOOD : tell(w, is_whole);
@@ -232,20 +230,20 @@ static int render(render_work *w, const scene *s)
 
 static int render_scene(render_work *w, scene *s)
 {
-    char message[640];
+    vndf_error error;
     comparison *c = &w->ways;
-    if (w->width && !scene_resize(s, (int)w->width, message, sizeof message))
-        return complain(name, "--width: %s", message);
+    if (w->width && !scene_resize(s, (int)w->width, &error))
+        return complain(name, "%s", error.message);
     c->run.samples = w->spp ? w->spp : s->samples;
     for (size_t i = 0; i < c->count; i++)
-        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
-            return complain(name, "%s", message);
+        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, &error)))
+            return complain(name, "%s", error.message);
     return render(w, s);
 }
 
 static int run(const arguments *given)
 {
-    char message[1024];
+    vndf_error error;
     render_work w;
     if (option_value(given, "--grammar"))
         return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
@@ -253,9 +251,9 @@ static int run(const arguments *given)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0], message, sizeof message);
+    scene *s = scene_read(given->positional.item[0], &error);
     if (!s)
-        return complain(name, "%s", message);
+        return complain(name, "%s", error.message);
     int status = render_scene(&w, s);
     for (size_t i = 0; i < w.ways.count; i++) {
         path_free(w.ways.way[i].plan);
