@@ -126,8 +126,7 @@ const char *method_instructions_name(vndf_instructions set);
 typedef enum effect_kind {
     EFFECT_LIBRARY, /* vndf_bsdf_at */
     EFFECT_ROUGH,   /* vndf_bsdf_rough, a roughness for each hit */
-    EFFECT_BATCH,   /* vndf_bsdf_sample_n and the like */
-    EFFECT_BY_HAND  /* bare reflection written over vndf.h */
+    EFFECT_BATCH    /* vndf_bsdf_sample_n and the like */
 } effect_kind;
 
 typedef struct effect_set {
