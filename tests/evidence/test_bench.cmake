@@ -26,7 +26,7 @@ set(command_words bench)
 refuses("--seconds" --seconds 0)
 refuses("vndf bench: no method, distribution or instruction set has 'newtn' in its name; did you mean 'Newton'?"
     --only newtn)
-refuses("more than one of --ndf, --slope, --csv and --family" --family ggx --slope "exp(-r)")
+refuses("--slope and --family are given; only one" --family ggx --slope "exp(-r)")
 refuses("vndf bench: " --family nonsense --seconds 0.1)
 refuses("missing.csv" --csv missing.csv)
 refuses("no-folder/a.csv" --only ggx --seconds 0.1 -o no-folder/a.csv)

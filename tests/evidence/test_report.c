@@ -188,7 +188,7 @@ static void test_refused(const char *folder)
     } cases[] = {
         {"has files in it, and no page of", {"report", folder}},
         {"is no folder", {"report", VNDF_SOURCE_DIR "/tables/example.csv"}},
-        {"more than one of", {"report", "--ndf", "c", "--slope", "exp(-r)", "x"}},
+        {"--ndf and --slope are given", {"report", "--ndf", "c", "--slope", "exp(-r)", "x"}},
         {"DIR is missing", {"report"}},
         {"column", {"report", "--slope", "exp(-r", "no-such-folder"}},
         {"--set is for", {"report", "--family", "ggx", "--set", "k=1", "x"}},

@@ -92,7 +92,7 @@ int page_close(html_page *page, int status)
         if (status == STATUS_GOOD)
             status = output_commit(&page->file[i]);
         else
-            output_discard(&page->file[i]);
+            output_give_up(&page->file[i], NULL);
         free(page->path[i]);
     }
     if (status != STATUS_GOOD && page->is_new)
