@@ -22,7 +22,8 @@ static const char *const help[] = {
     "\n"
     "  --what LIST      which, between commas (default dfg,energy,ltc,prefilter):\n"
     "                   dfg: scale and bias of the split sum, and E_avg; energy: E and E_avg of a mirror and of\n"
-    "                   glass; ltc: linearly transformed cosines for area lights; prefilter: taps for environments\n"
+    "                   glass; ltc: linearly transformed cosines for area lights; prefilter: taps for\n"
+    "                   environments; anisotropic: such cosines where alpha_x and alpha_y differ, 40 s\n"
     "  --mapping square|linear|sqrt  what alpha is of the roughness in a texture (default square)\n"
     "  --masking correlated|separable  Smith's masking and shadowing together (default correlated)\n"
     "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64)\n"
@@ -38,16 +39,17 @@ static const char *const help[] = {
     "         vndf bake ggx --what energy --shape cycles --format npy energy\n",
     NULL};
 
-static const char *const kinds[] = {"dfg", "energy", "ltc", "prefilter", NULL};
+static const char *const kinds[] = {"dfg", "energy", "ltc", "prefilter", "anisotropic", NULL};
 
-/* Which of the candidates a list names, a bit each; 0 after a complaint. All without a list. */
-static unsigned listed(const arguments *given, const char *option, const char *const *candidates)
+/* Which of the candidates a list names, a bit each, and `otherwise` without a list; 0 after a complaint. */
+static unsigned listed(const arguments *given, const char *option, const char *const *candidates,
+                       unsigned otherwise)
 {
     const char *list = option_value(given, option);
     int which[8];
     unsigned bits = 0;
     if (!list)
-        return ~0u;
+        return otherwise;
     for (size_t i = words_among(name, option, list, candidates, which); i-- > 0;)
         bits |= 1u << which[i];
     return bits;
@@ -64,15 +66,21 @@ static void describe(const arguments *given, char *text, size_t size)
 
 static int make(const bake_settings *s, unsigned what, const char *shape, baked_list *list)
 {
-    const double end[] = {0.2, 0.5, 0.99, 1};
+    static const double seconds[] = {2, 16, 17, 0.1, 50};
+    double all = 0, end = 0;
     int good = 1;
-    for (int k = 0; k < 4 && good; k++) {
-        if (what >> k & 1)
-            good = k == 0   ? bake_dfg(s, list)
-                   : k == 1 ? bake_energy(s, shape, list)
-                   : k == 2 ? bake_ltc(s, list)
-                            : bake_prefilter(s, list);
-        progress_step(s->progress, end[k]);
+    for (int k = 0; k < 5; k++)
+        all += what >> k & 1 ? seconds[k] : 0;
+    for (int k = 0; k < 5 && good; k++) {
+        if (!(what >> k & 1))
+            continue;
+        end += seconds[k] / all;
+        progress_step(s->progress, end);
+        good = k == 0   ? bake_dfg(s, list)
+               : k == 1 ? bake_energy(s, shape, list)
+               : k == 2 ? bake_ltc(s, list)
+               : k == 3 ? bake_prefilter(s, list)
+                        : bake_anisotropic(s, list);
     }
     return good;
 }
@@ -126,7 +134,6 @@ static int bake(const arguments *given, bake_settings *s, unsigned what, unsigne
     progress p = progress_begin(name, option_value(given, "-q") != NULL);
     s->progress = &p;
     describe(given, made_by, sizeof made_by);
-    progress_step(&p, what & 1 ? 0.2 : 0.01);
     int status = make(s, what, shape, &list) ? STATUS_GOOD
                  : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
                                              : complain(name, "no memory, or nothing is reflected");
@@ -147,7 +154,7 @@ static int run(const arguments *given)
     unsigned long long size = 64;
     chosen_distribution chosen;
     int mapping = option_choice(given, "--mapping", 0), masking = option_choice(given, "--masking", 0);
-    unsigned what = listed(given, "--what", kinds), forms = listed(given, "--format", bake_forms);
+    unsigned what = listed(given, "--what", kinds, 15), forms = listed(given, "--format", bake_forms, ~0u);
     if (mapping < 0 || masking < 0 || option_choice(given, "--shape", 0) < 0 || !what || !forms ||
         !option_count(given, "--size", 4, 256, &size) ||
         !distribution_open(&chosen, name, given->positional.item[0], 0))
