@@ -81,7 +81,7 @@ static void test_places(void)
 static void light(const bake_settings *s, const float alpha[2], vndf_vec3 wi, const bake_cosine *c, double all,
                   double along, double sum[2])
 {
-    enum { SIDE = 160 };
+    enum { SIDE = 96 };
     const vndf_description of = {.distribution = s->distribution, .alpha_x = alpha[0], .alpha_y = alpha[1]};
     vndf_material material;
     vndf_error error;

@@ -2,8 +2,9 @@
  *
  *     dfg        the split sum: f is f0 times the scale plus the bias
  *     energy     what one scattering event keeps of the light, by itself and in the mean over all directions
- *     ltc        a linearly transformed cosine for each roughness and cosine, or for two roughnesses (Heitz, Dupuy, Hill & Neubauer,
- *                "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", TOG 35(4), 2016)
+ *     ltc        a linearly transformed cosine for each roughness and cosine, or for two roughnesses (Heitz, Dupuy,
+ *                Hill & Neubauer, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", TOG 35(4),
+ *                2016)
  *     prefilter  normals with weights, for environments that are looked up at N = V = R (Karis, "Real Shading in
  *                Unreal Engine 4", 2013)
  *
