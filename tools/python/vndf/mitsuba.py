@@ -83,49 +83,45 @@ class MicrofacetDistribution:
         return self._alphas[1]
 
 
-class _Tails:
-    """A family's tables, and the texture of its parameter."""
-
-    def __init__(self, path: str, parameter: Any) -> None:
-        family = Family.load(path)
-        self.laws: list[Law] = [Table(distribution) for distribution in family.distributions]
-        self.knots, self._reciprocal = family.axis
-        self._ends = [float(end) for end in family.parameters[[0, -1]]]
-        self._parameter = parameter
-
-    def shares(self, si: Any, active: Any) -> list[Any]:
-        """Of each table; all but two are 0."""
-        p = dr.clip(self._parameter.eval_1(si, active), *self._ends)
-        x, k = -1.0 / p if self._reciprocal else p, self.knots.tolist()
-        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
-        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
-        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
-
-
 class _Lobe:
-    """One distribution or family, and the textures of its roughness and weight."""
+    """One distribution or family, and the textures of its roughness, weight and parameter."""
 
     def __init__(self, props: Any, suffix: str) -> None:
-        name = str(props["distribution" + suffix])
-        self.name = name
-        path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
-        self.parameter = {parameter: props.get_texture(parameter, 1.0)} if parameter in props else {}
-        self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
-        self.laws = self.tails.laws if self.tails else [law_of(name if name in ("ggx", "beckmann") else path)]
-        both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
+        self.name = str(props["distribution" + suffix])
+        path = str(mi.file_resolver().resolve(self.name))
+        both, along, across, weight, parameter = (
+            name + suffix for name in ("alpha", "alpha_u", "alpha_v", "weight", "parameter")
+        )
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
         if (along in props) != (across in props):
             raise ValueError(f"{along} needs {across}, and the other way round")
-        self.alphas = {n: props.get_texture(n, 0.1) for n in ([along, across] if along in props else [both])}
-        self.weight = {"weight" + suffix: props.get_texture("weight" + suffix, 1.0)}
+        self.alphas = {name: props.get_texture(name, 0.1) for name in ([along, across] if along in props else [both])}
+        self.weight = props.get_texture(weight, 1.0)
+        self.textures = {**self.alphas, weight: self.weight}
+        self.family = Family.load(path) if parameter in props else None
+        if self.family:
+            self.laws: list[Law] = [Table(distribution) for distribution in self.family.distributions]
+            self.parameter = self.textures[parameter] = props.get_texture(parameter, 1.0)
+        else:
+            self.laws = [law_of(self.name if self.name in ("ggx", "beckmann") else path)]
+
+    def _shares(self, si: Any, active: Any) -> list[Any]:
+        """Of each law; of a family all but two are 0."""
+        if self.family is None:
+            return [1.0]
+        p = dr.clip(self.parameter.eval_1(si, active), *self.family.parameters[[0, -1]].tolist())
+        knots, is_reciprocal = self.family.axis
+        x, k = -1.0 / p if is_reciprocal else p, knots.tolist()
+        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
+        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
+        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
 
     def at(self, si: Any, active: Any) -> list[Any]:
         """Of a hit each law, with alpha_u, alpha_v and its weight."""
         alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
-        weight = dr.maximum(next(iter(self.weight.values())).eval_1(si, active), 0.0)
-        shares = self.tails.shares(si, active) if self.tails else [1.0]
-        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, shares)]
+        weight = dr.maximum(self.weight.eval_1(si, active), 0.0)
+        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, self._shares(si, active))]
         return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
 
 
@@ -133,24 +129,19 @@ class _Microsurface:
     """The lobes of a surface."""
 
     def __init__(self, props: Any) -> None:
-        self.lobes = [_Lobe(props, "")]
-        for i in range(2, _MOST_LOBES + 1):
-            if f"distribution_{i}" not in props:
-                continue
-            if len(self.lobes) != i - 1:
-                raise ValueError(f"distribution_{i} without distribution_{i - 1}: lobes are numbered without a gap")
-            self.lobes.append(_Lobe(props, f"_{i}"))
+        numbers = [i for i in range(2, _MOST_LOBES + 1) if f"distribution_{i}" in props]
+        for i, number in enumerate(numbers):
+            if number != i + 2:
+                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes are numbered without a gap")
+        self.lobes = [_Lobe(props, suffix) for suffix in ("", *(f"_{number}" for number in numbers))]
+        self.textures = {name: texture for lobe in self.lobes for name, texture in lobe.textures.items()}
         self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
+        if self.rotation is not None:
+            self.textures["rotation"] = self.rotation
         masking = str(props.get("masking", "height-correlated"))
         if masking not in ("height-correlated", "separable"):
             raise ValueError(f'masking is "height-correlated" or "separable", not "{masking}"')
         self.is_separable = masking == "separable"
-
-    def textures(self) -> dict[str, Any]:
-        named = {} if self.rotation is None else {"rotation": self.rotation}
-        for lobe in self.lobes:
-            named.update({**lobe.alphas, **lobe.weight, **lobe.parameter})
-        return named
 
 
 class _Hit:
@@ -159,10 +150,11 @@ class _Hit:
     def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
         self._separable = surface.is_separable
         parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
-        self._laws, self._shapes = [part[0] for part in parts], [part[1:] for part in parts]
-        total = sum(weight for _, _, weight in self._shapes)
-        self._weights = [dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)
-                         for _, _, weight in self._shapes]  # fmt: skip
+        total = sum(weight for *_, weight in parts)
+        self._lobes = [
+            (law, x, y, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0))
+            for law, x, y, weight in parts
+        ]
         self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
 
     def turned(self, w: Any, sign: float = 1.0) -> Any:
@@ -173,36 +165,36 @@ class _Hit:
         return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
 
     def seen_from(self, w: Any) -> tuple[list[Any], Any]:
-        """The lobes' views, and the projected area of all."""
-        views = [law.view(x, y, w) for law, (x, y, _) in zip(self._laws, self._shapes)]
-        return views, sum(weight * view.area for weight, view in zip(self._weights, views))
+        """Of each lobe its law, its view and its share of what is drawn; the projected area of all."""
+        views = [law.view(x, y, w) for law, x, y, _ in self._lobes]
+        weights = [weight for *_, weight in self._lobes]
+        drawn = [weight * view.drawn for weight, view in zip(weights, views)]
+        total = sum(drawn)
+        seen = [(lobe[0], view, dr.select(total > 0.0, part / total, 0.0))
+                for lobe, view, part in zip(self._lobes, views, drawn)]  # fmt: skip
+        return seen, sum(weight * view.area for weight, view in zip(weights, views))
 
-    def _shares(self, views: list[Any]) -> list[Any]:
-        parts = [weight * view.drawn for weight, view in zip(self._weights, views)]
-        total = sum(parts)
-        return [dr.select(total > 0.0, part / total, 0.0) for part in parts]
-
-    def sample(self, views: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
+    @staticmethod
+    def sample(seen: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal, and the density of all lobes together."""
-        if len(views) == 1:
-            return self._laws[0].sample(views[0], u1, u2)
+        if len(seen) == 1:
+            return seen[0][0].sample(seen[0][1], u1, u2)
         before: Any = 0.0
         wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (law, view, share) in enumerate(zip(self._laws, views, self._shares(views))):
-            last = i + 1 == len(views)
+        for i, (law, view, share) in enumerate(seen):
+            last = i + 1 == len(seen)
             here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
             u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
             wm = dr.select(here, law.sample(view, u, u2)[0], wm)
             before = before + share
-        return wm, self.pdf(views, wm)
+        return wm, _Hit.pdf(seen, wm)
 
-    def pdf(self, views: list[Any], wm: Any) -> Any:
-        parts = zip(self._laws, views, self._shares(views))
-        return sum(share * law.pdf(view, wm) for law, view, share in parts)
+    @staticmethod
+    def pdf(seen: list[Any], wm: Any) -> Any:
+        return sum(share * law.pdf(view, wm) for law, view, share in seen)
 
     def ndf(self, wm: Any) -> Any:
-        parts = zip(self._laws, self._shapes, self._weights)
-        return sum(weight * law.ndf(x, y, wm) for law, (x, y, _), weight in parts)
+        return sum(weight * law.ndf(x, y, wm) for law, x, y, weight in self._lobes)
 
     def g2(self, area_i: Any, cos_i: Any, area_o: Any, cos_o: Any, reflects: Any) -> Any:
         """Masking and shadowing of directions with these projected areas and cosines, both > 0."""
@@ -341,7 +333,7 @@ def register() -> None:
             return self._look(ctx, si, wo, active)
 
         def traverse(self, callback: Any) -> None:
-            for name, texture in self._surface.textures().items():
+            for name, texture in self._surface.textures.items():
                 callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
 
         def to_string(self) -> str:
