@@ -41,7 +41,8 @@ VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_
 /* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
  * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped.
  * Shape-preserving interpolation joins the rows. Beyond the last row P22 falls as the power of r that the last two
- * rows give, at least as r^-4; a last row of value 0 ends the support there, at 90 degrees as well. */
+ * rows give, at least as r^-4. A last row of value 0 ends the support there; at 90 degrees it says that D vanishes as
+ * cos(theta_m) or faster. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 

@@ -23,8 +23,8 @@ typedef struct subcommand {
 } subcommand;
 
 extern const subcommand command_build, command_info, command_check, command_sample, command_eval, command_plot,
-    command_report, command_bench, command_bench_effects, command_albedo, command_bake, command_export,
-    command_explore, command_render, command_judge, command_help;
+    command_report, command_bench, command_bench_effects, command_bake, command_export, command_explore,
+    command_render, command_judge, command_help;
 
 /* All of them, in the order of `vndf --help`; NULL ends them. */
 extern const subcommand *const subcommands[];

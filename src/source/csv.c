@@ -15,8 +15,9 @@
  *
  * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
  * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
- * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. Rows may fall to
- * 0 at 90 degrees, too; D keeps all its digits there, which differences of angles would lose.
+ * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. A row of 0 at 90
+ * degrees behind one that is not 0 stands for half of that half-way there; from there on k is at least 5, as for
+ * D ~ cos.
  *
  * The cubic is Steffen's (slopes by eq. 11 inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and
  * Astrophysics 239 (1990). Its first derivative is continuous, it never leaves the range of two neighbours, and it is
@@ -51,13 +52,10 @@ typedef struct csv_source {
     vndf_rows_of of;
     curve curve; /* over asinh(x/scale) */
     double scale;
-    int logarithmic;   /* the curve is the logarithm of the second column */
-    double last_slope; /* where the tail begins; infinite if the rows reach 90 degrees */
-    double last_p22;
-    double tail;         /* beyond it P22 falls as r^-tail */
-    int falls_to_0;      /* the last row is 0 at 90 degrees, the row before is not 0 ... */
-    double last_but_one; /* ... and stands at this slope */
-    double *numbers;     /* owned: the slopes of all rows, and the numbers of the curve */
+    int logarithmic;       /* the curve is the logarithm of the second column */
+    double last_slope;     /* where the tail begins; infinite if the rows reach 90 degrees */
+    double last_p22, tail; /* beyond it P22 falls as r^-tail */
+    double *numbers;       /* owned: the slopes of all rows, and the numbers of the curve */
 } csv_source;
 
 /* What is read, row by row. Angles become radians; the last may be pi/2. */
@@ -110,13 +108,6 @@ static void fit_cubic(curve *c)
     }
 }
 
-/* The part of Hermite's form that comes from the slopes, at the part t of piece i; u is 1 - t. */
-static double bend_at(const curve *c, size_t i, double t, double u)
-{
-    double h = c->x[i + 1] - c->x[i];
-    return t * u * (u * (c->slope[i] * h) - t * (c->slope[i + 1] * h));
-}
-
 static double value_at(const curve *c, double x)
 {
     size_t last = c->count - 1;
@@ -125,19 +116,11 @@ static double value_at(const curve *c, double x)
     if (x >= c->x[last])
         return c->y[last];
     size_t i = vndf_last_before(c->x, sizeof *c->x, c->count, x);
-    double t = (x - c->x[i]) / (c->x[i + 1] - c->x[i]), y0 = c->y[i], y1 = c->y[i + 1];
-    double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend_at(c, i, t, 1 - t);
+    double h = c->x[i + 1] - c->x[i], t = (x - c->x[i]) / h, u = 1 - t, y0 = c->y[i], y1 = c->y[i + 1];
+    double bend = t * u * (u * (c->slope[i] * h) - t * (c->slope[i + 1] * h));
+    double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend;
     /* Rounding alone could leave the range, and a density must not be negative. */
     return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
-}
-
-/* The value at the distance d before the last point, in the last piece, whose last value is 0. The values near it
- * keep all their digits, which those of value_at lose with x. */
-static double value_before_end(const curve *c, double d)
-{
-    size_t i = c->count - 2;
-    double u = d / (c->x[i + 1] - c->x[i]), y0 = c->y[i];
-    return fmin(fmax(y0 * u * u * (3 - 2 * u) + bend_at(c, i, 1 - u, u), 0), y0);
 }
 
 /* ---- P22 -------------------------------------------------------------------------------------- */
@@ -149,23 +132,12 @@ static double cosine4(double r)
     return c2 * c2;
 }
 
-/* Between the abscissas of the angle of the slope r and of 90 degrees: asinh a - asinh b for a^2 - b^2 that is
- * known with all its digits. */
-static double distance_to_grazing(double scale, double r)
-{
-    double a = RIGHT_ANGLE / scale, rest = atan(1 / r) / scale, b = a - rest;
-    return asinh(rest * (a + b) / (a * hypot(1, b) + b * hypot(1, a)));
-}
-
 static double p22_at(const csv_source *source, double r)
 {
     if (r > source->last_slope)
         return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
     double x = source->over == VNDF_ROWS_OVER_SLOPE ? r : atan(r);
-    double y = source->falls_to_0 && r > source->last_but_one
-                   ? value_before_end(&source->curve, distance_to_grazing(source->scale, r))
-                   : value_at(&source->curve, asinh(x / source->scale));
-    double value = source->logarithmic ? exp(y) : y;
+    double y = value_at(&source->curve, asinh(x / source->scale)), value = source->logarithmic ? exp(y) : y;
     return source->of == VNDF_ROWS_OF_NDF ? value * cosine4(r) : value;
 }
 
@@ -208,30 +180,25 @@ static void fit_curve(csv_source *source, const double *given, const double *val
 }
 
 /* By the slopes and values of the last two rows. */
-static void fit_tail(csv_source *source, const double *slope, const double *value)
+static void fit_tail(csv_source *source, const double *slope, const double *value, double least)
 {
-    double p22_before = value[0], last_p22 = value[1];
-    if (source->of == VNDF_ROWS_OF_NDF) {
-        p22_before *= cosine4(slope[0]);
-        last_p22 *= cosine4(slope[1]);
-    }
+    int is_ndf = source->of == VNDF_ROWS_OF_NDF;
+    double before = value[0] * (is_ndf ? cosine4(slope[0]) : 1),
+           last = value[1] * (is_ndf ? cosine4(slope[1]) : 1);
     source->last_slope = slope[1];
-    source->last_p22 = last_p22;
-    source->tail = 4;
-    source->last_but_one = slope[0];
-    source->falls_to_0 = isinf(slope[1]) && value[1] == 0 && value[0] > 0;
-    if (slope[0] > 0 && p22_before > 0 && last_p22 > 0 && isfinite(slope[1]))
-        source->tail = fmax(4, log(p22_before / last_p22) / log(slope[1] / slope[0]));
+    source->last_p22 = last;
+    source->tail = least;
+    if (slope[0] > 0 && before > 0 && last > 0 && isfinite(slope[1]))
+        source->tail = fmax(least, log(before / last) / log(slope[1] / slope[0]));
 }
 
 /* The curve through rows that have been checked; it takes description, also where it fails. */
 static vndf_source *curve_through(const reader *r, char *description, vndf_error *error)
 {
-    const double *x = (const double *)(const void *)r->x.bytes;
-    const double *value = (const double *)(const void *)r->value.bytes;
+    double *x = (double *)(void *)r->x.bytes, *value = (double *)(void *)r->value.bytes;
     csv_source *source = calloc(1, sizeof *source);
     size_t n = r->count;
-    double *slope = malloc(4 * n * sizeof *slope);
+    double *slope = calloc(4 * n, sizeof *slope);
     if (!source || !slope) {
         free(source);
         free(slope);
@@ -239,19 +206,27 @@ static vndf_source *curve_through(const reader *r, char *description, vndf_error
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", n);
         return NULL;
     }
+    int over_slope = r->over == VNDF_ROWS_OVER_SLOPE,
+        vanishes = !over_slope && x[n - 1] >= RIGHT_ANGLE && value[n - 1] == 0 && value[n - 2] > 0;
+    if (vanishes) {
+        x[n - 1] = (x[n - 2] + RIGHT_ANGLE) / 2;
+        value[n - 1] = value[n - 2] / 2;
+    }
     for (size_t i = 0; i < n; i++)
-        slope[i] = r->over == VNDF_ROWS_OVER_SLOPE ? x[i] : x[i] >= RIGHT_ANGLE ? INFINITY : tan(x[i]);
-    *source = (csv_source){
-        .base = {.p22 = p22, .destroy = destroy, .description = description, .operations = OPERATIONS},
-        .over = r->over,
-        .of = r->of,
-        .curve = {slope + n, slope + 2 * n, slope + 3 * n, n},
-        .numbers = slope};
-    source->base.reach = reach;
-    source->base.breaks = slope + (slope[0] == 0);
+        slope[i] = over_slope ? x[i] : x[i] >= RIGHT_ANGLE ? INFINITY : tan(x[i]);
+    *source = (csv_source){.base = {.p22 = p22,
+                                    .destroy = destroy,
+                                    .reach = reach,
+                                    .description = description,
+                                    .operations = OPERATIONS,
+                                    .breaks = slope + (slope[0] == 0)},
+                           .over = r->over,
+                           .of = r->of,
+                           .curve = {slope + n, slope + 2 * n, slope + 3 * n, n},
+                           .numbers = slope};
     source->base.break_count = n - (slope[0] == 0) - (size_t) !!isinf(slope[n - 1]);
     fit_curve(source, x, value);
-    fit_tail(source, slope + n - 2, value + n - 2);
+    fit_tail(source, slope + n - 2, value + n - 2, vanishes ? 5 : 4);
     return &source->base;
 }
 

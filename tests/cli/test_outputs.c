@@ -121,7 +121,6 @@ static const subject writers[] = {
     {"a.csv", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
     {"a.f32", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
     {"a.svg", {"plot", table, "--theta", "60", "-o", OUTPUT}},
-    {"a.csv", {"albedo", "ggx", "-o", OUTPUT}},
     {"a.md", {"bench", "--only", "ggx", "--seconds", "0.1", "-o", OUTPUT}},
     {"a.png", {"render", "ball.scene", "--spp", "1", "-o", OUTPUT}},
 };
@@ -164,7 +163,6 @@ static void test_writer(const subject *s)
 /* The input stands in the words; `all.png` is a scene, which reads the others that it names. */
 static const subject readers[] = {
     {"gloss.csv", {"build", "--csv", "gloss.csv", "-o", OUTPUT}},
-    {"table.csv", {"albedo", "table.csv", "-o", OUTPUT}},
     {"table.csv", {"sample", "table.csv", "--theta", "60", "-n", "10", "-o", OUTPUT}},
     {"gloss.csv", {"bench", "--csv", "gloss.csv", "--only", "ggx", "--seconds", "0.1", "-o", OUTPUT}},
     {"table.csv", {"bench", "effects", "--distribution", "table.csv", "--seconds", "0.01", "-o", OUTPUT}},

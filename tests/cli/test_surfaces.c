@@ -66,14 +66,13 @@ static void test_sample(void)
     test_densities(PRINTED("in", "sample", "beckmann", SHEARED, "-n", "100", "-o", "-"), eval_sheared);
     free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "--seed=1", "-o", "a.csv"));
     free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "1e2", "-o", "a.f32"));
-    free(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "-o", "b.csv", "--format", "f32"));
     char *other = PRINTED("in", "sample", TABLE, ROUGH, "-n", "9", "--seed", "2", "-o", "-");
     char *file = run_file("a.csv", &size), *floats = run_file("a.f32", &size);
-    TEST(floats && size == 1600 && run_same("a.f32", "b.csv") && strncmp(other, file, 60) != 0);
+    TEST(floats && size == 1600 && strncmp(other, file, 60) != 0);
     test_same(PRINTED("in", "sample", TABLE, ROUGH, "-n", "100", "-o", "-"), file);
     free(floats);
     free(other);
-    TEST(remove("a.csv") == 0 && remove("a.f32") == 0 && remove("b.csv") == 0);
+    TEST(remove("a.csv") == 0 && remove("a.f32") == 0);
     for (int i = 0; i < 3; i++)
         test_same(PRINTED("in", "sample", names[i], ROUGH, "-n", "50", "-o", "-"),
                   PRINTED("in", "sample", names[i], "--theta", "60", "--phi", "30", "--matrix", "0.1,0,0,0.3",

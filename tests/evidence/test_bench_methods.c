@@ -79,7 +79,7 @@ static void test_visible(const method *methods, size_t count, const vndf_distrib
 /* It notices: the normals of one distribution are not those of another, nor all normals the visible ones. */
 static void test_notices(void)
 {
-    const method_reference reference = method_reference_of(vndf_ggx());
+    const method_reference reference = method_reference_of(vndf_ggx(), "ggx");
     method caps = method_ggx_caps(), normals = method_all_normals(&reference);
     TEST(chi_square_of(&caps, expect(vndf_beckmann(), 60, 0.5f)) < level);
     TEST(chi_square_of(&normals, expect(vndf_ggx(), 60, 0.5f)) < level);
@@ -119,7 +119,7 @@ static void test_unbiased(method m, const method_reference *reference)
 /* Densities of an exact method are those of the reference, but for rounding. */
 static void test_floor(void)
 {
-    const method_reference reference = {{vndf_ggx(), 1, 1}, 1};
+    const method_reference reference = {{vndf_ggx(), 1, 1}, 1, "ggx"};
     const method m = method_ggx_caps();
     for (double theta = 0; theta < 90; theta += 40)
         TEST(findings_of(&m, &reference, theta, 16).tv < 1e-6);
@@ -187,7 +187,7 @@ static void test_any(void)
     vndf_source *source = vndf_source_family("student-t:2.5", NULL);
     vndf_distribution *fine = table_of(source, 32768), *small = table_of(source, 2048);
     if (TEST(fine && small)) {
-        method_reference reference = method_reference_of(fine);
+        method_reference reference = method_reference_of(fine, "fine");
         test_unbiased(method_all_normals(&reference), &reference);
         test_unbiased(method_warp(&reference), &reference);
         test_small_table(&reference, small);
@@ -209,7 +209,7 @@ int main(void)
     test_visible(of_ggx, sizeof of_ggx / sizeof *of_ggx, vndf_ggx());
     test_visible(&newton, 1, vndf_beckmann());
     for (int i = 0; i < 2; i++) {
-        const method_reference reference = method_reference_of(i ? vndf_beckmann() : vndf_ggx());
+        const method_reference reference = method_reference_of(i ? vndf_beckmann() : vndf_ggx(), "");
         test_unbiased(method_all_normals(&reference), &reference);
     }
     test_floor();

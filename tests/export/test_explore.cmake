@@ -146,7 +146,7 @@ foreach(settings IN LISTS all_settings)
         between(0.02 ${which}_spread 2)
         between(0 ${which}_light_faults 0)
     endforeach()
-    if(settings MATCHES "b=ggx") # what `vndf albedo` says of these two
+    if(settings MATCHES "b=ggx") # their albedo by quadrature
         between(0.9841 a_kept 0.9881)
         between(0.8196 b_kept 0.8236)
     endif()

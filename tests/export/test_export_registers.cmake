@@ -1,5 +1,6 @@
 # For a GPU of NVIDIA a view and a sample of a table take at most 64 registers, and neither they nor a mixture of two
-# tables nor a BSDF have local memory, which an index by a variable makes. The exported CUDA is compiled by nvcc.
+# tables nor a BSDF have local memory, which an index by a variable makes: the commands at the head of
+# tools/export/examples/gpu.cu compile it. Where a GPU is, it runs, and no sample is bad.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -9,45 +10,41 @@ if(NOT nvcc)
     return()
 endif()
 
-# registers(NAME MOST STATEMENTS OPTION...): a kernel of these calls, exported with these options.
-function(registers name most statements)
-    answers(0 "" export ${SOURCE}/tables/hazy.vndf --language cuda --buffer hazy.f32 --distribution table --lobes 2
-        ${ARGN} -o ${name}.cuh)
-    file(WRITE ${OUT}/${name}.cu "#include \"${name}.cuh\"
-__global__ void draw(const float *numbers, const float *in, float *out)
-{
-    int i = 16 * (int)(blockIdx.x * blockDim.x + threadIdx.x);
-    float3 wi = make_float3(in[i], in[i + 1], in[i + 2]);
-    vndf_surface surface = vndf_surface_of(VNDF_HAZY, in[i + 3], in[i + 4]);
-    ${statements}
-    out[i] = w.x;
-    out[i + 1] = w.y;
-    out[i + 2] = w.z;
-    out[i + 3] = s.pdf;
-}
-")
-    execute_process(COMMAND ${nvcc} -O3 -arch=sm_80 -Xptxas -v -c ${name}.cu -o ${name}.o WORKING_DIRECTORY ${OUT}
-        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
-    expect("${name}.cu does not compile:\n${output}${errors}" status EQUAL 0)
-    expect("${name} has local memory:\n${errors}" errors MATCHES "\n *0 bytes stack frame, 0 bytes spill stores")
-    string(REGEX REPLACE ".*Used ([0-9]+) registers.*" "\\1" used "${errors}")
-    expect("${name} takes ${used} registers, not at most ${most}" used LESS_EQUAL most)
-    message("${name}: ${used} registers")
-    set(failures ${failures} PARENT_SCOPE)
-endfunction()
+set(folder ${SOURCE}/tools/export/examples)
+set(architecture -arch=sm_80)
+if(EXISTS /dev/nvidia0)
+    set(architecture -arch=native)
+endif()
+file(READ ${folder}/gpu.cu text)
+string(REGEX MATCHALL "\n \\*     [^\n]*" commands "${text}")
+string(REPLACE ";" "" commands "${commands}")
+string(REPLACE "\n *     " "\n" commands "${commands}")
+string(REPLACE "nvcc -O3 -arch=native -I. gpu.cu" "${nvcc} -O3 ${architecture} -Xptxas -v -I. ${folder}/gpu.cu" commands
+    "${commands}")
+string(REPLACE "./gpu " "[ ! -e /dev/nvidia0 ] || ./gpu " commands "${commands}")
+execute_process(COMMAND sh -ec "vndf() { ${VNDF} \"$@\"; }; TABLES=${SOURCE}/tables; ${commands}"
+    WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+expect("the commands of gpu.cu fail:\n${output}${errors}" status EQUAL 0)
+string(REGEX REPLACE "\nGGX, caps by hand[^\n]*" "" output "${output}")
+expect("a sample was bad:\n${output}" NOT output MATCHES " [1-9][0-9]*\n")
 
-registers(one 64 "vndf_view view = vndf_view_of(numbers, surface, wi);
-    vndf_sampled s = vndf_sample(numbers, view, in[i + 5], in[i + 6]);
-    float3 w = s.wm;" --only view,sample)
-registers(two 255 "vndf_mixture m = {2, {surface, vndf_surface_of(VNDF_HAZY, in[i + 7], in[i + 8])},
-        {in[i + 9], in[i + 10]}};
-    vndf_mixture_view view = vndf_mixture_view_of(numbers, m, wi);
-    vndf_mixed s = vndf_mixture_sample(numbers, view, in[i + 5], in[i + 6]);
-    float3 w = s.wm;" --only mixture)
-registers(glass 255 "vndf_material glass = {surface, 1.5f};
-    vndf_bsdf hit = vndf_bsdf_of(numbers, glass, wi);
-    vndf_scattered s = vndf_bsdf_sample(numbers, hit, make_float3(in[i + 5], in[i + 6], in[i + 7]));
-    float3 w = s.wo;" --bsdf "lobes=both fresnel=dielectric")
+string(REGEX MATCHALL "run[^\n]*\n *[0-9]+ bytes stack[^\n]*\n[^\n]*Used [0-9]+" kernels "${errors}")
+list(LENGTH kernels count)
+expect("${count} kernels:\n${errors}" count EQUAL 9)
+foreach(kernel IN LISTS kernels)
+    string(REGEX MATCH "^run[0-9I]*([a-z_]*).* ([0-9]+) bytes stack frame, ([0-9]+) bytes spill.*Used ([0-9]+)" all
+        "${kernel}")
+    set(name ${CMAKE_MATCH_1})
+    set(used ${CMAKE_MATCH_4})
+    math(EXPR memory "${CMAKE_MATCH_2} + ${CMAKE_MATCH_3}")
+    set(most 255)
+    if(name MATCHES "table$|embedded")
+        set(most 64)
+    endif()
+    message("${name}: ${used} registers")
+    expect("${name} has local memory:\n${kernel}" memory EQUAL 0)
+    expect("${name} takes ${used} registers, more than ${most}" used LESS_EQUAL most)
+endforeach()
 
 if(failures)
     message(FATAL_ERROR "${failures} failures")

@@ -1,21 +1,14 @@
-/* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing
- * leaks: every operation is tried with its first allocation failing, then its second, until it succeeds with
- * none that failed. And vndf_info.memory is what a loaded table holds of the heap, to the byte, no more than 2.4 times
- * its file for a shipped one.
+/* Whichever allocation fails, the call that needed it says so (VNDF_ERROR_MEMORY, with a message), and nothing leaks:
+ * every operation is tried with its first allocation failing, then its second, until it succeeds with none that failed.
+ * And vndf_info.memory is what a loaded table holds of the heap, to the byte.
  *
- * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as
- * here. */
-#include <stdlib.h>
-
+ * The linker puts the functions below in the place of malloc and its kin (--wrap), in the library as well as here. */
+#include "harness/test.h"
 #include "oracle/oracle.h"
 #include "source/source.h"
-#include "table/file.h"
-#include "harness/test.h"
 #include "vndf_bsdf.h"
 
 #ifdef VNDF_TEST_WRAP
-
-#  include <dirent.h>
 
 void *__real_malloc(size_t size);
 void __real_free(void *block);
@@ -75,8 +68,6 @@ void *__wrap_realloc(void *block, size_t size)
 
 /* ---- operations: each frees what it made ---- */
 
-static const char shipped[] = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
-static const char csv[] = "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n";
 static const char saved[] = "allocation.vndf";
 
 static double laplace(double r, void *user)
@@ -85,64 +76,43 @@ static double laplace(double r, void *user)
     return exp(-r);
 }
 
-/* A way to a source, or a name for what takes one; a shell's words for what has them. */
-typedef struct subject {
-    const char *name, *words;
-    double max_tv;
-} subject;
-
-static const subject sources[] = {
-    {"slope expression", "--slope 'exp(-k*r)*step(2-r)' --set k=3", 0},
-    {"ndf expression", "--ndf 'c^20*(1+theta)'", 0},
-    {"family", "--family student-t:2.5", 0},
-    {"mix", "--family 'mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)'", 0},
-    {"material", "--family sgd:alum-bronze/r", 0},
-    {"CSV text", NULL, 0},
-    {"CSV file", NULL, 0},
-    {"callback", NULL, 0},
-};
-static const subject to_target = {"family, to a target", "--family student-t:2.5", 0.5};
-
-static vndf_source *make(const subject *of, vndf_error *error)
+/* From a shell's words, or, where those have no option, from one of what words cannot bring. */
+static vndf_source *source_of(const char *words, vndf_error *error)
 {
-    if (of->words)
-        return vndf_source_from_description(of->words, error);
-    if (strcmp(of->name, "CSV text") == 0)
-        return vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error);
-    if (strcmp(of->name, "CSV file") == 0)
+    static const char csv[] = "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n";
+    if (words[0] == '-')
+        return vndf_source_from_description(words, error);
+    if (strcmp(words, "CSV file") == 0)
         return vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/example.csv", error);
-    return vndf_source_slope_callback(laplace, NULL, "laplace", error);
+    return strcmp(words, "CSV text") == 0 ? vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error)
+                                          : vndf_source_slope_callback(laplace, NULL, words, error);
 }
 
-typedef int operation(const subject *of, vndf_error *error);
-
-static int make_alone(const subject *of, vndf_error *error)
+static int build(const char *words, vndf_error *error)
 {
-    vndf_source *source = make(of, error);
-    vndf_source_free(source);
-    return source != NULL;
-}
-
-/* The failures of the source were the subject of make_alone. */
-static int build(const subject *of, vndf_error *error)
-{
-    vndf_build_options options = {.max_bytes = 2048, .max_tv = of->max_tv};
-    long after = left;
-    left = -1;
-    vndf_source *source = make(of, error);
-    left = after;
+    const vndf_build_options options = {.max_bytes = 2048, .max_tv = 0.5};
+    vndf_source *source = source_of(words, error);
     vndf_distribution *table = source ? vndf_build(source, &options, NULL, error) : NULL;
     vndf_free(table);
     vndf_source_free(source);
     return table != NULL;
 }
 
+static int reference(const char *words, vndf_error *error)
+{
+    vndf_source *source = source_of(words, error);
+    vndf_reference *made = source ? vndf_reference_from(source, error) : NULL;
+    vndf_reference_free(made);
+    vndf_source_free(source);
+    return made != NULL;
+}
+
 /* A shipped table: loaded both ways, saved, measured again. */
-static int use_table(const subject *of, vndf_error *error)
+static int use_table(const char *path, vndf_error *error)
 {
     static unsigned char bytes[1 << 14];
     vndf_certificate certificate;
-    vndf_distribution *table = vndf_load(of->name, error);
+    vndf_distribution *table = vndf_load(path, error);
     size_t size = vndf_distribution_info(table).bytes;
     int good = table && size <= sizeof bytes && vndf_save_memory(table, bytes, size, error) == VNDF_OK &&
                vndf_save(table, saved, error) == VNDF_OK;
@@ -155,17 +125,8 @@ static int use_table(const subject *of, vndf_error *error)
     return good;
 }
 
-static int reference(const subject *of, vndf_error *error)
-{
-    vndf_source *source = make(of, error);
-    vndf_reference *made = source ? vndf_reference_from(source, error) : NULL;
-    vndf_reference_free(made);
-    vndf_source_free(source);
-    return made != NULL;
-}
-
 /* A family: loaded, saved, made of distributions, built. */
-static int use_family(const subject *of, vndf_error *error)
+static int use_family(const char *name, vndf_error *error)
 {
     const vndf_distribution *closed[] = {vndf_ggx(), vndf_beckmann()};
     const float parameters[] = {1, 2};
@@ -173,112 +134,84 @@ static int use_family(const subject *of, vndf_error *error)
     vndf_family *loaded = vndf_family_load(VNDF_SOURCE_DIR "/tests/corpus/family/two.vndfs", error);
     int good = loaded && vndf_family_save(loaded, saved, error) == VNDF_OK;
     vndf_family *made = good ? vndf_family_of(closed, parameters, 2, error) : NULL;
-    vndf_family *built = made ? vndf_build_family(of->name, 2, 3, &options, error) : NULL;
+    vndf_family *built = made ? vndf_build_family(name, 2, 3, &options, error) : NULL;
     vndf_family_free(loaded);
     vndf_family_free(made);
     vndf_family_free(built);
     return built != NULL;
 }
 
-/* A table of albedos. */
-static int albedo(const subject *of, vndf_error *error)
+static int albedo(const char *name, vndf_error *error)
 {
     vndf_albedo *built = vndf_albedo_build(vndf_ggx(), 0.0f, error);
     int good = built != NULL;
-    (void)of;
+    (void)name;
     vndf_albedo_free(built);
     return good;
 }
 
-/* ---- the trial ---- */
+static const struct trial {
+    int (*use)(const char *name, vndf_error *error);
+    const char *name;
+} TRIALS[] = {
+    {build, "--slope 'exp(-k*r)*step(2-r)' --set k=3"},
+    {build, "--ndf 'c^20*(1+theta)'"},
+    {build, "--family student-t:2.5"},
+    {build, "--family 'mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)'"},
+    {build, "--family sgd:alum-bronze/r"},
+    {build, "CSV text"},
+    {build, "CSV file"},
+    {build, "callback"},
+    {reference, "callback"},
+    {use_table, VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"},
+    {use_family, "student-t"},
+    {albedo, "ggx"},
+};
 
-static int try_with(operation *run, const subject *of, long after)
+static int try_with(const struct trial *of, long after)
 {
     vndf_error error = {VNDF_OK, ""};
     long before = live;
     left = after;
     failed = 0;
-    int good = run(of, &error);
+    int good = of->use(of->name, &error);
     left = -1;
-    int clean = TEST(live == before) & TEST(good == !failed);
-    if (failed)
-        clean &= TEST(error.status == VNDF_ERROR_MEMORY) & TEST(strstr(error.message, "no memory") != NULL);
-    else
-        clean &= TEST(error.status == VNDF_OK);
+    int clean = TEST(live == before) & TEST(good == !failed) &
+                TEST(error.status == (failed ? VNDF_ERROR_MEMORY : VNDF_OK)) &
+                TEST(!failed || strstr(error.message, "no memory"));
     if (!clean)
         fprintf(stderr, "  %s, allocation %ld: status %d, '%s', %ld blocks more\n", of->name, after,
                 (int)error.status, error.message, live - before);
     return failed != 0;
 }
 
-/* The first `every` allocations, and each step-th of those after them. */
-static void try_all(const char *what, operation *run, const subject *of, long every, long step)
+/* 448 bytes are those by which rho is looked up. */
+static void test_memory(const char *path, double most)
 {
-    long n = 0, tries = 0;
-    while (try_with(run, of, n)) {
-        n += n < every ? 1 : step;
-        tries++;
-    }
-    TEST(n > 0);
-    fprintf(stderr, "%-12s %-22s: some %ld allocations, %ld of them failed in turn\n", what,
-            of->name == shipped ? "shipped table" : of->name, n, tries);
-}
-
-/* ---- what a table holds ---- */
-
-/* A bound of 0 is none; 448 bytes are those by which rho is looked up. */
-static void test_memory(const char *folder, const char *name, double most)
-{
-    char path[1024];
-    snprintf(path, sizeof path, VNDF_SOURCE_DIR "/%s/%s", folder, name);
     size_t before = held;
     vndf_distribution *table = vndf_load(path, NULL);
-    size_t more = held - before;
     vndf_info info = vndf_distribution_info(table);
-    int told = TEST(table != NULL) && TEST(info.memory == more);
-    if (!told || !TEST(most <= 0 || (double)more <= most * (double)info.bytes + 448))
-        fprintf(stderr, "  %s: says %zu, holds %zu, its file %zu\n", name, info.memory, more, info.bytes);
+    if (!(TEST(table != NULL) & TEST(info.memory == held - before) &
+          TEST((double)info.memory <= most * (double)info.bytes + 448)))
+        fprintf(stderr, "  %s: says %zu, holds %zu, its file %zu\n", path, info.memory, held - before, info.bytes);
     vndf_free(table);
     TEST(held == before);
 }
 
-static void test_memories(void)
-{
-    static const char *const odd[] = {"disc.vndf", "exponential.vndf", "ring.vndf", "singular.vndf", "tail.vndf"};
-    int tables = 0;
-    struct dirent *entry;
-    DIR *folder = opendir(VNDF_SOURCE_DIR "/tables");
-    while (TEST(folder != NULL) && (entry = readdir(folder)) != NULL)
-        if (strlen(entry->d_name) > 5 && strcmp(entry->d_name + strlen(entry->d_name) - 5, ".vndf") == 0) {
-            test_memory("tables", entry->d_name, 2.4);
-            tables++;
-        }
-    if (folder)
-        closedir(folder);
-    TEST(tables >= 15);
-    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++)
-        test_memory("tests/corpus/table", odd[i], 0);
-    TEST(vndf_distribution_info(vndf_ggx()).memory == 0 && vndf_distribution_info(NULL).memory == 0);
-}
-
-/* In long_allocation every allocation of every build fails, else all of those that make a source or a reference
- * and some of a build's. */
+/* A family's 1500 allocations are many times the same. */
 int main(void)
 {
-    const subject table = {shipped, NULL, 0};
-    test_memories();
-    int all = test_long();
-    long step = (long)test_amount(97, 97, 1);
-    for (size_t i = 0; i < sizeof sources / sizeof *sources; i++) {
-        try_all("source", make_alone, &sources[i], 1000, 1);
-        try_all("reference", reference, &sources[i], 1000, 1);
-        try_all("build", build, &sources[i], all ? 1000 : 25, step);
+    const long every = 200, step = 97;
+    test_memory(VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf", 2.4);
+    test_memory(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", 2.4);
+    test_memory(VNDF_SOURCE_DIR "/tests/corpus/table/ring.vndf", 9);
+    TEST(vndf_distribution_info(vndf_ggx()).memory == 0 && vndf_distribution_info(NULL).memory == 0);
+    for (size_t i = 0; i < sizeof TRIALS / sizeof *TRIALS; i++) {
+        long n = 0;
+        while (try_with(&TRIALS[i], n))
+            n += n < every ? 1 : step;
+        TEST(n > 0);
     }
-    try_all("build", build, &to_target, all ? 1000 : 25, step);
-    const subject family = {"student-t", NULL, 0};
-    try_all("use", use_table, &table, 1000, 1);
-    try_all("use", use_family, &family, all ? 1000 : 100, 5 * step);
-    try_all("albedo", albedo, &table, 1000, 1);
     remove(saved);
     return test_done();
 }

@@ -7,9 +7,9 @@ static void judge(slope_set *slopes, int good, data_file *file)
 {
     profile rows = {0};
     fuzz_require(good || strncmp(file->refused, "fuzz: ", 6) == 0, "a message begins with the file");
-    fuzz_require(good || slopes->x == NULL, "what is refused holds no memory");
+    fuzz_require(good || slopes->at == NULL, "what is refused holds no memory");
     for (size_t i = 0; i < slopes->count; i++)
-        fuzz_require(isfinite(slopes->x[i]) && isfinite(slopes->y[i]), "slopes are finite");
+        fuzz_require(isfinite(slopes->at[i].x) && isfinite(slopes->at[i].y), "slopes are finite");
     if (good && slopes_law(slopes, file, &rows)) {
         vndf_source *source = profile_source(&rows, file);
         fuzz_require(source != NULL && rows.count >= 4, "rows are a curve");

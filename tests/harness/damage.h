@@ -162,4 +162,29 @@ static inline void test_refused_for(const file_kind *kind, unsigned char *bytes,
         fprintf(stderr, "  asked for: %s, had: %s\n", part, error.message);
 }
 
+/* One number that breaks a rule: at its place in a part of the file, or before the end of the part where that is
+ * negative; and what is said of it. */
+typedef struct broken_rule {
+    int part, at;
+    enum { WORD, FLOAT } type;
+    double value;
+    const char *message;
+} broken_rule;
+
+/* Part i is from part[i] to part[i + 1]. */
+static inline void test_broken_rules(const file_kind *kind, const unsigned char *sound, size_t size,
+                                     const size_t *part, const broken_rule *rules, size_t count)
+{
+    static unsigned char bytes[DAMAGE_BYTES_MAX];
+    for (const broken_rule *r = rules; r < rules + count; r++) {
+        unsigned char *at = bytes + part[r->part + (r->at < 0)] + r->at;
+        memcpy(bytes, sound, size);
+        if (r->type == FLOAT)
+            put_f32(at, (float)r->value);
+        else
+            put_u32(at, (unsigned long)r->value);
+        test_refused_for(kind, bytes, size, r->message);
+    }
+}
+
 #endif

@@ -12,8 +12,8 @@ set(order_src "core:" "math: core" "table / family: core" "kernel: core table" "
     "bsdf / walk: core math table kernel sampler" "source / interval formula family: core math"
     "fit / profile: core math source table kernel sampler")
 set(order_tools "cli:" "draw: cli" "bake: cli draw" "evidence / measure methods page: cli draw" "render: cli draw"
-    "export: draw" "measured: cli render" "judge / examples: cli evidence" "manual: cli"
-    "commands / parts: cli draw bake evidence render export measured judge manual")
+    "export: draw" "measured: cli render" "judge / examples: cli evidence"
+    "commands / parts: cli draw bake evidence render export measured judge")
 set(run_time core math table kernel sampler bsdf)
 # What tools/ share with src/ beside include/, which knows nothing of distributions, and what the build writes.
 set(shared core/replace_file.h core/checksum.h core/nearest.h)

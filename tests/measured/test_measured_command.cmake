@@ -51,7 +51,7 @@ refused(build
     "--rgl no.bsdf|no.bsdf: this is no tensor file"
     "--rgl none.bsdf|none.bsdf: No such file"
     "--rgl out.bsdf --step 2|--step is for --height"
-    "--rgl out.bsdf --family ggx|exactly one is needed")
+    "--rgl out.bsdf --family ggx|--family and --rgl are given")
 run(2 build --rgl out.bsdf -o out.bsdf)
 has(errors "an input of this command")
 refused(export

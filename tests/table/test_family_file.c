@@ -87,15 +87,10 @@ static void mend(unsigned char *bytes, const unsigned char *sound, size_t size)
 
 /* ---- rules ---- */
 
-/* One number that breaks a rule, at its place in the file or behind the beginning of the parameters: two of them, the
- * distance between them, and the size of the first table. */
-static const struct rule {
-    enum origin { FILE_START, PARAMETERS } from;
-    size_t at;
-    enum type { WORD, FLOAT } type;
-    double value;
-    const char *message;
-} RULES[] = {
+/* The parameters of both knots are followed by the distance between them and the size of the first table. */
+enum { FILE_START, PARAMETERS, PARTS };
+
+static const broken_rule RULES[] = {
     {FILE_START, COUNT, WORD, 0, "counts are outside"},
     {FILE_START, COUNT, WORD, VNDF_LIMIT_FAMILY_KNOTS + 1, "counts are outside"},
     {FILE_START, COUNT, WORD, 1, "do not fill the file"}, /* parameter 2 is read as the size of a table */
@@ -108,40 +103,22 @@ static const struct rule {
     {PARAMETERS, 8, FLOAT, -0.01, "no part of 1"},
     {PARAMETERS, 12, WORD, 100, "table 1: the table says that it has"},
     {PARAMETERS, 12, WORD, 0xfffffff0u, "do not fill the file"},
+    {PARAMETERS, -204, WORD, 7, "table 2: the checksum does not match"},
 };
-
-static void test_rules(const file_kind *families, const unsigned char *sound, size_t size)
-{
-    static unsigned char bytes[ROOM];
-    size_t parameters = parameters_at(sound), second = parameters + 16 + get_u32(sound + parameters + 12) + 4;
-    for (size_t i = 0; i < sizeof RULES / sizeof *RULES; i++) {
-        const struct rule *r = &RULES[i];
-        unsigned char *at = bytes + r->at + (r->from == PARAMETERS ? parameters : 0);
-        memcpy(bytes, sound, size);
-        if (r->type == FLOAT)
-            put_f32(at, (float)r->value);
-        else
-            put_u32(at, (unsigned long)r->value);
-        test_refused_for(families, bytes, size, r->message);
-    }
-    memcpy(bytes, sound, size);
-    bytes[second + 200] ^= 1;
-    test_refused_for(families, bytes, size, "table 2: the checksum does not match");
-    memcpy(bytes, sound, size);
-    memset(bytes + size, 0, 4);
-    test_refused_for(families, bytes, size + 4, "do not fill the file");
-}
 
 int main(void)
 {
-    static unsigned char bytes[ROOM];
+    static unsigned char bytes[ROOM], longer[ROOM];
     const file_kind families = {load, mend};
     size_t size = read_bytes(path, bytes, ROOM);
     if (!TEST(size > 1000 && size < ROOM - 8))
         return test_done();
     test_same(bytes, size);
     test_not_saved();
-    test_rules(&families, bytes, size);
+    const size_t part[PARTS + 1] = {0, parameters_at(bytes), size};
+    test_broken_rules(&families, bytes, size, part, RULES, sizeof RULES / sizeof *RULES);
+    memcpy(longer, bytes, size);
+    test_refused_for(&families, longer, size + 4, "do not fill the file");
     test_damaged_file(&families, path, test_quick() ? 11 : 1);
     return test_done();
 }

@@ -5,39 +5,50 @@
 #include "oracle/oracle.h"
 #include "vndf_build.h"
 
-enum { ROOM = 1 << 16, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 92 };
+enum { ROOM = 1 << 14, VERSION = 8, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 92 };
 
-/* The arrays in their order. */
-enum { KNOT, DENSITY_LEFT, DENSITY_RIGHT, M0, M1, M2, M4, B0, B1, AREA, SLOPE };
+/* The arrays in their order, then the head and the end of the file. */
+enum { KNOT, DENSITY_LEFT, DENSITY_RIGHT, M0, M1, M2, M4, B0, B1, AREA, SLOPE, ARRAYS, FILE_START };
 
-typedef struct table_bytes {
-    unsigned char bytes[ROOM];
-    size_t size, arrays, knots; /* where the arrays begin; cells + 1 */
-} table_bytes;
-
-static float get_f32(const unsigned char *bytes)
-{
-    uint32_t bits = (uint32_t)get_u32(bytes);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-/* Of four moments, so that all arrays are there. */
-static int make_table(table_bytes *t)
-{
-    oracle o = oracle_get(ORACLE_LAPLACE);
-    vndf_distribution *table = oracle_build(o.name, 8192, NULL, NULL);
-    t->size = vndf_distribution_info(table).bytes;
-    int made = TEST(table && t->size <= ROOM && vndf_save_memory(table, t->bytes, t->size, NULL) == VNDF_OK);
-    vndf_free(table);
-    if (!made || !TEST(get_u32(t->bytes + 8) == 4 && get_u32(t->bytes + COUNTS + 4) == 4))
-        return 0;
-    size_t tool = TEXTS + 4 + get_u32(t->bytes + TEXTS);
-    t->arrays = tool + 4 + get_u32(t->bytes + tool);
-    t->knots = get_u32(t->bytes + COUNTS) + 1;
-    return TEST(t->arrays + 44 * t->knots + 4 == t->size);
-}
+static const broken_rule RULES[] = {
+    {KNOT, 0, FLOAT, 1e-3, "knots do not run"},
+    {KNOT, 4, FLOAT, 1e-13, "knots do not run"},
+    {KNOT, -4, FLOAT, 2e14, "knots do not run"},
+    {KNOT, 20, FLOAT, 0, "ascend"},
+    {KNOT, 20, FLOAT, (double)NAN, "ascend"},
+    {DENSITY_LEFT, 8, FLOAT, -1e-6, "density is out of range"},
+    {DENSITY_LEFT, 0, FLOAT, 1e37, "density is out of range"},
+    {DENSITY_LEFT, 24, FLOAT, 1e9, "density is out of range"},
+    {DENSITY_RIGHT, -4, FLOAT, (double)NAN, "density is out of range"},
+    {M0, 12, FLOAT, 0, "moment is out of range"},
+    {M0, 160, FLOAT, 0.5, "add up to 1"},
+    {M1, 12, FLOAT, -1, "moment is out of range"},
+    {M1, 24, FLOAT, 0.5, "moment is out of range"},
+    {M2, -4, FLOAT, (double)INFINITY, "moment is out of range"},
+    {M4, 8, FLOAT, -1e-9, "moment is out of range"},
+    {B0, 4, FLOAT, -0.1, "share is out of range"},
+    {B0, 16, FLOAT, 1e7, "share is out of range"},
+    {B1, -4, FLOAT, (double)NAN, "share is out of range"},
+    {AREA, 0, FLOAT, 0, "area is out of range"},
+    {SLOPE, 12, FLOAT, (double)NAN, "area is out of range"},
+    {SLOPE, 24, FLOAT, 1e9, "area is out of range"},
+    {FILE_START, SCALES + 4, WORD, 0x7ff00000, "scale or normalization"}, /* an infinite double, and no number */
+    {FILE_START, SCALES + 4, WORD, 0xfff80000, "scale or normalization"},
+    {FILE_START, SCALES + 12, WORD, 0x7ff00000, "scale or normalization"},
+    {FILE_START, SCALES + 12, WORD, 0xfff80000, "scale or normalization"},
+    {FILE_START, COUNTS, WORD, 0, "outside the limits"},
+    {FILE_START, COUNTS, WORD, 1, "outside the limits"},
+    {FILE_START, COUNTS, WORD, 4096, "outside the limits"},
+    {FILE_START, COUNTS, WORD, 0xffffffff, "outside the limits"},
+    {FILE_START, COUNTS, WORD, 200, "do not fill the file"},
+    {FILE_START, COUNTS + 4, WORD, 1, "outside the limits"},
+    {FILE_START, COUNTS + 4, WORD, 3, "do not fill the file"}, /* one array less */
+    {FILE_START, COUNTS + 4, WORD, 5, "outside the limits"},
+    {FILE_START, COUNTS + 8, WORD, 6, "outside the limits"},
+    {FILE_START, VERSION, WORD, 1, "build it again"},
+    {FILE_START, VERSION, WORD, 3, "build it again"},
+    {FILE_START, VERSION, WORD, 5, "version"},
+};
 
 static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)
 {
@@ -46,109 +57,29 @@ static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)
     return table ? SAFE : REFUSED;
 }
 
-static const file_kind tables = {load, NULL};
-
-static void refuse(table_bytes *changed, const char *part)
-{
-    test_refused_for(&tables, changed->bytes, changed->size, part);
-}
-
-/* ---- numbers ---- */
-
-static const struct {
-    int array;
-    size_t index; /* one beyond the last stands for the last */
-    float value;
-    const char *message;
-} NUMBERS[] = {{KNOT, 0, 1e-3f, "knots do not run"},
-               {KNOT, 1, 1e-13f, "knots do not run"},
-               {KNOT, 9999, 2e14f, "knots do not run"},
-               {KNOT, 5, 0, "ascend"},
-               {KNOT, 5, NAN, "ascend"},
-               {DENSITY_LEFT, 2, -1e-6f, "density is out of range"},
-               {DENSITY_RIGHT, 9999, NAN, "density is out of range"},
-               {DENSITY_LEFT, 0, 1e37f, "density is out of range"},
-               {M0, 3, 0, "moment is out of range"},
-               {M1, 3, -1, "moment is out of range"},
-               {M2, 9999, INFINITY, "moment is out of range"},
-               {M4, 2, -1e-9f, "moment is out of range"},
-               {B0, 1, -0.1f, "share is out of range"},
-               {B1, 9999, NAN, "share is out of range"},
-               {B0, 4, 1e7f, "share is out of range"},
-               {AREA, 0, 0, "area is out of range"},
-               {SLOPE, 3, NAN, "area is out of range"},
-               {M0, 40, 0.5f, "add up to 1"},
-               {M1, 6, 0.5f, "moment is out of range"},
-               {DENSITY_LEFT, 6, 1e9f, "density is out of range"},
-               {SLOPE, 6, 1e9f, "area is out of range"}};
-
-static void test_numbers(const table_bytes *sound)
-{
-    static table_bytes t;
-    for (size_t i = 0; i < sizeof NUMBERS / sizeof *NUMBERS; i++) {
-        size_t index = NUMBERS[i].index < sound->knots ? NUMBERS[i].index : sound->knots - 1;
-        t = *sound;
-        put_f32(t.bytes + t.arrays + 4 * ((size_t)NUMBERS[i].array * t.knots + index), NUMBERS[i].value);
-        refuse(&t, NUMBERS[i].message);
-    }
-    t = *sound; /* two knots that are one */
-    put_f32(t.bytes + t.arrays + 20, get_f32(t.bytes + t.arrays + 16));
-    refuse(&t, "ascend");
-    for (int claim = 0; claim < 12; claim++) {
-        t = *sound;
-        put_f32(t.bytes + CLAIMS + 4 * claim, claim % 2 ? NAN : claim == 11 ? 1 : -1);
-        refuse(&t, "no measurement");
-    }
-    for (int which = 0; which < 2; which++)
-        for (int i = 0; i < 3; i++) { /* zero, infinity, NaN */
-            static const unsigned char tops[3][2] = {{0, 0}, {0xf0, 0x7f}, {0xf8, 0x7f}};
-            t = *sound;
-            memset(t.bytes + SCALES + 8 * which, 0, 6);
-            memcpy(t.bytes + SCALES + 8 * which + 6, tops[i], 2);
-            refuse(&t, "scale or normalization");
-        }
-}
-
-/* ---- the whole ---- */
-
-static void test_whole(const table_bytes *sound)
-{
-    static const unsigned long counts[][2] = {{0, 1}, {0, 0}, {0, 5000}, {0, 0xffffffff}, {1, 1}, {1, 5}, {2, 6}};
-    static table_bytes t;
-    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
-        t = *sound;
-        put_u32(t.bytes + COUNTS + 4 * counts[i][0], counts[i][1]);
-        refuse(&t, "outside the limits");
-    }
-    for (size_t more = 1; more <= 8; more++) { /* parts that end before the file does */
-        t = *sound;
-        memset(t.bytes + t.size - 4, 0, 12);
-        t.size += more;
-        refuse(&t, "do not fill the file");
-    }
-    t = *sound;
-    put_u32(t.bytes + COUNTS, (unsigned long)sound->knots + 3); /* and after it */
-    refuse(&t, "do not fill the file");
-    t = *sound;
-    put_u32(t.bytes + COUNTS + 4, 3); /* one array less */
-    refuse(&t, "do not fill the file");
-    for (unsigned version = 1; version < 4; version++) {
-        t = *sound;
-        put_u32(t.bytes + 8, version);
-        refuse(&t, "build it again");
-    }
-    t = *sound;
-    put_u32(t.bytes + 8, 5);
-    refuse(&t, "version");
-}
-
 int main(void)
 {
-    static table_bytes sound;
-    if (make_table(&sound)) {
-        TEST(load(sound.bytes, sound.size, NULL) == SAFE);
-        test_numbers(&sound);
-        test_whole(&sound);
+    static unsigned char sound[ROOM], longer[ROOM];
+    const file_kind tables = {load, NULL};
+    vndf_distribution *table =
+        oracle_build("exp(-r)", 8192, NULL, NULL); /* of four moments: all arrays are there */
+    size_t size = vndf_distribution_info(table).bytes, part[FILE_START + 1] = {0};
+    TEST(table && vndf_save_memory(table, sound, size, NULL) == VNDF_OK);
+    vndf_free(table);
+    size_t tool = TEXTS + 4 + get_u32(sound + TEXTS), arrays = tool + 4 + get_u32(sound + tool);
+    for (size_t i = 0; i <= ARRAYS; i++)
+        part[i] = arrays + 4 * i * (get_u32(sound + COUNTS) + 1);
+    if (!TEST(part[ARRAYS] + 4 == size && size < ROOM - 16))
+        return test_done();
+    test_broken_rules(&tables, sound, size, part, RULES, sizeof RULES / sizeof *RULES);
+    for (int claim = 0; claim < 12; claim++) {
+        const broken_rule bad = {FILE_START, CLAIMS + 4 * claim, FLOAT, claim % 2 ? (double)NAN : -1,
+                                 "no measurement"};
+        test_broken_rules(&tables, sound, size, part, &bad, 1);
+    }
+    for (size_t more = 1; more <= 8; more++) { /* parts that end before the file does */
+        memcpy(longer, sound, size);
+        test_refused_for(&tables, longer, size + more, "do not fill the file");
     }
     return test_done();
 }

@@ -187,9 +187,8 @@ int bake_file(html_page *page, const baked *b, size_t form, const char *made_by)
     static const char *const ends[] = {"npy", "dds", "h", "glsl", "js", "png"};
     char name[PAGE_NAME_MAX];
     snprintf(name, sizeof name, "%s.%s", b->name, ends[form]);
-    FILE *file = page_file_begin(page, name);
-    int good = file != NULL;
-    if (!good)
+    FILE *file = page_file(page, name);
+    if (!file)
         return 0;
     switch (form) {
     case 0: write_npy(file, b); break;
@@ -197,9 +196,11 @@ int bake_file(html_page *page, const baked *b, size_t form, const char *made_by)
     case 2: write_c(file, b, made_by); break;
     case 3: write_glsl(file, b, made_by); break;
     case 4: write_js(file, b, made_by); break;
-    default: good = write_png(file, b);
+    default:
+        if (!write_png(file, b))
+            return complain(page->command, "no memory"), 0;
     }
-    return page_file_end(page) && good;
+    return 1;
 }
 
 void bake_section(html_page *page, const baked *b)

@@ -10,7 +10,7 @@
 extern const char *const bake_forms[];
 enum { BAKE_PICTURE = 5 };
 
-/* Adds the file of a table in this form to a page; `made_by` is the command. 0 if there is no memory. */
+/* Adds the file of a table in this form to a page; `made_by` is the command. 0 after a complaint. */
 int bake_file(html_page *page, const baked *b, size_t form, const char *made_by);
 
 /* A section of the page about a table. */

@@ -21,10 +21,6 @@ int complain(const char *command, const char *format, ...)
     return STATUS_USE;
 }
 
-/* ---- hints --------------------------------------------------------------------------------------- */
-
-enum { HINT_LENGTH = 32 };
-
 const char *nearest_word(const char *word, const char *const *candidates, size_t count)
 {
     const char *nearest = NULL;
@@ -45,42 +41,7 @@ void list_words(const char *const *candidates, const char *before, char listed[L
     }
 }
 
-int word_among(const char *command, const char *what, const char *word, const char *const *candidates)
-{
-    char known[LISTED_LENGTH];
-    size_t count = 0;
-    for (; candidates[count]; count++)
-        if (strcmp(word, candidates[count]) == 0)
-            return (int)count;
-    const char *hint = nearest_word(word, candidates, count);
-    list_words(candidates, "", known);
-    complain(command, "%s '%.80s' is not %s%s%s%s", what, word, known, hint ? "; did you mean '" : "",
-             hint ? hint : "", hint ? "'?" : "");
-    return -1;
-}
-
-size_t words_among(const char *command, const char *what, const char *list, const char *const *candidates,
-                   int *which)
-{
-    size_t count = 0;
-    for (const char *at = list;; at++) {
-        char word[32];
-        size_t letters = strcspn(at, ",");
-        snprintf(word, sizeof word, "%.*s", (int)(letters < sizeof word ? letters : sizeof word - 1), at);
-        int found = word_among(command, what, word, candidates);
-        if (found < 0)
-            return 0;
-        for (size_t k = 0; k < count; k++)
-            if (which[k] == found)
-                return complain(command, "%s: '%s' stands there twice", what, word), 0;
-        which[count++] = found;
-        at += letters;
-        if (!*at)
-            return count;
-    }
-}
-
-/* ---- options ------------------------------------------------------------------------------------- */
+/* ---- the help as a table of options -------------------------------------------------------------- */
 
 int next_option(const char **at, option_term *term)
 {
@@ -95,7 +56,7 @@ int next_option(const char **at, option_term *term)
         indent = strspn(++p, " ");
         p += indent;
     }
-    *term = (option_term){.name = p, .name_length = strcspn(p, " ,\n")};
+    *term = (option_term){.name = p, .name_length = strcspn(p, " ,\n"), .indent = indent};
     p += term->name_length;
     if (*p == ' ' && p[1] != ' ') {
         term->value = ++p;
@@ -117,32 +78,68 @@ static int find_option(const char *help, const char *name, size_t length, option
     return 0;
 }
 
-/* The words of --channel red|green into text, as a list that ends with NULL; 0: what it takes is no choice. */
-static size_t choices_of(const option_term *term, char text[LISTED_LENGTH], const char *list[WORDS_MAX])
+/* The words of a value, red|green or dfg,energy, that the help has for it go to which[], in the order of the value. How
+ * many: 0 after a complaint, or where the value may be anything. */
+static size_t read_choices(const arguments *given, const option_term *term, const char *value,
+                           int which[WORDS_MAX])
 {
-    size_t count = 0;
-    snprintf(text, LISTED_LENGTH, "%.*s", (int)term->value_length, term->value ? term->value : "");
-    if (strpbrk(text, "ABCDEFGHIJKLMNOPQRSTUVWXYZ"))
-        return 0;
-    for (char *word = strtok(text, "|"); word && count < WORDS_MAX - 1; word = strtok(NULL, "|"))
-        list[count++] = word;
-    list[count] = NULL;
-    return count;
+    char text[LISTED_LENGTH], known[LISTED_LENGTH], word[40];
+    const char *choice[WORDS_MAX], *hint;
+    size_t choices = 0, count = 0, letters;
+    unsigned long long seen = 0;
+    snprintf(text, sizeof text, "%.*s", (int)term->value_length, term->value);
+    const int is_list = strchr(text, ',') != NULL;
+    for (char *at = strtok(text, "|,"); at && choices < WORDS_MAX - 1; at = strtok(NULL, "|,"))
+        choice[choices++] = at;
+    choice[choices] = NULL;
+    for (const char *at = value;; at += letters + 1) {
+        size_t k = 0;
+        letters = is_list ? strcspn(at, ",") : strlen(at);
+        snprintf(word, sizeof word, "%.*s", (int)(letters < sizeof word ? letters : sizeof word - 1), at);
+        while (k < choices && strcmp(word, choice[k]) != 0)
+            k++;
+        if (k == choices) {
+            hint = nearest_word(word, choice, choices);
+            list_words(choice, "", known);
+            return complain(given->command, "%.*s '%s' is not %s%s%s%s", (int)term->name_length, term->name, word,
+                            known, hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : ""),
+                   0;
+        }
+        if (seen >> k & 1)
+            return complain(given->command, "%.*s '%s' has '%s' twice", (int)term->name_length, term->name, value,
+                            word),
+                   0;
+        seen |= 1ull << k;
+        which[count++] = (int)k;
+        if (!at[letters])
+            return count;
+    }
 }
 
-/* `value` is what it was given, or the word behind it, or NULL. */
-static void refuse_option(const arguments *given, const char *word, size_t length, const char *value)
+/* Whether the value of an option is a choice between words. */
+static int has_choices(const option_term *term)
 {
-    char name[HINT_LENGTH];
+    for (size_t i = 0; i < term->value_length; i++)
+        if (isupper((unsigned char)term->value[i]))
+            return 0;
+    return term->value_length > 0;
+}
+
+/* ---- reading ------------------------------------------------------------------------------------- */
+
+/* `value` is what it was given, or the word behind it, or NULL; 0. */
+static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
+{
+    char name[32];
     option_term term, hint = {.name = NULL};
     size_t least = vndf_word_slip(length);
-    snprintf(name, sizeof name, "%.*s", length < HINT_LENGTH ? (int)length : HINT_LENGTH - 1, word);
+    snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, word);
     const char letter = name[strspn(name, "-")];
     const int is_letter = isalpha((unsigned char)letter) && length <= 3; /* "-a 0.3" or "--a=0.3" */
-    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term)) {
-        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
-        return;
-    }
+    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term))
+        return complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter,
+                        value),
+               0;
     for (const char *at = given->help; next_option(&at, &term);)
         if (is_letter ? !hint.name && term.name[1] == '-' && term.name[2] == letter
                       : vndf_word_is_nearer(term.name, term.name_length, name, &least))
@@ -152,41 +149,63 @@ static void refuse_option(const arguments *given, const char *word, size_t lengt
                  hint.name);
     else
         complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
+    return 0;
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
 static int take_option(arguments *given, int argc, char **argv, int *at)
 {
     const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL;
-    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
-    const char *choices[WORDS_MAX];
-    char name[HINT_LENGTH], text[LISTED_LENGTH];
+    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL, *wrong = NULL;
+    char name[32];
+    int which[WORDS_MAX];
     option_term term, other;
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
     if (!find_option(given->help, word, length, &term))
-        return (refuse_option(given, word, length, equals ? equals + 1 : next), 0);
+        return refuse_option(given, word, length, equals ? equals + 1 : next);
     snprintf(name, sizeof name, "%.*s", (int)length, word);
-    if (!term.value && equals)
-        return complain(given->command, "%s takes no value", name), 0;
     if (term.value && equals)
         value = equals + 1;
-    else if (term.value) {
-        if (!next || find_option(given->help, next, strlen(next), &other))
-            return complain(given->command, "%s needs a value, as in %s %.*s", name, name, (int)term.value_length,
-                            term.value),
-                   0;
-        value = next;
-        *at += 1;
-    }
-    if (!term.repeats && option_value(given, name))
-        return complain(given->command, "%s is given twice", name), 0;
-    if (choices_of(&term, text, choices) && word_among(given->command, name, value, choices) < 0)
+    else if (term.value && next && !find_option(given->help, next, strlen(next), &other))
+        value = argv[++*at];
+    else if (term.value)
+        return complain(given->command, "%s needs a value, as in %s %.*s", name, name, (int)term.value_length,
+                        term.value),
+               0;
+    if (!term.value && equals)
+        wrong = "takes no value";
+    else if (!term.repeats && option_value(given, name))
+        wrong = "is given twice";
+    else if (given->count == WORDS_MAX)
+        wrong = "is one option more than this program reads";
+    if (wrong)
+        return complain(given->command, "%s %s", name, wrong), 0;
+    if (has_choices(&term) && !read_choices(given, &term, value, which))
         return 0;
-    if (given->count == WORDS_MAX)
-        return complain(given->command, "%s: these are more than %d options", name, WORDS_MAX), 0;
     given->option[given->count].name = word;
     given->option[given->count].length = length;
     given->option[given->count++].value = value;
+    return 1;
+}
+
+/* An option in column 4 of the help goes with the one above it in column 2. */
+static int check_parts(const arguments *given)
+{
+    option_term term, above = {.name = NULL};
+    int has_above = 0;
+    for (const char *at = given->help; next_option(&at, &term);) {
+        char name[32];
+        snprintf(name, sizeof name, "%.*s", (int)term.name_length, term.name);
+        const int is_given = option_value(given, name) != NULL;
+        if (term.indent == 4 && is_given && !has_above)
+            return complain(given->command, "%s is for %.*s, which is not given", name, (int)above.name_length,
+                            above.name),
+                   0;
+        if (term.indent == 2) {
+            above = term;
+            has_above = is_given;
+        }
+    }
     return 1;
 }
 
@@ -203,8 +222,10 @@ int arguments_read(arguments *given, int argc, char **argv)
         else if (!take_option(given, argc, argv, &i))
             return 0;
     }
-    return 1;
+    return check_parts(given);
 }
+
+/* ---- what was given ------------------------------------------------------------------------------ */
 
 words option_values(const arguments *given, const char *name)
 {
@@ -226,14 +247,18 @@ const char *option_value(const arguments *given, const char *name)
     return found.count ? found.item[0] : NULL;
 }
 
+size_t option_choices(const arguments *given, const char *name, int which[WORDS_MAX])
+{
+    const char *value = option_value(given, name);
+    option_term term;
+    return value && find_option(given->help, name, strlen(name), &term) ? read_choices(given, &term, value, which)
+                                                                        : 0;
+}
+
 int option_choice(const arguments *given, const char *name, int otherwise)
 {
-    const char *value = option_value(given, name), *choices[WORDS_MAX];
-    char text[LISTED_LENGTH];
-    option_term term;
-    if (!value || !find_option(given->help, name, strlen(name), &term) || !choices_of(&term, text, choices))
-        return otherwise;
-    return word_among(given->command, name, value, choices);
+    int which[WORDS_MAX];
+    return option_choices(given, name, which) ? which[0] : otherwise;
 }
 
 const char *option_among(const arguments *given, const char *const *names)
@@ -243,50 +268,72 @@ const char *option_among(const arguments *given, const char *const *names)
     return *names;
 }
 
-/* ---- numbers ------------------------------------------------------------------------------------- */
-
-/* Says what is wrong with a text of numbers, at the letter where reading stopped; 0. */
-static size_t refuse_numbers(const char *command, const char *what, const char *text, const char *at, size_t most)
+const char *option_alone(const arguments *given, const char *const *names)
 {
-    const char *form = most > 1 ? "a number, or numbers between commas" : "a number";
-    if (at > text && isdigit((unsigned char)at[-1]) && *at != ' ')
-        complain(command, "%s '%s' is not %s: '%s' stands behind it", what, text, form, at);
+    const char *one = option_among(given, names), *other = NULL;
+    char known[LISTED_LENGTH];
+    for (const char *const *name = names; *name && one && !other; name++)
+        other = *name != one && option_value(given, *name) ? *name : NULL;
+    if (one && !other)
+        return one;
+    list_words(names, "", known);
+    if (other)
+        complain(given->command, "%s and %s are given; only one is possible of %s", one, other, known);
     else
-        complain(command, "%s '%s' is not %s", what, text, form);
-    return 0;
+        complain(given->command, "exactly one is needed of %s", known);
+    return NULL;
 }
+
+void options_text(const arguments *given, const char *const *names, char *text, size_t size)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
+    size_t at = strlen(text);
+    for (; *names; names++) {
+        const words values = option_values(given, *names);
+        for (size_t i = 0; i < values.count && at < size; i++) {
+            const char *word = values.item[i];
+            const char *quote = *word && strspn(word, plain) == strlen(word) ? "" : "'";
+            at += (size_t)snprintf(text + at, size - at, "%s%s %s", at ? " " : "", *names, quote);
+            for (; *word && at < size; word++)
+                at += (size_t)snprintf(text + at, size - at, *word == '\'' ? "'\\''" : "%c", *word);
+            at += at < size ? (size_t)snprintf(text + at, size - at, "%s", quote) : 0;
+        }
+    }
+}
+
+/* ---- numbers ------------------------------------------------------------------------------------- */
 
 /* strtod alone would also take nan, inf, hexadecimal numbers and leading blanks. */
 size_t parse_numbers(const char *command, const char *what, const char *text, double low, double high,
                      size_t least, size_t most, double *numbers)
 {
-    const char *why = "has too few numbers";
-    char range[128];
+    const char *form = most > 1 ? "a number, or numbers between commas" : "a number";
+    char why[160] = "";
     size_t count = 0;
-    for (const char *at = text;; at++) {
+    for (const char *at = text; !*why; at++) {
         char *end = NULL;
-        size_t length = strspn(at, "+-.0123456789eE");
-        double number = length ? strtod(at, &end) : 0;
-        if (!end || end == at || end > at + length || (*end && *end != ','))
-            return refuse_numbers(command, what, text, end && end <= at + length ? end : at, most);
-        if (isinf(number))
-            why = "is too large for a double";
-        else if (!(number >= low && number <= high)) {
-            snprintf(range, sizeof range, "is not in the range from %.9g to %.9g", low, high);
-            why = range;
-        } else if (count == most)
-            why = "has too many numbers";
+        const size_t length = strspn(at, "+-.0123456789eE");
+        const double number = length ? strtod(at, &end) : 0;
+        const int is_read = end && end > at && end <= at + length;
+        if (is_read && *end && !strchr(", ", *end))
+            snprintf(why, sizeof why, "is not %s: '%.40s' stands behind it", form, end);
+        else if (!is_read || *end == ' ')
+            snprintf(why, sizeof why, "is not %s", form);
+        else if (isinf(number))
+            snprintf(why, sizeof why, "is too large for a double");
+        else if (!(number >= low && number <= high))
+            snprintf(why, sizeof why, "is not in the range from %.9g to %.9g", low, high);
+        else if (count == most || (!*end && count + 1 < least))
+            snprintf(why, sizeof why, "has too %s numbers: it takes %zu", count == most ? "many" : "few",
+                     count == most ? most : least);
         else {
             numbers[count++] = number;
             at = end;
-            if (*at)
-                continue;
-            if (count >= least)
+            if (!*at)
                 return count;
         }
-        complain(command, "%s '%s' %s", what, text, why);
-        return 0;
     }
+    return complain(command, "%s '%s' %s", what, text, why), 0;
 }
 
 int option_number(const arguments *given, const char *name, double low, double high, double *number)

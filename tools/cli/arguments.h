@@ -1,9 +1,9 @@
 /* The words that a command is given. The text that its --help prints is the table of its options: an item in column 2
- * or 4 names them, and is read as
+ * names them, and an item in column 4 those that are possible only with an option of the item above it. Read is
  *
- *     --seed S         takes a value, once          --set NAME=X ...        takes values, as often as one likes
- *     --hard           is a flag                    --channel red|green     takes one of these words
- *     --ndf EXPR, --slope EXPR                      are two
+ *     --seed S         takes a value, once          --set NAME=X ...          takes values, as often as one likes
+ *     --hard           is a flag                    --channel red|green       takes one of these words
+ *     --ndf EXPR, --slope EXPR   are two            --what dfg,energy         takes some of them between commas
  *
  * with two blanks before what is said of them. Every refusal says which word was wrong and what would be right. */
 #ifndef TOOLS_CLI_ARGUMENTS_H
@@ -39,14 +39,21 @@ typedef struct arguments {
 /* Reads argv; command and help are there already. Returns 1, or 0 after a complaint. */
 int arguments_read(arguments *given, int argc, char **argv);
 
-/* The first value of an option, NULL if it was not given; all of them; and of --channel red|green, which of the words
- * it is (`otherwise` if it was not given). Ends the program for an option that the help does not name. */
+/* The first value of an option, NULL if it was not given; and all of them. Ends the program for an option that the help
+ * does not name. */
 const char *option_value(const arguments *given, const char *name);
 words option_values(const arguments *given, const char *name);
+
+/* Of --channel red|green and --what dfg,energy: which of the words were given, in that order, and how many. */
+size_t option_choices(const arguments *given, const char *name, int which[WORDS_MAX]);
+
+/* Which one, `otherwise` if it was not given. */
 int option_choice(const arguments *given, const char *name, int otherwise);
 
-/* Whether one of these options was given, NULL ends them: its name, or NULL. */
+/* Whether one of these options was given, NULL ends them: its name, or NULL. The same, if no other was, too; with more
+ * or none NULL after a complaint. */
 const char *option_among(const arguments *given, const char *const *names);
+const char *option_alone(const arguments *given, const char *const *names);
 
 /* One number for an option that may be absent: *number keeps its value then. 0 after a complaint. */
 int option_number(const arguments *given, const char *name, double low, double high, double *number);
@@ -59,13 +66,9 @@ int option_count(const arguments *given, const char *name, double low, double hi
 size_t parse_numbers(const char *command, const char *what, const char *text, double low, double high,
                      size_t least, size_t most, double *numbers);
 
-/* Which of these a word is, {"csv", "f32", NULL} say; -1 after a complaint that names `what` (an option), them and the
- * nearest. */
-int word_among(const char *command, const char *what, const char *word, const char *const *candidates);
-
-/* The same for a list between commas, each of them once, into which[]: how many, 0 after a complaint. */
-size_t words_among(const char *command, const char *what, const char *list, const char *const *candidates,
-                   int *which);
+/* Adds " OPTION VALUE" for each of these options that was given to what stands in text, with quotes where a shell needs
+ * them; cut where `size` ends. */
+void options_text(const arguments *given, const char *const *names, char *text, size_t size);
 
 /* "csv, md or json", with `before` in front of each; the candidates end with NULL. */
 enum { LISTED_LENGTH = 256 };
@@ -82,6 +85,7 @@ int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
 typedef struct option_term {
     const char *name, *value;         /* in the help */
     size_t name_length, value_length; /* value_length 0: a flag */
+    size_t indent;                    /* of its item: 2 or 4 columns */
     int repeats;
 } option_term;
 

@@ -10,12 +10,10 @@
 
 figures figures_begin(const arguments *given)
 {
-    figures f = {.file = stdout, .form = FIGURES_TEXT};
-    if (option_value(given, "-q"))
-        f.form = FIGURES_NONE;
-    else if (option_value(given, "--json"))
-        f.form = FIGURES_JSON;
-    return f;
+    return (figures){.file = stdout,
+                     .form = option_value(given, "-q")       ? FIGURES_NONE
+                             : option_value(given, "--json") ? FIGURES_JSON
+                                                             : FIGURES_TEXT};
 }
 
 void figures_json_text(FILE *file, const char *text)
@@ -35,13 +33,14 @@ void figures_json_text(FILE *file, const char *text)
 
 enum { COLUMNS = 100 }; /* of a record; what is longer goes on below */
 
+/* Units stand at the end of JSON, each once, as "list.name": "unit". */
 static void note_unit(figures *f, const char *name, const char *unit)
 {
-    for (int i = 0; i < f->units; i++)
-        if (f->unit[i].list == f->list && strcmp(f->unit[i].name, name) == 0)
-            return;
-    if (*unit && f->units < FIGURES_MAX)
-        f->unit[f->units++] = (struct figures_unit){f->list, name, unit};
+    char text[128];
+    const size_t used = strlen(f->units);
+    snprintf(text, sizeof text, "\"%s%s%s\": \"%s\"", f->list ? f->list : "", f->list ? "." : "", name, unit);
+    if (*unit && !strstr(f->units, text))
+        snprintf(f->units + used, sizeof f->units - used, "%s%s", used ? ", " : "", text);
 }
 
 /* A figure whose value is this text. */
@@ -124,30 +123,14 @@ void figures_list_end(figures *f)
 
 void figures_end(figures *f)
 {
-    if (f->form != FIGURES_JSON)
-        return;
-    fprintf(f->file, "%s\n  \"units\": {", f->in_object ? "," : "{");
-    for (int i = 0; i < f->units; i++)
-        fprintf(f->file, "%s\"%s%s%s\": \"%s\"", i ? ", " : "", f->unit[i].list ? f->unit[i].list : "",
-                f->unit[i].list ? "." : "", f->unit[i].name, f->unit[i].unit);
-    fputs("}\n}\n", f->file);
+    if (f->form == FIGURES_JSON)
+        fprintf(f->file, "%s\n  \"units\": {%s}\n}\n", f->in_object ? "," : "{", f->units);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
 /* As figures_form and --format have them. */
 static const char *const forms[] = {"text", "csv", "md", "json", NULL};
-
-static figures_form form_of_stdout(const arguments *given)
-{
-    const char *path = option_value(given, "-o");
-    if (option_value(given, "-q"))
-        return FIGURES_NONE;
-    if (option_value(given, "--json"))
-        return FIGURES_JSON;
-    return (figures_form)option_choice(given, "--format",
-                                       path && output_is_stdout(path) ? FIGURES_CSV : FIGURES_TEXT);
-}
 
 int rows_check(const arguments *given)
 {
@@ -157,30 +140,32 @@ int rows_check(const arguments *given)
         return complain(given->command, "--json and --format are given; --json is --format json"), 0;
     if (!path || output_is_stdout(path))
         return 1;
-    if (output_form(given->command, path, NULL, forms + 1) < 0 || !output_open(&output, given->command, path))
+    if (output_form(given->command, path, forms + 1) < 0 || !output_open(&output, given->command, path))
         return 0;
-    output_discard(&output);
+    output_give_up(&output, NULL);
     return 1;
 }
 
-static int print_to(const char *command, const char *path, rows_printer *print, const void *rows,
-                    figures_form form)
+static int print_to(const arguments *given, const char *path, rows_printer *print, const void *rows, int form)
 {
     output_file output;
-    if (!output_open(&output, command, path))
+    if (!output_open(&output, given->command, path))
         return STATUS_USE;
-    return print(output.file, rows, form) ? output_commit(&output)
-                                          : output_give_up(&output, "no memory for the table");
+    return print(output.file, rows, (figures_form)form) ? output_commit(&output)
+                                                        : output_give_up(&output, "no memory for the table");
 }
 
 int rows_print(const arguments *given, rows_printer *print, const void *rows)
 {
-    const char *command = given->command, *path = option_value(given, "-o");
-    const figures_form form = form_of_stdout(given);
-    int to_file = STATUS_GOOD;
-    int status = form == FIGURES_NONE ? STATUS_GOOD : print_to(command, "-", print, rows, form);
-    if (path && !output_is_stdout(path))
-        to_file =
-            print_to(command, path, print, rows, (figures_form)(1 + output_form(command, path, NULL, forms + 1)));
+    const char *path = option_value(given, "-o");
+    const int has_file = path && !output_is_stdout(path);
+    figures_form form = figures_begin(given).form;
+    int status = STATUS_GOOD;
+    if (form == FIGURES_TEXT)
+        form = (figures_form)option_choice(given, "--format", path && !has_file ? FIGURES_CSV : FIGURES_TEXT);
+    if (form != FIGURES_NONE)
+        status = print_to(given, "-", print, rows, form);
+    int to_file = has_file ? print_to(given, path, print, rows, 1 + output_form(given->command, path, forms + 1))
+                           : STATUS_GOOD;
     return status == STATUS_GOOD ? to_file : status;
 }

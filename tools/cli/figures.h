@@ -11,8 +11,6 @@ typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES
 
 /* ---- figures, one after the other ---- */
 
-enum { FIGURES_MAX = 96 };
-
 /* Names and units have to outlive it: literals. */
 typedef struct figures {
     FILE *file;
@@ -21,10 +19,7 @@ typedef struct figures {
     int in_object;    /* figures that the object at hand has already */
     int records;      /* of the list */
     int column;       /* where its text goes on */
-    struct figures_unit {
-        const char *list, *name, *unit;
-    } unit[FIGURES_MAX]; /* for JSON, which has them at its end */
-    int units;
+    char units[4096]; /* for JSON, which has them at its end */
 } figures;
 
 /* Text, JSON or nothing, on stdout. */

@@ -139,28 +139,14 @@ int output_give_up(output_file *output, const char *why)
     return STATUS_USE;
 }
 
-void output_discard(output_file *output)
-{
-    output_give_up(output, NULL);
-}
-
-/* ---- forms --------------------------------------------------------------------------------------- */
-
-static const char *extension_of(const char *path)
+int output_form(const char *command, const char *path, const char *const *forms)
 {
     const char *dot = strrchr(path, '.');
-    return dot && !strchr(dot, '/') ? dot + 1 : "";
-}
-
-int output_form(const char *command, const char *path, const char *format, const char *const *forms)
-{
     char known[LISTED_LENGTH];
-    if (format)
-        return word_among(command, "--format", format, forms);
     if (output_is_stdout(path))
         return 0;
-    for (int i = 0; forms[i]; i++)
-        if (strcmp(extension_of(path), forms[i]) == 0)
+    for (int i = 0; forms[i] && dot; i++)
+        if (strcmp(dot + 1, forms[i]) == 0)
             return i;
     list_words(forms, ".", known);
     return complain(command, "-o '%s': the name must end in %s, or be - for stdout", path, known), -1;

@@ -24,11 +24,8 @@ int output_stopping(void);
 /* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
 int output_commit(output_file *output);
 
-/* Closes, leaves nothing behind, and complains; an exit status. */
+/* Closes, leaves nothing behind, and complains, unless `why` is NULL: another file failed. An exit status. */
 int output_give_up(output_file *output, const char *why);
-
-/* The same without a word, for one of several files when another one failed. */
-void output_discard(output_file *output);
 
 /* "-" */
 int output_is_stdout(const char *path);
@@ -47,8 +44,8 @@ void output_release_signals(void);
 /* Flushes stdout; an exit status, with a complaint if what was printed could not be delivered. */
 int output_finish_stdout(const char *command);
 
-/* Which of these forms, {"csv", "f32", NULL} say, an output has: the one that --format names, if there is one, else the
- * end of -o path; the first for stdout. -1 after a complaint. */
-int output_form(const char *command, const char *path, const char *format, const char *const *forms);
+/* Which of these forms, {"csv", "f32", NULL} say, an output has by its name; the first for stdout. -1 after a
+ * complaint. */
+int output_form(const char *command, const char *path, const char *const *forms);
 
 #endif

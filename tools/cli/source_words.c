@@ -4,26 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "command.h"
 #include "cli/files.h"
 
-enum { NAME_MAX_LENGTH = VNDF_LIMIT_PARAMETER_NAME + 1 };
+enum { NDF, SLOPE, CSV, FAMILY };
 
-/* "a=0.3" into a parameter whose name is kept in `storage`; the library judges the name itself. */
-static int read_parameter(const char *command, const char *text, char storage[NAME_MAX_LENGTH],
-                          vndf_parameter *parameter)
-{
-    const char *equals = strchr(text, '=');
-    size_t length = equals ? (size_t)(equals - text) : 0;
-    if (length == 0 || length >= NAME_MAX_LENGTH) {
-        complain(command, "--set '%s' is not NAME=NUMBER", text);
-        return 0;
-    }
-    memcpy(storage, text, length);
-    storage[length] = '\0';
-    parameter->name = storage;
-    return parse_numbers(command, "--set", equals + 1, -1e300, 1e300, 1, 1, &parameter->value) == 1;
-}
+const char *const source_kinds[] = {"--ndf", "--slope", "--csv", "--family", NULL};
 
 vndf_source *source_from_csv(const char *command, const char *path)
 {
@@ -37,89 +22,56 @@ vndf_source *source_from_csv(const char *command, const char *path)
     return source;
 }
 
-static const char *const kinds[] = {"--ndf", "--slope", "--csv", "--family", NULL};
-
-size_t source_words_count(const arguments *given)
+/* Of a formula, with the numbers "a=0.3" of --set; the library judges their names itself. */
+static vndf_source *source_from_formula(const arguments *given, const char *kind, vndf_error *error)
 {
-    size_t count = 0;
-    for (const char *const *kind = kinds; *kind; kind++)
-        count += option_value(given, *kind) != NULL;
-    return count;
+    const words set = option_values(given, "--set");
+    vndf_parameter parameters[WORDS_MAX];
+    char names[WORDS_MAX][VNDF_LIMIT_PARAMETER_NAME + 1];
+    for (size_t i = 0; i < set.count; i++) {
+        const size_t length = strcspn(set.item[i], "=");
+        if (length == 0 || length >= sizeof names[i] || !set.item[i][length])
+            return complain(given->command, "--set '%s' is not NAME=NUMBER", set.item[i]), NULL;
+        snprintf(names[i], sizeof names[i], "%.*s", (int)length, set.item[i]);
+        parameters[i].name = names[i];
+        if (!parse_numbers(given->command, "--set", set.item[i] + length + 1, -1e300, 1e300, 1, 1,
+                           &parameters[i].value))
+            return NULL;
+    }
+    return (kind == source_kinds[NDF] ? vndf_source_ndf_expression : vndf_source_slope_expression)(
+        option_value(given, kind), parameters, set.count, error);
 }
 
 vndf_source *source_from_words(const arguments *given, const char *otherwise)
 {
-    const char *command = given->command, *ndf = option_value(given, "--ndf"), *csv = option_value(given, "--csv");
-    const char *slope = option_value(given, "--slope"), *family = option_value(given, "--family");
-    const words set = option_values(given, "--set");
-    const size_t count = source_words_count(given);
-    vndf_parameter parameters[WORDS_MAX];
-    char names[WORDS_MAX][NAME_MAX_LENGTH];
+    const char *command = given->command, *kind = option_among(given, source_kinds);
     vndf_error error = {VNDF_OK, ""};
     vndf_source *source;
-    if (count > 1 || (count == 0 && !otherwise))
-        return complain(command, "%s of --ndf, --slope, --csv and --family; %s is needed",
-                        count ? "more than one" : "none", otherwise ? "one at most" : "exactly one"),
-               NULL;
-    if (set.count && !ndf && !slope)
+    if ((kind || !otherwise) && !option_alone(given, source_kinds))
+        return NULL;
+    const int is_formula = kind == source_kinds[NDF] || kind == source_kinds[SLOPE];
+    if (option_value(given, "--set") && !is_formula)
         return complain(command, "--set is for --ndf and --slope; the parameters of a family follow its name"),
                NULL;
-    if (csv)
-        return source_from_csv(command, csv);
-    for (size_t i = 0; i < set.count; i++)
-        if (!read_parameter(command, set.item[i], names[i], &parameters[i]))
-            return NULL;
-    const char *option = ndf ? "--ndf" : slope ? "--slope" : "--family";
-    if (ndf)
-        source = vndf_source_ndf_expression(ndf, parameters, set.count, &error);
-    else if (slope)
-        source = vndf_source_slope_expression(slope, parameters, set.count, &error);
+    if (kind == source_kinds[CSV])
+        return source_from_csv(command, option_value(given, kind));
+    if (is_formula)
+        source = source_from_formula(given, kind, &error);
     else
-        source = vndf_source_family(family ? family : otherwise, &error);
-    if (!source) {
-        complain(command, "%s: %s", option, error.message);
-        if (strstr(error.message, "unknown name") && !strstr(error.message, "did you mean"))
-            complain(command, "a parameter of your own has its value by --set NAME=X");
-    }
+        source = vndf_source_family(kind ? option_value(given, kind) : otherwise, &error);
+    if (!source && error.status != VNDF_OK)
+        complain(command, "%s: %s%s", kind ? kind : "--family", error.message,
+                 strstr(error.message, "unknown name") && !strstr(error.message, "did you mean")
+                     ? "; a parameter of your own has its value by --set NAME=X"
+                     : "");
     return source;
-}
-
-/* ---- as text ------------------------------------------------------------------------------------- */
-
-/* Adds what fits. */
-static void add(char *text, size_t size, const char *more)
-{
-    size_t at = strlen(text);
-    snprintf(text + at, size - at, "%s", more);
-}
-
-void source_text_add(const arguments *given, const char *option, char *text, size_t size)
-{
-    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-+.,:/=_";
-    const words values = option_values(given, option);
-    for (size_t i = 0; i < values.count; i++) {
-        const char *word = values.item[i];
-        const char *quote = *word && strspn(word, plain) == strlen(word) ? "" : "'";
-        add(text, size, *text ? " " : "");
-        add(text, size, option);
-        if (strcmp(word, option) == 0) /* a flag */
-            continue;
-        add(text, size, " ");
-        add(text, size, quote);
-        for (; *word; word++)
-            add(text, size, *word == '\'' ? "'\\''" : (const char[2]){*word, '\0'});
-        add(text, size, quote);
-    }
 }
 
 void source_text_name(const arguments *given, char *text, size_t size)
 {
     const words set = option_values(given, "--set");
-    text[0] = '\0';
-    for (const char *const *kind = kinds; *kind; kind++)
-        add(text, size, option_value(given, *kind) ? option_value(given, *kind) : "");
-    for (size_t i = 0; i < set.count; i++) {
-        add(text, size, ", ");
-        add(text, size, set.item[i]);
-    }
+    const char *kind = option_among(given, source_kinds);
+    size_t at = (size_t)snprintf(text, size, "%s", kind ? option_value(given, kind) : "");
+    for (size_t i = 0; i < set.count && at < size; i++)
+        at += (size_t)snprintf(text + at, size - at, ", %s", set.item[i]);
 }

@@ -27,37 +27,34 @@ static const char *family_parameter(const char *name)
     return at && at > name + end && memcmp(at - end, family_end, end) == 0 ? at + 1 : NULL;
 }
 
-static int load(chosen_distribution *chosen, const char *command, const char *path)
+int distribution_open(chosen_distribution *chosen, const char *command, const char *name, int families)
 {
     static const char *const closed_forms[] = {"ggx", "beckmann"};
     vndf_error error = {VNDF_OK, ""};
     size_t size;
-    char *bytes = input_read(command, path, BYTES_MAX, &size);
-    const char *hint = bytes ? NULL : nearest_word(path, closed_forms, 2);
-    if (hint)
-        complain(command, "did you mean '%s'?", hint);
-    if (bytes && is_family_file(path))
-        chosen->family = vndf_family_load_memory(bytes, size, &error);
-    else if (bytes)
-        chosen->distribution = chosen->owned = vndf_load_memory(bytes, size, &error);
-    if (bytes && error.status != VNDF_OK)
-        complain(command, "%s: %s", input_name(path), error.message);
-    free(bytes);
-    return chosen->family || chosen->owned;
-}
-
-int distribution_open(chosen_distribution *chosen, const char *command, const char *name, int families)
-{
     *chosen = (chosen_distribution){.distribution = strcmp(name, "ggx") == 0        ? vndf_ggx()
                                                     : strcmp(name, "beckmann") == 0 ? vndf_beckmann()
                                                                                     : NULL};
+    if (chosen->distribution)
+        return 1;
     if (!families && (is_family_file(name) || family_parameter(name)))
         return complain(command,
                         "'%s' is a family; a single table is needed (eval and sample take FILE.vndfs@P, info "
                         "FILE.vndfs)",
                         name),
                0;
-    return chosen->distribution || load(chosen, command, name);
+    char *bytes = input_read(command, name, BYTES_MAX, &size);
+    const char *hint = bytes ? NULL : nearest_word(name, closed_forms, 2);
+    if (hint)
+        complain(command, "did you mean '%s'?", hint);
+    if (bytes && is_family_file(name))
+        chosen->family = vndf_family_load_memory(bytes, size, &error);
+    else if (bytes)
+        chosen->distribution = chosen->owned = vndf_load_memory(bytes, size, &error);
+    if (error.status != VNDF_OK)
+        complain(command, "%s: %s", input_name(name), error.message);
+    free(bytes);
+    return chosen->family || chosen->owned;
 }
 
 void distribution_close(chosen_distribution *chosen)
@@ -68,17 +65,13 @@ void distribution_close(chosen_distribution *chosen)
 
 /* ---- directions and roughness -------------------------------------------------------------------- */
 
-/* Reduced to a quarter turn first, so that cos(90 degrees) is 0 and not 6e-17: a direction on the
- * horizon is meant to be on it. */
+/* By an angle of at most 45 degrees, so that cos(90 degrees) is 0 and not 6e-17: a direction on the horizon is meant to
+ * be on it. */
 static double sine_of_degrees(double degrees)
 {
-    const double radian = acos(-1.0) / 180;
-    double turn = fmod(degrees, 360);
-    if (turn < 0)
-        turn += 360;
-    if (turn >= 180)
-        return -sine_of_degrees(turn - 180);
-    return turn <= 90 ? (turn > 45 ? cos((90 - turn) * radian) : sin(turn * radian)) : sine_of_degrees(180 - turn);
+    const double radian = acos(-1.0) / 180, turn = remainder(degrees, 360);
+    const double acute = fmin(fabs(turn), 180 - fabs(turn));
+    return copysign(acute > 45 ? cos((90 - acute) * radian) : sin(acute * radian), turn);
 }
 
 vndf_vec3 direction_from(double theta, double phi)
@@ -107,7 +100,7 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 
 /* ---- the surface --------------------------------------------------------------------------------- */
 
-/* --alpha or --matrix, and --mean. 1, or 0 after a complaint. */
+/* --alpha or --matrix, and --mean, of ggx. 1, or 0 after a complaint. */
 static int read_map(const arguments *given, vndf_affine *map)
 {
     const char *command = given->command, *alpha = option_value(given, "--alpha");
@@ -128,13 +121,13 @@ static int read_map(const arguments *given, vndf_affine *map)
     map->yx = (float)m[2];
     map->yy = (float)m[3];
     const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
-    const vndf_vec3 up = {0, 0, 1};
-    if (vndf_mixture_view_from(&alone, up).count == 1)
-        return 1;
-    complain(command,
-             "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
-             matrix);
-    return 0;
+    if (vndf_mixture_view_from(&alone, (vndf_vec3){0, 0, 1}).count != 1)
+        return complain(
+                   command,
+                   "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
+                   matrix),
+               0;
+    return 1;
 }
 
 /* FILE.vndfs@P; `parameter` is the text of P in it. 1, or 0 after a complaint. */
@@ -173,14 +166,14 @@ int surface_open(chosen_surface *chosen, const arguments *given)
     chosen->wi = direction_from(theta, phi);
     if (is_family_file(name))
         return complain(command, "'%s' is a family; say at which parameter, as in %s@2.5", name, name), 0;
-    if (parameter ? family_surface(chosen, command, name, parameter, &map)
-                  : distribution_open(&chosen->of, command, name, 0)) {
-        if (!parameter) {
-            map.distribution = chosen->of.distribution;
-            chosen->mixture = (vndf_mixture){1, {{map, 1}}};
-        }
-        return 1;
+    if (!(parameter ? family_surface(chosen, command, name, parameter, &map)
+                    : distribution_open(&chosen->of, command, name, 0))) {
+        distribution_close(&chosen->of);
+        return 0;
     }
-    distribution_close(&chosen->of);
-    return 0;
+    if (!parameter) {
+        map.distribution = chosen->of.distribution;
+        chosen->mixture = (vndf_mixture){1, {{map, 1}}};
+    }
+    return 1;
 }

@@ -1,12 +1,10 @@
 /* vndf bake: tables that engines look up in the place of samples. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "bake/files.h"
 #include "cli/figures.h"
 #include "cli/files.h"
 #include "cli/output.h"
-#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "draw/svg.h"
@@ -20,46 +18,30 @@ static const char *const help[] = {
     "for numpy (.npy), a texture of half floats (.dds) and arrays for C (.h), GLSL and JavaScript; and index.html,\n"
     "which shows them all with their errors. The same words give the same bytes.\n"
     "\n"
-    "  --what LIST      which, between commas (default dfg,energy,ltc,prefilter):\n"
-    "                   dfg: scale and bias of the split sum, and E_avg; energy: E and E_avg of a mirror and of\n"
-    "                   glass; ltc: linearly transformed cosines for area lights; prefilter: taps for environments\n"
+    "  --what dfg,energy,ltc,prefilter  only these. dfg: scale and bias of the split sum, and E_avg; energy: E and\n"
+    "                   E_avg of a mirror and of glass; ltc: linearly transformed cosines for area lights;\n"
+    "                   prefilter: taps for environments\n"
     "  --mapping square|linear|sqrt  what alpha is of the roughness in a texture (default square)\n"
     "  --masking correlated|separable  Smith's masking and shadowing together (default correlated)\n"
     "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64)\n"
     "  --shape grid|cycles|ospray  order and places of energy, as a path tracer keeps them (default grid)\n"
-    "  --format LIST    of the files: npy,dds,c,glsl,js (default all)\n"
+    "  --format npy,dds,c,glsl,js  only files of these forms\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold tables of this command, which are\n"
     "replaced. Interrupted, the command leaves DIR as it was.\n"
-    "\n"
-    "exit status: 0 good, 2 wrong use\n"
     "\n"
     "example: vndf bake tables/hazy.vndf --what dfg,ltc haze\n"
     "         vndf bake ggx --what energy --shape cycles --format npy energy\n",
     NULL};
 
-static const char *const kinds[] = {"dfg", "energy", "ltc", "prefilter", NULL};
-
-/* Which of the candidates a list names, a bit each; 0 after a complaint. All without a list. */
-static unsigned listed(const arguments *given, const char *option, const char *const *candidates)
+/* Which words of a list were given, a bit each; all without the option. */
+static unsigned listed(const arguments *given, const char *option)
 {
-    const char *list = option_value(given, option);
-    int which[8];
+    int which[WORDS_MAX];
     unsigned bits = 0;
-    if (!list)
-        return ~0u;
-    for (size_t i = words_among(name, option, list, candidates, which); i-- > 0;)
+    for (size_t i = option_choices(given, option, which); i-- > 0;)
         bits |= 1u << which[i];
-    return bits;
-}
-
-/* The command as it was typed, for the files. */
-static void describe(const arguments *given, char *text, size_t size)
-{
-    static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
-    snprintf(text, size, "%s %s", name, given->positional.item[0]);
-    for (int i = 0; options[i]; i++)
-        source_text_add(given, options[i], text, size);
+    return bits ? bits : ~0u;
 }
 
 static int make(const bake_settings *s, unsigned what, const char *shape, baked_list *list)
@@ -82,7 +64,7 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
 {
     char title[512];
     snprintf(title, sizeof title, "Tables of %s", subject);
-    if (!page_begin(page, name, title))
+    if (!page_begin(page, title))
         return 0;
     fputs("<p class=\"lead\">Made by <code>", page->html);
     svg_escape(page->html, made_by);
@@ -95,7 +77,8 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
         if (!bake_file(page, &list->table[i], BAKE_PICTURE, made_by))
             return 0;
     }
-    return page_end(page);
+    page_end(page);
+    return 1;
 }
 
 static void print(const arguments *given, const baked_list *list, const char *folder)
@@ -117,25 +100,28 @@ static void print(const arguments *given, const baked_list *list, const char *fo
     figures_end(&f);
 }
 
-static int bake(const arguments *given, bake_settings *s, unsigned what, unsigned forms)
+static int bake(const arguments *given, bake_settings *s, unsigned what)
 {
+    static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
     const char *folder = given->positional.item[1], *shape = option_value(given, "--shape");
     char made_by[1024];
     baked_list list = {.count = 0};
-    html_page page = {.count = 0};
+    html_page page;
+    if (!page_open(&page, name, folder))
+        return STATUS_USE;
     progress p = progress_begin(name, option_value(given, "-q") != NULL);
     s->progress = &p;
-    describe(given, made_by, sizeof made_by);
+    snprintf(made_by, sizeof made_by, "%s %s", name, given->positional.item[0]);
+    options_text(given, options, made_by, sizeof made_by);
     progress_step(&p, what & 1 ? 0.2 : 0.01);
     int status = make(s, what, shape, &list) ? STATUS_GOOD
                  : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
                                              : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
-    if (status == STATUS_GOOD)
-        status = write_page(&page, &list, forms, made_by, input_name(given->positional.item[0]))
-                     ? page_write(&page, folder)
-                     : complain(name, "no memory for the files");
-    page_free(&page);
+    if (status == STATUS_GOOD &&
+        !write_page(&page, &list, listed(given, "--format"), made_by, input_name(given->positional.item[0])))
+        status = STATUS_USE;
+    status = page_close(&page, status);
     if (status == STATUS_GOOD)
         print(given, &list, folder);
     baked_free(&list);
@@ -146,23 +132,15 @@ static int run(const arguments *given)
 {
     unsigned long long size = 64;
     chosen_distribution chosen;
-    int mapping = option_choice(given, "--mapping", 0), masking = option_choice(given, "--masking", 0);
-    unsigned what = listed(given, "--what", kinds), forms = listed(given, "--format", bake_forms);
-    if (mapping < 0 || masking < 0 || option_choice(given, "--shape", 0) < 0 || !what || !forms ||
-        !option_count(given, "--size", 4, 256, &size) ||
+    if (!option_count(given, "--size", 4, 256, &size) ||
         !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
     bake_settings s = {.distribution = chosen.distribution,
-                       .mapping = (bake_mapping)mapping,
-                       .masking = masking ? VNDF_MASKING_SEPARABLE : VNDF_MASKING_HEIGHT_CORRELATED,
+                       .mapping = (bake_mapping)option_choice(given, "--mapping", 0),
+                       .masking = option_choice(given, "--masking", 0) ? VNDF_MASKING_SEPARABLE
+                                                                       : VNDF_MASKING_HEIGHT_CORRELATED,
                        .size = (size_t)size};
-    const char *folder = given->positional.item[1];
-    output_hold_signals();
-    page_place place = page_examine(name, folder);
-    int status = place == PAGE_REFUSED ? STATUS_USE : bake(given, &s, what, forms);
-    if (status != STATUS_GOOD && place == PAGE_NEW)
-        remove(folder);
-    output_release_signals();
+    int status = bake(given, &s, listed(given, "--what"));
     distribution_close(&chosen);
     return status;
 }

@@ -168,9 +168,9 @@ static int run_normals(const arguments *given)
     if (!source)
         return STATUS_USE;
     subject_begin(&s, source,
-                  !source_words_count(given) ? student
-                  : family                   ? family
-                                             : vndf_source_description(source));
+                  !option_among(given, source_kinds) ? student
+                  : family                           ? family
+                                                     : vndf_source_description(source));
     int status = run_plan(&plan, given);
     subject_free(&s);
     return status;

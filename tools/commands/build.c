@@ -24,16 +24,15 @@ static const char *const help[] = {
     "       vndf build --family NAME --parameter LOW..HIGH [options] -o FILE.vndfs\n"
     "       vndf build --list\n"
     "\n"
-    "Makes a table that samples the visible normals of an isotropic distribution of normals, and prints what it\n"
-    "is worth. The input may have any scale and need not be normalised; the factor found is printed.\n"
+    "Makes a table that samples the visible normals of an isotropic distribution of normals, and prints what it is\n"
+    "worth. The input may have any scale; the factor found is printed. A FILE of input may be - for stdin.\n"
     "\n"
     "  --ndf EXPR      D per steradian, in c = cos(theta_m), theta (radians), t = tan(theta_m)\n"
     "  --slope EXPR    P22 = D cos^4, in r, the slope length tan(theta_m)\n"
     "                  EXPR has + - * / ^ ( ) numbers, pi, parameters and exp log log1p sqrt sin cos tan asin\n"
     "                  acos atan sinh cosh tanh erf erfc lgamma gamma abs min max pow, step(x) = 1 for x >= 0\n"
     "  --set NAME=X ...  a parameter of the expression, which must use it\n"
-    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows;\n"
-    "                  - for stdin, here and for every FILE below\n"
+    "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
     "  --break R ...   a slope where a feature begins, ends or has its peak. Formulas, families and rows need none:\n"
@@ -41,27 +40,21 @@ static const char *const help[] = {
     "  --finest W      samples a formula that cannot be bounded, to find features as wide as W of their slope\n"
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default: what a total variation of 1e-3 above and\n"
     "                  3e-2 below the horizon takes, up to 8192)\n"
-    "  --max-tv X      the smallest table with total variation <= X above the horizon and 30 X below; without it,\n"
-    "                  the best table that fits\n"
+    "  --max-tv X      the smallest table with total variation <= X above the horizon and 30 X below\n"
     "  --moments 2|3|4    default 4: above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
     "                  visible ones, whatever D is, but for the error of cells; fewer are smaller and faster\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the figures\n"
     "\n"
-    "With --parameter, tables along a number of a family, in one file: between two of these knots the family is used\n"
-    "as the mixture of both, and what is printed says how far that is from it (measured at 7 parameters between\n"
-    "each two knots, not proven; see vndf info).\n"
+    "A family of tables along a number of a named distribution, in one file; --max-bytes and --moments are of each\n"
+    "table. Between two knots it is used as the mixture of both; how far that is off is measured (vndf info).\n"
     "\n"
-    "  --parameter LOW..HIGH    the range of the number; NAME has {p} in its place, as in abc:{p},0.8, or is the name\n"
-    "                  alone of a family with one number, as in student-t\n"
-    "  with --max-tv X    knots enough for a distance <= X of slopes between mixture and family (default 1e-3).\n"
-    "                  Normals that are visible at grazing incidence weigh the tail: where it is heavy they may be\n"
-    "                  0.06 off (student-t from 1.6; the line `grazing` of vndf info)\n"
-    "  --knots N       2 to 256 knots, where that distance is least\n"
-    "  with --max-bytes N, --moments N    these of each table\n"
+    "  --parameter LOW..HIGH  the range of the number; NAME has {p} in its place, as in abc:{p},0.8, or is the\n"
+    "                  name alone of a family with one number, as in student-t. --max-tv X: knots enough for a\n"
+    "                  distance <= X of slopes (default 1e-3); visible normals at grazing incidence may be 0.06 off\n"
+    "    --knots N     2 to 256 knots, where that distance is least\n"
     "\n",
-    "From measurements (tools/measured/README.md says what is assumed of each). What was found is printed with the\n"
-    "table: errors, residuals that say how well D explains the data, and for stretched surfaces the matrix of the\n"
-    "surface that they are: vndf sample FILE --matrix XX,XY,YX,YY.\n"
+    "From measurements (tools/measured/README.md says what is assumed of each); what was found is printed as well:\n"
+    "errors, residuals, and of stretched surfaces the matrix: vndf sample FILE --matrix XX,XY,YX,YY.\n"
     "\n"
     "  --rgl FILE      a .bsdf of EPFL's realistic graphics lab: its ndf; anisotropic ones are refused\n"
     "  --merl FILE     a .binary of MERL: by power iteration of the light that goes back, less a diffuse constant\n"
@@ -72,22 +65,20 @@ static const char *const help[] = {
     "  --normal-map FILE    normals of a surface: PPM of 8 or 16 bits, or PFM\n"
     "  --profile OUT   the curve that was found, as a CSV for --csv\n"
     "\n"
-    "example: vndf build --rgl leather.bsdf -o leather.vndf\n"
-    "         vndf build --merl gold-paint.binary --channel red -o gold-paint.vndf\n"
-    "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n",
-    "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
     "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
-    "         vndf build --slope 'exp(-r^2)*(1+r)' --max-bytes 2048 --moments 3 -o small.vndf\n"
-    "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n",
+    "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n"
+    "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n",
     NULL};
+
+static const char *const sources[] = {"--ndf",  "--slope",  "--csv",        "--family", "--rgl",
+                                      "--merl", "--height", "--normal-map", NULL};
+static const char *const *const measured = sources + 4;
 
 static int print_list(void)
 {
     const char *material;
-    fputs("families:\n", stdout);
-    fputs(vndf_family_help(), stdout);
-    fputs("\nmaterials:\n", stdout);
+    printf("families:\n%s\nmaterials:\n", vndf_family_help());
     for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
         puts(material);
     return STATUS_GOOD;
@@ -95,39 +86,7 @@ static int print_list(void)
 
 /* ---- files of measurements ----------------------------------------------------------------------- */
 
-/* And the options that go with one of them alone. */
-static const struct {
-    const char *option, *with[3];
-} measured[] = {
-    {"--merl", {"--channel"}}, {"--rgl", {NULL}}, {"--height", {"--step", "--cutoff"}}, {"--normal-map", {NULL}}};
-
-enum { MEASURED = sizeof measured / sizeof measured[0], MEASURED_BYTES = 1 << 28, NOTES = 4096 };
-
-static size_t measured_count(const arguments *given)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < MEASURED; i++)
-        count += option_value(given, measured[i].option) != NULL;
-    return count;
-}
-
-/* Whether every option stands with its file; 0 after a complaint. */
-static int check_measured(const arguments *given)
-{
-    const char *profile_path = option_value(given, "--profile");
-    for (size_t i = 0; i < MEASURED; i++) {
-        const char *lost = option_value(given, measured[i].option) ? NULL : option_among(given, measured[i].with);
-        if (lost)
-            return complain(name, "%s is for %s", lost, measured[i].option), 0;
-    }
-    if (profile_path && !measured_count(given))
-        return complain(name, "--profile is for files of measurements"), 0;
-    if (profile_path && output_is_stdout(profile_path))
-        return complain(name, "--profile '-': a file is needed"), 0;
-    if (profile_path && files_same(profile_path, option_value(given, "-o")))
-        return complain(name, "-o and --profile both name '%s'", profile_path), 0;
-    return 1;
-}
+enum { MEASURED_BYTES = 1 << 28, NOTES = sizeof((data_file *)0)->notes };
 
 static int height_slopes(const arguments *given, data_file *file, slope_set *slopes)
 {
@@ -169,29 +128,23 @@ static int read_rows(const arguments *given, data_file *file, profile *rows)
     return good;
 }
 
-/* "--height surface.pfm --cutoff 8 (crc32 ...)"; 0 after a complaint. */
-static int describe_measured(const arguments *given, const data_file *file, vndf_source *source)
+/* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", and writes its rows to --profile. 0 after a complaint. */
+static int finish_measured(const arguments *given, const data_file *file, const profile *rows, vndf_source *source)
 {
-    char text[VNDF_LIMIT_NAME_LENGTH + 2] = "", end[32];
+    static const char *const options[] = {"--rgl",  "--merl",   "--channel",    "--height",
+                                          "--step", "--cutoff", "--normal-map", NULL};
+    const char *profile_path = option_value(given, "--profile");
+    char text[VNDF_LIMIT_NAME_LENGTH + 2] = "";
     vndf_error error = {VNDF_OK, ""};
-    for (size_t i = 0; i < MEASURED; i++) {
-        source_text_add(given, measured[i].option, text, sizeof text);
-        for (const char *const *with = measured[i].with; *with; with++)
-            source_text_add(given, *with, text, sizeof text);
-    }
-    snprintf(end, sizeof end, " (crc32 %08lx)", (unsigned long)vndf_crc32(0, file->bytes, file->size));
-    if (strlen(text) + strlen(end) < sizeof text)
-        strcat(text, end);
-    if (vndf_source_describe(source, text, &error) == VNDF_OK)
-        return 1;
-    return complain(name, "%.100s: %s", file->name, error.message), 0;
-}
-
-/* The rows of a source that says what it is, to --profile; 0 after a complaint. */
-static int write_profile(const char *path, const profile *rows, const vndf_source *source)
-{
     output_file output;
-    if (!output_open(&output, name, path))
+    options_text(given, options, text, sizeof text);
+    snprintf(text + strlen(text), sizeof text - strlen(text), " (crc32 %08lx)",
+             (unsigned long)vndf_crc32(0, file->bytes, file->size));
+    if (vndf_source_describe(source, text, &error) != VNDF_OK)
+        return complain(name, "%.100s: %s", file->name, error.message), 0;
+    if (!profile_path)
+        return 1;
+    if (!output_open(&output, name, profile_path))
         return 0;
     if (profile_write(output.file, rows, vndf_source_description(source)))
         return output_commit(&output) == STATUS_GOOD;
@@ -201,22 +154,19 @@ static int write_profile(const char *path, const profile *rows, const vndf_sourc
 /* What was found on the way goes to found[], as lines of a key and a value. NULL after a complaint. */
 static vndf_source *measured_source(const arguments *given, char found[NOTES])
 {
-    const char *profile_path = option_value(given, "--profile"), *implausible;
-    data_file file = {.name = NULL};
+    data_file file = {.name = option_value(given, option_among(given, measured))};
     profile rows = {0};
     vndf_source *source = NULL;
-    for (size_t i = 0; i < MEASURED && !file.name; i++)
-        file.name = option_value(given, measured[i].option);
     char *bytes = input_read(name, file.name, MEASURED_BYTES, &file.size);
     file.bytes = (const unsigned char *)bytes;
     if (bytes && read_rows(given, &file, &rows))
         source = profile_source(&rows, &file);
     if (!source && file.refused[0])
         complain(name, "%s", file.refused);
-    if (source && (implausible = strstr(file.notes, "implausible ")) != NULL)
+    const char *implausible = source ? strstr(file.notes, "implausible ") : NULL;
+    if (implausible)
         complain(name, "%s: %.*s", file.name, (int)strcspn(implausible, "\n"), implausible);
-    if (source && (!describe_measured(given, &file, source) ||
-                   (profile_path && !write_profile(profile_path, &rows, source)))) {
+    if (source && !finish_measured(given, &file, &rows, source)) {
         vndf_source_free(source);
         source = NULL;
     }
@@ -228,33 +178,31 @@ static vndf_source *measured_source(const arguments *given, char found[NOTES])
 
 /* ---- building ------------------------------------------------------------------------------------ */
 
-/* One of the two. */
-typedef struct built {
-    vndf_distribution *table;
-    vndf_family *family;
-} built;
-
 /* "1.6..6" */
 static int read_range(const char *text, double range[2])
 {
     char low[64];
     const char *dots = strstr(text, "..");
-    size_t length = dots ? (size_t)(dots - text) : sizeof low;
-    if (length >= sizeof low)
+    if (!dots || dots - text >= (ptrdiff_t)sizeof low)
         return complain(name, "--parameter '%.64s' is not LOW..HIGH, as in 1.6..6", text), 0;
-    memcpy(low, text, length);
-    low[length] = '\0';
+    snprintf(low, sizeof low, "%.*s", (int)(dots - text), text);
     return parse_numbers(name, "--parameter", low, -1e30, 1e30, 1, 1, &range[0]) &&
            parse_numbers(name, "--parameter", dots + 2, -1e30, 1e30, 1, 1, &range[1]);
 }
 
 /* A family if there is no source. 0 after a complaint. */
-static int build(const arguments *given, const vndf_source *source, built *to)
+static int build(const arguments *given, const vndf_source *source, chosen_distribution *to)
 {
     const words breaks_at = option_values(given, "--break");
     double breaks[WORDS_MAX], range[2];
     unsigned long long bytes = 0, knots = 0;
-    vndf_build_options one = {.breaks = breaks, .break_count = breaks_at.count, .progress = progress_show};
+    progress bar = progress_begin("building", option_value(given, "-q") != NULL);
+    vndf_build_options one = {.breaks = breaks,
+                              .break_count = breaks_at.count,
+                              .moments =
+                                  option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0,
+                              .progress = progress_show,
+                              .progress_user = &bar};
     vndf_error error = {VNDF_OK, ""};
     if (!option_count(given, "--max-bytes", 2048, 1048576, &bytes) ||
         !option_number(given, "--max-tv", 1e-12, 1, &one.max_tv) ||
@@ -265,45 +213,32 @@ static int build(const arguments *given, const vndf_source *source, built *to)
     for (size_t i = 0; i < breaks_at.count; i++)
         if (!parse_numbers(name, "--break", breaks_at.item[i], 1e-30, 1e30, 1, 1, &breaks[i]))
             return 0;
-    progress bar = progress_begin("building", option_value(given, "-q") != NULL);
-    one.progress_user = &bar;
     one.max_bytes = (size_t)bytes;
-    one.moments = option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0;
+    const vndf_family_options many = {one.max_tv, (size_t)knots, one.max_bytes, one.moments, progress_show, &bar};
     if (source)
-        to->table = vndf_build(source, &one, NULL, &error);
-    else {
-        const vndf_family_options many = {.max_distance = one.max_tv,
-                                          .knots = (size_t)knots,
-                                          .max_bytes = one.max_bytes,
-                                          .moments = one.moments,
-                                          .progress = progress_show,
-                                          .progress_user = &bar};
-        to->family = vndf_build_family(option_value(given, "--family"), range[0], range[1], &many, &error);
-    }
-    progress_end(&bar);
-    if (to->table || to->family)
-        return 1;
-    if (output_stopping())
-        complain(name, "%s; '%s' was not touched", error.message, option_value(given, "-o"));
+        to->distribution = to->owned = vndf_build(source, &one, NULL, &error);
     else
+        to->family = vndf_build_family(option_value(given, "--family"), range[0], range[1], &many, &error);
+    progress_end(&bar);
+    if (output_stopping() && error.status != VNDF_OK)
+        complain(name, "%s; '%s' was not touched", error.message, option_value(given, "-o"));
+    else if (error.status != VNDF_OK)
         complain(name, "%s%s", error.message,
                  error.status == VNDF_ERROR_TARGET && bytes < 1048576 ? "; --max-bytes N allows a larger table"
                                                                       : "");
-    return 0;
+    return to->owned || to->family;
 }
 
-/* ---- saving and telling -------------------------------------------------------------------------- */
-
-static int save(const built *of, const char *path)
+static int save(const chosen_distribution *of, const char *path)
 {
     vndf_error error = {VNDF_OK, ""};
     output_file output;
-    size_t size = of->table ? vndf_distribution_info(of->table).bytes : vndf_family_info(of->family).bytes;
+    size_t size = of->owned ? vndf_distribution_info(of->owned).bytes : vndf_family_info(of->family).bytes;
     void *bytes = malloc(size);
     if (!bytes)
         return complain(name, "no memory for the file");
-    if (of->table)
-        vndf_save_memory(of->table, bytes, size, &error);
+    if (of->owned)
+        vndf_save_memory(of->owned, bytes, size, &error);
     else
         vndf_family_save_memory(of->family, bytes, size, &error);
     int opened = output_open(&output, name, path);
@@ -315,16 +250,16 @@ static int save(const built *of, const char *path)
 
 /* Says what was built and what it is worth, and that on stderr too where it is worth little. Where the file itself is
  * on stdout there is no place for figures. */
-static void tell(const arguments *given, const built *of, const char *found)
+static void tell(const arguments *given, const chosen_distribution *of, const char *found)
 {
     static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
     char verdict[DESCRIBE_VERDICT];
-    if (!describe_verdict(of->table, of->family, !option_among(given, sizes), verdict))
+    if (!describe_verdict(of, !option_among(given, sizes), verdict))
         complain(name, "%s", verdict);
     if (output_is_stdout(option_value(given, "-o")))
         return;
     figures f = figures_begin(given);
-    describe(&f, of->table, of->family, found, verdict);
+    describe(&f, of, found, verdict);
     figures_end(&f);
 }
 
@@ -335,17 +270,14 @@ static int check_words(const arguments *given)
 {
     static const char *const of_one[] = {"--break", "--finest", NULL};
     const char *path = option_value(given, "-o"), *wrong = option_among(given, of_one);
+    const char *profile_path = option_value(given, "--profile");
     const int is_family = option_value(given, "--parameter") != NULL;
-    const size_t sources = source_words_count(given) + measured_count(given);
-    if (sources != 1)
-        complain(name, "%s of --ndf, --slope, --csv, --family and files of measurements; exactly one is needed",
-                 sources ? "more than one" : "none");
-    else if (is_family && !option_value(given, "--family"))
+    if (!option_alone(given, sources))
+        return 0;
+    if (is_family && !option_value(given, "--family"))
         complain(name, "--parameter is for --family; a formula has its parameters by --set");
     else if (is_family && wrong)
         complain(name, "--parameter takes no %s", wrong);
-    else if (!is_family && option_value(given, "--knots"))
-        complain(name, "--knots is for --parameter LOW..HIGH");
     else if (option_value(given, "--knots") && option_value(given, "--max-tv"))
         complain(name, "--knots and --max-tv are given; with --parameter one of them is possible");
     else if (!path)
@@ -354,21 +286,28 @@ static int check_words(const arguments *given)
         complain(name, "'%s' has to end in .vndfs: a family of tables is known by that", path);
     else if (!is_family && is_family_file(path))
         complain(name, "'%s': a family of tables is known by .vndfs, and this is one table", path);
+    else if (profile_path && !option_among(given, measured))
+        complain(name, "--profile is for files of measurements");
+    else if (profile_path && output_is_stdout(profile_path))
+        complain(name, "--profile '-': a file is needed");
+    else if (profile_path && files_same(profile_path, path))
+        complain(name, "-o and --profile both name '%s'", profile_path);
     else
-        return check_measured(given);
+        return 1;
     return 0;
 }
 
 static int run(const arguments *given)
 {
     char found[NOTES] = "";
+    const char *path = option_value(given, "-o");
+    chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
-    built made = {NULL, NULL};
     if (option_value(given, "--list"))
         return print_list();
     if (!check_words(given))
         return STATUS_USE;
-    if (measured_count(given))
+    if (option_among(given, measured))
         source = measured_source(given, found);
     else if (!option_value(given, "--parameter"))
         source = source_from_words(given, NULL);
@@ -376,12 +315,11 @@ static int run(const arguments *given)
         return STATUS_USE;
     output_hold_signals();
     int status = STATUS_USE;
-    if (output_replaceable(name, option_value(given, "-o")) && build(given, source, &made))
-        status = save(&made, option_value(given, "-o"));
+    if (output_replaceable(name, path) && build(given, source, &made))
+        status = save(&made, path);
     if (status == STATUS_GOOD)
         tell(given, &made, found);
-    vndf_free(made.table);
-    vndf_family_free(made.family);
+    distribution_close(&made);
     vndf_source_free(source);
     output_release_signals();
     return status;

@@ -235,7 +235,7 @@ static void check_hard(checking *c, int is_whole)
     stress_result result = stress_run(c->distribution, is_whole ? 1 : 19, is_whole ? 40000 : 4000, c->seed);
     figures_number(&c->to, "hard_samples", 9, (double)result.samples, "");
     figures_number(&c->to, "hard_views", 9, (double)result.views, "");
-    figures_number(&c->to, "roughnesses_left_out", 9, (double)result.outside, "");
+    figures_number(&c->to, "hard_views_left_out", 9, (double)result.outside, "");
     figures_list(&c->to, "hard");
     for (int id = 0; id < STRESS_COUNT; id++) {
         const stress_property *property = &stress_properties[id];

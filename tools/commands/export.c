@@ -163,7 +163,7 @@ static int write_all(const arguments *given, const export_document *document)
     int written =
         opened && document_write(document, text.file, NULL) && (!raw || write_raw(document, numbers.file));
     if (raw && !written)
-        output_discard(&numbers);
+        output_give_up(&numbers, NULL);
     if (!written)
         return opened ? output_give_up(&text, "no memory, or no place on the disk") : STATUS_USE;
     int of_raw = raw ? output_commit(&numbers) : STATUS_GOOD, of_text = output_commit(&text);

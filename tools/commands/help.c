@@ -1,16 +1,17 @@
-/* The list of all commands, `vndf --help`, and vndf help: the help of a command, the manual page, completion. */
+/* The list of all commands, `vndf --help`, and vndf help: the help of a command; the manual page and the completion of
+ * bash, which packages install, from the helps of all. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "command.h"
-#include "manual/manual.h"
+#include "vndf.h"
 
-const subcommand *const subcommands[] = {
-    &command_build,   &command_info,   &command_check,         &command_sample, &command_eval, &command_plot,
-    &command_report,  &command_bench,  &command_bench_effects, &command_albedo, &command_bake, &command_export,
-    &command_explore, &command_render, &command_judge,         &command_help,   NULL};
+const subcommand *const subcommands[] = {&command_build,         &command_info,  &command_check,  &command_sample,
+                                         &command_eval,          &command_plot,  &command_report, &command_bench,
+                                         &command_bench_effects, &command_bake,  &command_export, &command_explore,
+                                         &command_render,        &command_judge, &command_help,   NULL};
 
 static const char name[] = "vndf help";
 
@@ -33,14 +34,9 @@ static const char *const help[] = {
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 
-static const char head_begin[] =
-    "vndf - sampling of visible normals for any isotropic distribution of microfacet normals\n"
-    "\n"
-    "usage: vndf COMMAND ...        vndf COMMAND --help says more, with an example\n"
-    "\n";
+static const char purpose[] = "sampling of visible normals for any isotropic distribution of microfacet normals";
 
-static const char head_end[] =
-    "\n"
+static const char rest[] =
     "example: vndf build --slope 'exp(-3*r)*(1+0.8*cos(6*r))' -o wavy.vndf\n"
     "         vndf check wavy.vndf\n"
     "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
@@ -58,11 +54,13 @@ static const char head_end[] =
 
 void command_list_text(char text[HELP_MAX])
 {
-    size_t at = (size_t)snprintf(text, HELP_MAX, "%s", head_begin);
+    int at = snprintf(
+        text, HELP_MAX,
+        "vndf - %s\n\nusage: vndf COMMAND ...        vndf COMMAND --help says more, with an example\n\n", purpose);
     for (const subcommand *const *c = subcommands; *c; c++)
-        at += (size_t)snprintf(text + at, HELP_MAX - at, "  %-13s %s\n", (*c)->name + strlen("vndf "),
-                               (*c)->purpose);
-    snprintf(text + at, HELP_MAX - at, "%s", head_end);
+        at += snprintf(text + at, HELP_MAX - (size_t)at, "  %-13s %s\n", (*c)->name + strlen("vndf "),
+                       (*c)->purpose);
+    snprintf(text + at, HELP_MAX - (size_t)at, "\n%s", rest);
 }
 
 /* What every command takes stands before its last example. */
@@ -82,68 +80,121 @@ void command_help_text(const subcommand *of, char text[HELP_MAX])
     memcpy(last, every, length);
 }
 
-/* `bench effects` is two words. */
+/* `bench effects` is two words, which are looked for first. */
 const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used)
 {
-    const char *names[WORDS_MAX] = {"--help", "--version"};
-    const subcommand *found = NULL;
-    char two[128] = "";
+    const char *names[WORDS_MAX] = {"--help", "--version"}, *hint = NULL, *word = NULL;
+    char two[128];
     size_t count = 2;
-    if (argc > 1)
-        snprintf(two, sizeof two, "%.60s %.60s", argv[0], argv[1]);
-    for (const subcommand *const *c = subcommands; *c; c++) {
-        const char *its = names[count++] = (*c)->name + strlen("vndf ");
-        if (strcmp(its, two) == 0 || (strcmp(its, argv[0]) == 0 && !found)) {
-            found = *c;
-            *used = 1 + (strcmp(its, two) == 0);
-        }
+    for (const subcommand *const *c = subcommands; *c; c++)
+        names[count++] = (*c)->name + strlen("vndf ");
+    snprintf(two, sizeof two, "%.60s %.60s", argv[0], argc > 1 ? argv[1] : "");
+    for (*used = argc > 1 ? 2 : 1; *used > 0 && !hint; --*used) {
+        word = *used == 2 ? two : argv[0];
+        for (const subcommand *const *c = subcommands; *c; c++)
+            if (strcmp((*c)->name + strlen("vndf "), word) == 0)
+                return *c;
+        hint = nearest_word(word, names, count);
+        hint = hint && *used == 2 && !strchr(hint, ' ') ? NULL : hint;
     }
-    const char *hint = nearest_word(found ? two : argv[0], names, count);
-    if (found && (*used == 2 || !hint || !strchr(hint, ' ')))
-        return found;
     if (hint)
-        complain(who, "there is no command '%s'; did you mean '%s'?", found ? two : argv[0], hint);
-    else if (strchr(argv[0], '.'))
-        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", argv[0], argv[0]);
+        complain(who, "there is no command '%s'; did you mean '%s'?", word, hint);
+    else if (strchr(word, '.'))
+        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", word, word);
     else
-        complain(who, "there is no command '%s'; `vndf --help` lists them", argv[0]);
+        complain(who, "there is no command '%s'; `vndf --help` lists them", word);
     return NULL;
+}
+
+/* ---- what packages install ----------------------------------------------------------------------- */
+
+/* In the macros that man and mandoc share: the text as it stands, with what troff reads otherwise escaped. */
+static void put_man(FILE *to, const char *text)
+{
+    static const char special[] = "\\-'`^~";
+    static const char *const as[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti"};
+    fputs(".nf\n\\&", to); /* a dot at the beginning of a line would be a request */
+    for (; *text; text++) {
+        const char *found = strchr(special, *text);
+        if (found)
+            fputs(as[found - special], to);
+        else
+            fputc(*text, to);
+        fputs(*text == '\n' && text[1] ? "\\&" : "", to);
+    }
+    fputs(".fi\n", to);
+}
+
+static void write_man(FILE *to)
+{
+    static char text[HELP_MAX];
+    fprintf(to,
+            ".\\\" Made by `vndf help --man`.\n.TH VNDF 1 \"\" \"vndf %s\" \"User Commands\"\n"
+            ".SH NAME\nvndf \\- %s\n.SH DESCRIPTION\n",
+            VNDF_VERSION, purpose);
+    command_list_text(text);
+    put_man(to, strstr(text, "usage: "));
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        fprintf(to, ".SH \"%s\"\n", (*c)->name);
+        command_help_text(*c, text);
+        put_man(to, text);
+    }
+}
+
+/* For bash 4 and later. */
+static void write_bash(FILE *to)
+{
+    static char text[HELP_MAX];
+    fputs("# Completion of commands, their options, and files; made by `vndf help --completion bash`.\n"
+          "_vndf()\n{\n    local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words='' files=-f\n"
+          "    [[ $command == bench && ${COMP_WORDS[2]} == effects ]] && command='bench effects'\n"
+          "    if ((COMP_CWORD == 1)) || [[ $command == help ]]; then\n        files='' words='",
+          to);
+    for (const subcommand *const *c = subcommands; *c; c++)
+        fprintf(to, "%s ", (*c)->name + strlen("vndf "));
+    fputs("--help --version'\n    fi\n    [[ $current == -* ]] && case $command in\n", to);
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        option_term term;
+        command_help_text(*c, text);
+        fprintf(to, "    '%s') words='", (*c)->name + strlen("vndf "));
+        for (const char *at = text; next_option(&at, &term);)
+            fprintf(to, "%.*s ", (int)term.name_length, term.name);
+        fputs("--help' ;;\n", to);
+    }
+    fputs("    esac\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
+          "complete -o filenames -F _vndf vndf\n",
+          to);
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int show(const words *asked)
-{
-    static char text[HELP_MAX];
-    int used;
-    const subcommand *c = command_named(name, (int)asked->count, asked->item, &used);
-    if (!c)
-        return STATUS_USE;
-    if (asked->count > (size_t)used)
-        return complain(name, "'%s' is one word too many", asked->item[used]);
-    command_help_text(c, text);
-    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
-}
-
 static int run(const arguments *given)
 {
     static char text[HELP_MAX];
+    const words *asked = &given->positional;
     const char *path = option_value(given, "-o"), *man = option_value(given, "--man");
     const char *completion = option_value(given, "--completion");
     output_file output;
-    if ((given->positional.count > 0) + (man != NULL) + (completion != NULL) > 1)
+    int used;
+    if ((asked->count > 0) + (man != NULL) + (completion != NULL) > 1)
         return complain(name, "one of a command, --man and --completion is possible");
     if (path && !man && !completion)
         return complain(name, "-o goes with --man or --completion");
-    if (given->positional.count)
-        return show(&given->positional);
+    if (asked->count) {
+        const subcommand *c = command_named(name, (int)asked->count, asked->item, &used);
+        if (c && asked->count > (size_t)used)
+            return complain(name, "'%s' is one word too many", asked->item[used]);
+        if (!c)
+            return STATUS_USE;
+        command_help_text(c, text);
+    } else
+        command_list_text(text);
     if (!output_open(&output, name, path ? path : "-"))
         return STATUS_USE;
-    command_list_text(text);
     if (man)
-        manual_write_man(output.file, text);
+        write_man(output.file);
     else if (completion)
-        manual_write_bash(output.file);
+        write_bash(output.file);
     else
         fputs(text, output.file);
     return output_commit(&output);

@@ -10,18 +10,17 @@
 static const char *const help[] = {
     "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"
     "\n"
-    "Prints lines of a name, a value and its unit:\n"
-    "  source         how the table was made, as arguments of `vndf build`\n"
-    "  tool           the version that made it\n"
-    "  bytes          size of the table's file; 0 for the closed forms\n"
-    "  memory         bytes that it takes when loaded\n"
-    "  cells          intervals of the slope length before the tail; 0 for closed forms\n"
-    "  moments        2, 3 or 4, as in vndf build --moments\n"
+    "Prints lines of a name, a value and its unit; FILE is - for a table on stdin. Of a table:\n"
+    "\n"
+    "  source, tool   how it was made, as arguments of `vndf build`, and by which version\n"
+    "  bytes, memory  of the file, and when it is loaded; closed forms have 0\n"
+    "  cells, moments    intervals of the slope length before the tail; 2, 3 or 4 as in vndf build --moments\n"
     "  normalization  the factor by which the given D or P22 was multiplied\n"
     "  scale          median slope length at alpha = 1\n"
-    "and the certificate, as measured when the table was made, incident directions from 0 to 180 degrees:\n"
-    "  tv             largest total variation distance between sampled and true visible normals\n"
-    "  tv_theta       incident angle where it was found, degrees\n"
+    "\n"
+    "its certificate, measured when it was made, over incident directions from 0 to 180 degrees:\n"
+    "\n"
+    "  tv, tv_theta   largest total variation distance between sampled and true visible normals, and where\n"
     "  tv_above, tv_above_theta    the same for directions from 0 to 90 degrees\n"
     "  max_weight     largest true/sampled density over all but 1e-6 of the mass\n"
     "  weight_bounded  yes if true/sampled is bounded everywhere\n"
@@ -31,19 +30,14 @@ static const char *const help[] = {
     "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
     "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
-    "and the sum of it:\n"
-    "  verdict        how far samples are from exact on both sides of the horizon, and whether that is good to ship\n"
     "\n"
-    "Of a family of tables (vndf build --parameter), which is used between its knots as a mixture of neighbours:\n"
-    "  source, tool, bytes, memory    as above, memory of all tables together\n"
+    "and a verdict. Of a family of tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
+    "\n"
     "  knots          the number of tables, from the parameter `low` to `high`\n"
     "  linear_in      p or 1/p: what the weights of neighbours are linear in\n"
-    "  distance       largest total variation distance of slopes between family and mixture, without tables\n"
-    "  grazing        the same of the normals that are visible at grazing incidence\n"
-    "  tables_tv      the largest tv of the tables\n"
-    "  knot at P bytes B tv T distance D    a line for each table, D up to the next knot\n"
-    "\n"
-    "FILE is - for a table on stdin.\n"
+    "  distance, grazing    largest total variation between family and mixture: of slopes, of normals at grazing\n"
+    "                 incidence, without tables; tables_tv is that of the tables\n"
+    "  knot           a line for each table, distance up to the next knot\n"
     "\n"
     "example: vndf info wavy.vndf\n"
     "         vndf info wavy.vndf --json\n",
@@ -57,8 +51,8 @@ static int run(const arguments *given)
     if (!distribution_open(&chosen, given->command, name, 1))
         return STATUS_USE;
     figures f = figures_begin(given);
-    describe_verdict(chosen.distribution, chosen.family, 0, verdict);
-    describe(&f, chosen.distribution, chosen.family, "", verdict);
+    describe_verdict(&chosen, 0, verdict);
+    describe(&f, &chosen, "", verdict);
     figures_end(&f);
     distribution_close(&chosen);
     return STATUS_GOOD;

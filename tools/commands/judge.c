@@ -3,12 +3,10 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "cli/figures.h"
 #include "cli/progress.h"
 #include "cli/subject.h"
 #include "command.h"
-#include "evidence/measure/statistics.h"
 #include "judge/judge.h"
 
 static const char name[] = "vndf judge";
@@ -34,13 +32,12 @@ static const char *const help[] = {
     "  chi-square  samples follow the density over 16 x 32 bins of each direction, and over rings and sectors of\n"
     "              all together; bins that expect less than 5 are pooled. Significance 0.01 for all (Sidak)\n"
     "\n"
-    "and is told, without a verdict: the scatter of 64 x 64 stratified samples over the bins as a part of that of\n"
-    "random ones (1: they are worth no more); with --ndf the total variation to the true visible normals and the\n"
-    "efficiency 1/integral Dv^2/p. Exit status 1: it fails, in what the last lines name; 2: it cannot be judged,\n"
-    "since COMMAND does not run, ends with another status than 0, or answers what is no number or too few lines.\n"
+    "and is told: the scatter of 64 x 64 stratified samples over the bins as a part of that of random ones (1: they\n"
+    "are worth no more); with --ndf the total variation to the true visible normals and the efficiency\n"
+    "1/integral Dv^2/p. Exit status 1: it fails, in what the last lines name; 2: COMMAND cannot be judged.\n"
     "\n"
     "  --ndf FILE       the distribution that is meant: a table, ggx or beckmann\n"
-    "  --alpha A[,B]    its roughness along x and y (default 1)\n"
+    "    --alpha A[,B]  its roughness along x and y (default 1)\n"
     "  --samples N      of each direction (default 100000); four times as many notice an error half as large\n"
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "\n"
@@ -48,10 +45,6 @@ static const char *const help[] = {
     "         vndf judge './ggx_caps 0.3 0.1' --ndf ggx --alpha 0.3,0.1\n"
     "         vndf judge 'python3 tools/judge/examples/ggx_caps.py 0.3 0.1' --samples 20000\n",
     NULL};
-
-/* In the order of judge_id. */
-static const char *const names[JUDGE_NUMBERS] = {"unit", "facing", "valid", "agrees", "mass", "holes", "covers"};
-static const double limits[JUDGE_NUMBERS] = {1e-4, 1e-5, 0, 1e-3, 1e-3, 0, 1e-3};
 
 static void print_views(figures *f, const judge_view *views, int has_truth)
 {
@@ -78,104 +71,83 @@ static void print_views(figures *f, const judge_view *views, int has_truth)
 /* The first bins without a sample; azimuths are those of the surface. */
 static void print_holes(figures *f, const judge_view *views)
 {
+    static const char *const names[4] = {"theta_from", "theta_to", "phi_from", "phi_to"};
     enum { SHOWN = 12 };
     const double degrees = 180 / acos(-1);
     figures_list(f, "holes");
     for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && f->records < SHOWN; i++) {
         const judge_view *v = &views[i / JUDGE_BINS];
         const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SECTORS], *phi = &v->sector[i % JUDGE_SECTORS];
+        const double ends[4] = {theta[0], theta[1], v->turn + phi[0], v->turn + phi[1]};
         if (!judge_is_hole(v, i % JUDGE_BINS))
             continue;
         figures_record(f);
         figures_number(f, "theta_of_wi", 3, v->theta, "degrees");
-        figures_number(f, "theta_from", 4, theta[0] * degrees, "degrees");
-        figures_number(f, "theta_to", 4, theta[1] * degrees, "degrees");
-        figures_number(f, "phi_from", 4, (v->turn + phi[0]) * degrees, "degrees");
-        figures_number(f, "phi_to", 4, (v->turn + phi[1]) * degrees, "degrees");
+        for (int k = 0; k < 4; k++)
+            figures_number(f, names[k], 4, ends[k] * degrees, "degrees");
         figures_number(f, "expected", 4, v->expected[i % JUDGE_BINS], "samples");
     }
     figures_list_end(f);
 }
 
-/* A line of the verdict; what fails is added to the list. */
-static void print_property(figures *f, char failed[LISTED_LENGTH], const char *what, double worst, double limit,
-                           int is_good)
-{
-    size_t used = strlen(failed);
-    figures_record(f);
-    figures_text(f, "of", what);
-    figures_number(f, "worst", 3, worst, "");
-    figures_number(f, "limit", 3, limit, "");
-    figures_truth(f, "good", is_good);
-    if (!is_good)
-        snprintf(failed + used, LISTED_LENGTH - used, "%s%s", used ? ", " : "", what);
-}
-
-/* The least p of the bins of each direction, and of the rings and the sectors of all together. */
-static double least_p(const judge_view *views)
-{
-    double p = 1, statistic[2] = {0, 0};
-    size_t dof[2] = {0, 0};
-    for (int i = 0; i < JUDGE_VIEWS; i++) {
-        const pearson *sums[] = {&views[i].rings, &views[i].sectors};
-        p = fmin(p, views[i].bins.p);
-        for (int k = 0; k < 2; k++) {
-            statistic[k] += sums[k]->statistic;
-            dof[k] += sums[k]->classes ? sums[k]->classes - 1 : 0;
-        }
-    }
-    for (int k = 0; k < 2; k++)
-        p = fmin(p, statistics_chi_square_p(statistic[k], dof[k]));
-    return p;
-}
-
 static int print_verdict(const arguments *given, const judge_task *task, const judge_view *views)
 {
-    char failed[LISTED_LENGTH] = "";
-    double level = statistics_sidak(0.01, JUDGE_VIEWS + 2), p = least_p(views);
+    static const char *const names[] = {"unit", "facing", "valid",  "agrees",
+                                        "mass", "holes",  "covers", "chi-square"};
+    static const double limits[JUDGE_NUMBERS] = {1e-4, 1e-5, 0,   1e-3,
+                                                 1e-3, 0,    1e-3}; /* in the order of judge_id */
     const int has_truth = task->surface.distribution != NULL;
+    const double level = statistics_sidak(0.01, JUDGE_VIEWS + 2), p = judge_least_p(views);
+    char failed[LISTED_LENGTH] = "";
     figures f = figures_begin(given);
     figures_text(&f, "command", task->command);
     figures_number(&f, "samples", 9, (double)task->samples, "of each direction");
     print_views(&f, views, has_truth);
     print_holes(&f, views);
     figures_list(&f, "verdict");
-    for (int id = 0; id < (has_truth ? JUDGE_NUMBERS : JUDGE_COVERS); id++) {
-        double worst = 0;
-        for (int i = 0; i < JUDGE_VIEWS; i++)
+    for (int id = 0; id <= JUDGE_NUMBERS; id++) {
+        const int is_p = id == JUDGE_NUMBERS;
+        double worst = is_p ? p : 0;
+        if (id == JUDGE_COVERS && !has_truth)
+            continue;
+        for (int i = 0; i < JUDGE_VIEWS && !is_p; i++)
             worst = fmax(worst, views[i].found[id]);
-        print_property(&f, failed, names[id], worst, limits[id], worst <= limits[id]);
+        const int is_good = is_p ? p >= level : worst <= limits[id];
+        figures_record(&f);
+        figures_text(&f, "of", names[id]);
+        figures_number(&f, "worst", 3, worst, "");
+        figures_number(&f, "limit", 3, is_p ? level : limits[id], "");
+        figures_truth(&f, "good", is_good);
+        if (!is_good)
+            snprintf(failed + strlen(failed), sizeof failed - strlen(failed), "%s%s", *failed ? ", " : "",
+                     names[id]);
     }
-    print_property(&f, failed, "chi-square", p, level, p >= level);
     figures_list_end(&f);
-    if (failed[0])
+    if (*failed)
         figures_text(&f, "fails", failed);
-    figures_text(&f, "result", failed[0] ? "FAILED" : "good");
+    figures_text(&f, "result", *failed ? "FAILED" : "good");
     figures_end(&f);
-    return failed[0] ? STATUS_NO : STATUS_GOOD;
+    return *failed ? STATUS_NO : STATUS_GOOD;
 }
 
 static int run(const arguments *given)
 {
-    const char *ndf = option_value(given, "--ndf"), *alpha = option_value(given, "--alpha");
+    const char *ndf = option_value(given, "--ndf");
     unsigned long long samples = 100000, seed = 1;
     chosen_distribution chosen = {NULL, NULL, NULL};
     judge_view views[JUDGE_VIEWS];
     vndf_surface surface;
     if (!option_count(given, "--samples", 1000, 1e6, &samples) ||
-        !option_count(given, "--seed", 0, 0x1p53, &seed) || !roughness_from(name, alpha, &surface))
-        return STATUS_USE;
-    if (alpha && !ndf)
-        return complain(name, "--alpha is the roughness of --ndf, which is not given");
-    if (ndf && !distribution_open(&chosen, name, ndf, 0))
+        !option_count(given, "--seed", 0, 0x1p53, &seed) ||
+        !roughness_from(name, option_value(given, "--alpha"), &surface) ||
+        (ndf && !distribution_open(&chosen, name, ndf, 0)))
         return STATUS_USE;
     surface.distribution = chosen.distribution;
     const judge_task task = {name, given->positional.item[0], (size_t)samples, seed, surface};
     progress bar = progress_begin(name, option_value(given, "-q") != NULL);
-    int status = judge_views(&task, &bar, views) ? STATUS_GOOD : STATUS_USE;
+    const int is_judged = judge_views(&task, &bar, views);
     progress_end(&bar);
-    if (status == STATUS_GOOD)
-        status = print_verdict(given, &task, views);
+    int status = is_judged ? print_verdict(given, &task, views) : STATUS_USE;
     distribution_close(&chosen);
     return status;
 }

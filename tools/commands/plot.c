@@ -85,7 +85,7 @@ static int plot_to_file(const figure_plan *figure, const char *path)
 {
     output_file output;
     static const char *const forms[] = {"svg", NULL};
-    if (output_form(name, path, NULL, forms) < 0 || !output_open(&output, name, path))
+    if (output_form(name, path, forms) < 0 || !output_open(&output, name, path))
         return STATUS_USE;
     if (draw_figure(output.file, figure) && !output_stopping())
         return output_commit(&output);

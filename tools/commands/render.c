@@ -14,26 +14,27 @@ static const char name[] = "vndf render";
 
 static const char *const help[] = {
     "usage: vndf render SCENE -o OUT.png|OUT.pfm [options]\n"
-    "       vndf render SCENE --compare LIST [-o SHEET.png] [options]\n"
+    "       vndf render SCENE --compare A,B,... [-o SHEET.png] [options]\n"
     "       vndf render --grammar\n"
     "\n"
     "Renders a scene file by path tracing. The picture is the same for any number of threads. An\n"
     "interrupt (^C) saves the samples so far; the exit status is then 130.\n"
     "\n"
-    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout,\n"
-    "                  in place of the text, and an interrupt then leaves nothing\n"
-    "  --format png|pfm  whatever OUT ends in (default, for -: png)\n"
+    "  -o OUT          the picture: .png has the exposure of the scene, .pfm linear light; - for stdout\n"
+    "                  (PNG), in place of the text, and an interrupt then leaves nothing\n"
     "  --spp N         samples a pixel (default: as in the scene)\n"
     "  --threads T     threads, 1 to 256 (default: one for each processor)\n"
     "  --seed N        another choice of random numbers (default 0)\n"
-    "  --sampler NAME  how rough materials draw directions: by visible normals (the default), by all\n"
-    "                  normals, or perfect: in proportion to the BSDF, a yardstick that is slow\n"
+    "  --sampler visible|all|perfect  how rough materials draw directions: by visible normals (the default),\n"
+    "                  by all normals, or perfect: in proportion to the BSDF, a yardstick that is slow\n"
     "  --width W       pixels across; the height follows\n"
     "  --exposure X    of the PNG, in place of the exposure of the scene\n"
-    "  --compare LIST  renders by several samplers, as in visible,all,perfect, and prints the noise of\n"
-    "                  each, the samples it needs for that of the first, its efficiency, and whether all\n"
-    "                  show the same; OUT has the pictures side by side, and their noise below\n"
-    "  --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
+    "  --compare visible,all,perfect  renders by two samplers or three, and prints the noise of a pixel beside\n"
+    "                  its light, the samples each needs for the noise of the first, its efficiency (one over\n"
+    "                  squared noise and seconds), both without the worst thousandth of the pixels in brackets,\n"
+    "                  and whether all show the same (unknown of fewer than 16 samples a pixel); OUT has the\n"
+    "                  pictures side by side, their noise below\n"
+    "    --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
@@ -53,113 +54,84 @@ typedef struct render_work {
 
 /* ---- words ---- */
 
-/* One sampler, or a list separated by commas. */
-static int read_samplers(const arguments *given, comparison *c)
-{
-    const char *list = option_value(given, "--compare"), *one = option_value(given, "--sampler");
-    int sampler[SAMPLERS];
-    if (list && one)
-        return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
-    if (option_value(given, "--equal") && !list)
-        return complain(name, "--equal goes with --compare"), 0;
-    c->has_equal_time = option_choice(given, "--equal", 0) == 0;
-    if (list)
-        c->count = words_among(name, "--compare", list, path_sampler_names, sampler);
-    else
-        c->count = words_among(name, "--sampler", one ? one : "visible", path_sampler_names, sampler);
-    for (size_t k = 0; k < c->count; k++)
-        c->way[k].sampler = (path_sampler)sampler[k];
-    if (c->count == 0)
-        return 0;
-    return !list == (c->count == 1) ||
-           (complain(name, list ? "--compare takes two samplers at least" : "--sampler takes one; see --compare"),
-            0);
-}
-
 /* All words, before anything is read or rendered. */
 static int read_words(const arguments *given, render_work *w)
 {
     static const char *const forms[] = {"png", "pfm", NULL};
     unsigned long long threads = film_processors(), seed = 0;
+    int sampler[WORDS_MAX] = {option_choice(given, "--sampler", 0)};
+    const size_t compared = option_choices(given, "--compare", sampler);
     *w = (render_work){.output = option_value(given, "-o"),
                        .has_json = option_value(given, "--json") != NULL,
                        .is_quiet = option_value(given, "-q") != NULL};
     if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
         !option_count(given, "--seed", 0, 0x1p53, &seed) ||
         !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
-        !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure) || !read_samplers(given, &w->ways))
+        !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure))
         return 0;
+    if (compared && option_value(given, "--sampler"))
+        return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
+    if (compared == 1)
+        return complain(name, "--compare takes two samplers at least"), 0;
     w->ways.run = (film_run){.threads = (unsigned)threads, .seed = seed};
+    w->ways.has_equal_time = option_choice(given, "--equal", 0) == 0;
+    w->ways.count = compared ? compared : 1;
+    for (size_t k = 0; k < w->ways.count; k++)
+        w->ways.way[k].sampler = (path_sampler)sampler[k];
     if (!w->output)
-        return w->ways.count > 1 || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
-    if (output_is_stdout(w->output) && (w->ways.count > 1 || w->has_json))
+        return compared || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
+    if (output_is_stdout(w->output) && (compared || w->has_json))
         return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
-    w->is_pfm = output_form(name, w->output, option_value(given, "--format"), forms);
+    w->is_pfm = output_form(name, w->output, forms);
     return w->is_pfm >= 0 && output_replaceable(name, w->output);
 }
 
 /* ---- figures ---- */
 
-static void print_film(const film *f, const comparison *c, int is_whole)
-{
-    const double seconds = fmax(f->seconds, 1e-9), paths = (double)film_pixels(f) * (double)f->samples;
-    printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
-           is_whole ? "" : " (interrupted)");
-    printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->run.threads,
-           c->run.threads == 1 ? "" : "s", paths / seconds, (double)f->counts.rays / paths);
-    if (f->counts.lost)
-        printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
-}
-
-static void print_verdict(const char *what, const char *with, const finding *f)
-{
-    static const char *const said[3] = {"the same", "they differ", "unknown"};
-    printf("%s beside %s: %s\n    light %+.3f%%", what, with, said[f->is], 100 * (f->ratio - 1));
-    if (f->is == VERDICT_UNKNOWN)
-        printf("; fewer than %d samples a pixel have no variance to judge by\n", VERDICT_SAMPLES);
-    else
-        printf(", %+.1f standard deviations; blocks: mean square %.2f, worst %+.1f at (%d, %d)\n", f->whole,
-               f->mean_square, f->worst, f->x, f->y);
-}
-
-static void add_ratio(text_table *t, const char *heading, const measured *m)
+/* For people "1.32+-0.01 (1.29)", the last without fireflies; in JSON three numbers. */
+static void add_measured(text_table *t, const char *key, const measured *m, int has_json)
 {
     char text[64];
-    snprintf(text, sizeof text, "%.3f +- %.3f (%.3f)", m->value, m->spread, m->trimmed);
-    table_figure(t, heading, isfinite(m->value) ? text : "no variance");
+    if (!has_json) {
+        snprintf(text, sizeof text, "%.3g+-%.2g (%.3g)", m->value, m->spread, m->trimmed);
+        table_figure(t, key, isfinite(m->value) ? text : "no variance");
+        return;
+    }
+    table_number(t, key, "%.9g", m->value);
+    snprintf(text, sizeof text, "%s_spread", key);
+    table_number(t, text, "%.9g", m->spread);
+    snprintf(text, sizeof text, "%s_trimmed", key);
+    table_number(t, text, "%.9g", m->trimmed);
 }
 
-/* A row for each picture: what --compare is about for people, all of it in JSON. */
+/* A row for each way. */
 static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
-    static const char *const headings[] = {
-        "noise",       "noise_trimmed", "samples_needed", "efficiency", "light_ratio", "deviations",
-        "worst_block", "mean_square",   "width",          "height",     "lost"};
     const comparison *c = &w->ways;
     text_table t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
         const finding *a = &found[i];
-        const double noise = sqrt(a->noise.value), trimmed = sqrt(a->noise.trimmed);
-        const double numbers[] = {
-            noise,          trimmed,  a->samples.value, a->efficiency.value,   a->ratio, a->whole, a->worst,
-            a->mean_square, f->width, f->height,        (double)f->counts.lost};
         table_row(&t);
         table_text(&t, "equal", c->has_equal_time ? "equal time" : "equal samples");
         table_word(&t, "sampler", path_sampler_names[c->way[i].sampler]);
         table_number(&t, "samples", "%.0f", (double)f->samples);
         table_number(&t, "seconds", "%.3g", f->processor);
-        if (!w->has_json) {
-            table_number(&t, "noise, %", "%.2f", 100 * noise);
-            table_number(&t, "(trimmed)", "(%.2f)", 100 * trimmed);
-            add_ratio(&t, "samples needed (trimmed)", &a->samples);
-            add_ratio(&t, "efficiency (trimmed)", &a->efficiency);
-            continue;
-        }
-        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
-            table_number(&t, headings[k], "%.9g", numbers[k]);
+        table_number(&t, "noise", w->has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
+        add_measured(&t, "samples_needed", &a->samples, w->has_json);
+        add_measured(&t, "efficiency", &a->efficiency, w->has_json);
+        table_number(&t, "light", w->has_json ? "%.9g" : "%.5f", a->ratio);
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
-        table_word(&t, "interrupted", is_whole ? "no" : "yes");
+        if (w->has_json) {
+            table_number(&t, "noise_trimmed", "%.9g", sqrt(a->noise.trimmed));
+            table_number(&t, "deviations", "%.9g", a->whole);
+            table_number(&t, "worst_block", "%.9g", a->worst);
+            table_number(&t, "mean_square", "%.9g", a->mean_square);
+            table_number(&t, "width", "%.0f", f->width);
+            table_number(&t, "height", "%.0f", f->height);
+            table_number(&t, "lost", "%.0f", (double)f->counts.lost);
+            table_word(&t, "interrupted", is_whole ? "no" : "yes");
+        }
     }
     int good = table_print(stdout, &t, w->has_json ? FIGURES_JSON : FIGURES_TEXT);
     table_free(&t);
@@ -170,23 +142,32 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
 static int tell(const render_work *w, int is_whole)
 {
     const comparison *c = &w->ways;
+    const film *f = &c->way[0].film;
+    const double seconds = fmax(f->seconds, 1e-9), paths = (double)film_pixels(f) * (double)f->samples;
     finding found[SAMPLERS];
     int status = STATUS_GOOD;
     if (!comparison_find(c, found))
         return complain(name, "no memory for figures");
-    for (size_t i = 0; i < c->count; i++)
-        status = found[i].is == VERDICT_DIFFERS ? STATUS_NO : status;
-    if (w->is_quiet)
-        return status;
-    if (c->count == 1 && !w->has_json)
-        return print_film(&c->way[0].film, c, is_whole), status;
-    if (!print_rows(w, found, is_whole))
+    for (size_t i = 0; i < c->count; i++) {
+        const finding *a = &found[i];
+        if (a->is != VERDICT_DIFFERS)
+            continue;
+        status = STATUS_NO;
+        complain(
+            name,
+            "%s shows something else: light by %+.1f standard deviations, at worst a block by %+.1f, at (%d, %d)",
+            path_sampler_names[c->way[i].sampler], a->whole, a->worst, a->x, a->y);
+    }
+    if (!w->is_quiet && !w->has_json) {
+        printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
+               is_whole ? "" : " (interrupted)");
+        printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->run.threads,
+               c->run.threads == 1 ? "" : "s", paths / seconds, (double)f->counts.rays / paths);
+        if (f->counts.lost)
+            printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
+    }
+    if (!w->is_quiet && (w->has_json || c->count > 1) && !print_rows(w, found, is_whole))
         return complain(name, "no memory for figures");
-    if (!w->has_json)
-        puts("seconds: of processors; noise: of a pixel, beside its light; trimmed: without the worst\n"
-             "thousandth of the pixels; efficiency: one over squared noise and seconds");
-    for (size_t i = 1; i < c->count && !w->has_json; i++)
-        print_verdict(path_sampler_names[c->way[i].sampler], path_sampler_names[c->way[0].sampler], &found[i]);
     return status;
 }
 
@@ -234,9 +215,7 @@ static int render(render_work *w, const scene *s)
     const int is_whole = render_ways(&w->ways, s, w->is_quiet);
     int status = STATUS_USE;
     if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
-        const char *why = !output_stopping() ? "no memory for the films"
-                          : compares         ? "interrupted; nothing was written"
-                                             : "interrupted before every pixel had a sample";
+        const char *why = output_stopping() ? "interrupted; nothing was written" : "no memory for the films";
         status = w->output ? output_give_up(&output, why) : complain(name, "%s", why);
     } else {
         status = w->output && !output.path ? STATUS_GOOD : tell(w, is_whole);
@@ -251,20 +230,20 @@ static int render(render_work *w, const scene *s)
 
 static int render_scene(render_work *w, scene *s)
 {
-    char message[640];
+    vndf_error error;
     comparison *c = &w->ways;
-    if (w->width && !scene_resize(s, (int)w->width, message, sizeof message))
-        return complain(name, "--width: %s", message);
+    if (w->width && !scene_resize(s, (int)w->width, &error))
+        return complain(name, "%s", error.message);
     c->run.samples = w->spp ? w->spp : s->samples;
     for (size_t i = 0; i < c->count; i++)
-        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
-            return complain(name, "%s", message);
+        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, &error)))
+            return complain(name, "%s", error.message);
     return render(w, s);
 }
 
 static int run(const arguments *given)
 {
-    char message[1024];
+    vndf_error error;
     render_work w;
     if (option_value(given, "--grammar"))
         return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
@@ -272,9 +251,9 @@ static int run(const arguments *given)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0], message, sizeof message);
+    scene *s = scene_read(given->positional.item[0], &error);
     if (!s)
-        return complain(name, "%s", message);
+        return complain(name, "%s", error.message);
     int status = render_scene(&w, s);
     for (size_t i = 0; i < w.ways.count; i++) {
         path_free(w.ways.way[i].plan);

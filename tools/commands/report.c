@@ -1,10 +1,9 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
  * thing after the other, and has the page written; evidence/page/report.h maps the rest. */
-#include <stdlib.h>
+#include <stdio.h>
 
 #include "cli/arguments.h"
 #include "cli/clock.h"
-#include "cli/output.h"
 #include "cli/source_words.h"
 #include "command.h"
 #include "draw/svg.h"
@@ -16,8 +15,8 @@ static const char *const help[] = {
     "usage: vndf report [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options] DIR\n"
     "\n"
     "Writes DIR/index.html, one page that needs nothing else: which table to ship and with how many moments, error\n"
-    "against time and angle, what a sample costs beside other methods and distributions, density and samples;\n"
-    "beside it the data behind the plots as CSV, and DIR/frontier.svg. Takes about a minute.\n"
+    "against time, what a sample costs beside other methods and distributions, density and samples; beside it the\n"
+    "data as CSV, and DIR/frontier.svg. Takes about a minute.\n"
     "\n"
     "  --ndf EXPR, --slope EXPR, --csv FILE, --family NAME\n"
     "                  your own D, as `vndf build --help` describes them (default --family student-t:2.5)\n"
@@ -36,10 +35,11 @@ static const char student[] = "student-t:2.5";
 /* ---- what is measured ---------------------------------------------------------------------------- */
 
 /* Takes the source, which may be NULL with an error; an exit status. */
-static int add_subject(report *r, vndf_source *source, const char *title, vndf_error *error)
+static int add_subject(report *r, vndf_source *source, const char *title, const vndf_error *error)
 {
-    if (!source || report_subject_begin(&r->subject[r->count++], source, title, error) != VNDF_OK)
+    if (!source)
         return complain(name, "%s", error->message);
+    subject_begin(&r->subject[r->count++].of, source, title);
     return STATUS_GOOD;
 }
 
@@ -65,7 +65,7 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
     vndf_error error = {VNDF_OK, ""};
     int status = add_subjects(r, given);
     for (size_t i = 0; i < r->count && status == STATUS_GOOD; i++)
-        if (report_subject_measure(&r->subject[i], plan, &error) != VNDF_OK)
+        if (report_choose(&r->subject[i], plan, &error) != VNDF_OK)
             status = complain(name, "%s: %s", r->subject[i].of.name, error.message);
     if (status != STATUS_GOOD)
         return status;
@@ -81,7 +81,7 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
 
 static int write_page(html_page *page, const report *r)
 {
-    if (!page_begin(page, name, "What accuracy costs"))
+    if (!page_begin(page, "What accuracy costs"))
         return 0;
     fputs(
         "<p class=\"lead\">Visible normals sampled from tables: what accuracy costs in time and memory, for <code>",
@@ -89,26 +89,14 @@ static int write_page(html_page *page, const report *r)
     svg_escape(page->html, vndf_source_description(r->subject[0].of.source));
     fprintf(
         page->html,
-        "</code>. Batches ran on %s.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error and "
-        "time</a> <a href=\"#theta\">Error and angle</a> <a "
-        "href=\"#time\">What a sample costs</a> <a href=\"#normals\">Density and samples</a></nav>\n",
+        "</code>. Batches ran on %s.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error "
+        "and time</a> <a href=\"#time\">What a sample costs</a> <a href=\"#normals\">Density and "
+        "samples</a></nav>\n",
         r->batch);
-    return report_advice(page, r) && report_frontier(page, r) && report_angles(page, r) && report_times(page, r) &&
-           report_normals(page, r) && page_end(page);
-}
-
-static int write_report(const report *r, const char *path, page_place place, int is_quiet)
-{
-    html_page page;
-    int status = write_page(&page, r) ? page_write(&page, path) : complain(name, "no memory for the page");
-    if (status == STATUS_GOOD && !is_quiet) {
-        if (place == PAGE_OURS)
-            printf("replaced the report in %s\n", path);
-        for (size_t i = 0; i < page.count; i++)
-            printf("%s/%s\n", path, page.file[i].name);
-    }
-    page_free(&page);
-    return status;
+    int good =
+        report_advice(page, r) && report_frontier(page, r) && report_times(page, r) && report_normals(page, r);
+    page_end(page);
+    return good;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
@@ -118,29 +106,24 @@ static int run(const arguments *given)
     const char *path = given->positional.item[0];
     const int is_quiet = option_value(given, "-q") != NULL;
     double seconds = 45;
-    if (!option_number(given, "--seconds", 1, 3600, &seconds))
+    html_page page;
+    if (!option_number(given, "--seconds", 1, 3600, &seconds) || !page_open(&page, name, path))
         return STATUS_USE;
-    output_hold_signals();
-    page_place place = page_examine(name, path);
-    if (place == PAGE_REFUSED) {
-        output_release_signals();
-        return STATUS_USE;
-    }
     progress p = progress_begin(name, is_quiet);
     evidence_plan plan = {.seconds = seconds, .progress = &p, .start = clock_seconds()};
-    report *r = calloc(1, sizeof *r);
-    int status = r ? measure(r, given, &plan) : complain(name, "no memory");
+    static report r;
+    int status = measure(&r, given, &plan);
     progress_end(&p);
-    if (status == STATUS_GOOD)
-        status = write_report(r, path, place, is_quiet);
-    for (size_t i = 0; r && i < r->count; i++)
-        report_subject_free(&r->subject[i]);
-    if (r)
-        rows_free(&r->rows);
-    free(r);
-    if (status != STATUS_GOOD && place == PAGE_NEW)
-        remove(path); /* fails, and the folder stays, if a file was committed */
-    output_release_signals();
+    if (status == STATUS_GOOD && !write_page(&page, &r))
+        status = STATUS_USE;
+    status = page_close(&page, status);
+    if (status == STATUS_GOOD && !is_quiet && page.is_replaced)
+        printf("replaced the report in %s\n", path);
+    for (size_t i = 0; i < page.count && status == STATUS_GOOD && !is_quiet; i++)
+        printf("%s/%s\n", path, page.name[i]);
+    for (size_t i = 0; i < r.count; i++)
+        subject_free(&r.subject[i].of);
+    rows_free(&r.rows);
     return status;
 }
 

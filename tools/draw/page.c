@@ -9,66 +9,133 @@
 #include <unistd.h>
 
 #include "cli/arguments.h"
-#include "cli/output.h"
 #include "command.h"
 #include "draw/chart.h"
 #include "draw/svg.h"
 #include "vndf.h"
 
+/* Names the command near the beginning of a page. */
+#define MARK "<meta name=\"generator\" content=\"%s\">"
+
+/* ---- the folder ---------------------------------------------------------------------------------- */
+
+static char *path_in(const char *folder, const char *name)
+{
+    size_t size = strlen(folder) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", folder, name);
+    return path;
+}
+
+static int has_our_page(const html_page *page)
+{
+    char head[1024 + 1] = "", mark[96];
+    char *path = path_in(page->folder, "index.html");
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    free(path);
+    if (file) {
+        head[fread(head, 1, 1024, file)] = '\0';
+        fclose(file);
+    }
+    snprintf(mark, sizeof mark, MARK, page->command);
+    return strstr(head, mark) != NULL;
+}
+
+/* Whether a folder that was there may be written to. */
+static int may_fill(html_page *page)
+{
+    const char *command = page->command, *path = page->folder;
+    DIR *directory = opendir(path);
+    if (!directory)
+        return complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno)), 0;
+    int is_empty = 1;
+    for (const struct dirent *entry; is_empty && (entry = readdir(directory)) != NULL;)
+        is_empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
+    closedir(directory);
+    page->is_replaced = !is_empty;
+    if (access(path, W_OK | X_OK) != 0)
+        return complain(command, "cannot write into '%s': %s", path, strerror(errno)), 0;
+    if (!is_empty && !has_our_page(page))
+        return complain(command,
+                        "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with "
+                        "such a page, which is replaced",
+                        path, command),
+               0;
+    return 1;
+}
+
+int page_open(html_page *page, const char *command, const char *folder)
+{
+    *page = (html_page){.command = command, .folder = folder};
+    output_hold_signals();
+    if (output_is_stdout(folder))
+        complain(command, "'-' is stdout, and this needs a folder for its files; one of that name is './-'");
+    else if (mkdir(folder, 0777) == 0)
+        return page->is_new = 1;
+    else if (errno != EEXIST)
+        complain(command, "cannot make the folder '%s': %s", folder, strerror(errno));
+    else if (may_fill(page))
+        return 1;
+    output_release_signals();
+    return 0;
+}
+
+int page_close(html_page *page, int status)
+{
+    for (size_t i = 0; i < page->count && status == STATUS_GOOD; i++)
+        if (!vndf_replace_flush(page->file[i].file))
+            status = complain(page->command, "cannot write '%s': %s", page->path[i], strerror(errno));
+    if (status == STATUS_GOOD && output_stopping())
+        status = complain(page->command, "interrupted; '%s' was not touched", page->folder);
+    for (size_t i = page->count; i-- > 0;) {
+        if (status == STATUS_GOOD)
+            status = output_commit(&page->file[i]);
+        else
+            output_give_up(&page->file[i], NULL);
+        free(page->path[i]);
+    }
+    if (status != STATUS_GOOD && page->is_new)
+        rmdir(page->folder); /* fails, and the folder stays, if a file was committed */
+    output_release_signals();
+    return status;
+}
+
 /* ---- files --------------------------------------------------------------------------------------- */
 
-static FILE *open_file(html_page *page, const char *name)
+FILE *page_file(html_page *page, const char *name)
 {
-    page_file *file = &page->file[page->count];
-    if (page->count == PAGE_FILES_MAX)
-        return NULL;
-    *file = (page_file){.text = NULL};
-    snprintf(file->name, sizeof file->name, "%s", name);
-    FILE *stream = open_memstream(&file->text, &file->size);
-    page->count += stream != NULL;
-    return stream;
+    const size_t n = page->count;
+    page->path[n] = n < PAGE_FILES_MAX - 1 ? path_in(page->folder, name) : NULL;
+    if (!page->path[n])
+        return complain(page->command, "no memory"), NULL;
+    snprintf(page->name[n], sizeof page->name[n], "%s", name);
+    if (output_open(&page->file[n], page->command, page->path[n]))
+        return page->file[page->count++].file;
+    free(page->path[n]);
+    return NULL;
 }
 
-static int close_file(FILE **stream)
+void page_link(html_page *page, const char *what)
 {
-    int good = *stream && !ferror(*stream);
-    if (*stream && fclose(*stream) != 0)
-        good = 0;
-    *stream = NULL;
-    return good;
-}
-
-FILE *page_file_begin(html_page *page, const char *name)
-{
-    page->data = open_file(page, name);
-    return page->data;
-}
-
-int page_file_end(html_page *page)
-{
-    return close_file(&page->data);
-}
-
-int page_data_end(html_page *page, const char *what)
-{
-    const char *name = page->file[page->count - 1].name;
+    const char *name = page->name[page->count - 1];
     fprintf(page->html, "<p class=\"note\">Data: <a href=\"%s\" download=\"%s\">%s</a>, %s.</p>\n", name, name,
             name, what);
-    return page_file_end(page);
 }
 
 int page_data(html_page *page, const char *name, const char *what, text_table t)
 {
-    FILE *data = page_file_begin(page, name);
+    FILE *data = page_file(page, name);
     int good = data && table_print(data, &t, FIGURES_CSV);
     table_free(&t);
-    return good && page_data_end(page, what);
+    if (good)
+        page_link(page, what);
+    else if (data)
+        complain(page->command, "no memory");
+    return good;
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
-
-/* Names the command near the beginning of a page. */
-#define MARK "<meta name=\"generator\" content=\"%s\">"
 
 static const char style[] =
     ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;"
@@ -89,31 +156,27 @@ static const char style[] =
     ".text{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
     "tr.chosen td{font-weight:600;background:var(--box)}tr.chosen td:first-child::before{content:'✓ '}\n"
     ".no{color:var(--bad)}.no::after{content:' ✗'}\n"
-    "figure{margin:1em 0;flex:1 1 480px;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
+    "figure{margin:1em 0;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
-    ".pair{display:flex;flex-wrap:wrap;gap:0 24px}\n"
     "@media screen{.wide svg.chart[role]{min-width:760px}}@media (max-width:600px){body{padding:12px}}\n"
     "@page{size:A4 landscape;margin:12mm}\n"
     "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}nav{display:none}\n"
     ".scroll{overflow:visible}h2{margin-top:1em}h2,h3,.lead{break-after:avoid}"
     "figure,table,.advice,.lead{break-inside:avoid}.panels{flex-wrap:nowrap}.panels svg{min-width:0;flex:0 1 auto}"
-    ".wide svg[role]{max-height:145mm}"
-    ".pair figure{flex:1 1 30%}a{color:inherit}}\n"
+    ".wide svg[role]{max-height:145mm}a{color:inherit}}\n"
     "code{font-family:ui-monospace,'DejaVu Sans Mono',monospace;font-size:.92em;overflow-wrap:anywhere}\n";
 
-int page_begin(html_page *page, const char *command, const char *title)
+int page_begin(html_page *page, const char *title)
 {
-    *page = (html_page){.command = command};
-    page->html = open_file(page, "index.html");
+    page->html = page_file(page, "index.html");
     if (!page->html)
         return 0;
     fprintf(page->html,
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n" MARK "\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>",
-            command);
+            page->command);
     svg_escape(page->html, title);
-    fputs("</title>\n<style>\n", page->html);
-    fputs(style, page->html);
+    fprintf(page->html, "</title>\n<style>\n%s", style);
     chart_style(page->html);
     fputs("</style>\n</head>\n<body>\n<h1>", page->html);
     svg_escape(page->html, title);
@@ -121,22 +184,11 @@ int page_begin(html_page *page, const char *command, const char *title)
     return 1;
 }
 
-int page_end(html_page *page)
+void page_end(html_page *page)
 {
-    fprintf(page->html, "<p class=\"note\">Made by <code>%s</code>, vndf " VNDF_VERSION ".</p>\n", page->command);
-    fputs("</body>\n</html>\n", page->html);
-    return close_file(&page->html);
-}
-
-void page_free(html_page *page)
-{
-    close_file(&page->data);
-    close_file(&page->html);
-    for (size_t i = 0; i < page->count; i++) {
-        free(page->file[i].text);
-        free(page->file[i].path);
-    }
-    page->count = 0;
+    fprintf(page->html,
+            "<p class=\"note\">Made by <code>%s</code>, vndf " VNDF_VERSION ".</p>\n</body>\n</html>\n",
+            page->command);
 }
 
 void page_section(html_page *page, const char *id, const char *title, const char *lead)
@@ -146,97 +198,4 @@ void page_section(html_page *page, const char *id, const char *title, const char
     fputs("</h2>\n<p class=\"lead\">", page->html);
     svg_escape(page->html, lead);
     fputs("</p>\n", page->html);
-}
-
-/* ---- the folder ---------------------------------------------------------------------------------- */
-
-static char *path_in(const char *folder, const char *name)
-{
-    size_t size = strlen(folder) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s", folder, name);
-    return path;
-}
-
-static int has_our_page(const char *command, const char *folder)
-{
-    char head[1024 + 1] = "", mark[96];
-    char *path = path_in(folder, "index.html");
-    FILE *file = path ? fopen(path, "rb") : NULL;
-    free(path);
-    if (file) {
-        head[fread(head, 1, 1024, file)] = '\0';
-        fclose(file);
-    }
-    snprintf(mark, sizeof mark, MARK, command);
-    return strstr(head, mark) != NULL;
-}
-
-page_place page_examine(const char *command, const char *path)
-{
-    if (output_is_stdout(path)) {
-        complain(command, "'-' is stdout, and this needs a folder for its files; one of that name is './-'");
-        return PAGE_REFUSED;
-    }
-    if (mkdir(path, 0777) == 0)
-        return PAGE_NEW;
-    if (errno != EEXIST) {
-        complain(command, "cannot make the folder '%s': %s", path, strerror(errno));
-        return PAGE_REFUSED;
-    }
-    DIR *directory = opendir(path);
-    if (!directory) {
-        complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
-        return PAGE_REFUSED;
-    }
-    int is_empty = 1;
-    for (const struct dirent *entry; is_empty && (entry = readdir(directory)) != NULL;)
-        is_empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
-    closedir(directory);
-    if (access(path, W_OK | X_OK) != 0)
-        complain(command, "cannot write into '%s': %s", path, strerror(errno));
-    else if (!is_empty && !has_our_page(command, path))
-        complain(command,
-                 "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
-                 "page, which is replaced",
-                 path, command);
-    else
-        return is_empty ? PAGE_EMPTY : PAGE_OURS;
-    return PAGE_REFUSED;
-}
-
-/* The temporary of a file, with its text. An exit status. */
-static int write_temporary(const html_page *page, page_file *file, const char *folder, output_file *output)
-{
-    free(file->path);
-    file->path = path_in(folder, file->name);
-    if (!file->path)
-        return complain(page->command, "no memory");
-    if (!output_open(output, page->command, file->path))
-        return STATUS_USE;
-    if (fwrite(file->text, 1, file->size, output->file) == file->size && fflush(output->file) == 0)
-        return STATUS_GOOD;
-    int reason = errno;
-    output_discard(output);
-    return complain(page->command, "cannot write '%s': %s", file->name, strerror(reason));
-}
-
-int page_write(html_page *page, const char *folder)
-{
-    output_file output[PAGE_FILES_MAX];
-    size_t count = 0, done = 0;
-    int status = STATUS_GOOD;
-    while (status == STATUS_GOOD && count < page->count) {
-        page_file *file = &page->file[page->count - 1 - count]; /* the page, which is the first, last */
-        status = write_temporary(page, file, folder, &output[count]);
-        count += status == STATUS_GOOD;
-    }
-    if (status == STATUS_GOOD && output_stopping())
-        status = complain(page->command, "interrupted; '%s' was not touched", folder);
-    while (status == STATUS_GOOD && done < count)
-        status = output_commit(&output[done++]);
-    while (done < count)
-        output_discard(&output[done++]);
-    return status;
 }

@@ -1,56 +1,50 @@
 /* A page in a folder: a head with its style, sections with a title, and the data behind each plot in a file beside
- * the page. Memory holds all of it until the files are written together. */
+ * the page. All of them are temporaries until page_close renames them together, the page last; a failure or a signal
+ * before that leaves the folder as it was. */
 #ifndef TOOLS_DRAW_PAGE_H
 #define TOOLS_DRAW_PAGE_H
 
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/output.h"
 #include "draw/table.h"
 
 enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
 
-typedef struct page_file {
-    char name[PAGE_NAME_MAX];
-    char *text, *path; /* owned; path: where it is being written */
-    size_t size;
-} page_file;
-
 typedef struct html_page {
-    const char *command;            /* makes the page */
-    FILE *html;                     /* the page goes here */
-    page_file file[PAGE_FILES_MAX]; /* the first is the page itself */
+    const char *command, *folder;             /* what makes the page, and where */
+    int is_new, is_replaced;                  /* the folder was made for it; it held a page of the same command */
+    FILE *html;                               /* the page goes here */
+    char name[PAGE_FILES_MAX][PAGE_NAME_MAX]; /* of the files; the first is the page itself */
+    char *path[PAGE_FILES_MAX];               /* owned */
+    output_file file[PAGE_FILES_MAX];
     size_t count;
-    FILE *data; /* open between page_file_begin and its end */
 } html_page;
 
-/* Returns 0 if there is no memory; call page_free in any case. */
-int page_begin(html_page *page, const char *command, const char *title);
-int page_end(html_page *page);
-void page_free(html_page *page);
+/* Before anything is measured. The folder is made if it does not exist; if it does, it has to be empty or hold a page
+ * of the same command, whose files are replaced, and nothing else is touched. 0 after a complaint. Signals wait from
+ * here to page_close. */
+int page_open(html_page *page, const char *command, const char *folder);
+
+/* If `status` is good all files appear, else none, and a folder that was made for them goes. An exit status, after a
+ * complaint if that is what changes it. */
+int page_close(html_page *page, int status);
+
+/* The head of the page, and its foot. 0 after a complaint. */
+int page_begin(html_page *page, const char *title);
+void page_end(html_page *page);
 
 /* A heading with a line or two below it; both are plain text. */
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
 
-/* Begins a new file beside the page, for the caller to fill; NULL if there is no memory. */
-FILE *page_file_begin(html_page *page, const char *name);
-int page_file_end(html_page *page);
+/* Begins a new file beside the page, for the caller to fill; NULL after a complaint. */
+FILE *page_file(html_page *page, const char *name);
 
-/* Ends the file; the page links it. */
-int page_data_end(html_page *page, const char *what);
+/* The page links the file that was begun last. */
+void page_link(html_page *page, const char *what);
 
-/* A table as a whole file of data; it is freed. 0 if there is no memory. */
+/* A table as a whole file of data with a link; it is freed. 0 after a complaint. */
 int page_data(html_page *page, const char *name, const char *what, text_table t);
-
-/* ---- folders ---- */
-
-/* A folder is made if it does not exist; if it does, it has to be empty or hold a page of the same command,
- * whose files are replaced, and nothing else is touched. Complains if it is refused. */
-typedef enum page_place { PAGE_REFUSED, PAGE_NEW, PAGE_EMPTY, PAGE_OURS } page_place;
-page_place page_examine(const char *command, const char *folder);
-
-/* All files are written to temporaries first and renamed when all are complete, the page last; a failure or a
- * signal before that leaves the folder as it was. An exit status, after a complaint if it is not good. */
-int page_write(html_page *page, const char *folder);
 
 #endif

@@ -30,17 +30,11 @@ static double round_angle(double degrees)
 
 /* ---- D ------------------------------------------------------------------------------------------- */
 
-double panel_widest(const vndf_surface *surface)
-{
-    double scale = vndf_distribution_info(surface->distribution).scale;
-    double widest = fmax((double)surface->alpha_x, (double)surface->alpha_y);
-    return scale > 0 ? round_angle(atan(8 * scale * widest) * 180 / pi) : 90;
-}
-
 void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
 {
-    double x[POINTS], y[2][POINTS], widest = panel_widest(surface);
+    double x[POINTS], y[2][POINTS], roughest = fmax((double)surface->alpha_x, (double)surface->alpha_y);
     double scale = vndf_distribution_info(surface->distribution).scale;
+    double widest = scale > 0 ? round_angle(atan(8 * scale * roughest) * 180 / pi) : 90;
     int is_round = surface->alpha_x == surface->alpha_y;
     int has_ggx = is_round && scale > 0 && surface->distribution != vndf_ggx();
     /* GGX at alpha = 1 has the median slope 1, so alpha times the scale is the GGX of the same median. */

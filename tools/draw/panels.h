@@ -17,9 +17,6 @@ typedef struct panel_box {
  * median slope. */
 void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface);
 
-/* The largest angle of the normal that panel_ndf shows. */
-double panel_widest(const vndf_surface *surface);
-
 /* Visible normals from (theta, azimuth 0): density as colour, samples as dots, on the hemisphere seen from above
  * in the equal-area projection (radius ~ sin(theta_m/2)), so that dots are as dense as the colour says. The rim
  * is the smallest round angle that holds 95% of the samples. 0: no memory. */

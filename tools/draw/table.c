@@ -8,8 +8,6 @@
 
 void table_free(text_table *t)
 {
-    for (size_t k = 0; k < t->columns; k++)
-        free(t->heading[k]);
     for (size_t i = 0; i < t->count; i++)
         free(t->cell[i].text);
     free(t->cell);
@@ -17,13 +15,6 @@ void table_free(text_table *t)
 }
 
 /* ---- filling ----------------------------------------------------------------------------------- */
-
-static char *copy_of(text_table *t, const char *text)
-{
-    char *copy = malloc(strlen(text) + 1);
-    t->failed |= copy == NULL;
-    return copy ? strcpy(copy, text) : NULL;
-}
 
 void table_row(text_table *t)
 {
@@ -34,7 +25,7 @@ static void add(text_table *t, const char *heading, table_kind kind, const char 
 {
     if (t->rows == 1 && t->columns < TABLE_COLUMNS_MAX) {
         t->kind[t->columns] = kind;
-        t->heading[t->columns++] = copy_of(t, heading);
+        t->heading[t->columns++] = heading;
     }
     if (t->count == t->room) {
         size_t room = t->room ? 2 * t->room : 256;
@@ -45,7 +36,9 @@ static void add(text_table *t, const char *heading, table_kind kind, const char 
         t->room = room;
         t->cell = cell;
     }
-    t->cell[t->count++] = (table_cell){.text = copy_of(t, text)};
+    char *copy = malloc(strlen(text) + 1);
+    t->failed |= copy == NULL;
+    t->cell[t->count++] = (table_cell){.text = copy ? strcpy(copy, text) : NULL};
 }
 
 void table_text(text_table *t, const char *heading, const char *text)
@@ -67,17 +60,12 @@ void table_number(text_table *t, const char *heading, const char *format, double
 {
     char text[64];
     snprintf(text, sizeof text, format, x);
-    table_figure(t, heading, isnan(x) ? "" : text);
+    add(t, heading, TABLE_NUMBER, isnan(x) ? "" : text);
 }
 
 void table_time(text_table *t, const char *heading, double ns)
 {
     table_number(t, heading, ns < 10 ? "%.2f" : "%.1f", ns);
-}
-
-void table_value(text_table *t, const char *heading, double x)
-{
-    table_number(t, heading, "%.6g", x);
 }
 
 void table_mark(text_table *t, const char *mark)
@@ -143,66 +131,45 @@ static void print_text(FILE *file, const text_table *t)
     }
 }
 
-/* ---- Markdown ---------------------------------------------------------------------------------- */
+/* ---- files ------------------------------------------------------------------------------------- */
 
 /* A bar would end the cell, and a line the row. */
-static void put_markdown(FILE *file, const char *text)
+static void put_markdown(FILE *file, const char *text, const char *end)
 {
-    fputc(' ', file);
     for (; *text; text++) {
-        if (*text == '|')
-            fputc('\\', file);
+        fputs(*text == '|' ? "\\" : "", file);
         fputc(*text == '\n' ? ' ' : *text, file);
     }
-    fputs(" |", file);
+    fputs(end, file);
 }
 
 static void print_markdown(FILE *file, const text_table *t)
 {
-    fputc('|', file);
     for (size_t k = 0; k < t->columns; k++)
-        put_markdown(file, t->heading[k]);
+        fprintf(file, k ? " %s |" : "| %s |", t->heading[k]);
     fputs("\n|", file);
     for (size_t k = 0; k < t->columns; k++)
         fputs(t->kind[k] == TABLE_NUMBER ? "--:|" : "---|", file);
-    for (size_t i = 0; i < t->rows; i++) {
-        fputs("\n|", file);
-        for (size_t k = 0; k < t->columns; k++)
-            put_markdown(file, shown(t, i, k));
+    for (size_t i = 0; i < t->count; i++) {
+        fputs(i % t->columns ? " " : "\n| ", file);
+        put_markdown(file, shown(t, i / t->columns, i % t->columns), " |");
     }
     fputc('\n', file);
-}
-
-/* ---- CSV --------------------------------------------------------------------------------------- */
-
-static void put_quoted(FILE *file, const char *text)
-{
-    fputc('"', file);
-    for (; *text; text++) {
-        if (*text == '"')
-            fputc('"', file);
-        fputc(*text, file);
-    }
-    fputc('"', file);
 }
 
 static void print_csv(FILE *file, const text_table *t)
 {
-    for (size_t k = 0; k < t->columns; k++) {
-        fputs(k ? "," : "", file);
-        fputs(t->heading[k], file);
-    }
+    for (size_t k = 0; k < t->columns; k++)
+        fprintf(file, k ? ",%s" : "%s", t->heading[k]);
     for (size_t i = 0; i < t->count; i++) {
-        fputs(i % t->columns ? "," : "\n", file);
-        if (t->kind[i % t->columns] == TABLE_TEXT)
-            put_quoted(file, t->cell[i].text);
-        else
-            fputs(t->cell[i].text, file);
+        const char *text = t->cell[i].text, *quote = t->kind[i % t->columns] == TABLE_TEXT ? "\"" : "";
+        fprintf(file, "%s%s", i % t->columns ? "," : "\n", quote);
+        for (; *text; text++)
+            fprintf(file, *text == '"' ? "\"%c" : "%c", *text);
+        fputs(quote, file);
     }
     fputc('\n', file);
 }
-
-/* ---- JSON -------------------------------------------------------------------------------------- */
 
 /* A number is one that strtod reads whole; infinities are none in JSON. */
 static void print_json(FILE *file, const text_table *t)

@@ -27,7 +27,7 @@ typedef struct table_cell {
 } table_cell;
 
 typedef struct text_table {
-    char *heading[TABLE_COLUMNS_MAX]; /* owned */
+    const char *heading[TABLE_COLUMNS_MAX]; /* literals */
     table_kind kind[TABLE_COLUMNS_MAX];
     size_t columns, rows;
     table_cell *cell; /* row after row */
@@ -53,9 +53,6 @@ void table_number(text_table *t, const char *heading, const char *format, double
 
 /* Times below 10 ns with two digits after the point, above with one. */
 void table_time(text_table *t, const char *heading, double ns);
-
-/* Six digits, for CSV. */
-void table_value(text_table *t, const char *heading, double x);
 
 /* The class in a page of the last cell, a number: "no", say; and of the row. */
 void table_mark(text_table *t, const char *mark);

@@ -3,7 +3,7 @@
  *     row.h        a row of numbers for each method, the one list of columns, the printers
  *     method.h     what a method is, and the blocks of inputs it runs over; the methods are in methods/, materials
  *                  with their sets of effects among them
- *     list.c       which methods of which distributions: entries, made ready; tables are built here
+ *     list.c       which methods of which distributions: entries, made ready, and which of them are needed
  *     verify.c     whether the results of a method are right, before it is timed
  *     worth.c      error and variance of a method from one direction
  *     time.c       time, in turns
@@ -68,16 +68,14 @@ vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_e
 
 /* ---- entries ------------------------------------------------------------------------------------- */
 
-typedef enum subject_id { OF_GGX, OF_BECKMANN, AT_HAND, BESIDE, SUBJECTS } subject_id;
-
 typedef struct entry entry;
 struct entry {
     method m;
-    subject_id of; /* of normals */
+    const method_reference *of;
     block_law law;
-    int is_shown;         /* 0: needed as a yardstick alone */
-    const entry *beside;  /* what its time is compared with: caps or bare reflection; NULL: nothing */
-    const entry *normals; /* what its worth is compared with: all normals, of materials visible ones */
+    int is_shown, is_needed; /* needed: shown, or the yardstick of what is */
+    entry *beside;           /* what its time is compared with: caps or bare reflection; NULL: nothing */
+    entry *normals;          /* what its worth is compared with: all normals, of materials visible ones; or NULL */
     double variance[3]; /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
     evidence_row row;
 };
@@ -85,8 +83,8 @@ struct entry {
 typedef struct evidence_list {
     entry entry[ENTRIES_MAX];
     size_t count;
-    subject student;                      /* time for a D that everybody has, beside that at hand */
-    method_reference reference[SUBJECTS]; /* distribution NULL where nothing of it is wanted */
+    subject student; /* time for a D that everybody has, beside that at hand */
+    method_reference reference[MATERIALS_MAX];
     const evidence_plan *plan;
     vndf_error *error;
 } evidence_list;
@@ -120,8 +118,8 @@ int worth_of_material(const method *m, const block_law *law, double theta, block
 /* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */
 double worth_fresnel(double cosine, double n, double k);
 
-/* Fills the times of all entries that are not wrong: turns until the plan's seconds are spent, some at least.
- * VNDF_ERROR_ARGUMENT: stopped. */
+/* Fills the times of all entries that are needed and not wrong: turns until the plan's seconds are spent, some at
+ * least. VNDF_ERROR_ARGUMENT: stopped. */
 vndf_status evidence_time(evidence_list *list, const evidence_plan *plan, block *b);
 
 #endif

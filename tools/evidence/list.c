@@ -1,9 +1,11 @@
-/* Which methods of which distributions: the entries of a plan, each made ready if it is wanted or a yardstick. */
+/* Which methods of which distributions: the entries of a plan. All of them are made, tables too, which takes less than
+ * a second; what nobody asked for is neither measured nor timed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/arguments.h"
 #include "evidence/evidence.h"
 
 const table_size table_sizes[SIZES] = {{2048, 2, "table 2 KiB, 2 moments"}, {2048, 3, "table 2 KiB, 3 moments"},
@@ -58,209 +60,175 @@ const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan
 
 /* ---- entries ------------------------------------------------------------------------------------- */
 
-static int is_wanted(evidence_list *to, const method *m, const char *distribution)
+/* Takes the method; NULL if it cannot run here. */
+static entry *add(evidence_list *to, const method_reference *of, method m)
 {
-    const char *only = to->plan->only;
-    return !only || strstr(m->name, only) || strstr(distribution, only) || strstr(m->instructions, only);
-}
-
-/* Takes the method, or releases it if it cannot run here or is neither wanted nor a yardstick. */
-static entry *add(evidence_list *to, method m, const char *distribution, int is_yardstick)
-{
-    int is_shown = is_wanted(to, &m, distribution);
-    if (!m.each || !(is_shown || is_yardstick) || to->count == ENTRIES_MAX) {
+    if (!m.each || to->count == ENTRIES_MAX) {
         method_release(&m);
         return NULL;
     }
     entry *e = &to->entry[to->count++];
-    *e = (entry){.m = m, .is_shown = is_shown, .variance = {NAN, NAN, NAN}};
+    *e = (entry){.m = m, .of = of, .variance = {NAN, NAN, NAN}};
+    e->law = (block_law){of->canonical.distribution, 0.05f / of->scale, 0.95f / of->scale, NAN, 0};
     e->row = (evidence_row){.instructions = m.instructions, .kind = m.kind};
     snprintf(e->row.method, sizeof e->row.method, "%s", m.name);
-    snprintf(e->row.distribution, sizeof e->row.distribution, "%.63s", distribution);
+    snprintf(e->row.distribution, sizeof e->row.distribution, "%.63s", of->name);
     for (evidence_column c = 0; c < COLUMNS; c++)
         e->row.number[c] = NAN;
-    return e;
-}
-
-/* The entry from `from` on of that name. */
-static const entry *find(const evidence_list *list, size_t from, const char *name)
-{
-    for (size_t i = from; name && i < list->count; i++)
-        if (strcmp(list->entry[i].m.name, name) == 0)
-            return &list->entry[i];
-    return NULL;
-}
-
-/* ---- normals ------------------------------------------------------------------------------------- */
-
-static void add_normals(evidence_list *to, subject_id of, method m, int is_yardstick)
-{
-    const char *const names[SUBJECTS] = {"ggx", "beckmann", to->plan->at_hand->name, student};
-    entry *e = add(to, m, names[of], is_yardstick);
-    if (!e)
-        return;
-    e->of = of;
-    e->row.number[COL_MEMORY] = (double)m.memory;
+    if (m.kind != ROW_EFFECT)
+        e->row.number[COL_MEMORY] = (double)m.memory;
     if (m.file_bytes) {
         e->row.number[COL_FILE] = (double)m.file_bytes;
         e->row.number[COL_MOMENTS] = m.moments;
     }
+    return e;
 }
 
-static void add_closed(evidence_list *to, subject_id of, const vndf_distribution *d)
+/* The first entry of that name and distribution. */
+static entry *find(evidence_list *list, const char *name, const method_reference *of)
 {
-    static const char name[] = "closed form";
-    to->reference[of] = method_reference_of(d);
-    add_normals(to, of, method_all_normals(&to->reference[of]), 1);
-    for (method_call call = METHOD_SAMPLE; call < METHOD_CALLS; call++)
-        for (size_t i = 0; i < SETS && (call == METHOD_SAMPLE || call >= METHOD_AFFINE); i++)
-            add_normals(to, of, method_ours(d, name, call, sets[i]), 0);
-    if (of == OF_GGX)
-        add_normals(to, of, method_exported(d, name), 0);
+    for (entry *e = list->entry; name && e < list->entry + list->count; e++)
+        if (e->of == of && strcmp(e->m.name, name) == 0)
+            return e;
+    return NULL;
 }
 
-/* One of the tables by all its calls up to `last`; it is built if any of them is wanted. */
-static vndf_status add_table(evidence_list *to, subject_id of, subject *s, size_t size, method_call last)
+/* Calls of ours, one by one and in batches. */
+static void add_calls(evidence_list *to, const method_reference *of, const vndf_distribution *d, const char *name,
+                      method_call first, method_call last)
 {
-    const char *name = table_sizes[size].name;
-    for (method_call call = METHOD_SAMPLE; call <= last; call++)
-        for (size_t i = 0; i < SETS; i++) {
-            method m = method_ours(NULL, name, call, sets[i]);
-            if (!m.each || !is_wanted(to, &m, s->name))
-                continue;
-            const vndf_distribution *d = subject_table(s, size, to->plan, to->error);
-            if (!d)
-                return to->error->status;
-            add_normals(to, of, method_ours(d, name, call, sets[i]), 0);
-        }
-    if (last == METHOD_SAMPLE)
-        return VNDF_OK;
-    const method exported = method_exported(NULL, name);
-    if (is_wanted(to, &exported, s->name) && !subject_table(s, size, to->plan, to->error))
-        return to->error->status;
-    if (s->table[size])
-        add_normals(to, of, method_exported(s->table[size], name), 0);
-    return VNDF_OK;
+    for (method_call call = first; call <= last; call++)
+        for (size_t i = 0; i < SETS; i++)
+            add(to, of, method_ours(d, name, call, sets[i]));
 }
 
-/* The tables that are wanted, the published ways for any D, and the fine table, which stands for D. */
-static vndf_status add_at_hand(evidence_list *to)
+static void add_closed(evidence_list *to, const method_reference *of)
 {
-    subject *s = to->plan->at_hand;
-    size_t before = to->count;
-    const method published[] = {method_all_normals(NULL), method_warp(NULL)};
-    for (size_t i = 0; i < SIZES; i++) {
-        method_call last = i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE;
-        if (add_table(to, AT_HAND, s, i, last) != VNDF_OK)
+    const vndf_distribution *d = of->canonical.distribution;
+    add(to, of, method_all_normals(of));
+    add_calls(to, of, d, "closed form", METHOD_SAMPLE, METHOD_SAMPLE);
+    add_calls(to, of, d, "closed form", METHOD_AFFINE, METHOD_TWO_LOBES);
+}
+
+/* All tables, the default one by all calls, and the published ways for any D. */
+static void add_at_hand(evidence_list *to, const method_reference *of, const subject *s)
+{
+    for (size_t i = 0; i < SIZES; i++)
+        add_calls(to, of, s->table[i], table_sizes[i].name, METHOD_SAMPLE,
+                  i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE);
+    add(to, of, method_exported(s->table[SIZE_DEFAULT], table_sizes[SIZE_DEFAULT].name));
+    add(to, of, method_all_normals(of));
+    add(to, of, method_warp(of));
+}
+
+static vndf_status make_normals(evidence_list *to, subject *s)
+{
+    method_reference *ggx = to->reference, *beckmann = ggx + 1, *at_hand = ggx + 2, *beside = ggx + 3;
+    for (size_t i = 0; i < SIZES; i++)
+        if (!subject_table(s, i, to->plan, to->error))
             return to->error->status;
+    *ggx = method_reference_of(vndf_ggx(), "ggx");
+    *beckmann = method_reference_of(vndf_beckmann(), "beckmann");
+    *at_hand = method_reference_of(s->table[SIZE_FINE], s->name);
+    add(to, ggx, method_ggx_caps());
+    for (size_t i = 1; i < SETS; i++)
+        add(to, ggx, method_ggx_caps_batch(sets[i]));
+    add_closed(to, ggx);
+    add(to, ggx, method_exported(vndf_ggx(), "closed form"));
+    add(to, beckmann, method_beckmann_newton());
+    add_closed(to, beckmann);
+    add_at_hand(to, at_hand, s);
+    if (strcmp(s->name, student) != 0) { /* time for a D that everybody has, beside that at hand */
+        subject_begin(&to->student, vndf_source_family(student, to->error), student);
+        if (!to->student.source || !subject_table(&to->student, SIZE_DEFAULT, to->plan, to->error))
+            return to->error->status;
+        *beside = method_reference_of(to->student.table[SIZE_DEFAULT], student);
+        add_calls(to, beside, to->student.table[SIZE_DEFAULT], table_sizes[SIZE_DEFAULT].name, METHOD_SAMPLE,
+                  METHOD_SAMPLE);
     }
-    if (to->count == before && !is_wanted(to, &published[0], s->name) && !is_wanted(to, &published[1], s->name))
-        return VNDF_OK;
-    if (!subject_table(s, SIZE_FINE, to->plan, to->error))
-        return to->error->status;
-    method_reference *reference = &to->reference[AT_HAND];
-    *reference = method_reference_of(s->table[SIZE_FINE]);
-    add_normals(to, AT_HAND, method_all_normals(reference), 1);
-    add_normals(to, AT_HAND, method_warp(reference), 0);
+    for (entry *e = to->entry; e < to->entry + to->count; e++) {
+        e->beside = &to->entry[0];
+        e->normals = find(to, "all normals (2007)", e->of);
+    }
     return VNDF_OK;
 }
 
-static vndf_status add_beside(evidence_list *to)
+static vndf_status make_materials(evidence_list *to, method_reference *of, const evidence_plan *plan)
 {
-    subject *s = &to->student;
-    if (strcmp(to->plan->at_hand->name, student) == 0)
-        return VNDF_OK;
-    vndf_source *source = vndf_source_family(student, to->error);
-    if (!source)
-        return to->error->status;
-    subject_begin(s, source, student);
-    vndf_status status = add_table(to, BESIDE, s, SIZE_DEFAULT, METHOD_SAMPLE);
-    if (s->table[SIZE_DEFAULT])
-        to->reference[BESIDE] = method_reference_of(s->table[SIZE_DEFAULT]);
-    return status;
-}
-
-static vndf_status make_normals(evidence_list *to)
-{
-    add_normals(to, OF_GGX, method_ggx_caps(), 1);
-    for (size_t i = 1; i < SETS; i++)
-        add_normals(to, OF_GGX, method_ggx_caps_batch(sets[i]), 0);
-    add_closed(to, OF_GGX, vndf_ggx());
-    add_normals(to, OF_BECKMANN, method_beckmann_newton(), 0);
-    add_closed(to, OF_BECKMANN, vndf_beckmann());
-    vndf_status status = add_at_hand(to);
-    if (status == VNDF_OK)
-        status = add_beside(to);
-    for (entry *e = to->entry; e < to->entry + to->count; e++) {
-        const method_reference *r = &to->reference[e->of];
-        e->law = (block_law){r->canonical.distribution, 0.05f / r->scale, 0.95f / r->scale, NAN, 0};
-        e->beside = &to->entry[0];
-        for (const entry *n = to->entry; n < to->entry + to->count; n++)
-            if (n->of == e->of && strncmp(n->m.name, "all normals", 11) == 0)
-                e->normals = n;
-    }
-    return status;
-}
-
-/* ---- materials ----------------------------------------------------------------------------------- */
-
-/* Whether a set that is wanted is compared with this one. */
-static int is_yardstick(evidence_list *to, const effect_set *set)
-{
-    const char *only = to->plan->only;
-    for (size_t i = 0; i < effect_set_count; i++)
-        if (effect_sets[i].visible && strcmp(effect_sets[i].visible, set->name) == 0 &&
-            (!only || strstr(effect_sets[i].name, only)))
-            return 1;
-    return set == &effect_sets[EFFECT_BARE];
-}
-
-/* The sets of effects of one distribution. */
-static vndf_status add_materials(evidence_list *to, const char *name, const vndf_surface *surface)
-{
-    size_t first = to->count;
+    const vndf_surface surface = {of->canonical.distribution, plan->alpha_x, plan->alpha_y};
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
-        method m = {.instructions = ""};
-        snprintf(m.name, sizeof m.name, "%s", set->name);
-        if (!is_wanted(to, &m, name) && !is_yardstick(to, set))
-            continue;
-        m = method_effect(set, surface, to->error);
+        method m = method_effect(set, &surface, to->error);
         if (!m.each)
             return to->error->status;
-        entry *e = add(to, m, name, 1);
+        entry *e = add(to, of, m);
         if (!e)
             continue;
         e->law = effect_law(set, NAN);
-        e->row.number[COL_ALPHA_X] = (double)surface->alpha_x;
-        e->row.number[COL_ALPHA_Y] = (double)surface->alpha_y;
-    }
-    for (entry *e = to->entry + first; e < to->entry + to->count; e++) {
-        e->beside = find(to, first, effect_sets[EFFECT_BARE].name);
-        e->normals = find(to, first, effect_find(e->m.name)->visible);
+        e->row.number[COL_ALPHA_X] = (double)plan->alpha_x;
+        e->row.number[COL_ALPHA_Y] = (double)plan->alpha_y;
+        e->beside = find(to, effect_sets[EFFECT_BARE].name, of);
+        e->normals = find(to, set->visible, of);
     }
     return VNDF_OK;
 }
 
 /* ---- all of it ----------------------------------------------------------------------------------- */
 
+/* A name, or a word of one, that --only nearly is; near[] is empty if there is none. */
+static void find_near(const evidence_list *list, char near[64])
+{
+    for (const entry *e = list->entry; e < list->entry + list->count; e++) {
+        const char *const names[] = {e->row.method, e->row.distribution, e->row.instructions};
+        for (int i = 0; i < 3; i++) {
+            char text[64];
+            snprintf(text, sizeof text, "%s", names[i]);
+            for (char *word = strtok(text, " ,:()"); word; word = strtok(NULL, " ,:()")) {
+                const char *const candidate = word;
+                if (nearest_word(list->plan->only, &candidate, 1)) {
+                    snprintf(near, 64, "%s", word);
+                    return;
+                }
+            }
+        }
+    }
+}
+
+static vndf_status choose(evidence_list *list)
+{
+    const char *only = list->plan->only;
+    char near[64] = "";
+    size_t shown = 0;
+    for (entry *e = list->entry; e < list->entry + list->count; e++)
+        if (!only || strstr(e->row.method, only) || strstr(e->row.distribution, only) ||
+            strstr(e->row.instructions, only)) {
+            e->is_shown = e->is_needed = 1;
+            shown++;
+            if (e->beside)
+                e->beside->is_needed = 1;
+            if (e->normals)
+                e->normals->is_needed = 1;
+        }
+    if (shown)
+        return VNDF_OK;
+    find_near(list, near);
+    list->error->status = VNDF_ERROR_ARGUMENT;
+    snprintf(list->error->message, sizeof list->error->message,
+             "no %s, distribution or instruction set has '%.64s' in its name%s%s%s",
+             list->plan->at_hand ? "method" : "set of effects", only, *near ? "; did you mean '" : "", near,
+             *near ? "'?" : "");
+    return VNDF_ERROR_ARGUMENT;
+}
+
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error)
 {
     list->plan = plan;
     list->error = error;
-    vndf_status status = plan->at_hand ? make_normals(list) : VNDF_OK;
+    vndf_status status = plan->at_hand ? make_normals(list, plan->at_hand) : VNDF_OK;
     for (size_t i = 0; i < plan->count && status == VNDF_OK; i++) {
-        const vndf_surface surface = {plan->of[i].distribution, plan->alpha_x, plan->alpha_y};
-        status = add_materials(list, plan->of[i].name, &surface);
+        list->reference[i] = method_reference_of(plan->of[i].distribution, plan->of[i].name);
+        status = make_materials(list, &list->reference[i], plan);
     }
-    if (status != VNDF_OK)
-        return status;
-    for (size_t i = 0; i < list->count; i++)
-        if (list->entry[i].is_shown)
-            return VNDF_OK;
-    error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(error->message, sizeof error->message, "no %s, distribution or instruction set has '%s' in its name",
-             plan->at_hand ? "method" : "set of effects", plan->only);
-    return VNDF_ERROR_ARGUMENT;
+    return status == VNDF_OK ? choose(list) : status;
 }
 
 void evidence_list_free(evidence_list *list)

@@ -96,8 +96,9 @@ struct method {
 typedef struct method_reference {
     vndf_surface canonical; /* its roughness is 1/scale */
     float scale;
+    const char *name;
 } method_reference;
-method_reference method_reference_of(const vndf_distribution *d);
+method_reference method_reference_of(const vndf_distribution *d, const char *name);
 
 void method_release(method *m);
 
@@ -108,11 +109,11 @@ method method_ggx_caps(void);
 method method_ggx_caps_batch(vndf_instructions set);
 method method_beckmann_newton(void);
 
-/* Any D, from the publications. Without a reference the method has only a name. */
+/* Any D, from the publications. */
 method method_all_normals(const method_reference *reference);
 method method_warp(const method_reference *reference);
 
-/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. Without a distribution it has only its names. */
+/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. */
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit);
 
 /* The exported kernel in C, with the numbers of a table, or its GGX. */
@@ -137,7 +138,7 @@ typedef struct effect_set {
     const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effect_set;
 
-enum { EFFECT_BARE = 1 }; /* bare reflection, which the others are compared with */
+enum { EFFECT_BARE = 0 }; /* bare reflection, which the others are compared with */
 
 extern const effect_set effect_sets[];
 extern const size_t effect_set_count;

@@ -46,14 +46,15 @@ static const char legend_normals[] =
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
     "quartiles); ratio: to spherical caps; shared: 256 samples of one direction.\n"
     "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
-    "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points over that of\n"
-    "spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of gold at 60 and 85 degrees and\n"
-    "under a small light.\n";
+    "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points\n"
+    "over that of spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of\n"
+    "gold at 60 and 85 degrees and under a small light.\n";
 
 static const char legend_effects[] =
-    "ns: hit and sample, a direction each (median of turns; spread: half of what lies between quartiles); ratio: to\n"
-    "bare reflection; shared, eval, pdf: one hit for 256. Of the weights from one direction: the largest, mean, part\n"
-    "of samples lost, variance; eff: 1/(variance ns) over that of the same with visible normals.\n";
+    "ns: hit and sample, a direction each (median of turns; spread: half of what lies between\n"
+    "quartiles); ratio: to bare reflection; shared, eval, pdf: one hit for 256. Of the weights from one\n"
+    "direction: the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the\n"
+    "same with visible normals.\n";
 
 void rows_free(evidence_rows *of)
 {
@@ -86,50 +87,43 @@ static int is_shown(const evidence_rows *all, evidence_column c, int is_wide)
     return 0;
 }
 
-static int print_shown(FILE *file, const evidence_rows *all, figures_form form)
+static void put_row(text_table *t, const evidence_rows *all, const evidence_row *r, int is_wide)
 {
-    text_table t = {.rows = 0};
-    for (size_t i = 0; i < all->count; i++) {
-        const evidence_row *r = &all->row[i];
-        table_row(&t);
-        table_text(&t, "distribution", r->distribution);
-        table_text(&t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
-        table_word(&t, "set", r->instructions);
-        for (evidence_column c = 0; c < COLUMNS; c++)
-            if (is_shown(all, c, form != FIGURES_TEXT))
-                put_cell(&t, r, c);
-    }
-    int good = table_print(file, &t, form);
-    table_free(&t);
-    return good;
+    table_text(t, "distribution", r->distribution);
+    table_text(t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
+    table_word(t, "set", r->instructions);
+    for (evidence_column c = 0; c < COLUMNS; c++)
+        if (is_shown(all, c, is_wide))
+            put_cell(t, r, c);
 }
 
-/* ---- every number -------------------------------------------------------------------------------- */
-
-static int print_all(FILE *file, const evidence_rows *all, figures_form form)
+/* Every number, for files. */
+static void put_whole_row(text_table *t, const evidence_row *r)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
-    text_table t = {.rows = 0};
-    for (size_t i = 0; i < all->count; i++) {
-        const evidence_row *r = &all->row[i];
-        table_row(&t);
-        table_text(&t, "method", r->method);
-        table_text(&t, "distribution", r->distribution);
-        table_word(&t, "instructions", r->instructions);
-        table_word(&t, "kind", kinds[r->kind]);
-        for (evidence_column c = 0; c < COLUMNS; c++)
-            table_value(&t, columns[c].key, r->number[c]);
-    }
-    int good = table_print(file, &t, form);
-    table_free(&t);
-    return good;
+    table_text(t, "method", r->method);
+    table_text(t, "distribution", r->distribution);
+    table_word(t, "instructions", r->instructions);
+    table_word(t, "kind", kinds[r->kind]);
+    for (evidence_column c = 0; c < COLUMNS; c++)
+        table_number(t, columns[c].key, "%.6g", r->number[c]);
 }
 
 int evidence_print(FILE *file, const void *of, figures_form form)
 {
     const evidence_rows *all = of;
-    if (form == FIGURES_CSV || form == FIGURES_JSON)
-        return print_all(file, all, form);
-    int is_effects = all->count && all->row[0].kind == ROW_EFFECT;
-    return print_shown(file, all, form) && fprintf(file, "\n%s", is_effects ? legend_effects : legend_normals) > 0;
+    const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON;
+    text_table t = {.rows = 0};
+    for (const evidence_row *r = all->row; r < all->row + all->count; r++) {
+        table_row(&t);
+        if (is_whole)
+            put_whole_row(&t, r);
+        else
+            put_row(&t, all, r, form != FIGURES_TEXT);
+    }
+    int good = table_print(file, &t, form);
+    table_free(&t);
+    if (good && !is_whole)
+        good = fprintf(file, "\n%s", all->row[0].kind == ROW_EFFECT ? legend_effects : legend_normals) > 0;
+    return good;
 }

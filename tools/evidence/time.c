@@ -48,7 +48,7 @@ static int take_turn(const evidence_list *list, const evidence_plan *plan, block
         double *ns = number + i * SERIES;
         for (int way = 0; way < SERIES; way++)
             ns[way] = NAN;
-        if (e->row.number[COL_WRONG] > 0)
+        if (!e->is_needed || e->row.number[COL_WRONG] > 0)
             continue;
         block_fill(b, &e->law, 1000 + turn);
         ns[EACH] = time_run(&e->m, e->m.each, b, BLOCK);

@@ -263,6 +263,23 @@ static void compare_counts(judge_view *v, size_t samples)
     v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->mass) : 0;
 }
 
+double judge_least_p(const judge_view *views)
+{
+    double p = 1, statistic[2] = {0, 0};
+    size_t freedom[2] = {0, 0};
+    for (int i = 0; i < JUDGE_VIEWS; i++) {
+        const pearson *sums[] = {&views[i].rings, &views[i].sectors};
+        p = fmin(p, views[i].bins.p);
+        for (int k = 0; k < 2; k++) {
+            statistic[k] += sums[k]->statistic;
+            freedom[k] += sums[k]->classes ? sums[k]->classes - 1 : 0;
+        }
+    }
+    for (int k = 0; k < 2; k++)
+        p = fmin(p, statistics_chi_square_p(statistic[k], freedom[k]));
+    return p;
+}
+
 int judge_views(const judge_task *task, progress *bar, judge_view views[JUDGE_VIEWS])
 {
     for (int i = 0; i < JUDGE_VIEWS; i++) {

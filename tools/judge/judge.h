@@ -1,4 +1,4 @@
-/* Is a sampler of visible normals right? What it answers (process.h) at six directions, by its own density: samples
+/* Is a sampler of visible normals right? What it answers at six directions, by its own density: samples
  * are unit and face wi, their density is the one that is asked for, its integral is 1, and they follow it over bins.
  *
  * The bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi. Half of the
@@ -12,13 +12,28 @@
 
 #include "cli/progress.h"
 #include "evidence/measure/statistics.h"
-#include "judge/process.h"
 #include "vndf.h"
 
 enum { JUDGE_VIEWS = 6, JUDGE_RINGS = 16, JUDGE_SECTORS = 32, JUDGE_BINS = JUDGE_RINGS * JUDGE_SECTORS };
 enum { JUDGE_ASKED = 1000 };
 
-/* Numbers that are 0 at best; `vndf judge --help` says what is allowed. */
+/* A sampler is a command of the shell that reads queries from stdin, one a line, to its end, and answers each by a line
+ * on stdout: "s wi.x wi.y wi.z u1 u2 u3" by "wm.x wm.y wm.z pdf", "p wi.x wi.y wi.z wm.x wm.y wm.z" by "pdf". */
+typedef struct query {
+    char kind;       /* 's' or 'p' */
+    vndf_vec3 wi, x; /* x: u1 u2 u3, or wm */
+} query;
+
+typedef struct answer {
+    double x, y, z, pdf; /* of 'p' the density alone; NaN and infinity are numbers */
+} answer;
+
+/* Runs the command once. The answers are to be freed. NULL after a complaint of `who`: the command does not run or ends
+ * with a status other than 0, a line is no answer, there are too few lines or too many, or queries is NULL, for want of
+ * memory. */
+answer *process_ask(const char *who, const char *command, const query *queries, size_t count);
+
+/* Numbers that are 0 at best. */
 typedef enum judge_id {
     JUDGE_UNIT,   /* the most of | |wm| - 1 | */
     JUDGE_FACING, /* the most by which a sample is turned away from wi, or lies below the surface: a cosine */
@@ -55,5 +70,8 @@ typedef struct judge_task {
 int judge_views(const judge_task *task, progress *bar, judge_view views[JUDGE_VIEWS]);
 
 int judge_is_hole(const judge_view *view, size_t bin);
+
+/* The least p of the bins of each direction, and of the rings and the sectors of all together: JUDGE_VIEWS + 2. */
+double judge_least_p(const judge_view *views);
 
 #endif

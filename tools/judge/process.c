@@ -1,7 +1,5 @@
 /* The command's stdin and stdout are temporary files, so that neither side waits for the other. */
 #define _XOPEN_SOURCE 700
-#include "judge/process.h"
-
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +8,7 @@
 #include <unistd.h>
 
 #include "cli/arguments.h"
+#include "judge/judge.h"
 
 enum { LINE = 512 };
 

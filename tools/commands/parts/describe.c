@@ -71,58 +71,51 @@ static void put_family(figures *f, const vndf_family *family)
 
 /* ---- what is public ------------------------------------------------------------------------------ */
 
-static const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
-
-static int family_verdict(const vndf_family *family, char verdict[DESCRIBE_VERDICT])
+int describe_verdict(const chosen_distribution *of, int by_default, char verdict[DESCRIBE_VERDICT])
 {
-    const vndf_family_facts facts = vndf_family_info(family);
-    const double distance = (double)facts.distance, tables = largest_tv(family);
-    const int good = distance <= poor && tables <= poor;
-    snprintf(verdict, DESCRIBE_VERDICT,
-             "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; %.1f KiB; %s", 100 * distance,
-             100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024,
-             good                ? "good to ship"
-             : !(tables <= poor) ? "tables are worth little: try a larger --max-bytes"
-                                 : "mixtures are worth little: try more --knots");
+    const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
+    const double aim_above = 1e-3, aim_below = 3e-2;
+    char more[160] = "good to ship";
+    int good = 1;
+    if (of->family) {
+        const vndf_family_facts facts = vndf_family_info(of->family);
+        const double distance = (double)facts.distance, tables = largest_tv(of->family);
+        good = distance <= poor && tables <= poor;
+        if (!good)
+            snprintf(more, sizeof more, "%s",
+                     tables <= poor ? "mixtures are worth little: try more --knots"
+                                    : "tables are worth little: try a larger --max-bytes");
+        snprintf(verdict, DESCRIBE_VERDICT,
+                 "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; %.1f KiB; %s",
+                 100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024, more);
+        return good;
+    }
+    const vndf_info info = vndf_distribution_info(of->distribution);
+    const vndf_certificate *c = &info.certificate;
+    const double above = (double)c->tv_above, below = (double)c->tv;
+    if (!(above <= poor && below <= poor)) {
+        good = 0;
+        snprintf(more, sizeof more, "worth little at %.0f degrees: try a larger --max-bytes%s",
+                 (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
+                 !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
+    } else if (by_default && !(above <= aim_above && below <= aim_below)) {
+        good = 0;
+        snprintf(more, sizeof more, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
+                 100 * aim_above, 100 * aim_below);
+    } else if (c->finest > 0)
+        snprintf(more, sizeof more, "good to ship if no feature is narrower than %.2g of its slope",
+                 (double)c->finest);
+    snprintf(verdict, DESCRIBE_VERDICT, "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; %s",
+             100 * above, 100 * below, (double)info.bytes / 1024, more);
     return good;
 }
 
-int describe_verdict(const vndf_distribution *table, const vndf_family *family, int by_default,
-                     char verdict[DESCRIBE_VERDICT])
+void describe(figures *f, const chosen_distribution *of, const char *found, const char *verdict)
 {
-    const double aim_above = 1e-3, aim_below = 3e-2;
-    if (family)
-        return family_verdict(family, verdict);
-    const vndf_info info = vndf_distribution_info(table);
-    const vndf_certificate *c = &info.certificate;
-    const double above = (double)c->tv_above, below = (double)c->tv;
-    int good = 0, at = snprintf(verdict, DESCRIBE_VERDICT,
-                                "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; ", 100 * above,
-                                100 * below, (double)info.bytes / 1024);
-    char *more = verdict + at;
-    const size_t room = DESCRIBE_VERDICT - (size_t)at;
-    if (!(above <= poor && below <= poor))
-        snprintf(more, room, "worth little at %.0f degrees: try a larger --max-bytes%s",
-                 (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
-                 !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
-    else if (by_default && !(above <= aim_above && below <= aim_below))
-        snprintf(more, room, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer", 100 * aim_above,
-                 100 * aim_below);
-    else if (c->finest > 0)
-        good = snprintf(more, room, "good to ship if no feature is narrower than %.2g of its slope",
-                        (double)c->finest);
-    else
-        good = snprintf(more, room, "good to ship");
-    return good > 0;
-}
-
-void describe(figures *f, const vndf_distribution *table, const vndf_family *family, const char *found,
-              const char *verdict)
-{
-    const vndf_info info = family ? (vndf_info){.bytes = 1} : vndf_distribution_info(table);
+    const vndf_info info = of->family ? (vndf_info){.bytes = 1} : vndf_distribution_info(of->distribution);
     int length = 0;
-    if (family)
-        put_family(f, family);
+    if (of->family)
+        put_family(f, of->family);
     else
         put_table(f, &info);
     for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)

@@ -133,21 +133,16 @@ static const float roughnesses[] = {1e-8f, 1e-6f, 1e-4f, 1e-2f, 0.1f, 0.5f, 1, 2
 static const float edges[] = {0.0f, FLT_TRUE_MIN,    0x1p-24f,     0.5f - 0x1p-25f,
                               0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1.0f};
 
-enum {
-    AZIMUTHS = sizeof azimuths / sizeof *azimuths,
-    LENGTHS = sizeof lengths / sizeof *lengths,
-    DIRECTIONS = sizeof angles / sizeof *angles * AZIMUTHS * LENGTHS,
-    ROUGHNESSES = sizeof roughnesses / sizeof *roughnesses,
-    EDGES = sizeof edges / sizeof *edges,
-    RANDOM = 16
-};
+#define COUNT(array) (sizeof(array) / sizeof *(array))
+
+enum { DIRECTIONS = COUNT(angles) * COUNT(azimuths) * COUNT(lengths), RANDOM = 16 };
 
 /* A direction of the list: angles vary slowest. */
 static vndf_vec3 direction(size_t index)
 {
-    size_t angle = index / (AZIMUTHS * LENGTHS);
-    vndf_vec3 w = direction_from(angles[angle].degrees, azimuths[index / LENGTHS % AZIMUTHS]);
-    double length = lengths[index % LENGTHS];
+    size_t angle = index / (COUNT(azimuths) * COUNT(lengths));
+    vndf_vec3 w = direction_from(angles[angle].degrees, azimuths[index / COUNT(lengths) % COUNT(azimuths)]);
+    double length = lengths[index % COUNT(lengths)];
     if (angles[angle].degrees == 90)
         w.z = angles[angle].cosine;
     return (vndf_vec3){(float)(length * (double)w.x), (float)(length * (double)w.y),
@@ -162,43 +157,41 @@ static float hard_float(random_stream *stream)
     return which < 2 ? u : which == 2 ? near : 1 - near;
 }
 
+/* Of all pairs of edges, if they are asked for, and of random numbers. */
 static void run_view(stress_point *at, random_stream *stream, size_t edged, stress_result *result)
 {
     vndf_view view = vndf_affine_view_from(&at->surface, at->wi);
     result->views++;
     for (size_t i = 0; i < edged + RANDOM; i++) {
-        at->u1 = i < edged ? edges[i / EDGES] : hard_float(stream);
-        at->u2 = i < edged ? edges[i % EDGES] : hard_float(stream);
+        at->u1 = i < edged ? edges[i / COUNT(edges)] : hard_float(stream);
+        at->u2 = i < edged ? edges[i % COUNT(edges)] : hard_float(stream);
         measure_sample(&view, at, result);
     }
 }
 
-static int is_valid(const vndf_affine *m)
+/* A distribution's median slope, which divides its roughness: 1 where that is unknown. */
+static double scale_of(const vndf_distribution *d)
 {
-    float scale = (float)vndf_distribution_info(m->distribution).scale, x = m->xx * scale, y = m->yy * scale;
-    return x >= 1e-15f && x <= 1e15f && y >= 1e-15f && y <= 1e15f;
+    double scale = vndf_distribution_info(d).scale;
+    return scale > 0 ? scale : 1;
 }
 
-static void run_product(const vndf_distribution *distribution, size_t every, random_stream *stream,
-                        stress_result *result)
+static void run_product(const vndf_distribution *d, size_t every, random_stream *stream, stress_result *result)
 {
-    size_t skip = 0;
-    for (size_t i = 0; i < ROUGHNESSES * ROUGHNESSES; i++) {
-        float x = roughnesses[i / ROUGHNESSES], y = roughnesses[i % ROUGHNESSES];
-        stress_point at = {.surface = {distribution, x, 0, 0, y, 0, 0}};
-        if (x > 1.0001e8f * y || y > 1.0001e8f * x)
+    const float scale = (float)scale_of(d);
+    for (size_t i = 0; i < COUNT(roughnesses) * COUNT(roughnesses) * DIRECTIONS; i += every) {
+        const float x = roughnesses[i / DIRECTIONS / COUNT(roughnesses)],
+                    y = roughnesses[i / DIRECTIONS % COUNT(roughnesses)], low = fminf(x, y), high = fmaxf(x, y);
+        stress_point at = {.surface = {d, x, 0, 0, y, 0, 0}, .wi = direction(i % DIRECTIONS)};
+        if (high > 1.0001e8f * low)
             continue;
-        if (!is_valid(&at.surface)) {
+        if (low * scale < 1e-15f || high * scale > 1e15f) {
             result->outside++;
             continue;
         }
-        for (; skip < DIRECTIONS; skip += every) {
-            at.wi = direction(skip);
-            at.wo = direction((size_t)(random_bits(stream) % DIRECTIONS));
-            run_view(&at, stream, EDGES * EDGES, result);
-            measure_direction(&at, result);
-        }
-        skip -= DIRECTIONS;
+        at.wo = direction((size_t)(random_bits(stream) % DIRECTIONS));
+        run_view(&at, stream, COUNT(edges) * COUNT(edges), result);
+        measure_direction(&at, result);
     }
 }
 
@@ -210,13 +203,6 @@ static const double turn = 6.28318530717958648;
 static double log_even(random_stream *stream, double low, double high)
 {
     return low * pow(high / low, random_double(stream));
-}
-
-/* A distribution's median slope, which divides its roughness: 1 where that is unknown. */
-static double scale_of(const vndf_distribution *d)
-{
-    double scale = vndf_distribution_info(d).scale;
-    return scale > 0 ? scale : 1;
 }
 
 /* R(a) diag(most, least) R(b), one in two mirrored, divided by the scale of the distribution. */
@@ -267,65 +253,43 @@ stress_result stress_run(const vndf_distribution *distribution, size_t every, si
 
 /* ---- agreement ----------------------------------------------------------------------------------- */
 
-/* A sample of a view with two roughnesses, from 0.02 to 1 of the median slope. */
-typedef struct draw {
-    vndf_surface surface;
-    vndf_view view;
-    vndf_vec3 wi, wm;
-    double alpha_x, alpha_y; /* times the scale */
-    float u1, u2, pdf;
-} draw;
-
-/* Angles uniform, not the sphere: grazing and steep directions are where things break. */
-static draw draw_normal(const vndf_distribution *d, double scale, random_stream *stream)
-{
-    draw it;
-    double theta = 180 * random_double(stream), phi = 360 * random_double(stream);
-    it.alpha_x = pow(0.02, random_double(stream));
-    it.alpha_y = pow(0.02, random_double(stream));
-    it.u1 = random_float(stream);
-    it.u2 = random_float(stream);
-    it.surface = (vndf_surface){d, (float)(it.alpha_x / scale), (float)(it.alpha_y / scale)};
-    it.wi = direction_from(theta, phi);
-    it.view = vndf_view_from(&it.surface, it.wi);
-    it.wm = vndf_sample(&it.view, it.u1, it.u2, &it.pdf);
-    return it;
-}
-
 /* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has
  * some 20 for d log P22 / d log r. */
-static int is_steep(const draw *it)
+static int is_steep(const vndf_surface *surface, vndf_vec3 wm)
 {
-    const float up = 1.01f, down = 0.99f;
-    float x = it->wm.x / it->wm.z, y = it->wm.y / it->wm.z;
-    double high = (double)vndf_p22(&it->surface, up * x, up * y),
-           low = (double)vndf_p22(&it->surface, down * x, down * y);
+    const float x = wm.x / wm.z, y = wm.y / wm.z;
+    const double high = (double)vndf_p22(surface, 1.01f * x, 1.01f * y),
+                 low = (double)vndf_p22(surface, 0.99f * x, 0.99f * y);
     return !(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 0.02);
 }
 
-/* The distance of the normal and that of its numbers, slopes over roughness; 0 if the numbers themselves are back. */
-static double invert_difference(const draw *it)
+/* The distance of two normals, slopes over roughness. */
+static double distance_of(const vndf_surface *surface, double scale, vndf_vec3 a, vndf_vec3 b)
 {
-    const double steps = 8 * 0x1p-24;
-    float u1, u2;
-    vndf_invert(&it->view, it->wm, &u1, &u2);
-    if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
-        return INFINITY;
-    if (fabs((double)u1 - (double)it->u1) <= steps && fabs((double)u2 - (double)it->u2) <= steps)
-        return 0;
-    const vndf_vec3 normal[2] = {it->wm, vndf_sample(&it->view, u1, u2, NULL)};
-    double w[2][3], apart = 0;
-    for (int k = 0; k < 2; k++) {
-        double x = (double)normal[k].x / it->alpha_x, y = (double)normal[k].y / it->alpha_y,
-               z = (double)normal[k].z;
-        double length = sqrt(x * x + y * y + z * z);
-        w[k][0] = x / length, w[k][1] = y / length, w[k][2] = z / length;
-    }
+    const double ax = scale * (double)surface->alpha_x, ay = scale * (double)surface->alpha_y;
+    const double p[3] = {(double)a.x / ax, (double)a.y / ay, (double)a.z};
+    const double q[3] = {(double)b.x / ax, (double)b.y / ay, (double)b.z};
+    const double long_p = hypot(hypot(p[0], p[1]), p[2]), long_q = hypot(hypot(q[0], q[1]), q[2]);
+    double sum = 0;
     for (int i = 0; i < 3; i++)
-        apart += (w[1][i] - w[0][i]) * (w[1][i] - w[0][i]);
-    return isnan(apart) ? INFINITY : sqrt(apart);
+        sum += (p[i] / long_p - q[i] / long_q) * (p[i] / long_p - q[i] / long_q);
+    return isnan(sum) ? INFINITY : sqrt(sum);
 }
 
+/* The distance of the normal and that of its numbers; 0 if the numbers themselves are back. */
+static double invert_difference(const vndf_view *view, const vndf_surface *surface, double scale, const float u[2],
+                                vndf_vec3 wm)
+{
+    float u1, u2;
+    vndf_invert(view, wm, &u1, &u2);
+    if (!(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1))
+        return INFINITY;
+    if (fmaxf(fabsf(u1 - u[0]), fabsf(u2 - u[1])) <= 8 * 0x1p-24f)
+        return 0;
+    return distance_of(surface, scale, wm, vndf_sample(view, u1, u2, NULL));
+}
+
+/* Angles uniform, not the sphere: grazing and steep directions are where things break. */
 int stress_agree(const vndf_distribution *distribution, size_t points, uint64_t seed,
                  stress_agreement found[STRESS_AGREEMENTS])
 {
@@ -334,14 +298,21 @@ int stress_agree(const vndf_distribution *distribution, size_t points, uint64_t 
     for (int k = 0; k < STRESS_AGREEMENTS; k++)
         found[k] = (stress_agreement){.measured = 0};
     for (size_t i = 0; room && i < points; i++) {
-        draw it = draw_normal(distribution, scale, &stream);
-        int side = it.wi.z >= 0 ? STRESS_ABOVE_HORIZON : STRESS_BELOW_HORIZON;
-        if (vndf_projected_area(&it.surface, it.wi) < least_area)
+        const double theta = 180 * random_double(&stream), phi = 360 * random_double(&stream);
+        const double x = pow(0.02, random_double(&stream)), y = pow(0.02, random_double(&stream));
+        const float u1 = random_float(&stream), u2 = random_float(&stream), u[2] = {u1, u2};
+        const vndf_surface surface = {distribution, (float)(x / scale), (float)(y / scale)};
+        const vndf_vec3 wi = direction_from(theta, phi);
+        const size_t side = wi.z >= 0 ? STRESS_ABOVE_HORIZON : STRESS_BELOW_HORIZON;
+        if (vndf_projected_area(&surface, wi) < least_area)
             continue;
-        room[STRESS_INVERTED * points + found[STRESS_INVERTED].measured++] = invert_difference(&it);
-        if (!is_steep(&it))
-            room[(size_t)side * points + found[side].measured++] =
-                fabs((double)vndf_pdf(&it.view, it.wm) / (double)it.pdf - 1);
+        float pdf;
+        const vndf_view view = vndf_view_from(&surface, wi);
+        const vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
+        room[STRESS_INVERTED * points + found[STRESS_INVERTED].measured++] =
+            invert_difference(&view, &surface, scale, u, wm);
+        if (!is_steep(&surface, wm))
+            room[side * points + found[side].measured++] = fabs((double)vndf_pdf(&view, wm) / (double)pdf - 1);
     }
     for (size_t k = 0; room && k < STRESS_AGREEMENTS; k++) {
         double *of = room + k * points, last = (double)found[k].measured - 1;

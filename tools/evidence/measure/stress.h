@@ -50,7 +50,7 @@ typedef struct stress_finding {
 
 typedef struct stress_result {
     size_t views, samples;
-    size_t outside; /* roughnesses left out, since times the scale of the table they leave [1e-15, 1e15] */
+    size_t outside; /* views left out, whose roughness times the scale of the table they leave [1e-15, 1e15] */
     stress_finding found[STRESS_COUNT];
 } stress_result;
 

@@ -17,8 +17,8 @@ static const float gold_k[3] = {3.5f, 2.35f, 1.9f};
 static const float schlick_f0[3] = {0.04f, 0.04f, 0.04f};
 
 const effect_set effect_sets[] = {
-    {.name = "by hand, over vndf.h", .kind = EFFECT_BY_HAND},
     {.name = bare},
+    {.name = "by hand, over vndf.h", .kind = EFFECT_BY_HAND},
     {.name = "separable masking", .effects = {.masking = VNDF_MASKING_SEPARABLE}},
     {.name = "V-cavity masking", .effects = {.masking = VNDF_MASKING_V_CAVITIES}},
     {.name = "no masking", .effects = {.masking = VNDF_MASKING_NONE}},

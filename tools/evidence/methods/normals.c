@@ -76,7 +76,7 @@ static void fill_cdf(radial_cdf *t, const double *mass, int top)
 
 method method_all_normals(const method_reference *reference)
 {
-    radial_cdf *t = reference ? malloc(sizeof *t) : NULL;
+    radial_cdf *t = malloc(sizeof *t);
     double *mass = t ? malloc((FINE + 1) * sizeof *mass) : NULL;
     method m = {.name = "all normals (2007)",
                 .instructions = "scalar",

@@ -188,7 +188,7 @@ static const struct {
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
 {
-    vndf_info info = d ? vndf_distribution_info(d) : (vndf_info){.memory = 0};
+    vndf_info info = vndf_distribution_info(d);
     method m = {.instructions = method_instructions_name(limit),
                 .kind = call != METHOD_SAMPLE ? ROW_CALL
                         : info.memory         ? ROW_TABLE
@@ -210,11 +210,11 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
     return m;
 }
 
-method_reference method_reference_of(const vndf_distribution *d)
+method_reference method_reference_of(const vndf_distribution *d, const char *name)
 {
     double scale = vndf_distribution_info(d).scale;
     float alpha = (float)(1 / (scale > 0 ? scale : 1));
-    return (method_reference){{d, alpha, alpha}, 1 / alpha};
+    return (method_reference){{d, alpha, alpha}, 1 / alpha, name};
 }
 
 void method_release(method *m)

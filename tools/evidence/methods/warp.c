@@ -167,7 +167,7 @@ static void each(const method *m, block *b, size_t first, size_t count)
 
 method method_warp(const method_reference *reference)
 {
-    warp *w = reference ? malloc(sizeof *w) : NULL;
+    warp *w = malloc(sizeof *w);
     if (w)
         w->scale = reference->scale;
     for (size_t slice = 0; w && slice < SLICES; slice++)

@@ -1,55 +1,108 @@
-/* Which table to ship, and how many moments: sentences, and the tables that were measured. */
+/* Which table to ship, and how many moments: sentences, and the tables that were built.
+ *
+ * Any table is right with its weight; a small one costs noise and rare bright samples, and bias without the weight. So
+ * the advice is the smallest table whose certificate keeps the limits below, which are those that `vndf build` aims at.
+ * No table keeps a limit that the finest breaks; there a table is good if it is within a quarter of the finest. */
 #include <math.h>
 #include <stdio.h>
 
 #include "draw/svg.h"
 #include "evidence/page/report.h"
 
+/* No sample is brighter than chance would make it; without the weight the error stays below half a step of 8 bits
+ * above the horizon, where below it light has met the surface before. */
+enum { WEIGHT, TV_ABOVE, TV_BELOW, LIMITS };
+
+static const struct {
+    double most;
+    const char *heading, *format, *sentence; /* of its column, of a number in it, and of one in a sentence */
+} limits[LIMITS] = {[WEIGHT] = {2, "weight", "%.3g", "weights up to %.3g"},
+                    [TV_ABOVE] = {1e-3, "TV above", "%.1e", "a total variation of %.2g above the horizon"},
+                    [TV_BELOW] = {3e-2, "TV below", "%.1e", "a total variation of %.2g below it"}};
+
+static double number_of(const vndf_distribution *table, int limit)
+{
+    const vndf_certificate c = vndf_distribution_info(table).certificate;
+    return (double)(limit == WEIGHT ? c.max_weight : limit == TV_ABOVE ? c.tv_above : c.tv);
+}
+
+static int keeps(const vndf_distribution *table, int limit)
+{
+    return number_of(table, limit) <= limits[limit].most;
+}
+
+int report_keeps(const vndf_distribution *table)
+{
+    return keeps(table, WEIGHT) && keeps(table, TV_ABOVE) && keeps(table, TV_BELOW);
+}
+
+static int keeps_what_it_can(const vndf_distribution *table, const vndf_distribution *finest)
+{
+    int good = 1;
+    for (int i = 0; i < LIMITS; i++)
+        good &= keeps(finest, i) ? keeps(table, i) : number_of(table, i) <= 1.25 * number_of(finest, i);
+    return good;
+}
+
+vndf_status report_choose(report_subject *s, const evidence_plan *plan, vndf_error *error)
+{
+    for (size_t i = 0; i < SIZES; i++) {
+        s->ns[i] = s->batch[i] = NAN;
+        if (!subject_table(&s->of, i, plan, error))
+            return error->status;
+    }
+    s->chosen = SIZES - 1;
+    for (size_t i = SIZES; i-- > 0;)
+        if (keeps_what_it_can(s->of.table[i], s->of.table[SIZES - 1]))
+            s->chosen = i;
+    return VNDF_OK;
+}
+
+/* ---- sentences ----------------------------------------------------------------------------------- */
+
 /* The limits that a table keeps (or breaks), with its numbers. */
-static void write_limits(FILE *html, const report_table *t, int is_kept)
+static void write_limits(FILE *html, const vndf_distribution *table, int is_kept)
 {
     const char *between = "";
-    for (report_limit i = 0; i < REPORT_LIMITS; i++)
-        if (report_keeps(t, i) == is_kept) {
+    for (int i = 0; i < LIMITS; i++)
+        if (keeps(table, i) == is_kept) {
             fputs(between, html);
-            fprintf(html, report_limits[i].sentence, t->worst[i]);
+            fprintf(html, limits[i].sentence, number_of(table, i));
             between = ", ";
         }
 }
 
-/* Where the next cheaper choices fall short: a smaller file with as many moments, fewer moments in the same
- * file. */
-static void write_cheaper(FILE *html, const report_table *t, const char *what)
+/* Where the next cheaper choice falls short: a smaller file with as many moments, or fewer moments in the same file. */
+static void write_cheaper(FILE *html, const vndf_distribution *table, const char *what)
 {
-    if (report_keeps_all(t))
+    if (report_keeps(table))
         return;
     fprintf(html, " %s would mean ", what);
-    write_limits(html, t, 0);
+    write_limits(html, table, 0);
     fputs("; with the weight it is unbiased all the same.", html);
 }
 
 static void write_advice(FILE *html, const report_subject *s)
 {
-    const report_table *t = &s->table[s->chosen];
+    const vndf_distribution *const *table = (const vndf_distribution *const *)s->of.table + s->chosen;
     const table_size *size = &table_sizes[s->chosen];
-    int is_good = report_keeps_all(t);
+    const int is_good = report_keeps(*table);
     char bytes[TABLE_BYTES];
-    table_bytes_text(bytes, (double)t->info.bytes);
+    table_bytes_text(bytes, (double)vndf_distribution_info(*table).bytes);
     fputs("<p><strong>", html);
     svg_escape(html, s->of.name);
-    fprintf(
-        html, ": ship %s with %d moments.</strong> %s", bytes, size->moments,
-        is_good
-            ? "It is the smallest that keeps all limits: "
-            : "None of those measured keeps all limits; this is the smallest that comes near the finest, with ");
-    write_limits(html, t, is_good);
+    fprintf(html, ": ship %s with %d moments.</strong> %s", bytes, size->moments,
+            is_good
+                ? "It is the smallest that keeps all limits: "
+                : "None of those built keeps all limits; this is the smallest that comes near the finest, with ");
+    write_limits(html, *table, is_good);
     fputs(". ", html);
-    if (t->ns > 0)
-        fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", t->ns, t->batch);
+    if (s->ns[s->chosen] > 0)
+        fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", s->ns[s->chosen], s->batch[s->chosen]);
     if (s->chosen >= 3 && is_good)
-        write_cheaper(html, t - 3, "The next smaller file");
+        write_cheaper(html, table[-3], "The next smaller file");
     if (size->moments > 2 && is_good)
-        write_cheaper(html, t - 1, "One moment fewer");
+        write_cheaper(html, table[-1], "One moment fewer");
     fputs("<code>vndf build ", html);
     svg_escape(html, vndf_source_description(s->of.source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
@@ -60,19 +113,20 @@ static void write_advice(FILE *html, const report_subject *s)
 static void add_rows(text_table *t, const report *r, const report_subject *s)
 {
     for (size_t i = 0; i < SIZES; i++) {
-        const report_table *of = &s->table[i];
+        const vndf_info info = vndf_distribution_info(s->of.table[i]);
         table_row(t);
         if (r->count > 1)
             table_text(t, "distribution", s->of.name);
-        table_number(t, "file (bytes)", "%.0f", (double)of->info.bytes);
-        table_number(t, "moments", "%.0f", table_sizes[i].moments);
-        table_number(t, "in memory (bytes)", "%.0f", (double)of->info.memory);
-        for (report_limit k = 0; k < REPORT_LIMITS; k++) {
-            table_number(t, report_limits[k].heading, report_limits[k].format, of->worst[k]);
-            table_mark(t, report_keeps(of, k) ? NULL : "no");
+        table_number(t, "file (bytes)", "%.0f", (double)info.bytes);
+        table_number(t, "moments", "%.0f", info.moments);
+        table_number(t, "in memory (bytes)", "%.0f", (double)info.memory);
+        for (int k = 0; k < LIMITS; k++) {
+            table_number(t, limits[k].heading, limits[k].format, number_of(s->of.table[i], k));
+            table_mark(t, keeps(s->of.table[i], k) ? NULL : "no");
         }
-        table_number(t, "ns", "%.0f", of->ns);
-        table_number(t, "batch ns", "%.1f", of->batch);
+        table_number(t, "G1 error", "%.1e", (double)info.certificate.area_error);
+        table_number(t, "ns", "%.0f", s->ns[i]);
+        table_number(t, "batch ns", "%.1f", s->batch[i]);
         table_row_mark(t, i == s->chosen ? "chosen" : NULL);
     }
 }
@@ -83,14 +137,13 @@ int report_advice(html_page *page, const report *r)
     page_section(
         page, "advice", "Which table, and how many moments",
         "Every table is exact with its weight; a coarse one costs noise. The advice is the smallest with weights up to "
-        "2, at most 1% more variance, a total variation (TV) up to 0.001 above the horizon (so that the weight may be "
-        "left out where a bias below half a step of 8 bits does not matter) and 0.03 below it, and G1 within 0.0001.");
+        "2 and a total variation (TV) up to 0.001 above the horizon, so that the weight may be left out where a bias "
+        "below half a step of 8 bits does not matter, and 0.03 below it. All are of the certificates of the tables.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++) {
         write_advice(page->html, &r->subject[i]);
         add_rows(&t, r, &r->subject[i]);
     }
     fputs("</div>\n", page->html);
-    int good = table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
-    return good;
+    return table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
 }

@@ -25,8 +25,8 @@ void report_note_times(report *r)
             if (strcmp(of->method, table_sizes[i].name) == 0 && strcmp(of->distribution, s->of.name) == 0 &&
                 strcmp(of->instructions, "scalar") == 0) {
                 const evidence_row *batch = batch_of(r, of);
-                s->table[i].ns = of->number[COL_NS];
-                s->table[i].batch = batch ? batch->number[COL_NS] : (double)NAN;
+                s->ns[i] = of->number[COL_NS];
+                s->batch[i] = batch ? batch->number[COL_NS] : (double)NAN;
             }
 }
 
@@ -53,8 +53,9 @@ int report_times(html_page *page, const report *r)
     }
     int good = table_print_html(page->html, &t);
     table_free(&t);
-    FILE *data = good ? page_file_begin(page, "methods.csv") : NULL;
-    good = data && evidence_print(data, &r->rows, FIGURES_CSV) &&
-           page_data_end(page, "all methods, as vndf bench -o FILE.csv has them");
-    return good;
+    FILE *data = good ? page_file(page, "methods.csv") : NULL;
+    if (!data || !evidence_print(data, &r->rows, FIGURES_CSV))
+        return 0;
+    page_link(page, "all methods, as vndf bench -o FILE.csv has them");
+    return 1;
 }

@@ -1,7 +1,5 @@
-/* Error against time and against the angle of incidence. */
-#include <math.h>
+/* Error against time. */
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "draw/chart.h"
@@ -35,8 +33,6 @@ static void add_point(plot *p, double x, double y, const char *label)
     p->text[k][i] = p->label[k][i];
     p->series[k].count++;
 }
-
-/* ---- error against time -------------------------------------------------------------------------- */
 
 /* Of D at hand, and of closed forms what is exact for them. */
 static int is_wanted(const report *r, const evidence_row *of, row_kind kind, int moments, int is_batch)
@@ -72,24 +68,10 @@ static void add_rows(plot *p, const report *r, row_kind kind, int moments, int i
     p->count -= p->series[p->count - 1].count == 0;
 }
 
-static int write_chart(html_page *page, const char *about, const chart *c)
+static void fill(plot *p, const report *r)
 {
-    fprintf(page->html, "<figure class=\"scroll wide\" title=\"%s\">\n", about);
-    chart_draw(page->html, c);
-    fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
-    FILE *alone = page_file_begin(page, "frontier.svg");
-    if (alone)
-        chart_draw_alone(alone, c);
-    return alone && page_file_end(page);
-}
-
-int report_frontier(html_page *page, const report *r)
-{
-    const report_table *advised = &r->subject[0].table[r->subject[0].chosen];
-    char title[160], batch[40];
-    plot *p = calloc(1, sizeof *p);
-    if (!p)
-        return 0;
+    const report_subject *s = &r->subject[0];
+    const double tv = (double)vndf_distribution_info(s->of.table[s->chosen]).certificate.tv_above;
     for (int is_batch = 0; is_batch < 2; is_batch++) {
         add_rows(p, r, ROW_PUBLISHED, 0, is_batch);
         add_rows(p, r, ROW_CLOSED, 0, is_batch);
@@ -97,8 +79,18 @@ int report_frontier(html_page *page, const report *r)
             add_rows(p, r, ROW_TABLE, moments, is_batch);
     }
     begin_series(p, 6, CHART_RING, CHART_NO_LINE);
-    add_point(p, advised->ns, (double)advised->info.certificate.tv_above, "advised");
-    add_point(p, advised->batch, (double)advised->info.certificate.tv_above, "advised");
+    add_point(p, s->ns[s->chosen], tv, "advised");
+    add_point(p, s->batch[s->chosen], tv, "advised");
+}
+
+int report_frontier(html_page *page, const report *r)
+{
+    char title[160], batch[40];
+    FILE *alone = page_file(page, "frontier.svg");
+    plot p = {.count = 0};
+    if (!alone)
+        return 0;
+    fill(&p, r);
     snprintf(title, sizeof title, "Tables of %s beside other methods", r->subject[0].of.name);
     snprintf(batch, sizeof batch, "in a batch, %s", r->batch);
     const chart_key key[] = {{.text = "tables of vndf", .colour = 7, .mark = CHART_DOT},
@@ -114,8 +106,8 @@ int report_frontier(html_page *page, const report *r)
                .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
                .zero = "exact",
                .band = 90,
-               .series = p->series,
-               .count = p->count,
+               .series = p.series,
+               .count = p.count,
                .key = key,
                .key_count = sizeof key / sizeof *key};
     chart_fit(&c, 7);
@@ -124,75 +116,9 @@ int report_frontier(html_page *page, const report *r)
         "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
         "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
         "Methods in the band at the bottom are exact but for the rounding of floats.");
-    int good = write_chart(page, "error against time", &c);
-    free(p);
-    return good;
-}
-
-/* ---- error against the angle --------------------------------------------------------------------- */
-
-/* Tables as large as the advised one with 2, 3 and 4 moments, and the finest. */
-static void draw_angles(FILE *file, const report_subject *s)
-{
-    enum { SHOWN = 4 };
-    size_t row_of = s->chosen < SIZE_FINE ? s->chosen / 3 * 3 : 6;
-    const size_t shown[SHOWN] = {row_of, row_of + 1, row_of + 2, SIZE_FINE};
-    static const chart_line lines[SHOWN] = {CHART_DOTTED, CHART_DASHED, CHART_SOLID, CHART_SOLID};
-    double x[REPORT_ANGLES];
-    char label[SHOWN][40];
-    chart_series series[SHOWN + 1];
-    chart_key key[SHOWN];
-    for (size_t a = 0; a < REPORT_ANGLES; a++)
-        x[a] = report_theta(a);
-    for (size_t k = 0; k < SHOWN; k++) {
-        const report_table *t = &s->table[shown[k]];
-        const unsigned colour = shown[k] == s->chosen ? 6u : (unsigned)k;
-        char bytes[TABLE_BYTES];
-        table_bytes_text(bytes, (double)t->info.bytes);
-        snprintf(label[k], sizeof label[k], "%s, %d", bytes, table_sizes[shown[k]].moments);
-        series[k] = (chart_series){x, t->tv, REPORT_ANGLES, colour, CHART_NO_MARK, lines[k], NULL};
-        key[k] = (chart_key){label[k], colour, CHART_NO_MARK, lines[k]};
-    }
-    chart c = {.title = s->of.name,
-               .width = 560,
-               .height = 380,
-               .x = {CHART_LINEAR, 0, 180, 30, "angle of incidence (degrees; beyond 90: below the horizon)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation"},
-               .series = series,
-               .count = SHOWN,
-               .key = key,
-               .key_count = SHOWN};
-    chart_fit(&c, 8);
-    const double horizon_x[2] = {90, 90}, horizon_y[2] = {c.y.low, c.y.high};
-    series[c.count++] = (chart_series){horizon_x, horizon_y, 2, 7, CHART_NO_MARK, CHART_DASHED, NULL};
-    fputs("<figure>\n", file);
-    chart_draw(file, &c);
-    fputs("</figure>\n", file);
-}
-
-int report_angles(html_page *page, const report *r)
-{
-    text_table data = {.rows = 0};
-    page_section(
-        page, "theta", "Error against the angle of incidence",
-        "Total variation between drawn and true visible normals, from straight above to straight below, by the "
-        "size and the moments of tables. A curve ends where less than 1e-10 of what is visible at grazing "
-        "incidence is left.");
-    fputs("<div class=\"pair\">\n", page->html);
-    for (const report_subject *s = r->subject; s < r->subject + r->count; s++) {
-        draw_angles(page->html, s);
-        for (size_t i = 0; i < SIZES * REPORT_ANGLES; i++) {
-            const report_table *t = &s->table[i / REPORT_ANGLES];
-            if (isnan(t->tv[i % REPORT_ANGLES]))
-                continue;
-            table_row(&data);
-            table_text(&data, "distribution", s->of.name);
-            table_value(&data, "bytes", (double)t->info.bytes);
-            table_value(&data, "moments", table_sizes[i / REPORT_ANGLES].moments);
-            table_value(&data, "theta_deg", report_theta(i % REPORT_ANGLES));
-            table_value(&data, "tv", t->tv[i % REPORT_ANGLES]);
-        }
-    }
-    fputs("</div>\n", page->html);
-    return page_data(page, "theta.csv", "error of every table at every angle", data);
+    fputs("<figure class=\"scroll wide\" title=\"error against time\">\n", page->html);
+    chart_draw(page->html, &c);
+    fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
+    chart_draw_alone(alone, &c);
+    return 1;
 }
