@@ -131,13 +131,10 @@ def values(filled: Any) -> list[Any]:
 
 def _path() -> str:
     """VNDF_LIBRARY, or the library that was installed with the package."""
-    named = os.environ.get("VNDF_LIBRARY")
     path = _HERE / {"win32": "vndf.dll", "darwin": "libvndf.dylib"}.get(sys.platform, "libvndf.so")
+    named = os.environ.get("VNDF_LIBRARY")
     if not named and not path.exists():
-        raise ImportError(
-            f"{path} is not there: install the package with pip, which builds the C library, "
-            "or name a library in the environment variable VNDF_LIBRARY"
-        )
+        raise ImportError(f"{path} is not there: install the package with pip, or name a library in VNDF_LIBRARY")
     return named or str(path)
 
 

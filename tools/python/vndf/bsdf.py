@@ -1,10 +1,11 @@
-"""Reflection and refraction: materials of any surface, and albedos for energy compensation.
+"""Reflection and refraction: materials of any surface.
 
 Shapes and directions are those of vndf.surface. wi is the known direction, wo the chosen one; here z < 0 is the other
 side of the surface. vndf_bsdf.h has the model and what effects go together.
 """
 from __future__ import annotations
 
+import functools
 import inspect
 from ctypes import addressof, byref, c_void_p
 from typing import Any, NamedTuple, Optional
@@ -33,27 +34,16 @@ class Scattered(NamedTuple):
     wm: Floats  #: the facet that was met, shape (3, ...); 0 where there is none or a walk met many
 
 
-class Albedo(Owner):
-    """How much light single scattering of a distribution sends on, over cosine and roughness (vndf_bsdf.h)."""
+class _Albedo(Owner):
+    """What single scattering keeps of the light, for compensation (vndf_bsdf.h)."""
 
     _free = "albedo_free"
-    _makers = "vndf.Albedo.build"
 
-    @staticmethod
-    def build(distribution: Distribution, *, eta: float = 0.0) -> Albedo:
-        """Of a mirror (eta = 0) or a dielectric, by quadrature; a tenth of a second to two."""
-        want(distribution, Distribution)
-        return Albedo._of(checked("albedo_build", distribution._pointer, eta))
 
-    def directional(self, cosine: Numbers, alpha: Numbers) -> Floats:
-        """E of light from a direction with this cosine, 0 to 1. One C call for each element."""
-        look = np.frompyfunc(lambda c, a: library.albedo_directional(self._pointer, c, a), 2, 1)
-        return stacked(look(cosine, alpha))[()]
-
-    def average(self, alpha: Numbers, side: int = 1) -> Floats:
-        """2 integral E mu dmu; side >= 0: the side of z, < 0: the other one. One C call for each element."""
-        look = np.frompyfunc(lambda a: library.albedo_average(self._pointer, a, side), 1, 1)
-        return stacked(look(alpha))[()]
+@functools.lru_cache(64)
+def _albedo(distribution: Distribution, eta: float) -> _Albedo:
+    """Of a mirror (eta = 0) or a dielectric; a tenth of a second to two."""
+    return _Albedo._of(checked("albedo_build", distribution._pointer, eta))
 
 
 class Material:
@@ -64,7 +54,7 @@ class Material:
     fresnel: "none", "schlick" (f0), "dielectric" (eta), "conductor" (eta and k).
     masking: "height-correlated", "separable", "v-cavities", "none".
     normals: "visible", "bounded", "all", "v-cavity".
-    scattering: "single", "multiple" (a random walk), "turquin", "kulla-conty" (these two need `albedo`).
+    scattering: "single", "multiple" (a random walk), "turquin", "kulla-conty" (these two take up to 2 seconds to make).
     transport: "radiance", "importance". reflection: "specular", "retro".
     eta: index on the side of -z over that on the side of z; of a conductor the real part, one for each wavelength.
     k: imaginary part of a conductor's index. f0: reflectance at normal incidence. Each a number, or 1 to 4 of them.
@@ -76,24 +66,25 @@ class Material:
         self, surface: Rough, *, lobes: str = "reflection", fresnel: str = "none", masking: str = "height-correlated",
         normals: str = "visible", scattering: str = "single", transport: str = "radiance", reflection: str = "specular",
         eta: Numbers = 1.5, k: Numbers = 0.0, f0: Numbers = 0.04, wavelengths: Optional[int] = None,
-        albedo: Optional[Albedo] = None, order_limit: int = 0,
+        order_limit: int = 0,
     ) -> None:  # fmt: skip
         self._made = {name: value for name, value in locals().items() if name != "self"}
         want(surface, Rough)
-        if albedo is not None:
-            want(albedo, Albedo)
         optics = {"f0": stacked(f0), "conductor_eta": stacked(eta), "conductor_k": stacked(k)}
         most = max(array.size for array in optics.values())
         count = self.wavelengths = wavelengths or (3 if most == 1 else most)
         if not 1 <= count <= _WAVELENGTHS:
             raise ValueError(f"{count} wavelengths; 1 to {_WAVELENGTHS} are possible")
+        index = optics["conductor_eta"].flat[0]
         description = struct("vndf_description")(
-            alpha_x=1.0, alpha_y=1.0, wavelengths=count, albedo=albedo and albedo._pointer,
-            eta=optics["conductor_eta"].flat[0], order_limit=order_limit,
-        )  # fmt: skip
+            alpha_x=1.0, alpha_y=1.0, wavelengths=count, eta=index, order_limit=order_limit
+        )
         description.affine.xx = description.affine.yy = 1.0
         if isinstance(surface, Surface):
             description.distribution = surface.distribution._pointer
+            if scattering in ("turquin", "kulla-conty"):
+                self._albedo = _albedo(surface.distribution, 0.0 if lobes == "reflection" else float(index))
+                description.albedo = self._albedo._pointer
             upright = len(surface._groups["shape"]) == 2
             self._shape = "aligned" if upright else "affine" if surface._is_moved else "matrix"
         else:
@@ -112,7 +103,7 @@ class Material:
         checked("material_resolve", byref(description), byref(self._material))
 
     def __reduce__(self) -> Any:
-        return _material_of, (self._made,)
+        return functools.partial(Material, **self._made), ()
 
     def __repr__(self) -> str:
         default = inspect.signature(Material).parameters
@@ -185,10 +176,6 @@ class Material:
             _put_affine(affine, 0, groups["shape"])
             (hits.affine,) = batch.keep(affine[None])
         return batch, hits
-
-
-def _material_of(made: dict[str, Any]) -> Material:
-    return Material(**made)
 
 
 def _put_affine(structs: Any, distribution: Any, six: Any) -> None:

@@ -6,15 +6,13 @@
     vndf.mitsuba.register()                                     # after each mi.set_variant
     mi.load_dict({"type": "vndf_conductor", "distribution": "rings.vndf", "alpha": 0.3, "material": "Au"})
 
-Parameters of both:
+Parameters of both; those with a number (the default is in parentheses) take a texture as well:
 
 distribution    a table file, "ggx" or "beckmann", or a file of a family of tables, which needs `parameter`
-parameter       of the family: a number or a texture; every hit is a mixture of two neighbours. LLVM and CUDA variants
-                evaluate all tables of the family at each hit
-alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
-                1e-4 counts as that
-rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
-weight          of this lobe where there are several: a number or a texture (1); below 0 it counts as 0
+parameter       number; every hit is a mixture of two neighbours. LLVM and CUDA variants evaluate all tables at each hit
+alpha           number (0.1), at least 1e-4: roughness; or alpha_u and alpha_v, along the two tangents
+rotation        number (0): the angle from the first tangent to the axis of alpha_u, radians
+weight          number (1), at least 0: of this lobe where there are several
 distribution_2, alpha_2 (alpha_u_2, alpha_v_2), weight_2, and so on up to _8: more lobes of one surface
 masking         "height-correlated" (default), or "separable", which Mitsuba's own plugins use: set it to compare with
                 them. The default is brighter, by 2.6% at alpha 1
@@ -23,9 +21,8 @@ vndf_conductor: material, or eta and k; specular_reflectance: those of Mitsuba's
 vndf_dielectric: int_ior, ext_ior; specular_reflectance, specular_transmittance.
 
 Samples are weighted with the true D over the density that the table has drawn with, so estimates are exact for a table
-of any size. Everything is differentiable with respect to roughness, weights, rotation and optics. Polarised variants
-are refused. Tested with Mitsuba 3.9, scalar and LLVM variants; CUDA runs the same code. Scalar variants run Python for
-every sample, a hundred times slower than Mitsuba's own plugins, of which `register` warns: take llvm_ad_rgb.
+of any size, and differentiable in roughness, weights, rotation and optics. Polarised variants are refused. Scalar
+variants run Python for every sample, a hundred times slower than Mitsuba's own plugins: take llvm_ad_rgb.
 """
 from __future__ import annotations
 
@@ -39,11 +36,9 @@ import drjit as dr
 import mitsuba as mi
 
 from ._drjit import Law, Table, law_of
+from ._library import constant
 from .distribution import Distribution
 from .surface import Family
-
-_MOST_LOBES = 8
-_LEAST_ALPHA = 1e-4
 
 
 class MicrofacetDistribution:
@@ -75,12 +70,6 @@ class MicrofacetDistribution:
     def G(self, wi: Any, wo: Any, m: Any) -> Any:
         """The product of both ways, which Mitsuba's plugins use."""
         return self.smith_g1(wi, m) * self.smith_g1(wo, m)
-
-    def alpha_u(self) -> Any:
-        return self._alphas[0]
-
-    def alpha_v(self) -> Any:
-        return self._alphas[1]
 
 
 class _Lobe:
@@ -119,7 +108,7 @@ class _Lobe:
 
     def at(self, si: Any, active: Any) -> list[Any]:
         """Of a hit each law, with alpha_u, alpha_v and its weight."""
-        alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
+        alphas = [dr.maximum(texture.eval_1(si, active), 1e-4) for texture in self.alphas.values()]
         weight = dr.maximum(self.weight.eval_1(si, active), 0.0)
         parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, self._shares(si, active))]
         return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
@@ -129,7 +118,7 @@ class _Microsurface:
     """The lobes of a surface."""
 
     def __init__(self, props: Any) -> None:
-        numbers = [i for i in range(2, _MOST_LOBES + 1) if f"distribution_{i}" in props]
+        numbers = [i for i in range(2, constant("VNDF_MIXTURE_LOBES") + 1) if f"distribution_{i}" in props]
         for i, number in enumerate(numbers):
             if number != i + 2:
                 raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes are numbered without a gap")
@@ -245,14 +234,17 @@ def register() -> None:
             self.m_components = [flag | mi.BSDFFlags.Anisotropic for flag in flags]
             self.m_flags = functools.reduce(operator.or_, self.m_components)
 
-        def _lobes(self, ctx: Any) -> tuple[bool, bool]:
+        def _lobes(self, ctx: Any) -> list[bool]:
             """Whether reflection and transmission are there and asked for."""
             lobes = (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.GlossyTransmission)
-            both = [i < len(self.m_components) and ctx.is_enabled(lobe, i) for i, lobe in enumerate(lobes)]
-            return both[0], both[1]
+            return [i < len(self.m_components) and ctx.is_enabled(lobe, i) for i, lobe in enumerate(lobes)]
 
         def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
             raise NotImplementedError
+
+        def _eta_from(self, wi: Any) -> Any:
+            """The index on the side of -wi over that on the side of wi."""
+            return mi.Float(1.0)
 
         def _seen(self, si: Any) -> Any:
             """Whether there is anything from the side of wi."""
@@ -300,7 +292,7 @@ def register() -> None:
             value = dr.select(reflects, value, optics.transmitted * (facing * bend * scale * common))
             return value, dr.select(reflects, per_wm, (1.0 - optics.chance) * bend)
 
-        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
+        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
             reflects = si.wi.z * wo.z > 0.0
             can_reflect, can_transmit = self._lobes(ctx)
             active = mi.Bool(active) & self._seen(si) & (wo.z != 0.0)
@@ -320,17 +312,11 @@ def register() -> None:
             value, per_wm = self._shape(ctx, hit, wi, wo, wm, self._optics(ctx, si, facing, active), area, reflects)
             return value & active, dr.select(active, hit.pdf(views, _up(wm)) * per_wm, 0.0)
 
-        def _eta_from(self, wi: Any) -> Any:
-            return mi.Float(1.0)
-
         def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[0]
+            return self.eval_pdf(ctx, si, wo, active)[0]
 
         def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[1]
-
-        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
-            return self._look(ctx, si, wo, active)
+            return self.eval_pdf(ctx, si, wo, active)[1]
 
         def traverse(self, callback: Any) -> None:
             for name, texture in self._surface.textures.items():
@@ -344,8 +330,7 @@ def register() -> None:
             super().__init__(props, mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide)
             optics: dict[str, Any] = {"type": "conductor"}
             optics.update({name: props.get_unbounded_texture(name) for name in ("eta", "k") if name in props})
-            if "material" in props:
-                optics["material"] = props["material"]
+            optics.update({name: props[name] for name in ("material",) if name in props})
             if "specular_reflectance" in props:
                 optics["specular_reflectance"] = props.get_texture("specular_reflectance", 1.0)
             self._smooth = mi.load_dict(optics)
@@ -368,26 +353,24 @@ def register() -> None:
             self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
             if not self._eta > 0.0 or self._eta == 1.0:
                 raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
-            self._colours = {name: props.get_texture(name, 1.0) if name in props else None
-                             for name in ("specular_reflectance", "specular_transmittance")}  # fmt: skip
+            names = ("specular_reflectance", "specular_transmittance")
+            self._colours = {name: props.get_texture(name, 1.0) for name in names}
 
         def _eta_from(self, wi: Any) -> Any:
             return dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
 
         def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
             fresnel, refracted, eta, eta_back = mi.fresnel(facing, self._eta_from(si.wi))
-            one = mi.Spectrum(1.0)
-            colours = [one if texture is None else texture.eval(si, active) for texture in self._colours.values()]
-            can_reflect, can_transmit = self._lobes(ctx)
-            chance = fresnel if can_reflect and can_transmit else mi.Float(1.0 if can_reflect else 0.0)
-            parts = colours[0] * fresnel, colours[1] * (1.0 - fresnel)
+            reflected, transmitted = (texture.eval(si, active) for texture in self._colours.values())
+            lobes = self._lobes(ctx)
+            chance = fresnel if all(lobes) else mi.Float(1.0 if lobes[0] else 0.0)
+            parts = reflected * fresnel, transmitted * (1.0 - fresnel)
             return _Optics(*parts, chance, fresnel, refracted, eta, eta_back)
 
         def traverse(self, callback: Any) -> None:
             super().traverse(callback)
             for name, texture in self._colours.items():
-                if texture is not None:
-                    callback.put(name, texture, +mi.ParamFlags.Differentiable)
+                callback.put(name, texture, +mi.ParamFlags.Differentiable)
 
     for kind in (vndf_conductor, vndf_dielectric):
         mi.register_bsdf(kind.__name__, kind)

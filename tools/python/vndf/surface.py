@@ -1,10 +1,8 @@
 """Rough surfaces: samples of visible normals, densities, masking.
 
-Arguments are numbers or arrays; they broadcast, and are taken as float32 (arrays that are that, contiguous and of the
-whole shape are not copied). Directions have shape (3, ...), pairs of numbers (2, ...), matrices (2, 2, ...): each
-component along the first axis; transpose an array of shape (n, 3). Directions are unit and point away from the
-surface; z is the geometric normal, x the axis of alpha. wi may be anywhere on the sphere. Results are float32, of
-the shape that the arguments broadcast to; element i has the bits of the C call for it.
+Arguments are numbers or arrays; they broadcast, and are taken as float32. Directions have shape (3, ...), pairs of
+numbers (2, ...), matrices (2, 2, ...). Directions are unit and point away from the surface; z is the geometric normal,
+x the axis of alpha; wi may be anywhere on the sphere. Element i of a result has the bits of the C call for it.
 """
 from __future__ import annotations
 
