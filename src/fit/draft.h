@@ -122,8 +122,8 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 /* ---- tables ---- */
 
-/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free table->knot either
- * way. */
+/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free table->knot
+ * either way. */
 int vndf_draft_from(vndf_table_draft *table, vndf_knots *knots, unsigned moments);
 
 /* How good a table is (certificate.c); 0 if there is no memory. */
