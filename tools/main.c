@@ -37,12 +37,12 @@ static int dispatch(int argc, char **argv)
         return STATUS_USE;
     if (given.positional.count < c->least)
         return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
-    if (given.positional.count > c->most && c->most == 0)
-        return complain(c->name, "'%s' is not expected; only options are%s", given.positional.item[0],
-                        c->positional);
-    if (given.positional.count > c->most)
-        return complain(c->name, "'%s' is one word too many; expected only %s", given.positional.item[c->most],
-                        c->positional);
+    if (given.positional.count > c->most) {
+        const char *word = given.positional.item[c->most];
+        return complain(c->name, "'%s' is not expected; %s%s%s", word,
+                        c->most ? "words that are no options are only " : "only options are", c->positional,
+                        strspn(word, "0123456789.") == strlen(word) ? "; lists have commas, as in 1,2" : "");
+    }
     return c->run(&given);
 }
 

@@ -52,7 +52,8 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
     else if (bytes)
         chosen->distribution = chosen->owned = vndf_load_memory(bytes, size, &error);
     if (error.status != VNDF_OK)
-        complain(command, "%s: %s", input_name(name), error.message);
+        complain(command, "%s: %s%s", input_name(name), error.message,
+                 strstr(error.message, "not a vndf table") ? "; `vndf build` makes tables" : "");
     free(bytes);
     return chosen->family || chosen->owned;
 }

@@ -68,7 +68,7 @@ static int run_sample(const arguments *given)
     chosen_surface surface;
     unsigned long long count = 0, seed = 1;
     if (!option_value(given, "-n") || !path)
-        return complain(command, "%s is missing", path ? "-n N" : "-o OUT");
+        return complain(command, "%s is missing; `%s --help` has an example", path ? "-n N" : "-o OUT", command);
     const int form = output_form(command, path, forms);
     if (form < 0 || !option_count(given, "-n", 1, 1e12, &count) ||
         !option_count(given, "--seed", 0, 0x1p53, &seed) || !surface_open(&surface, given))
