@@ -22,9 +22,9 @@ typedef struct subcommand {
     const char *const *help;              /* its chapters, NULL ends them: C promises 4095 characters of a text */
 } subcommand;
 
-extern const subcommand command_build, command_info, command_check, command_sample, command_eval, command_plot,
-    command_report, command_bench, command_bench_effects, command_bake, command_export, command_explore,
-    command_render, command_judge, command_help;
+extern const subcommand command_build, command_info, command_check, command_sample, command_plot, command_report,
+    command_bench, command_bench_effects, command_bake, command_export, command_explore, command_render,
+    command_judge, command_help;
 
 /* All of them, in the order of `vndf --help`; NULL ends them. */
 extern const subcommand *const subcommands[];

@@ -28,7 +28,7 @@ static const struct {
     {"did you mean 'ggx'?", "info GXG"},
     {"cannot read .: Is a directory", "info ."},
     {"text.txt: not a vndf table: it must begin", "info text.txt"},
-    {"a single table is needed (eval and sample take", "check two.vndfs@2"},
+    {"a single table is needed (sample takes", "check two.vndfs@2"},
     {"exactly one is needed of --ndf", "build -o x.csv"},
     {"--slope and --family are given; only one is possible", "build --slope exp(-r) --family ggx -o x.csv"},
     {"-o FILE is missing", "build --slope exp(-r)"},
@@ -86,22 +86,9 @@ static const struct {
     {"a closed form was not made of a CSV", "check ggx --csv text.txt"},
 };
 
-/* Of eval: the second of two lines. */
-static void test_lines(void)
-{
-    static const char *const bad[] = {"0,0", "0,0,1,1", "0,0,x", "0,0,1.1", "0,0,nan", "0 0 1", ""};
-    static const char *const table = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
-        char text[64];
-        snprintf(text, sizeof text, "0,0,1\n%s\n", bad[i]);
-        TEST(run_put("text.txt", text));
-        TEST_HAS(run_expect(2, "text.txt", RUN_LIST("eval", "ggx", "--theta", "60"))->text, "stdin, line 2");
-    }
-    TEST_HAS(run_expect(2, table, RUN_LIST("eval", "-", "--theta", "60"))->text, "this command reads it twice");
-}
-
 int main(void)
 {
+    static const char table[] = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
     char folder[] = "cli.XXXXXX";
     if (!run_begin(folder))
         return test_done();
@@ -113,7 +100,9 @@ int main(void)
         if (!(TEST(o->status == 2) & TEST_HAS(o->text, refusals[i].says)))
             fprintf(stderr, "  '%s' for vndf %s:\n%s", refusals[i].says, refusals[i].words, o->text);
     }
-    test_lines();
+    TEST_HAS(
+        run_expect(2, table, RUN_LIST("bench", "effects", "--distribution", "-", "--distribution", "-"))->text,
+        "cannot read stdin: it is read already");
     TEST(remove("text.txt") == 0 && remove("two.vndfs") == 0);
     return run_end(folder);
 }

@@ -39,8 +39,7 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
         return 1;
     if (!families && (is_family_file(name) || family_parameter(name)))
         return complain(command,
-                        "'%s' is a family; a single table is needed (eval and sample take FILE.vndfs@P, info "
-                        "FILE.vndfs)",
+                        "'%s' is a family; a single table is needed (sample takes FILE.vndfs@P, info FILE.vndfs)",
                         name),
                0;
     char *bytes = input_read(command, name, BYTES_MAX, &size);

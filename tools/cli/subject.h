@@ -36,7 +36,7 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 
 /* ---- surfaces ---- */
 
-/* What sample and eval look at: one distribution, or the two neighbours of a family's parameter. */
+/* What is sampled: one distribution, or the two neighbours of a family's parameter. */
 typedef struct chosen_surface {
     vndf_mixture mixture;
     chosen_distribution of;
@@ -56,6 +56,6 @@ int surface_open(chosen_surface *chosen, const arguments *given);
   "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"                                       \
   "  --alpha AX[,AY]  roughness along x and y (default 1: the distribution as the builder received it), or\n"       \
   "  --matrix XX,XY,YX,YY  the linear map of its slopes, s = M u + mean, not singular\n"                            \
-  "  --mean X,Y       its mean slope (default 0,0): the mean plane stands for the horizon in lambda and g1\n"
+  "  --mean X,Y       its mean slope (default 0,0)\n"
 
 #endif

@@ -8,10 +8,10 @@
 #include "command.h"
 #include "vndf.h"
 
-const subcommand *const subcommands[] = {&command_build,         &command_info,  &command_check,  &command_sample,
-                                         &command_eval,          &command_plot,  &command_report, &command_bench,
-                                         &command_bench_effects, &command_bake,  &command_export, &command_explore,
-                                         &command_render,        &command_judge, &command_help,   NULL};
+const subcommand *const subcommands[] = {
+    &command_build,   &command_info,   &command_check,         &command_sample, &command_plot,
+    &command_report,  &command_bench,  &command_bench_effects, &command_bake,   &command_export,
+    &command_explore, &command_render, &command_judge,         &command_help,   NULL};
 
 static const char name[] = "vndf help";
 
