@@ -67,7 +67,7 @@ static const struct {
      "build --family student-t --parameter 2..3 -o x.vndfs --knots 1"},
     {"has to end in .vndfs", "build --family student-t --parameter 2..3 -o x.csv"},
     {".csv or .f32", "sample ggx --theta 60 -n 9 -o a.txt"},
-    {"--theta is missing", "sample ggx -n 9 -o x.csv"},
+    {"--theta DEG is missing", "sample ggx -n 9 -o x.csv"},
     {"-n N is missing", "sample ggx --theta 60 -o x.csv"},
     {"-n '1.5' is not a whole number", "sample ggx --theta 60 -n 1.5 -o x.csv"},
     {"--theta '0x10' is not a number", "sample ggx --theta 0x10 -n 9 -o x.csv"},
