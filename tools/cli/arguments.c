@@ -43,7 +43,15 @@ void list_words(const char *const *candidates, const char *before, char listed[L
 
 /* ---- the help as a table of options -------------------------------------------------------------- */
 
-int next_option(const char **at, option_term *term)
+typedef struct option_term {
+    const char *name, *value;         /* in the help */
+    size_t name_length, value_length; /* value_length 0: a flag */
+    size_t indent;                    /* of its item: 2 or 4 columns */
+    int repeats;
+} option_term;
+
+/* The option behind *at, which begins at the help and moves on; 0: there is none. */
+static int next_option(const char **at, option_term *term)
 {
     const char *p = *at;
     size_t indent = 0;

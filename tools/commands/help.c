@@ -1,5 +1,4 @@
-/* The list of all commands, `vndf --help`, and vndf help: the help of a command; the manual page and the completion of
- * bash, which packages install, from the helps of all. */
+/* The list of all commands, `vndf --help`, and vndf help: the help of a command, or of all as a manual page. */
 #include <stdio.h>
 #include <string.h>
 
@@ -15,22 +14,17 @@ const subcommand *const subcommands[] = {
 
 static const char name[] = "vndf help";
 
-static const char *const help[] = {
-    "usage: vndf help [COMMAND]\n"
-    "       vndf help --man [-o FILE]\n"
-    "       vndf help --completion bash [-o FILE]\n"
-    "\n"
-    "Prints what `vndf COMMAND --help` prints; or what packages install, made from the options of all commands.\n"
-    "\n"
-    "  --man            the manual page vndf(1)\n"
-    "  --completion bash    what completes commands, options and files in bash: a file vndf in\n"
-    "                   share/bash-completion/completions. zsh reads it after bashcompinit\n"
-    "  -o FILE          where it goes; - for stdout (the default)\n"
-    "\n"
-    "example: vndf help bench effects\n"
-    "         vndf help --man -o vndf.1 && man -l vndf.1\n"
-    "         source <(vndf help --completion bash)\n",
-    NULL};
+static const char *const help[] = {"usage: vndf help [COMMAND]\n"
+                                   "       vndf help --man [-o FILE]\n"
+                                   "\n"
+                                   "Prints what `vndf COMMAND --help` prints.\n"
+                                   "\n"
+                                   "  --man            the manual page vndf(1), of all commands\n"
+                                   "    -o FILE        where it goes; - for stdout (the default)\n"
+                                   "\n"
+                                   "example: vndf help bench effects\n"
+                                   "         vndf help --man -o vndf.1 && man -l vndf.1\n",
+                                   NULL};
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 
@@ -106,7 +100,7 @@ const subcommand *command_named(const char *who, int argc, const char *const *ar
     return NULL;
 }
 
-/* ---- what packages install ----------------------------------------------------------------------- */
+/* ---- the manual page ----------------------------------------------------------------------------- */
 
 /* In the macros that man and mandoc share: the text as it stands, with what troff reads otherwise escaped. */
 static void put_man(FILE *to, const char *text)
@@ -141,45 +135,23 @@ static void write_man(FILE *to)
     }
 }
 
-/* For bash 4 and later. */
-static void write_bash(FILE *to)
-{
-    static char text[HELP_MAX];
-    fputs("# Completion of commands, their options, and files; made by `vndf help --completion bash`.\n"
-          "_vndf()\n{\n    local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words='' files=-f\n"
-          "    [[ $command == bench && ${COMP_WORDS[2]} == effects ]] && command='bench effects'\n"
-          "    if ((COMP_CWORD == 1)) || [[ $command == help ]]; then\n        files='' words='",
-          to);
-    for (const subcommand *const *c = subcommands; *c; c++)
-        fprintf(to, "%s ", (*c)->name + strlen("vndf "));
-    fputs("--help --version'\n    fi\n    [[ $current == -* ]] && case $command in\n", to);
-    for (const subcommand *const *c = subcommands; *c; c++) {
-        option_term term;
-        command_help_text(*c, text);
-        fprintf(to, "    '%s') words='", (*c)->name + strlen("vndf "));
-        for (const char *at = text; next_option(&at, &term);)
-            fprintf(to, "%.*s ", (int)term.name_length, term.name);
-        fputs("--help' ;;\n", to);
-    }
-    fputs("    esac\n    mapfile -t COMPREPLY < <(compgen -W \"$words\" $files -- \"$current\")\n}\n"
-          "complete -o filenames -F _vndf vndf\n",
-          to);
-}
-
 /* ---- the command --------------------------------------------------------------------------------- */
 
 static int run(const arguments *given)
 {
     static char text[HELP_MAX];
     const words *asked = &given->positional;
-    const char *path = option_value(given, "-o"), *man = option_value(given, "--man");
-    const char *completion = option_value(given, "--completion");
+    const char *path = option_value(given, "-o");
     output_file output;
     int used;
-    if ((asked->count > 0) + (man != NULL) + (completion != NULL) > 1)
-        return complain(name, "one of a command, --man and --completion is possible");
-    if (path && !man && !completion)
-        return complain(name, "-o goes with --man or --completion");
+    if (option_value(given, "--man")) {
+        if (asked->count)
+            return complain(name, "'%s' is not expected: --man is of all commands", asked->item[0]);
+        if (!output_open(&output, name, path ? path : "-"))
+            return STATUS_USE;
+        write_man(output.file);
+        return output_commit(&output);
+    }
     if (asked->count) {
         const subcommand *c = command_named(name, (int)asked->count, asked->item, &used);
         if (c && asked->count > (size_t)used)
@@ -189,16 +161,7 @@ static int run(const arguments *given)
         command_help_text(c, text);
     } else
         command_list_text(text);
-    if (!output_open(&output, name, path ? path : "-"))
-        return STATUS_USE;
-    if (man)
-        write_man(output.file);
-    else if (completion)
-        write_bash(output.file);
-    else
-        fputs(text, output.file);
-    return output_commit(&output);
+    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
 }
 
-const subcommand command_help = {
-    name, "the help of a command; the manual page and completion of bash", "COMMAND", 0, 2, run, help};
+const subcommand command_help = {name, "the help of a command; the manual page", "COMMAND", 0, 2, run, help};
