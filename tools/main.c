@@ -13,6 +13,11 @@ static int asks(const char *word, const char *long_name, const char *short_name)
     return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
 }
 
+static int print(const char *text)
+{
+    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+}
+
 static int dispatch(int argc, char **argv)
 {
     static char help[HELP_MAX];
@@ -20,20 +25,30 @@ static int dispatch(int argc, char **argv)
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
     if (asks(argv[1], "--version", "-V"))
-        return puts("vndf " VNDF_VERSION) < 0 ? STATUS_USE : STATUS_GOOD;
-    if (asks(argv[1], "--help", "-h")) {
-        command_list_text(help);
-        return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+        return print("vndf " VNDF_VERSION "\n");
+    if (asks(argv[1], "--man", "--man")) {
+        command_write_man(stdout);
+        return STATUS_GOOD;
     }
-    const subcommand *c = command_named("vndf", argc - 1, (const char *const *)(argv + 1), &used);
+    int is_help = asks(argv[1], "--help", "-h") || asks(argv[1], "help", "help");
+    if (is_help && argc == 2) {
+        command_list_text(help);
+        return print(help);
+    }
+    argc -= 1 + is_help;
+    argv += 1 + is_help;
+    const subcommand *c = command_named(argc, (const char *const *)argv, &used);
     if (!c)
         return STATUS_USE;
     command_help_text(c, help);
-    for (int i = 1 + used; i < argc && strcmp(argv[i], "--") != 0; i++)
-        if (asks(argv[i], "--help", "-h"))
-            return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    if (is_help && argc > used)
+        return complain("vndf help", "'%s' is one word too many", argv[used]);
+    for (int i = used; i < argc && strcmp(argv[i], "--") != 0; i++)
+        is_help |= asks(argv[i], "--help", "-h");
+    if (is_help)
+        return print(help);
     arguments given = {.command = c->name, .help = help};
-    if (!arguments_read(&given, argc - 1 - used, argv + 1 + used))
+    if (!arguments_read(&given, argc - used, argv + used))
         return STATUS_USE;
     if (given.positional.count < c->least)
         return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);

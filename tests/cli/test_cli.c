@@ -12,8 +12,6 @@ static const struct {
     {"there is no command 'bulid'; did you mean 'build'?", "help bulid"},
     {"did you mean 'bench effects'?", "help bench efects"},
     {"one word too many", "help build sample"},
-    {"'build' is not expected: --man is of all commands", "help build --man"},
-    {"-o is for --man", "help -o manual"},
     {"did you mean '--theta'?", "sample ggx --thta 3"},
     {"did you mean '--alpha'?", "sample ggx -a 3"},
     {"did you mean '--theta'?", "sample ggx --the 3"},

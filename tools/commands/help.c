@@ -1,30 +1,18 @@
-/* The list of all commands, `vndf --help`, and vndf help: the help of a command, or of all as a manual page. */
+/* The list of all commands, `vndf --help`; the help of one; and of all as a manual page, `vndf --man`. */
 #include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "cli/output.h"
 #include "command.h"
 #include "vndf.h"
 
-const subcommand *const subcommands[] = {
-    &command_build,   &command_info,   &command_check,         &command_sample, &command_plot,
-    &command_report,  &command_bench,  &command_bench_effects, &command_bake,   &command_export,
-    &command_explore, &command_render, &command_judge,         &command_help,   NULL};
-
-static const char name[] = "vndf help";
-
-static const char *const help[] = {"usage: vndf help [COMMAND]\n"
-                                   "       vndf help --man [-o FILE]\n"
-                                   "\n"
-                                   "Prints what `vndf COMMAND --help` prints.\n"
-                                   "\n"
-                                   "  --man            the manual page vndf(1), of all commands\n"
-                                   "    -o FILE        where it goes; - for stdout (the default)\n"
-                                   "\n"
-                                   "example: vndf help bench effects\n"
-                                   "         vndf help --man -o vndf.1 && man -l vndf.1\n",
-                                   NULL};
+const subcommand *const subcommands[] = {&command_build,   &command_info,
+                                         &command_check,   &command_sample,
+                                         &command_plot,    &command_report,
+                                         &command_bench,   &command_bench_effects,
+                                         &command_bake,    &command_export,
+                                         &command_explore, &command_render,
+                                         &command_judge,   NULL};
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 
@@ -50,7 +38,8 @@ void command_list_text(char text[HELP_MAX])
 {
     int at = snprintf(
         text, HELP_MAX,
-        "vndf - %s\n\nusage: vndf COMMAND ...        vndf COMMAND --help says more, with an example\n\n", purpose);
+        "vndf - %s\n\nusage: vndf COMMAND ...    vndf help COMMAND says more, with an example; vndf --man is all of it\n\n",
+        purpose);
     for (const subcommand *const *c = subcommands; *c; c++)
         at += snprintf(text + at, HELP_MAX - (size_t)at, "  %-13s %s\n", (*c)->name + strlen("vndf "),
                        (*c)->purpose);
@@ -75,11 +64,11 @@ void command_help_text(const subcommand *of, char text[HELP_MAX])
 }
 
 /* `bench effects` is two words, which are looked for first. */
-const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used)
+const subcommand *command_named(int argc, const char *const *argv, int *used)
 {
-    const char *names[WORDS_MAX] = {"--help", "--version"}, *hint = NULL, *word = NULL;
+    const char *names[WORDS_MAX] = {"--help", "--version", "help"}, *hint = NULL, *word = NULL;
     char two[128];
-    size_t count = 2;
+    size_t count = 3;
     for (const subcommand *const *c = subcommands; *c; c++)
         names[count++] = (*c)->name + strlen("vndf ");
     snprintf(two, sizeof two, "%.60s %.60s", argv[0], argc > 1 ? argv[1] : "");
@@ -92,11 +81,11 @@ const subcommand *command_named(const char *who, int argc, const char *const *ar
         hint = hint && *used == 2 && !strchr(hint, ' ') ? NULL : hint;
     }
     if (hint)
-        complain(who, "there is no command '%s'; did you mean '%s'?", word, hint);
+        complain("vndf", "there is no command '%s'; did you mean '%s'?", word, hint);
     else if (strchr(word, '.'))
-        complain(who, "there is no command '%s'; did you mean `vndf info %s`?", word, word);
+        complain("vndf", "there is no command '%s'; did you mean `vndf info %s`?", word, word);
     else
-        complain(who, "there is no command '%s'; `vndf --help` lists them", word);
+        complain("vndf", "there is no command '%s'; `vndf --help` lists them", word);
     return NULL;
 }
 
@@ -119,11 +108,11 @@ static void put_man(FILE *to, const char *text)
     fputs(".fi\n", to);
 }
 
-static void write_man(FILE *to)
+void command_write_man(FILE *to)
 {
     static char text[HELP_MAX];
     fprintf(to,
-            ".\\\" Made by `vndf help --man`.\n.TH VNDF 1 \"\" \"vndf %s\" \"User Commands\"\n"
+            ".\\\" Made by `vndf --man`.\n.TH VNDF 1 \"\" \"vndf %s\" \"User Commands\"\n"
             ".SH NAME\nvndf \\- %s\n.SH DESCRIPTION\n",
             VNDF_VERSION, purpose);
     command_list_text(text);
@@ -134,34 +123,3 @@ static void write_man(FILE *to)
         put_man(to, text);
     }
 }
-
-/* ---- the command --------------------------------------------------------------------------------- */
-
-static int run(const arguments *given)
-{
-    static char text[HELP_MAX];
-    const words *asked = &given->positional;
-    const char *path = option_value(given, "-o");
-    output_file output;
-    int used;
-    if (option_value(given, "--man")) {
-        if (asked->count)
-            return complain(name, "'%s' is not expected: --man is of all commands", asked->item[0]);
-        if (!output_open(&output, name, path ? path : "-"))
-            return STATUS_USE;
-        write_man(output.file);
-        return output_commit(&output);
-    }
-    if (asked->count) {
-        const subcommand *c = command_named(name, (int)asked->count, asked->item, &used);
-        if (c && asked->count > (size_t)used)
-            return complain(name, "'%s' is one word too many", asked->item[used]);
-        if (!c)
-            return STATUS_USE;
-        command_help_text(c, text);
-    } else
-        command_list_text(text);
-    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
-}
-
-const subcommand command_help = {name, "the help of a command; the manual page", "COMMAND", 0, 2, run, help};
