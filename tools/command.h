@@ -3,7 +3,7 @@
 #ifndef TOOLS_COMMAND_H
 #define TOOLS_COMMAND_H
 
-#include <stdio.h>
+#include <stddef.h>
 
 struct arguments;
 
@@ -25,19 +25,5 @@ typedef struct subcommand {
 extern const subcommand command_build, command_info, command_check, command_sample, command_plot, command_report,
     command_bench, command_bench_effects, command_bake, command_export, command_explore, command_render,
     command_judge;
-
-/* All of them, in the order of `vndf --help`; NULL ends them. */
-extern const subcommand *const subcommands[];
-
-/* The command that words call and how many of them are its name; NULL after a complaint. */
-const subcommand *command_named(int argc, const char *const *argv, int *used);
-
-/* All chapters of its help. */
-enum { HELP_MAX = 1 << 14 };
-void command_help_text(const subcommand *of, char text[HELP_MAX]);
-
-/* What `vndf --help` prints, and `vndf --man`. */
-void command_list_text(char text[HELP_MAX]);
-void command_write_man(FILE *to);
 
 #endif

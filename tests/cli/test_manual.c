@@ -1,6 +1,6 @@
-/* The manual page holds every command; its help says how it is used, and the options of its examples are its own. groff,
- * where it is, reads the page without a complaint, and bash completes what stands in the helps. It notices an example
- * with an option that is gone, and a help that is no table of options. */
+/* The manual page holds every command; its help says how it is used, and the options of its examples are its own.
+ * groff, where it is, reads the page without a complaint, and bash completes what stands in the helps. It notices an
+ * example with an option that is gone, and a help that is no table of options. */
 #include "harness/run_program.h"
 
 #include <ctype.h>

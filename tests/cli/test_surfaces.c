@@ -1,6 +1,6 @@
 /* The normals that `vndf sample` writes have the densities of the surface that its words say, by the library, in both
  * forms of file; the seed and the number are those asked for; a diagonal matrix prints the bytes of its roughness. It
- * notices an option that is not used, two numbers that are exchanged, and a family that is taken at another parameter. */
+ * notices an option that is not used, numbers that are exchanged, and a family that is taken at another parameter. */
 #include "harness/run_program.h"
 #include "vndf.h"
 
