@@ -66,26 +66,16 @@ class Places(unittest.TestCase):
 
 class Lock(unittest.TestCase):
     def test_other_threads_run_while_c_works(self):
+        """Otherwise this one would wait for all of the 2 million samples."""
         surface = vndf.Surface(vndf.load(os.path.join(os.environ["VNDF_SOURCE"], "tables", "student-t-2.5.vndf")), 0.3)
-        wi = np.array([0.6, 0.0, -0.8], np.float32)  # below the horizon: one after the other, for long
         u = np.random.default_rng(1).random((2, 2000000), dtype=np.float32)
-        for attempt in range(5):  # on a busy machine this thread may have to wait for a processor
-            took = []
-
-            def work():
-                begin = time.perf_counter()
-                surface.sample(wi, u)
-                took.append(time.perf_counter() - begin)
-
-            worker = threading.Thread(target=work)
-            worker.start()
-            longest, last = 0.0, time.perf_counter()
-            while worker.is_alive():
-                now = time.perf_counter()
-                longest, last = max(longest, now - last), now
-            if longest < 0.5 * took[0]:
-                return
-        self.fail(f"nothing ran for {longest:.3f} s of {took[0]:.3f} s in C")
+        worker = threading.Thread(target=lambda: surface.sample((0.6, 0.0, -0.8), u))
+        worker.start()
+        rounds = 0
+        while worker.is_alive():
+            time.sleep(1e-3)
+            rounds += 1
+        self.assertGreater(rounds, 10)
 
 
 if __name__ == "__main__":

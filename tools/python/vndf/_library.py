@@ -17,16 +17,8 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-class Status(enum.IntEnum):
-    """Why a call failed (vndf_status)."""
-
-    ARGUMENT = 1  #: an argument is outside its stated range, or the call was interrupted
-    MEMORY = 2  #: no memory
-    IO = 3  #: a file cannot be opened, read or written
-    TABLE = 4  #: the bytes are not a table that this version reads
-    SYNTAX = 5  #: an expression, CSV or family name cannot be read
-    DISTRIBUTION = 6  #: the input cannot be the normals of a microsurface
-    TARGET = 7  #: no table meets the accuracy or size asked for
+#: Why a call failed (vndf_status).
+Status = enum.IntEnum("Status", "ARGUMENT MEMORY IO TABLE SYNTAX DISTRIBUTION TARGET")
 
 
 class Error(Exception):

@@ -8,8 +8,8 @@ from typing import Any, Callable, Iterable, Optional, Sequence, TypeVar, Union
 import numpy as np
 
 from ._arrays import Numbers
-from ._library import Owner, checked, library, pointer, struct, text_bytes, values, want
-from .distribution import Certificate, Distribution, Path
+from ._library import Owner, checked, library, pointer, struct, text_bytes, want
+from .distribution import Distribution, Path
 
 _T = TypeVar("_T")
 
@@ -21,7 +21,7 @@ class Source(Owner):
     """A distribution of normals as it is given, at any scale, normalised or not."""
 
     _free = "source_free"
-    _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows or .of"
+    _makers = "vndf.Source.slope, .ndf, .family, .csv or .rows"
     _called: Any = None  # what C calls back
 
     @staticmethod
@@ -62,12 +62,6 @@ class Source(Owner):
             raise ValueError(f"rows are two arrays of one shape (n,), not {at.shape} and {value.shape}")
         addresses = at.ctypes.data, value.ctypes.data
         return Source._of(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
-
-    @staticmethod
-    def of(distribution: Distribution) -> Source:
-        """What a table was built from, for formulas and families; anything else raises :class:`vndf.Error`."""
-        want(distribution, Distribution)
-        return Source._of(checked("source_of", distribution._pointer))
 
     def p22(self, r: float) -> float:
         """P22 at the slope length r >= 0, as it was given."""
@@ -167,15 +161,6 @@ def build(
         break_count=marks.size, finest=finest, moments=moments,
     )  # fmt: skip
     return call.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
-
-
-def certify(distribution: Distribution, source: Source) -> Any:
-    """Measures the :class:`Certificate` of a table against a source."""
-    want(distribution, Distribution)
-    want(source, Source)
-    measured = struct("vndf_certificate")()
-    _Call().run(lambda: checked("certify", distribution._pointer, source._pointer, byref(measured)))
-    return Certificate(*values(measured))
 
 
 def family_help() -> str:

@@ -217,8 +217,7 @@ class Family(Stored):
 
     _free = "family_free"
     _kind = "family_"
-    _makers = "vndf.Family.build, vndf.Family.load or vndf.Family.of"
-    _given: Sequence[Distribution] = ()  # what `of` was given
+    _makers = "vndf.Family.build or vndf.Family.load"
 
     @staticmethod
     def build(
@@ -230,21 +229,6 @@ class Family(Stored):
         call, name = _Call(), text_bytes(specification)
         options = struct("vndf_family_options")(max_distance, knots, max_bytes, moments, call.progress(progress), None)
         return call.run(lambda: Family._of(checked("build_family", name, low, high, byref(options))))
-
-    @staticmethod
-    def of(distributions: Sequence[Distribution], parameters: Sequence[float]) -> Family:
-        """Distributions of any kind at ascending parameters."""
-        if len(distributions) != len(parameters):
-            raise ValueError(f"{len(distributions)} distributions at {len(parameters)} parameters")
-        for distribution in distributions:
-            want(distribution, Distribution)
-        pointers = np.array([d._pointer for d in distributions], np.uintp)
-        at = np.array(parameters, np.float32)
-        pointer = checked("family_of", pointers.ctypes.data, at.ctypes.data, len(pointers))
-        return Family._of(pointer, _given=list(distributions))
-
-    def __reduce__(self) -> Any:
-        return (Family.of, (self._given, self.parameters)) if self._given else super().__reduce__()
 
     def __repr__(self) -> str:
         info = self.info
