@@ -89,7 +89,7 @@ def law_of(given: Any) -> Any:
 
 
 class Closed:
-    """"ggx" or "beckmann"."""
+    """A closed form, "ggx" or "beckmann"."""
 
     scale = 1.0  # the slope of unit roughness
 

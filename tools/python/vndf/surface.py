@@ -261,10 +261,8 @@ class Family(Stored):
         knots, reciprocal = self.axis
         p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
         x = -1.0 / p if reciprocal else p
-        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
-        beyond = np.minimum(index + 1, len(knots) - 1)
-        width = knots[beyond] - knots[index]
-        return index, np.where(width > 0, (x - knots[index]) / np.where(width > 0, width, 1), 0 * x)
+        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+        return index, (x - knots[index]) / (knots[index + 1] - knots[index])
 
     def at(self, parameter: Numbers, *shape: Any, **stretched: Any) -> Blend:
         """The family at a parameter or at an array of them, as a texture has, clamped to its range; stretched as a
@@ -302,8 +300,7 @@ class Blend(Rough):
         parameter, *six = groups["shape"]
         index, share = self.family.places(parameter)
         pointers = np.array([d._pointer for d in self.family.distributions], np.uintp)
-        beyond = np.minimum(index + 1, len(pointers) - 1)
-        return [(pointers[index], six, 1 - share), (pointers[beyond], six, share)]
+        return [(pointers[index], six, 1 - share), (pointers[index + 1], six, share)]
 
     sample = Mixture.sample
 
