@@ -20,7 +20,7 @@ except ImportError:
 TABLE = os.path.join(os.environ["VNDF_SOURCE"], "tables", "student-t-2.5.vndf")
 VARIANT = sys.argv.pop(1) if len(sys.argv) > 1 else "llvm_ad_rgb"
 # A library of LLVM that is too old ends the process: ask in another one.
-TRY = f"import mitsuba as mi; mi.set_variant('{VARIANT}'); import drjit as dr; dr.eval(dr.maximum(mi.Float(1), mi.Float(2)))"
+TRY = f"import drjit as dr, mitsuba as mi; mi.set_variant('{VARIANT}'); dr.eval(dr.maximum(mi.Float(1), mi.Float(2)))"
 if subprocess.run([sys.executable, "-c", TRY], capture_output=True).returncode:
     print(f"SKIPPED: {VARIANT} does not run here; it needs LLVM, which DRJIT_LIBLLVM_PATH names: 19 works, 16 aborts")
     sys.exit(0)
@@ -87,7 +87,8 @@ class AgainstTheLibrary(unittest.TestCase):
             def ask(make, wi, wo, m, alpha, u):
                 of, (wi, wo, m) = make(*(mi.Float(a) for a in alpha)), (mi.Vector3f(w) for w in (wi, wo, m))
                 wm, pdf = of.sample(wi, mi.Point2f(u))
-                return of.eval(m), of.pdf(wi, m), of.smith_g1(wo, m), of.G(wi, wo, m), wm, pdf, of.pdf(wi, wm), of.eval(wm)
+                at_m = of.eval(m), of.pdf(wi, m), of.smith_g1(wo, m), of.G(wi, wo, m)
+                return (*at_m, wm, pdf, of.pdf(wi, wm), of.eval(wm))
 
             ours = functools.partial(ask, functools.partial(vndf.mitsuba.MicrofacetDistribution, distribution))
             *at_m, wm, pdf, again, ndf = each(ours, wi, wo, m, alpha, u)

@@ -1,5 +1,5 @@
-"""Puts into the package the C library, its headers, and its kernel in Python, which vndf.mitsuba runs: the files that the
-environment variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder.
+"""Puts into the package the C library, its headers, and its kernel in Python, which vndf.mitsuba runs: the files that
+the environment variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder.
 pyproject.toml has everything else."""
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from .surface import Blend, Family, FamilyInfo, Mixture, MixtureSample, Sample, 
 
 __all__ = [
     "Blend", "Certificate", "Distribution", "Error", "Family", "FamilyInfo", "Info", "LOBE_NONE", "LOBE_REFLECTION",
-    "LOBE_STRAIGHT", "LOBE_TRANSMISSION", "Material", "Mixture", "MixtureSample", "Sample", "Scattered", "Source", "Status",
-    "Surface", "WeightedSample", "__version__", "beckmann", "build", "family_help", "from_bytes", "ggx", "load",
-    "materials",
+    "LOBE_STRAIGHT", "LOBE_TRANSMISSION", "Material", "Mixture", "MixtureSample", "Sample", "Scattered", "Source",
+    "Status", "Surface", "WeightedSample", "__version__", "beckmann", "build", "family_help", "from_bytes", "ggx",
+    "load", "materials",
 ]  # fmt: skip

@@ -1,6 +1,6 @@
 """Visible normals in Dr.Jit: the library's kernel as `vndf_write_kernel` prints it (_kernel.py, which the build makes),
-for directions above the horizon. It runs wherever Mitsuba's variants run, one value at a time (scalar), on LLVM or CUDA,
-and is differentiable: samples and densities are piecewise smooth functions of direction and roughness."""
+for directions above the horizon. It runs wherever Mitsuba's variants run, one value at a time (scalar), on LLVM or
+CUDA, and is differentiable: samples and densities are piecewise smooth functions of direction and roughness."""
 from __future__ import annotations
 
 from typing import Any, NamedTuple
@@ -22,9 +22,9 @@ class View(NamedTuple):
 
 
 class MicrofacetDistribution:
-    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
-    are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann",
-    or what law_of made of one."""
+    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible
+    normals are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or
+    "beckmann", or what law_of made of one."""
 
     def __init__(self, distribution: Any, alpha_u: Any, alpha_v: Any = None) -> None:
         self._law = law_of(distribution)
@@ -75,8 +75,8 @@ class MicrofacetDistribution:
         return self.smith_g1(wi, m) * self.smith_g1(wo, m)
 
 
-# Laws of normals for the variant of Mitsuba that is set, in the unit problem: `see` makes what they need of a direction,
-# and both its areas; `draw` a normal; `density` is that with which it is drawn, `p22` that of slopes over z^4.
+# Laws of normals for the variant of Mitsuba that is set, in the unit problem: `see` makes what they need of a
+# direction, and both its areas; `draw` a normal; `density` is that of the draw, `p22` that of slopes over z^4.
 
 
 def law_of(given: Any) -> Any:

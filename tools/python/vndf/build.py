@@ -32,7 +32,7 @@ class Source(Owner):
 
     @staticmethod
     def ndf(ndf: Union[str, Callable[[float], float]], **parameters: float) -> Source:
-        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta), or as a Python function of c; a function of
+        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta), or as a Python function of c; one of
         slopes is better for narrow distributions, as 1 - c loses digits."""
         return _formula("ndf", ndf, parameters)
 
@@ -92,8 +92,8 @@ def _number(function: Callable[[float], float], x: float) -> float:
 
 
 class _Call:
-    """A long call of C, in a thread, and what the Python functions that it calls have raised. Python delivers signals to
-    the main thread alone, so Control-C arrives where this waits, never inside C, where it would be lost."""
+    """A long call of C, in a thread, and what the Python functions that it calls have raised. Python delivers signals
+    to the main thread alone, so Control-C arrives where this waits, never inside C, where it would be lost."""
 
     raised: Optional[BaseException] = None
 
@@ -142,8 +142,8 @@ def build(
 ) -> Distribution:  # fmt: skip
     """Builds a table.
 
-    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, up to 8192.
-    max_tv: build the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
+    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, to 8192.
+    max_tv: the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     breaks: slopes where a feature begins, ends or has its peak.
     finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.

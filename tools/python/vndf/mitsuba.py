@@ -90,7 +90,7 @@ class _Microsurface:
         numbers = [i for i in range(2, constant("VNDF_MIXTURE_LOBES") + 1) if f"distribution_{i}" in props]
         for i, number in enumerate(numbers):
             if number != i + 2:
-                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes are numbered without a gap")
+                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes have no gaps")
         self.lobes = [_Lobe(props, suffix) for suffix in ("", *(f"_{number}" for number in numbers))]
         self.textures = {name: texture for lobe in self.lobes for name, texture in lobe.textures.items()}
         self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
@@ -124,7 +124,8 @@ class _Hit:
         """Of each lobe its normals, its view and its share of what is drawn; the projected area of all."""
         views = [(normals, normals.view(w), weight) for normals, weight in self._lobes]
         drawn = sum(weight * view.drawn for _, view, weight in views)
-        seen = [(normals, view, dr.select(drawn > 0.0, weight * view.drawn / drawn, 0.0)) for normals, view, weight in views]
+        seen = [(normals, view, dr.select(drawn > 0.0, weight * view.drawn / drawn, 0.0))
+                for normals, view, weight in views]  # fmt: skip
         return seen, sum(weight * view.area for _, view, weight in views)
 
     @staticmethod
