@@ -83,8 +83,11 @@ static void put_argument(translation *t, int call, int i, const char *signs)
     for (; i > 0; i--)
         at = word_find(t, at, close, ",") + 1;
     end = word_find(t, at, close, ",");
-    for (int sign = at; sign<end; sign = t->word[sign].other> sign ? t->word[sign].other + 1 : sign + 1)
-        brackets |= t->word[sign].kind == WORD_SIGN && strchr(signs, *t->word[sign].text);
+    for (int next = at; next < end;) {
+        const word *w = &t->word[next];
+        brackets |= w->kind == WORD_SIGN && strchr(signs, *w->text);
+        next = w->other > next ? w->other + 1 : next + 1;
+    }
     fputs(brackets ? "(" : "", t->file);
     put_words(t, at, end);
     fputs(brackets ? ")" : "", t->file);
