@@ -114,7 +114,8 @@ static size_t read_choices(const arguments *given, const struct option *o, const
 
 /* ---- reading ------------------------------------------------------------------------------------- */
 
-/* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--output" -o. */
+/* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--bytes" --max-bytes,
+ * "--output" -o. */
 static const char *nearest_option(const arguments *given, const char *word, size_t length)
 {
     const char *names[OPTIONS_MAX], *short_one = NULL, letter = word[strspn(word, "-")];
@@ -128,6 +129,8 @@ static const char *nearest_option(const arguments *given, const char *word, size
     }
     snprintf(name, sizeof name, "%.*s", (int)length, word);
     const char *near = is_letter ? NULL : nearest_word(name, names, given->options);
+    for (size_t i = 0; i < given->options && length > 4 && !near; i++)
+        near = strstr(names[i], name + strspn(name, "-")) ? names[i] : NULL;
     return near ? near : short_one;
 }
 
