@@ -35,7 +35,8 @@ static void off(const method *m, block *of, size_t first, size_t count)
 
 static void test_notices(void)
 {
-    const effect_set *set = effect_find("conductor Fresnel");
+    const effect_set conductor = {.name = "conductor", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
+                     *set = &conductor;
     const block_law law = effect_law(set, NAN);
     method m = method_of(vndf_ggx(), set, 0.3f);
     method_run **const run[DEFECTS] = {&m.each, &m.each, &m.each, &m.shared, &m.eval, &m.density};

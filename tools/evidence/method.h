@@ -164,10 +164,9 @@ void method_release(method *m);
 
 /* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
 
-/* GGX and Beckmann, from the publications; the batch by one of the three instruction sets. */
+/* GGX, from the publication; the batch by one of the three instruction sets. */
 method method_ggx_caps(void);
 method method_ggx_caps_batch(vndf_instructions set);
-method method_beckmann_newton(void);
 
 /* Any D, from the publications. */
 method method_all_normals(const method_reference *reference);
@@ -201,9 +200,6 @@ enum { EFFECT_BARE = 0 }; /* bare reflection, which the others are compared with
 
 extern const effect_set effect_sets[];
 extern const size_t effect_set_count;
-
-/* The set of that name, or NULL. */
-const effect_set *effect_find(const char *name);
 
 /* A set made ready for one distribution and roughness, the state of its method. It stays where it was made: hits
  * point to its material. */

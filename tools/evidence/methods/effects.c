@@ -53,14 +53,6 @@ const effect_set effect_sets[] = {
 
 const size_t effect_set_count = sizeof effect_sets / sizeof effect_sets[0];
 
-const effect_set *effect_find(const char *name)
-{
-    for (size_t i = 0; i < effect_set_count; i++)
-        if (strcmp(effect_sets[i].name, name) == 0)
-            return &effect_sets[i];
-    return NULL;
-}
-
 /* Directions wo are on the side that the set scatters to. */
 block_law effect_law(const effect_set *set, double theta)
 {
