@@ -63,8 +63,8 @@ foreach(method "spherical caps (2023), batch | portable" "all normals (2007) | s
 endforeach()
 run(0 --only "caps (2023), batch" --seconds 0.1 --json)
 expect("JSON: ${output}" output MATCHES
-    "^.\n{\"method\": \"spherical caps .2023., batch\", \"distribution\": \"ggx\", .*\"memory\": 0, \"file_bytes\": null, .*\
-\"wrong\": 0, \"ns\": [0-9.e+]+, .*\"efficiency\": null}\n.\n$")
+    "^.\n{\"method\": \"spherical caps .2023., batch\", \"distribution\": \"ggx\", .*\"memory\": 0, \
+\"file_bytes\": null, .*\"wrong\": 0, \"ns\": [0-9.e+]+, .*\"efficiency\": null}\n.\n$")
 run(0 --only caps --seconds 0.1 -q)
 expect("-q prints ${output}" NOT output MATCHES ".")
 run(0 --slope "exp(-a*r)" --set a=3 --only "table 2 KiB, 4 moments" --seconds 0.1 -o -)
