@@ -92,7 +92,7 @@ typedef struct evidence_list {
     vndf_error *error;
 } evidence_list;
 
-/* Everything the plan asks for: at most 8 x 29 materials fit. Free it whatever this returns; an error if a table
+/* Everything the plan asks for: at most 8 x 28 materials fit. Free it whatever this returns; an error if a table
  * or a material cannot be made or `only` fits nothing. */
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error);
 void evidence_list_free(evidence_list *list);

@@ -162,7 +162,7 @@ static vndf_status make_materials(evidence_list *to, method_reference *of, const
         entry *e = add(to, of, m);
         if (!e)
             continue;
-        e->law = effect_law(set, NAN);
+        e->law = effect_law(set);
         e->row.number[COL_ALPHA_X] = (double)plan->alpha_x;
         e->row.number[COL_ALPHA_Y] = (double)plan->alpha_y;
         e->beside = find(to, effect_sets[EFFECT_BARE].name, of);

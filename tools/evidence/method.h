@@ -205,7 +205,6 @@ extern const size_t effect_set_count;
  * point to its material. */
 typedef struct effect_case {
     const effect_set *set;
-    vndf_surface surface;
     vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
     vndf_albedo *albedo;  /* owned; NULL unless energy is compensated */
     vndf_material material;
@@ -214,8 +213,8 @@ typedef struct effect_case {
 /* A method without `each` and an error if the set cannot be made. */
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
 
-/* How blocks of a set are filled, from an incident angle or (NaN) from everywhere. */
-block_law effect_law(const effect_set *set, double theta);
+/* How blocks of a set are filled. */
+block_law effect_law(const effect_set *set);
 
 /* The cosine of w that goes with values: to the normal of the mean plane. */
 double effect_cosine(const effect_case *of, vndf_vec3 w);
