@@ -6,8 +6,7 @@ static const double PI = 3.14159265358979323846;
 
 /* ---- one cell ---- */
 
-/* Where it lies. */
-static vndf_cell cell_between(double r, double end, unsigned squarings)
+vndf_cell vndf_cell_between(double r, double end, unsigned squarings)
 {
     double z = 1 / (1 + r), power = end < HUGE_VAL ? 0 : (double)(1u << squarings);
     double h = power > 0 ? power * z : (end - r) * z / (1 + end);
@@ -38,7 +37,7 @@ vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *stri
     const double mass_least = 1e-30, least = 1e-36, cube_most = 1e30;
     const double near_end = 4e-2; /* 1 - xi where the limit of a tail is read */
     double to = strips->at[end].edge;
-    vndf_cell c = cell_between(strips->at[first].edge, to, squarings);
+    vndf_cell c = vndf_cell_between(strips->at[first].edge, to, squarings);
     for (size_t i = first; i < end; i++) {
         const vndf_strip *s = &strips->at[i];
         double d = strips->at[i].edge - c.r;
@@ -106,7 +105,7 @@ vndf_drawn vndf_drawn_below(const vndf_cell *c, double rho, double b0, double b1
 
 vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
 {
-    vndf_cell c = cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
+    vndf_cell c = vndf_cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
     c.g0 = t->g0[i];
     c.g1 = t->g1[i];
     c.m0 = t->m0[i];

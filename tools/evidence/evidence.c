@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/clock.h"
 #include "cli/sort.h"
 #include "evidence/measure/stratified.h"
 
