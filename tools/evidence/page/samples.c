@@ -66,7 +66,7 @@ int report_times(html_page *page, const report *r)
 int report_normals(html_page *page, const report *r)
 {
     static const double thetas[] = {0, 60, 100};
-    const panel_box left = {0, 0, 340, 282}, disc = {0, 0, 260, 282};
+    const panel_box left = {0, 0, 340, 282}, disc = {0, 0, 250, 282};
     FILE *file = page->html;
     page_section(
         page, "normals", "Density and samples",
