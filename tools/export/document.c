@@ -13,16 +13,13 @@ static void name_table(exported_table *table)
     const char *slash = strrchr(table->file, '/'), *from = slash ? slash + 1 : table->file;
     const char *end = strrchr(from, '.');
     size_t length = end && end > from ? (size_t)(end - from) : strlen(from), n = 0;
-    int gap = 0;
     for (size_t i = 0; i < length && n + 2 < sizeof table->name; i++) {
-        int good = (unsigned char)from[i] < 128 && isalnum((unsigned char)from[i]);
-        if (good && gap && n > 0)
-            table->name[n++] = '_';
-        if (good)
+        if ((unsigned char)from[i] < 128 && isalnum((unsigned char)from[i]))
             table->name[n++] = (char)toupper((unsigned char)from[i]);
-        gap = !good;
+        else if (n > 0 && table->name[n - 1] != '_')
+            table->name[n++] = '_';
     }
-    table->name[n] = '\0';
+    table->name[n - (n > 0 && table->name[n - 1] == '_')] = '\0';
 }
 
 /* Whether the kernel or a table before has a constant of that name. */

@@ -60,23 +60,20 @@ static void put_name(translation *t, int name, int kinds)
     fputs(!d && strstr(language_reserved, spaced) ? "_" : "", t->file);
 }
 
+/* What the language has for a type, *length characters, or NULL. */
+static const char *own_type(const translation *t, int type, int *length)
+{
+    return language_word(t->to, t->word[type].text, t->word[type].length, ": ", length);
+}
+
 static int is_struct(translation *t, int type)
 {
-    return declared(t, type, 1 << STRUCT) != NULL;
+    int length;
+    return declared(t, type, 1 << STRUCT) && !own_type(t, type, &length);
 }
 
 static void put_words(translation *t, int at, int end);
 static void put_parameters(translation *t, const declaration *d);
-
-static void put_type(translation *t, int type)
-{
-    int length;
-    const char *own = language_word(t->to, t->word[type].text, t->word[type].length, ": ", &length);
-    if (own)
-        put_prefixed(t, own, (size_t)length);
-    else
-        put_name(t, type, 1 << STRUCT);
-}
 
 /* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
 static void put_argument(translation *t, int call, int i, const char *signs)
@@ -86,8 +83,11 @@ static void put_argument(translation *t, int call, int i, const char *signs)
     for (; i > 0; i--)
         at = word_find(t, at, close, ",") + 1;
     end = word_find(t, at, close, ",");
-    for (int sign = at; sign<end; sign = t->word[sign].other> sign ? t->word[sign].other + 1 : sign + 1)
-        brackets |= t->word[sign].kind == WORD_SIGN && strchr(signs, *t->word[sign].text);
+    for (int next = at; next < end;) {
+        const word *w = &t->word[next];
+        brackets |= w->kind == WORD_SIGN && strchr(signs, *w->text);
+        next = w->other > next ? w->other + 1 : next + 1;
+    }
     fputs(brackets ? "(" : "", t->file);
     put_words(t, at, end);
     fputs(brackets ? ")" : "", t->file);
@@ -96,13 +96,19 @@ static void put_argument(translation *t, int call, int i, const char *signs)
 /* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
 static void put_own(translation *t, const char *own, int length, const declaration *d, int type, int name)
 {
-    for (const char *at = own, *end = own + length, *plain; at < end; at++) {
+    int type_length;
+    for (const char *at = own, *end = own + length, *plain, *type_is; at < end; at++) {
         for (plain = at; at < end && *at != '$'; at++)
             ;
         put_prefixed(t, plain, (size_t)(at - plain));
         switch (at < end ? *++at : ' ') {
         case ' ': break;
-        case 'T': put_type(t, type); break;
+        case 'T':
+            if ((type_is = own_type(t, type, &type_length)) != NULL)
+                put_prefixed(t, type_is, (size_t)type_length);
+            else
+                put_name(t, type, 1 << STRUCT);
+            break;
         case 'V': put_name(t, name, 0); break;
         case 'D': put_name(t, d->name, 1 << d->kind); break;
         case 'P': put_parameters(t, d); break;
@@ -443,7 +449,7 @@ static void want(translation *t, declaration *d)
         const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
         declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
         d->fetches |= word_is(&t->word[i], "fetch");
-        if (of && of != d && !own_call(t, i, &length)) {
+        if (of && of != d && !own_call(t, i, &length) && !own_type(t, i, &length)) {
             want(t, of);
             d->fetches |= of->fetches;
         }
