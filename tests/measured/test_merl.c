@@ -77,7 +77,7 @@ static void test_diffuse(void)
 {
     data_file file;
     for (size_t i = 0; i < PLANE; i++)
-        put(0, i, little_double(bytes + 12 + 8 * i) + 0.25 / PI / unit_of[0]);
+        put(0, i, little_number(bytes + 12 + 8 * i, 8) + 0.25 / PI / unit_of[0]);
     TEST(read_back(&file, 0.3, MERL_RED) < 0.03);
     TEST_NEAR(case_number(&file, "diffuse "), 0.25, 0.005);
     TEST_RELATIVE(case_number(&file, "\nf0 "), 0.9, 0.02);

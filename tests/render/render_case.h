@@ -4,7 +4,7 @@
 #define TESTS_RENDER_RENDER_CASE_H
 
 #include "harness/test.h"
-#include "render/compare.h"
+#include "render/film.h"
 
 enum { CASE_TEXT = 8192 };
 

@@ -8,7 +8,7 @@
 #include "cli/progress.h"
 #include "command.h"
 #include "draw/table.h"
-#include "render/compare.h"
+#include "render/film.h"
 
 static const char name[] = "vndf render";
 

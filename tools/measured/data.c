@@ -38,20 +38,15 @@ uint64_t little_whole(const unsigned char *at, size_t bytes)
     return value;
 }
 
-double little_float(const unsigned char *at)
+double little_number(const unsigned char *at, size_t bytes)
 {
-    uint32_t bits = (uint32_t)little_whole(at, 4);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
-double little_double(const unsigned char *at)
-{
-    uint64_t bits = little_whole(at, 8);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    const uint64_t bits = little_whole(at, bytes);
+    const uint32_t low = (uint32_t)bits;
+    float narrow;
+    double wide;
+    memcpy(&narrow, &low, sizeof narrow);
+    memcpy(&wide, &bits, sizeof wide);
+    return bytes == 4 ? (double)narrow : wide;
 }
 
 void put_little(FILE *file, uint64_t value, size_t bytes)

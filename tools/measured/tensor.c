@@ -22,7 +22,7 @@ size_t tensor_count(const tensor *of)
 
 double tensor_at(const tensor *of, size_t i)
 {
-    return little_float((const unsigned char *)of->data + 4 * i);
+    return little_number((const unsigned char *)of->data + 4 * i, 4);
 }
 
 /* The numbers of a field whose dimensions begin at byte `at`: 0 and the reason if they do not fit the file. */

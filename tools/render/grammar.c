@@ -51,7 +51,7 @@ const char scene_grammar[] =
     "  sphere centre X Y Z radius R material NAME\n"
     "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
     "                          edges at right angles; from the front, edge-v is left of edge-u\n"
-    "  mesh file FILE.obj | pattern knot [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
+    "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
     "                          scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
     "\n"
     "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to\n"

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
-#include "render/light.h"
 
 enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
 

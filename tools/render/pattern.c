@@ -1,10 +1,9 @@
 /* Patterns: images by formulas of (u, v), from the left and the top, averaged over each pixel: fine detail, and a
- * studio as an environment (longitude across, latitude down; the zenith is the top row); and a mesh by a formula. */
+ * studio as an environment (longitude across, latitude down; the zenith is the top row). */
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
 
-#include "render/geometry.h"
 #include "render/image.h"
 
 static void grey(float value, float rgb[3])
@@ -109,51 +108,5 @@ int image_make_pattern(image *made, const char *name, int width, int height, vnd
                 for (int channel = 0; channel < 3; channel++)
                     rgb[channel] += one[channel] / (SIDE * SIDE);
             }
-    return 1;
-}
-
-/* ---- a torus knot (2, 3) ----
- *
- * A closed tube about the axis
- *
- *     P(t) = ((R + r cos 3t) cos 2t, 1.15 r sin 3t, (R + r cos 3t) sin 2t),    R = 0.62, r = 0.26, 0 <= t <= 2 pi,
- *
- * which is nowhere vertical, so that each ring of the tube begins at its top. */
-
-enum { RINGS = 96, SIDES = 12 };
-
-static const double tube = 0.15;
-
-/* A corner and its normal. */
-static void corner_at(int ring, int side, vec3 *place, vec3 *normal)
-{
-    const double t = 2 * PI * (ring % RINGS) / RINGS, turn = 2 * PI * (side % SIDES) / SIDES;
-    const double from_axis = 0.62 + 0.26 * cos(3 * t), change = -0.78 * sin(3 * t);
-    const vec3 axis = {from_axis * cos(2 * t), 0.299 * sin(3 * t), from_axis * sin(2 * t)};
-    const vec3 tangent = {change * cos(2 * t) - 2 * from_axis * sin(2 * t), 0.897 * cos(3 * t),
-                          change * sin(2 * t) + 2 * from_axis * cos(2 * t)};
-    const frame f = frame_about(unit(tangent), vec(0, 1, 0));
-    *normal = along(scale(f.x, cos(turn)), sin(turn), f.y);
-    *place = along(axis, tube, *normal);
-}
-
-/* Two triangles for each quarter of a ring, counter-clockwise seen from outside. */
-int knot_add(geometry *g, int material)
-{
-    static const int steps[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}}, {{0, 0}, {1, 1}, {1, 0}}}; /* along, around */
-    for (int i = 0; i < 2 * RINGS * SIDES; i++) {
-        shape s = {.kind = SHAPE_TRIANGLE, .material = material};
-        vec3 place[3], normal;
-        for (int k = 0; k < 3; k++) {
-            const int *step = steps[i % 2][k];
-            corner_at(i / 2 / SIDES + step[0], i / 2 % SIDES + step[1], &place[k], &normal);
-            s.normal[k] = narrow(normal);
-        }
-        s.corner = place[0];
-        s.edge_u = subtract(place[1], place[0]);
-        s.edge_v = subtract(place[2], place[0]);
-        if (!geometry_add(g, &s))
-            return 0;
-    }
     return 1;
 }

@@ -12,14 +12,12 @@
 
 #include "cli/arguments.h"
 #include "cli/files.h"
-#include "render/light.h"
 #include "vndf_build.h"
 
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
-    STATEMENT_MAX = 64, /* words */
-    MATERIALS_MAX = 4096,
+    STATEMENT_MAX = 64,               /* words */
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
 
@@ -97,8 +95,7 @@ static const key keys[] = {
     {"rectangle", "corner", PLACE, NEEDED, NULL},
     {"rectangle", "edge-u", PLACE, NEEDED, NULL},
     {"rectangle", "edge-v", PLACE, NEEDED, NULL},
-    {"mesh", "file", "PATH", NAME, OR, "pattern"},
-    {"mesh", "pattern", "knot", NAME, MAY_BE, NULL},
+    {"mesh", "file", "PATH", NAME, NEEDED, NULL},
     {"mesh", "scale", "FACTOR", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
     {"mesh", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, MAY_BE, NULL},
     {"mesh", "move", PLACE, MAY_BE, NULL},
@@ -115,9 +112,9 @@ typedef struct reader {
     size_t count;
     clause clause[CLAUSES_MAX]; /* of all its keys */
     size_t clauses;
-    unsigned seen;                                                   /* a bit for each statement */
-    const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
-    size_t pixels;                                                   /* of all images so far */
+    unsigned seen;                                                         /* a bit for each statement */
+    const char *images[SCENE_IMAGES_MAX], *materials[SCENE_MATERIALS_MAX]; /* their names */
+    size_t pixels;                                                         /* of all images so far */
     struct made_table {
         size_t form;
         unsigned bytes;
@@ -530,7 +527,8 @@ static int read_material(reader *r)
     scene *s = r->made;
     material made = {.colour = {1.0f, 1.0f, 1.0f}};
     size_t kind;
-    if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX, "material wall matte colour 0.5 0.5 0.5") ||
+    if (!new_name(r, r->materials, s->material_count, SCENE_MATERIALS_MAX,
+                  "material wall matte colour 0.5 0.5 0.5") ||
         !read_choice(r, &r->list[2], "kind of material", kinds, KINDS, &kind) ||
         !read_clauses(r, 3, kinds[kind], kind <= SHAPE ? "rough" : ""))
         return 0;
@@ -574,30 +572,21 @@ static int read_rectangle(reader *r, int of)
                      of);
 }
 
-/* A file, or the knot; it does not emit. */
 static int read_mesh(reader *r, int of)
 {
-    static const char *const patterns[] = {"knot"};
-    const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
+    const word *file = clause_of(r, "file")->value;
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
     vndf_error error = {VNDF_OK, ""};
-    size_t which;
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
-    if (pattern && !read_choice(r, pattern, "pattern of a mesh", patterns, 1, &which))
-        return 0;
-    if (pattern && !knot_add(g, of))
-        return refuse(r, &r->list[0], "there is no memory for this shape");
-    if (file) {
-        char *path = path_of(r, file);
-        const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
-        free(path);
-        if (!good)
-            return 0;
-    }
-    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
-    return 1;
+    char *path = path_of(r, file);
+    const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
+    free(path);
+    if (good)
+        geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180),
+                       vector_of(r, "move"));
+    return good;
 }
 
 /* ---- all of it ---- */
@@ -672,23 +661,17 @@ static int finish(reader *r)
 scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
 {
     scene *s = malloc(sizeof *s);
-    material *materials = calloc(MATERIALS_MAX, sizeof *materials);
     reader r = {
         .name = name, .error = error, .made = s, .at = text, .start = text, .end = text + length, .line = 1};
-    if (!s || !materials) {
-        refuse_at(error, name, 0, 0, "there is no memory");
-        free(materials);
-        free(s);
-        return NULL;
-    }
+    if (!s)
+        return refuse_at(error, name, 0, 0, "there is no memory"), NULL;
     *s = (scene){.up = {0, 1, 0},
                  .width = 640,
                  .height = 360,
                  .depth = 12,
                  .samples = 64,
                  .exposure = 1.0f,
-                 .environment = {.scale = 1.0f},
-                 .materials = materials};
+                 .environment = {.scale = 1.0f}};
     if (read_statements(&r) && finish(&r))
         return s;
     scene_free(s);
@@ -715,7 +698,6 @@ void scene_free(scene *s)
         image_free(&s->images[i]);
     for (size_t i = 0; i < s->table_count; i++)
         vndf_free(s->tables[i]);
-    free(s->materials);
     free(s->environment.rows);
     free(s->environment.cells);
     geometry_free(&s->geometry);
