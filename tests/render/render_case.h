@@ -47,7 +47,7 @@ static inline void case_render(film *f, const scene *s, path_sampler sampler, ui
         fprintf(stderr, "    %s\n", error.message);
     else if (TEST(f->sum || film_make(f, s->width, s->height)))
         TEST(film_render(f, plan, &run));
-    path_free(plan);
+    free(plan);
 }
 
 typedef struct case_mean {

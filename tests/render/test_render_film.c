@@ -87,7 +87,7 @@ static void test_run(void)
     c.run.samples = 96;
     TEST(comparison_run(&c) && one->samples == 96 && other->processor >= one->processor);
     for (size_t i = 0; i < 2; i++) {
-        path_free(c.way[i].plan);
+        free(c.way[i].plan);
         film_free(&c.way[i].film);
     }
     scene_free(s);
