@@ -1,10 +1,14 @@
 /* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
- * that of the laws of R: the drawn one (draft.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
-#include "fit/draft.h"
-
-#include <math.h>
+ * that of the laws of R: the drawn one, by the text of the run time in double (kernel/law.h), against
+ * f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
 #include <stdlib.h>
-#include <string.h>
+
+#include "fit/draft.h"
+#include "kernel/wide.h"
+
+#include "kernel/rows.h"
+
+#include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
@@ -21,6 +25,7 @@ typedef struct direction {
 } direction;
 
 typedef struct survey {
+    table table;
     const vndf_draft *draft;
     const vndf_profile *profile;
     direction *at;       /* of each edge */
@@ -41,27 +46,36 @@ static double largest_weight(const survey *s, double least)
     return least;
 }
 
+/* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
+static vndf_drawn drawn_in(table t, seen v, unsigned cell, int below)
+{
+    const weights near = {0, v.c, 0, 0};
+    int i = (int)cell;
+    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
+    return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
+}
+
 /* Compares what is drawn with what is seen, strip by strip. */
-static void compare(survey *s, const vndf_law *law, size_t edge, double seen_area, double drawn_area,
-                    double *figure)
+static void compare(survey *s, seen v, int below, size_t edge, double seen_area, double taken_area, double *figure)
 {
     const vndf_draft *d = s->draft;
-    double miss = 0, weight = 1, add = law->below ? 0 : PI * law->rho, per = law->s / (PI * seen_area);
+    double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * seen_area);
     memset(s->rarely, 0, sizeof s->rarely);
-    for (unsigned i = law->below ? law->first : 0; i <= d->table.cells; i++) {
-        vndf_drawn cell = vndf_law_cell(law, i);
-        int partial = law->below && i == law->first;
-        double xi = partial ? law->xi : 0, stretch = 1 / (1 - xi), before = 0;
+    for (unsigned first = below ? (unsigned)v.first : 0, i = first; i <= d->table.cells; i++) {
+        vndf_drawn cell = drawn_in(s->table, v, i, below);
+        int partial = below && i == first;
+        double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
         for (size_t n = partial ? edge : d->first[i]; n < d->first[i + 1]; n++) {
             double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
-            double drawn = (next - before) / drawn_area;
-            double seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * d->strips.at[n].f);
+            double taken = (next - before) / taken_area;
+            double visible = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * d->strips.at[n].f);
             before = next;
-            miss += fabs(seen - drawn);
-            if (seen > LEFT_OUT && seen > weight * drawn)
-                weight = drawn > 0 ? seen / drawn : HUGE_VAL;
-            else if (seen > weight * drawn)
-                s->rarely[drawn * 0x1p31 > seen ? (int)(PER_OCTAVE * log2(seen / drawn)) : RATIOS - 1] += seen;
+            miss += fabs(visible - taken);
+            if (visible > LEFT_OUT && visible > weight * taken)
+                weight = taken > 0 ? visible / taken : HUGE_VAL;
+            else if (visible > weight * taken)
+                s->rarely[taken * 0x1p31 > visible ? (int)(PER_OCTAVE * log2(visible / taken)) : RATIOS - 1] +=
+                    visible;
         }
     }
     figure[TV] = fmin(miss / 2, 1);
@@ -69,28 +83,24 @@ static void compare(survey *s, const vndf_law *law, size_t edge, double seen_are
 }
 
 /* One side. */
-static void look(survey *s, size_t edge, int below, double *figure)
+static void look_at_side(survey *s, size_t edge, int below, double *figure)
 {
     const vndf_draft *d = s->draft;
-    double rho = d->strips.at[edge].edge;
-    vndf_law law = vndf_law_of(d, rho, below);
-    unsigned cell = vndf_draft_cell(d, rho), first = below ? law.first : 0;
-    double drawn = 0, seen = below ? 0 : PI * rho, beyond = 0;
-    float rounded = 0;
-    for (unsigned i = d->table.cells + 1; i-- > first;) {
-        double mass = vndf_law_cell(&law, i).mass;
-        drawn += mass;
-        rounded += (float)mass;
-    }
+    double rho = d->strips.at[edge].edge, sine = 1 / (1 + rho), area = below ? 0 : PI * rho, beyond = 0, taken = 0;
+    unsigned cell = (unsigned)find_knot(s->table, rho * rho, 1);
+    seen v = below ? law_see_below(s->table, sine, rho * sine, rho, (int)cell)
+                   : law_see_above(s->table, sine, rho * sine, rho);
+    for (unsigned i = d->table.cells + 1; i-- > (below ? cell : 0);)
+        taken += drawn_in(s->table, v, i, below).mass;
     for (size_t i = 2 * edge; i < 2 * d->strips.count; i++)
         beyond += s->kernel[i];
-    seen = (seen + beyond) * law.s / PI;
+    area = (area + beyond) * sine / PI;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
         return;
-    figure[CONSISTENCY] = fabs(rounded / drawn - 1);
+    figure[CONSISTENCY] = fabs((double)(float)v.total / taken - 1);
     if (cell == d->table.cells || d->cell[cell + 1].r - d->cell[cell].r > VNDF_GRAIN * rho)
-        figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / seen - 1);
-    compare(s, &law, edge, seen, drawn, figure);
+        figure[AREA_ERROR] = fabs(law_area_in(s->table, v, (int)cell, below) / area - 1);
+    compare(s, v, below, edge, area, taken, figure);
 }
 
 /* Looks from rho at an edge, above and below the horizon. */
@@ -107,8 +117,8 @@ static void look_from(survey *s, size_t edge)
         double r = strips->at[i / 2].r[i % 2];
         s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_profile_kernel(r, rho) : 0;
     }
-    look(s, edge, 0, at->side[0]);
-    look(s, edge, 1, at->side[1]);
+    look_at_side(s, edge, 0, at->side[0]);
+    look_at_side(s, edge, 1, at->side[1]);
 }
 
 /* ---- all directions ---- */
@@ -172,8 +182,8 @@ static double ndf_error(const survey *s)
     double sum = 0, worst = 0;
     for (unsigned i = 0; i <= d->table.cells; i++) {
         int tail = i == d->table.cells;
-        const vndf_weight all = {tail, !tail, 0, 0};
-        vndf_drawn cell = vndf_drawn_by(&d->cell[i], &all);
+        piece all = law_cell_all(s->table, (int)i);
+        vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0;
         for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
             const vndf_strip *strip = &d->strips.at[n];
@@ -189,10 +199,12 @@ static double ndf_error(const survey *s)
     return worst;
 }
 
-int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_draft *draft,
+                             const vndf_profile *profile)
 {
     size_t n = draft->strips.count;
-    survey s = {.draft = draft,
+    survey s = {.table = table_of(d),
+                .draft = draft,
                 .profile = profile,
                 .at = calloc(n + 1, sizeof *s.at),
                 .xi = malloc((n + 1) * sizeof *s.xi),

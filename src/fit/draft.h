@@ -1,13 +1,10 @@
-/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run
- * time computes in float. The fit and the certificate ask here, and nobody states the law again.
+/* What a table is made from: strips of a profile, cells of strips, knots where cells end; and numbers of all cells,
+ * shares below the horizon, areas.
  *
  * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a
  * direction (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the
  * direction; a cell is drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at
- * both ends per unit of its coordinate xi. Masses are those of the projected area: they add up to it.
- *
- * Then where the knots of a table stand, and from knots to a table: numbers of all cells, shares below the horizon,
- * areas. */
+ * both ends per unit of its coordinate xi (kernel/law.h). Masses are those of the projected area: they add up to it. */
 #ifndef VNDF_FIT_DRAFT_H
 #define VNDF_FIT_DRAFT_H
 
@@ -46,7 +43,7 @@ void vndf_strips_free(vndf_strips *strips);
 /* The last edge at or before a slope. */
 size_t vndf_strips_edge(const vndf_strips *strips, double r);
 
-/* ---- cells and laws ---- */
+/* ---- cells ---- */
 
 /* x grows by h from the left knot; in the tail cell z falls as (1 - xi)^power, to 0. The numbers are the table's. */
 typedef struct vndf_cell {
@@ -97,29 +94,6 @@ typedef struct vndf_draft {
     size_t *first;
 } vndf_draft;
 
-/* The cell of a slope. */
-unsigned vndf_draft_cell(const vndf_draft *draft, double r);
-
-/* A direction. */
-typedef struct vndf_law {
-    const vndf_draft *draft;
-    double rho, s, c; /* c >= 0 on either side */
-    int below;
-    unsigned first;             /* above: the switch knot; below: the cell of rho */
-    vndf_weight near, far, end; /* above: before the switch, from it on, and where far is not used */
-    double xi, b0, b1;          /* below: of rho in its cell; the shares */
-} vndf_law;
-
-vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below);
-
-/* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
- * is 0 at rho: (xi - law.xi)/(1 - law.xi). */
-vndf_drawn vndf_law_cell(const vndf_law *law, unsigned cell);
-
-/* The area that the run time gives out: above the horizon a spline of the numbers; below it that less c, or the drawn
- * area where the two are close. */
-double vndf_law_public_area(const vndf_law *law, double drawn);
-
 /* ---- knots ----
  *
  * They are as far apart as an error of cells allows, which is chosen so that there are as many as wanted (knots.c). */
@@ -166,7 +140,8 @@ int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_
 
 void vndf_draft_free(vndf_draft *draft);
 
-/* How good the table is (certificate.c); 0 if there is no memory. */
-int vndf_certificate_measure(vndf_certificate *certificate, const vndf_draft *draft, const vndf_profile *profile);
+/* How good the table of a draft is (certificate.c); 0 if there is no memory. */
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
+                             const vndf_draft *draft, const vndf_profile *profile);
 
 #endif

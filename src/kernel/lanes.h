@@ -41,6 +41,17 @@ typedef __mmask16 mask;
 typedef whole mask; /* 0 or -1 */
 #endif
 
+#if VNDF_KERNEL_X86 && VNDF_LANES == 16
+#  define LANES_INSTRUCTION(name) _mm512_##name
+typedef __m512 lanes_register;
+#elif VNDF_KERNEL_X86 && VNDF_LANES == 8
+#  define LANES_INSTRUCTION(name) _mm256_##name
+typedef __m256 lanes_register;
+#elif VNDF_KERNEL_X86
+#  define LANES_INSTRUCTION(name) _mm_##name
+typedef __m128 lanes_register;
+#endif
+
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
     real a, b, c, d;
@@ -141,10 +152,8 @@ HERE mask less_whole(whole a, whole b)
 
 HERE int any(mask m)
 {
-#  if VNDF_KERNEL_X86 && VNDF_LANES == 8
-    return _mm256_movemask_ps((__m256)m);
-#  elif VNDF_KERNEL_X86
-    return _mm_movemask_ps((__m128)m);
+#  if VNDF_KERNEL_X86
+    return LANES_INSTRUCTION(movemask_ps)((lanes_register)m);
 #  else
     uint64_t half[2];
     memcpy(half, &m, sizeof half);
@@ -190,12 +199,8 @@ HERE int all(mask m)
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. That is what the instructions of x86 do. */
 HERE real least(real a, real b)
 {
-#if VNDF_KERNEL_X86 && VNDF_LANES == 16
-    return (real)_mm512_min_ps((__m512)a, (__m512)b);
-#elif VNDF_KERNEL_X86 && VNDF_LANES == 8
-    return (real)_mm256_min_ps((__m256)a, (__m256)b);
-#elif VNDF_KERNEL_X86
-    return (real)_mm_min_ps((__m128)a, (__m128)b);
+#if VNDF_KERNEL_X86
+    return (real)LANES_INSTRUCTION(min_ps)((lanes_register)a, (lanes_register)b);
 #else
     return pick(less(a, b), a, b);
 #endif
@@ -203,12 +208,8 @@ HERE real least(real a, real b)
 
 HERE real most(real a, real b)
 {
-#if VNDF_KERNEL_X86 && VNDF_LANES == 16
-    return (real)_mm512_max_ps((__m512)a, (__m512)b);
-#elif VNDF_KERNEL_X86 && VNDF_LANES == 8
-    return (real)_mm256_max_ps((__m256)a, (__m256)b);
-#elif VNDF_KERNEL_X86
-    return (real)_mm_max_ps((__m128)a, (__m128)b);
+#if VNDF_KERNEL_X86
+    return (real)LANES_INSTRUCTION(max_ps)((lanes_register)a, (lanes_register)b);
 #else
     return pick(less(b, a), a, b);
 #endif
@@ -216,12 +217,8 @@ HERE real most(real a, real b)
 
 HERE real root(real x)
 {
-#if VNDF_KERNEL_X86 && VNDF_LANES == 16
-    return (real)_mm512_sqrt_ps((__m512)x);
-#elif VNDF_KERNEL_X86 && VNDF_LANES == 8
-    return (real)_mm256_sqrt_ps((__m256)x);
-#elif VNDF_KERNEL_X86
-    return (real)_mm_sqrt_ps((__m128)x);
+#if VNDF_KERNEL_X86
+    return (real)LANES_INSTRUCTION(sqrt_ps)((lanes_register)x);
 #else
     for (int l = 0; l < LANES; l++)
         x[l] = __builtin_sqrtf(x[l]);

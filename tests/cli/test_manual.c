@@ -66,27 +66,19 @@ int main(void)
     strcpy(head, run_expect(0, NULL, RUN_LIST("--help"))->text);
     TEST(strcmp(head, run_expect(0, NULL, RUN_LIST("help"))->text) == 0);
     for (const char *at = head; man && completion && (at = strstr(at, "\n  ")) != NULL; at++) {
-        if (!isalpha((unsigned char)at[3]))
-            continue;
         const int is_effects = strncmp(at + 3, "bench effects", 13) == 0;
         snprintf(name, sizeof name, "%.*s", is_effects ? 13 : (int)strcspn(at + 3, " "), at + 3);
-        test_command(name);
-        count++;
+        if (isalpha((unsigned char)*name) && ++count)
+            test_command(name);
     }
     TEST(count >= 13);
-    if (reads("groff", "-man -ww -Tascii -P-cbou vndf.1")) {
-        char *page = run_file("said", &size);
-        TEST_HAS(page, "vndf build");
-        TEST_HAS(page, "exp(-k*r)*(1+0.8*cos(6*r))");
-        free(page);
-    }
     TEST(run_put("ask.bash", ask_bash) && run_put("a table.vndf", ""));
+    if (reads("groff", "-man -ww -Tascii -P-cbou vndf.1"))
+        TEST(system("grep -q 'vndf build' said && grep -q '(1+0.8\\*cos(6\\*r))' said") == 0);
     if (reads("bash", "ask.bash"))
         TEST(run_has("said", "build,\n--moments,\na table.vndf,\n,\n--theta,\n,\nplot,\n"));
     free(man);
     free(completion);
-    remove("said");
-    TEST(remove("vndf.1") == 0 && remove("completion.bash") == 0);
-    TEST(remove("ask.bash") == 0 && remove("a table.vndf") == 0);
+    TEST(system("rm -f said vndf.1 completion.bash ask.bash 'a table.vndf'") == 0);
     return run_end(folder);
 }

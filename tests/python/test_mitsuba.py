@@ -124,9 +124,9 @@ class AgainstTheLibrary(unittest.TestCase):
     def test_conductors(self):
         table = vndf.load(TABLE)
         optics = dict(fresnel="conductor", **GOLD)
-        self.compare(conductor(alpha_u=0.5, alpha_v=0.2), vndf.Material(table, 0.5, 0.2, **optics), False)
+        self.compare(conductor(alpha_u=0.5, alpha_v=0.2), vndf.Material(vndf.Surface(table, 0.5, 0.2), **optics), False)
         turned = conductor(alpha_u=0.5, alpha_v=0.2, rotation=0.7, masking="separable")
-        material = vndf.Material(table, 0.5, 0.2, rotation=0.7, masking="separable", **optics)
+        material = vndf.Material(vndf.Surface(table, 0.5, 0.2, rotation=0.7), masking="separable", **optics)
         self.compare(turned, material, False)
 
     def test_several_lobes(self):
@@ -136,7 +136,7 @@ class AgainstTheLibrary(unittest.TestCase):
 
     def test_dielectrics(self):
         glass = {"type": "vndf_dielectric", "distribution": TABLE, "alpha": 0.4, "int_ior": 1.5, "ext_ior": 1.0}
-        material = vndf.Material(vndf.load(TABLE), 0.4, lobes="both", fresnel="dielectric", eta=1.5)
+        material = vndf.Material(vndf.Surface(vndf.load(TABLE), 0.4), lobes="both", fresnel="dielectric", eta=1.5)
         # At the critical angle 1 - F has few digits in float.
         self.compare(glass, material, True, usual=3e-4, floor=1e-3)
 

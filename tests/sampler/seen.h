@@ -108,20 +108,12 @@ static inline void seen_print(const seen *s, const char *name)
     }
 }
 
-/* The normal where its slopes are over the roughness, unit, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */
-static inline void seen_over(const slope_frame *f, vndf_vec3 wm, double n[3])
-{
-    double x = wm.x + f->mean_x * wm.z, y = wm.y + f->mean_y * wm.z, d = f->xx * f->yy - f->xy * f->yx;
-    double u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d,
-           length = sqrt(u * u + v * v + (double)wm.z * wm.z);
-    n[0] = (f->x * u + f->y * v) / length, n[1] = (f->x * v - f->y * u) / length, n[2] = wm.z / length;
-}
-
+/* Between unit normals whose slopes are over the roughness. */
 static inline double seen_apart(const slope_frame *f, vndf_vec3 a, vndf_vec3 b)
 {
     double n[3], m[3];
-    seen_over(f, a, n);
-    seen_over(f, b, m);
+    slope_over(f, a, n);
+    slope_over(f, b, m);
     return hypot(hypot(n[0] - m[0], n[1] - m[1]), n[2] - m[2]);
 }
 

@@ -9,7 +9,7 @@ static double coordinate(const seen *s, int which, vndf_vec3 wm)
 {
     const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
     double n[3], length = hypot(f.s, f.c), facing;
-    seen_over(&f, wm, n);
+    slope_over(&f, wm, n);
     if (s->of.lobe[0].surface.distribution == vndf_beckmann())
         return n[which] / n[2];
     if (s->of.lobe[0].surface.distribution == vndf_ggx()) {

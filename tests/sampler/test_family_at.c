@@ -7,26 +7,19 @@
 
 enum { KNOTS = 3 };
 static const float parameters[KNOTS] = {0.5f, 1.7f, 40};
+static const vndf_affine shape = {NULL, 0.3f, 0.1f, -0.05f, 0.2f, 0.15f, -0.3f};
 
-static vndf_affine random_shape(unsigned long long *state)
-{
-    float m[4];
-    for (int i = 0; i < 4; i++)
-        m[i] = (float)random_between(state, -0.1, 0.1);
-    return (vndf_affine){NULL, 0.3f + m[0], m[1], m[2], 0.3f + m[3], 3 * m[0], 3 * m[1]};
-}
-
-/* The lobe is this distribution with this shape. */
-static int is_lobe(const vndf_mixture *m, int i, const vndf_distribution *d, const vndf_affine *shape)
+/* The lobe is this distribution with that shape. */
+static int is_lobe(const vndf_mixture *m, int i, const vndf_distribution *d)
 {
     const vndf_affine *a = &m->lobe[i].surface;
-    return a->distribution == d && memcmp(&a->xx, &shape->xx, 6 * sizeof(float)) == 0;
+    return a->distribution == d && memcmp(&a->xx, &shape.xx, 6 * sizeof(float)) == 0;
 }
 
-static vndf_family_place at(const vndf_family *family, float p, const vndf_affine *shape, vndf_mixture *m)
+static vndf_family_place at(const vndf_family *family, float p, vndf_mixture *m)
 {
     memset(m, 0x5a, sizeof *m);
-    return vndf_family_at(family, p, shape, m);
+    return vndf_family_at(family, p, &shape, m);
 }
 
 static void test_between(const vndf_family *family, const vndf_distribution *const *all, unsigned long long *state)
@@ -34,20 +27,19 @@ static void test_between(const vndf_family *family, const vndf_distribution *con
     size_t knot = test_random_bits(state) % (KNOTS - 1);
     double a = parameters[knot], b = parameters[knot + 1];
     float p = (float)random_between(state, a * 1.0001, b * 0.9999);
-    const vndf_affine shape = random_shape(state);
     vndf_mixture m, untouched;
     memset(&untouched, 0x5a, sizeof untouched);
-    TEST(at(family, p, &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
+    TEST(at(family, p, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
     double t = family->reciprocal ? (1 / (double)p - 1 / a) / (1 / b - 1 / a) : (p - a) / (b - a);
     TEST_NEAR((double)m.lobe[1].weight, t, 1e-6);
     TEST_NEAR((double)m.lobe[0].weight + (double)m.lobe[1].weight, 1, 1e-7);
-    TEST(is_lobe(&m, 0, all[knot], &shape) && is_lobe(&m, 1, all[knot + 1], &shape));
+    TEST(is_lobe(&m, 0, all[knot]) && is_lobe(&m, 1, all[knot + 1]));
     TEST(memcmp(&m.lobe[2], &untouched.lobe[2], sizeof m.lobe[2]) == 0);
 }
 
 /* At a knot and beyond the ends there is one lobe, which is that distribution; beside a knot the neighbour is next to
  * nothing. */
-static void test_ends(const vndf_family *family, const vndf_distribution *const *all, unsigned long long *state)
+static void test_ends(const vndf_family *family, const vndf_distribution *const *all)
 {
     const struct end {
         float p;
@@ -57,18 +49,18 @@ static void test_ends(const vndf_family *family, const vndf_distribution *const 
                 {parameters[2], VNDF_FAMILY_INSIDE, 2}, {0.49999f, VNDF_FAMILY_BELOW, 0},
                 {-HUGE_VALF, VNDF_FAMILY_BELOW, 0},     {40.001f, VNDF_FAMILY_ABOVE, 2},
                 {HUGE_VALF, VNDF_FAMILY_ABOVE, 2}};
-    const vndf_affine shape = random_shape(state);
     vndf_mixture m;
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++)
-        TEST(at(family, ends[i].p, &shape, &m) == ends[i].place && m.count == 1 && m.lobe[0].weight == 1 &&
-             is_lobe(&m, 0, all[ends[i].knot], &shape));
+        TEST(at(family, ends[i].p, &m) == ends[i].place && m.count == 1 && m.lobe[0].weight == 1 &&
+             is_lobe(&m, 0, all[ends[i].knot]));
     for (size_t i = 0; i < KNOTS; i++) {
-        TEST(at(family, nextafterf(parameters[i], 1), &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 2);
+        TEST(at(family, nextafterf(parameters[i], 1), &m) == VNDF_FAMILY_INSIDE && m.count == 2);
         TEST(fminf(m.lobe[0].weight, m.lobe[1].weight) < 2e-6f && m.lobe[0].weight >= 0 && m.lobe[1].weight >= 0);
     }
+    TEST(at(family, NAN, &m) == VNDF_FAMILY_INVALID && m.count == 0);
+    TEST(at(NULL, 1, &m) == VNDF_FAMILY_INVALID && m.count == 0);
+    TEST(vndf_family_at(family, 1, NULL, &m) == VNDF_FAMILY_INVALID && m.count == 0);
 }
-
-/* ---- the family itself ---- */
 
 static void test_facts(const vndf_family *family, const vndf_distribution *const *all)
 {
@@ -94,7 +86,7 @@ static void test_refusals(const vndf_distribution *const *all)
     } refused[] = {{NULL, {1, 2, 3}, KNOTS, "1 to 256 distributions"},
                    {all, {1, 2, 3}, 0, "1 to 256 distributions"},
                    {all, {1, 2, 3}, 257, "1 to 256 distributions"},
-                   {hole, {1, 2, 3}, KNOTS, "1 to 256 distributions"},
+                   {hole, {1, 2, 3}, 3, "1 to 256 distributions"},
                    {all, {1, 2, 2}, KNOTS, "must ascend"},
                    {all, {1, 3, 2}, KNOTS, "must ascend"},
                    {all, {1, (float)NAN, 3}, KNOTS, "not a number"},
@@ -106,13 +98,9 @@ static void test_refusals(const vndf_distribution *const *all)
     }
     TEST(!vndf_family_of(NULL, NULL, 0, NULL));
     vndf_family *one = vndf_family_of(all, parameters, 1, NULL);
-    const vndf_affine shape = {NULL, 1, 0, 0, 1, 0, 0};
     vndf_mixture m;
-    TEST(at(one, 7, &shape, &m) == VNDF_FAMILY_ABOVE && m.count == 1);
-    TEST(at(one, parameters[0], &shape, &m) == VNDF_FAMILY_INSIDE && m.count == 1);
-    TEST(at(one, (float)NAN, &shape, &m) == VNDF_FAMILY_INVALID && m.count == 0);
-    TEST(at(NULL, 1, &shape, &m) == VNDF_FAMILY_INVALID && at(one, 1, NULL, &m) == VNDF_FAMILY_INVALID);
-    TEST(m.count == 0 && vndf_mixture_view_from(&m, (vndf_vec3){0, 0, 1}).count == 0);
+    TEST(at(one, 7, &m) == VNDF_FAMILY_ABOVE && m.count == 1);
+    TEST(at(one, parameters[0], &m) == VNDF_FAMILY_INSIDE && m.count == 1);
     vndf_family_free(one);
 }
 
@@ -128,7 +116,7 @@ int main(void)
     for (family->reciprocal = 0; family->reciprocal < 2; family->reciprocal++) {
         for (size_t i = 0; i < test_amount(1000, 10000, 100000); i++)
             test_between(family, all, &state);
-        test_ends(family, all, &state);
+        test_ends(family, all);
     }
     test_refusals(all);
     vndf_family_free(family);

@@ -1,17 +1,21 @@
 /* Densities, D, areas, Lambda and G1 are what the numbers of the file define, by the oracle, which reads its bytes, in
- * double: within 1e-5, below the horizon 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4,
- * also 1e4 apart, matrices of condition up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning
- * surfaces, a mirror - the values at inputs one rounding aside count. It notices a wrong formula, a wrong cell, and
- * digits lost. */
+ * double, and the weight of a sample is the true density there over the one drawn: within 1e-5, below the horizon
+ * 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart, matrices of condition
+ * up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror - the values at
+ * inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
 #include "oracle/oracle_surface.h"
 #include "sampler/seen.h"
 
 typedef enum family { ROUGH, APART, SHEARED, LEANING, MIXED, FAMILIES } family;
 static const char *const family_names[FAMILIES] = {"roughness", "alphas apart", "matrix", "mean slope", "mixture"};
 
+/* After the quantities of seen.h; -1 where there is no sample, or it has no weight. */
+enum { WEIGHT = QUANTITIES, ASKED };
+
 /* A point, and what the oracle knows of its lobes. */
 typedef struct point {
     seen s;
+    float weight;
     oracle_surface lobe[2];
     double wi[3], wm[3];
 } point;
@@ -56,7 +60,11 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
     }
     p.s = seen_from(f == MIXED ? SEEN_MIXTURE : f >= SHEARED ? SEEN_AFFINE : SEEN_SURFACE, &m, wi);
     vndf_vec3 wm = seen_draw(&p.s, u1, u2, &pdf);
+    p.weight = -1;
+    if (f == ROUGH)
+        vndf_sample_weight(&p.s.view, u1, u2, NULL, &p.weight);
     if (test_random_bits(state) % 2) {
+        p.weight = -1;
         double r = random_decade(state, -3, 3), t = random_between(state, -PI, PI);
         double x = a->xx * r * cos(t) + a->xy * r * sin(t) - a->mean_x,
                y = a->yx * r * cos(t) + a->yy * r * sin(t) - a->mean_y;
@@ -73,14 +81,18 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
 
 /* ---- both sides ---- */
 
-static double ask(const point *p, quantity q)
+static double ask(const point *p, int q)
 {
-    return (double)seen_quantity(&p->s, q, q < AREA ? vec3_of(p->wm) : p->s.wi);
+    if (q == WEIGHT)
+        return (double)p->weight;
+    return (double)seen_quantity(&p->s, (quantity)q, q < AREA ? vec3_of(p->wm) : p->s.wi);
 }
 
 /* A/cos and its reciprocal, cos being the projection of the mean plane. */
-static double truth(const point *p, quantity q)
+static double truth(const point *p, int q)
 {
+    if (q == WEIGHT)
+        return truth(p, VISIBLE) / truth(p, DENSITY);
     double area = 0, cosine = 0, sum = 0;
     for (int i = 0; i < p->s.of.count; i++) {
         double weight = p->s.of.count == 2 ? (i + 1) / 3.0 : 1;
@@ -115,10 +127,11 @@ static int is_deep(const point *p)
 
 /* |got - want|/|want|, of Lambda over at least 1, beyond what one rounding of the inputs moves, a tenth of it below the
  * horizon; -1 where nothing is promised. */
-static double error_of(const point *p, quantity q)
+static double error_of(const point *p, int q)
 {
     double want = truth(p, q), got = ask(p, q), low = want, high = want, size = fmax(fabs(want), q == LAMBDA);
-    if (!(size > 1e-30 && size < 1e30) || (q == LAMBDA && size > 1e6) || is_deep(p))
+    if ((q == WEIGHT && p->weight < 0) || !(size > 1e-30 && size < 1e30) || (q == LAMBDA && size > 1e6) ||
+        is_deep(p))
         return -1;
     size *= oracle_look_from(&p->lobe[0], p->wi).c < 0 ? 10 : 1;
     if (fabs(got - want) <= 1e-5 * size)
@@ -136,30 +149,31 @@ static double error_of(const point *p, quantity q)
 
 static void test_family(const subject *of, const oracle_slopes *slopes, family f, size_t points)
 {
-    size_t checked[QUANTITIES] = {0}, missed[QUANTITIES] = {0};
-    double worst[QUANTITIES] = {0};
-    point at[QUANTITIES];
+    size_t checked[ASKED] = {0}, missed[ASKED] = {0};
+    double worst[ASKED] = {0};
+    point at[ASKED];
     unsigned long long state = 100 + (unsigned)f;
     for (size_t i = 0; i < points; i++) {
         point p = random_point(slopes, of->d, f, &state);
-        for (int q = 0; q < QUANTITIES; q++) {
-            double error = error_of(&p, (quantity)q);
+        for (int q = 0; q < ASKED; q++) {
+            double error = error_of(&p, q);
             checked[q] += error >= 0;
             missed[q] += !(error <= 1e-5);
             if (!(error <= worst[q]))
                 worst[q] = error, at[q] = p;
         }
     }
-    for (int q = 0; q < QUANTITIES; q++)
+    for (int q = 0; q < ASKED; q++)
         if (!(TEST((double)missed[q] <= 1 + 1e-3 * (double)checked[q]) &
               TEST(worst[q] < (of->shape.rough ? HUGE_VAL : 1e-2))) ||
             test_long()) {
             fprintf(stderr, "  %s, %s, %s: %lu of %lu beyond 1e-5, most %.3g\n", of->name, family_names[f],
-                    quantity_names[q], (unsigned long)missed[q], (unsigned long)checked[q], worst[q]);
+                    q == WEIGHT ? "weight" : quantity_names[q], (unsigned long)missed[q],
+                    (unsigned long)checked[q], worst[q]);
             if (worst[q] > 1e-5)
                 seen_print(&at[q].s, "worst"),
                     fprintf(stderr, "    wm %.9g %.9g %.9g: got %.9g, want %.9g\n", at[q].wm[0], at[q].wm[1],
-                            at[q].wm[2], ask(&at[q], (quantity)q), truth(&at[q], (quantity)q));
+                            at[q].wm[2], ask(&at[q], q), truth(&at[q], q));
         }
 }
 

@@ -1,6 +1,6 @@
-# The run time gives the same bits whatever compiled it and wherever it runs: the library of this build, and gcc and
-# clang at -O0, -O2 and -O3 -march=native, 32-bit x86 with SSE2, and the machines below through qemu, where they are
-# here; all are compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Without LONG
+# The run time gives the same bits whatever compiled it and wherever it runs: the library of this build, gcc and clang
+# at -O0 and -O3 -march=native, 32-bit x86 with SSE2, and the machines below through qemu, where they are here; all are
+# compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Without LONG
 # (more_same_bits) it is the library, -O0 and -O3 of a compiler that did not build it, and one machine through qemu.
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
@@ -30,8 +30,7 @@ file(MAKE_DIRECTORY ${OUT})
 
 # Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's or, to renew it, the first
 # build's.
-set(learning ON)
-function(compare who text)
+function(compare who text learning)
     string(REGEX MATCHALL "[0-9a-f]+ [0-9]+ [^\n]+" lines "${text}")
     list(LENGTH lines found)
     list(LENGTH tables least)
@@ -43,22 +42,30 @@ function(compare who text)
         get_property(known GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}")
         if(NOT known AND learning)
             set_property(GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
-            set_property(GLOBAL APPEND PROPERTY hashes "${line}")
+            set_property(GLOBAL APPEND_STRING PROPERTY hashes "${line}\n")
         elseif(NOT known STREQUAL CMAKE_MATCH_1)
             message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2}, expected '${known}'. If arithmetic "
                 "or tables were changed on purpose: cmake --build build --target same_bits")
         endif()
     endforeach()
+    message("same bits: ${who}")
 endfunction()
 
-if(NOT RENEW)
-    file(READ ${expected_file} expected)
-    compare(${expected_file} "${expected}")
-    set(learning OFF)
-endif()
-
-# run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty.
+# run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty. Says `found`, if programs of this compiler
+# run here.
 function(run who count emulator parts)
+    file(WRITE ${OUT}/probe.c "#include <math.h>\n#include <stdio.h>\nint main(int n, char **a) { return a[0] && "
+        "sqrt((double)n) == 1.0 ? 0 : 1; }\n")
+    execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+    if(status EQUAL 0)
+        execute_process(COMMAND ${emulator} ${OUT}/probe RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
+    endif()
+    string(COMPARE EQUAL "${status}" "0" found)
+    set(found ${found} PARENT_SCOPE)
+    if(NOT found)
+        message("not here: ${who}")
+        return()
+    endif()
     execute_process(COMMAND ${ARGN} ${flags} ${parts} -o ${OUT}/same_bits -lm
         RESULT_VARIABLE status ERROR_VARIABLE output)
     if(status EQUAL 0)
@@ -68,25 +75,14 @@ function(run who count emulator parts)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "${who} cannot build or run the run time:\n${output}${errors}")
     endif()
-    compare("${who}" "${output}")
-    message("same bits: ${who}, ${count} samples of each distribution")
+    compare("${who}, ${count} samples of each distribution" "${output}" ${RENEW})
 endfunction()
 
-# run_here(NAME COUNT EMULATOR COMPILER FLAG...): the run time, if programs of this compiler run here; says `found`.
-macro(run_here who count emulator)
-    file(WRITE ${OUT}/probe.c "#include <math.h>\n#include <stdio.h>\nint main(int n, char **a) { return a[0] && "
-        "sqrt((double)n) == 1.0 ? 0 : 1; }\n")
-    execute_process(COMMAND ${ARGN} ${OUT}/probe.c -o ${OUT}/probe -lm RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
-    if(status EQUAL 0)
-        execute_process(COMMAND ${emulator} ${OUT}/probe RESULT_VARIABLE status OUTPUT_QUIET ERROR_QUIET)
-    endif()
-    string(COMPARE EQUAL "${status}" "0" found)
-    if(found)
-        run("${who}" ${count} "${emulator}" "${sources}" ${ARGN})
-    else()
-        message("not here: ${who}")
-    endif()
-endmacro()
+if(NOT RENEW)
+    set(RENEW OFF)
+    file(READ ${expected_file} expected)
+    compare(${expected_file} "${expected}" ON)
+endif()
 
 # ---- this machine -------------------------------------------------------------------------------
 
@@ -107,22 +103,20 @@ if(NOT LONG)
 endif()
 foreach(compiler IN LISTS compilers)
     run("${compiler} -O0" ${few} "" "${sources}" ${compiler} -O0)
-    run_here("${compiler} -O3 -march=native" ${many} "" ${compiler} -O3 -march=native)
+    run("${compiler} -O3 -march=native" ${many} "" "${sources}" ${compiler} -O3 -march=native)
 endforeach()
 
 # ---- others -------------------------------------------------------------------------------------
 
-# Distributions that have compilers for other machines too keep the kernel's headers apart.
-if(LONG)
-    run_here("gcc -m32 -msse2 -mfpmath=sse -O2" ${few} "" gcc -m32 -msse2 -mfpmath=sse -O2
-        -idirafter /usr/include/x86_64-linux-gnu)
+if(LONG) # distributions that have compilers for other machines too keep the kernel's headers apart
+    run("gcc -m32" ${few} "" "${sources}" gcc -m32 -msse2 -mfpmath=sse -O2 -idirafter /usr/include/x86_64-linux-gnu)
 endif()
 foreach(machine IN LISTS machines)
     string(REGEX MATCH "^[^-]+" processor ${machine})
     find_program(emulator_${processor} NAMES qemu-${processor} qemu-${processor}-static)
     if(emulator_${processor})
         # In ISO mode gcc for s390x keeps floats as doubles, which the sources refuse, unless it is told not to.
-        run_here("${machine}-gcc -O2" ${few} ${emulator_${processor}} ${machine}-gcc -static -O2
+        run("${machine}-gcc -O2" ${few} ${emulator_${processor}} "${sources}" ${machine}-gcc -static -O2
             -fexcess-precision=fast)
         if(found AND NOT LONG)
             break()
@@ -131,7 +125,6 @@ foreach(machine IN LISTS machines)
 endforeach()
 
 if(RENEW)
-    get_property(lines GLOBAL PROPERTY hashes)
-    list(JOIN lines "\n" text)
-    file(WRITE ${expected_file} "${text}\n")
+    get_property(text GLOBAL PROPERTY hashes)
+    file(WRITE ${expected_file} "${text}")
 endif()

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/sort.h"
-
 void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1)
 {
     memset(g, 0, sizeof *g);
@@ -14,16 +12,6 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
         g->x[i] = x0 + (x1 - x0) * (double)i / (double)rows;
     for (size_t i = 0; i <= columns; i++)
         g->y[i] = y0 + (y1 - y0) * (double)i / (double)columns;
-}
-
-/* From the least to the largest: beyond them a quadrature that looks at few places may find nothing. */
-void grid_quantiles(double *border, size_t parts, double *pilot, size_t count)
-{
-    size_t steps = (parts - 1) / 2 - 1;
-    sort_numbers(pilot, count);
-    for (size_t i = 2; i < parts && count; i += 2)
-        border[i] = pilot[(count - 1) * (i / 2 - 1) / steps];
-    sort_numbers(border, parts + 1);
 }
 
 size_t grid_bin(const grid *g, double x, double y)

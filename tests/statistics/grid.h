@@ -1,7 +1,5 @@
 /* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against
- * expected counts. Borders are even, or every second one is a quantile of a pilot run, so that half of the bins
- * lie where the samples go, however narrow the law is. tools/evidence/measure/bins.h, which knows visible normals,
- * is finer. */
+ * expected counts. tools/evidence/measure/bins.h, which knows visible normals, is finer. */
 #ifndef TESTS_STATISTICS_GRID_H
 #define TESTS_STATISTICS_GRID_H
 
@@ -19,9 +17,6 @@ typedef struct grid {
 
 /* Empty, with even borders. */
 void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1);
-
-/* Every second border but the first becomes a quantile of the pilots, which are sorted. */
-void grid_quantiles(double *border, size_t parts, double *pilot, size_t count);
 
 size_t grid_bin(const grid *g, double x, double y);
 size_t grid_elsewhere(const grid *g);

@@ -46,40 +46,25 @@ static double reach(const slope_frame *f, double r)
     return f->c < 0 ? 2 * atan2(sqrt(across + f->c), sqrt(across - f->c)) : acos(-f->c / across);
 }
 
-/* q counts slopes: linear to 1, then their logarithm. */
-static double slope_at(double q)
+void slope_over(const slope_frame *f, vndf_vec3 wm, double n[3])
 {
-    return q < 1 ? q : exp(q - 1);
+    double x = wm.x + f->mean_x * wm.z, y = wm.y + f->mean_y * wm.z, d = f->xx * f->yy - f->xy * f->yx;
+    double u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d,
+           length = sqrt(u * u + v * v + (double)wm.z * wm.z);
+    n[0] = (f->x * u + f->y * v) / length, n[1] = (f->x * v - f->y * u) / length, n[2] = wm.z / length;
 }
 
-static double place_at(double r)
-{
-    return r < 1 ? r : 1 + log(r);
-}
-
+/* q counts slopes, linear to 1, then their logarithm; the azimuth is counted in parts of its reach. */
 static const double LAST = 81; /* slopes of 1e34 */
-
-/* Of (slopes over -1, as they stand in unit normals) and back. */
-static double normal_at(const slope_frame *f, double r, double a, double wm[3])
-{
-    double along = r * cos(a), across = r * sin(a), u = f->x * along - f->y * across,
-           v = f->y * along + f->x * across;
-    double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
-    double z = 1 / sqrt(1 + x * x + y * y);
-    wm[0] = x * z, wm[1] = y * z, wm[2] = z;
-    return z;
-}
 
 static void place_of(const slope_frame *f, vndf_vec3 wm, double *q, double *part)
 {
-    double z = fmax((double)wm.z, 1e-300), x = wm.x / z + f->mean_x, y = wm.y / z + f->mean_y;
-    double d = f->xx * f->yy - f->xy * f->yx, u = (f->yy * x - f->xy * y) / d, v = (f->xx * y - f->yx * x) / d;
-    double r = hypot(u, v);
-    *q = place_at(r);
-    *part = atan2(f->x * v - f->y * u, f->x * u + f->y * v) / reach(f, r);
+    double n[3], r;
+    slope_over(f, wm, n);
+    r = hypot(n[0], n[1]) / n[2];
+    *q = r < 1 ? r : 1 + log(r);
+    *part = atan2(n[1], n[0]) / reach(f, r);
 }
-
-/* ---- integration ---- */
 
 typedef struct integrand {
     const slope_frame *frame;
@@ -87,32 +72,20 @@ typedef struct integrand {
     const void *of;
 } integrand;
 
+/* Per q and part. Slopes are over -1, as they stand in unit normals. */
 static double value_at(double q, double part, const void *of)
 {
     const integrand *g = of;
-    double r = slope_at(q), end = reach(g->frame, r), wm[3];
+    const slope_frame *f = g->frame;
+    double r = q < 1 ? q : exp(q - 1), end = reach(f, r);
     if (!(end > 0))
         return 0;
-    double z = normal_at(g->frame, r, part * end, wm), per_q = q < 1 ? 1 : r;
-    return g->f(wm, g->of) * z * z * z * g->frame->det * r * per_q * end;
-}
-
-double slope_integral(const slope_frame *frame, slope_function *f, const void *of)
-{
-    enum { PANELS = 150 };
-    const integrand g = {frame, f, of};
-    const double sides[3] = {-1, 0, 1}, cut = frame->s > 0 ? place_at(fabs(frame->c) / frame->s) : HUGE_VAL;
-    double sum = 0, from = 0;
-    for (int i = 1; i <= PANELS; i++) { /* a fifteenth of the slope each up to 1e2, then wider */
-        double to = i <= 90 ? i / 15.0 : 6 + (LAST - 6) * (i - 90) / 60, at[3] = {from, to, to};
-        int parts = 1;
-        if (cut > from && cut < to) /* where the arc that is seen begins to shrink, or is first seen */
-            at[1] = cut, parts = 2;
-        for (int j = 0; j < 2 * parts; j++)
-            sum += grid_integral(value_at, &g, at + j / 2, sides + j % 2, 1e-8);
-        from = to;
-    }
-    return sum;
+    double along = r * cos(part * end), across = r * sin(part * end), u = f->x * along - f->y * across,
+           v = f->y * along + f->x * across;
+    double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
+    double z = 1 / sqrt(1 + x * x + y * y), per_q = q < 1 ? 1 : r;
+    const double wm[3] = {x * z, y * z, z};
+    return g->f(wm, g->of) * z * z * z * f->det * r * per_q * end;
 }
 
 /* ---- chi-square ---- */

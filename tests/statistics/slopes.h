@@ -1,7 +1,6 @@
-/* Integrals and chi-square over all normals that face a direction, for any density of normals. The frame is an affine
- * image of the slopes, in polar form (R, a) about the direction: where R is given the normals that are seen are those
- * with |a| < A(R), and a over A runs from -1 to 1, so that no border cuts a panel. The integration is adaptive; what it
- * may miss is narrower than a fifth of a panel. */
+/* Chi-square over all normals that face a direction, for any density of normals. The frame is an affine image of the
+ * slopes, in polar form (R, a) about the direction: where R is given the normals that are seen are those with
+ * |a| < A(R), and a over A runs from -1 to 1, so that no border cuts a bin. */
 #ifndef TESTS_STATISTICS_SLOPES_H
 #define TESTS_STATISTICS_SLOPES_H
 
@@ -18,11 +17,11 @@ typedef struct slope_frame {
  * normals. */
 slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi, int all);
 
+/* The normal where its slopes are over the matrix, unit, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */
+void slope_over(const slope_frame *f, vndf_vec3 wm, double n[3]);
+
 /* A function per steradian at the unit normal wm. */
 typedef double slope_function(const double wm[3], const void *of);
-
-/* Its integral over the normals that face the direction. */
-double slope_integral(const slope_frame *frame, slope_function *f, const void *of);
 
 /* A sampler, and its density. */
 typedef vndf_vec3 slope_draw(const void *of, float u1, float u2, float *pdf);

@@ -50,25 +50,15 @@ static const char *const help[] = {
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
-/* A list with commas, cut in `text`. */
-static int read_only(const arguments *given, export_document *document, char *text, size_t size)
+static int read_only(const arguments *given, export_document *document)
 {
-    size_t count = 0, n = 0;
-    const char *only = option_value(given, "--only");
-    snprintf(text, size, "%s", only ? only : "");
-    for (char *call = strtok(text, ","); call; call = strtok(NULL, ",")) {
-        for (n = 0; document_calls[n] && strcmp(document_calls[n], call) != 0; n++)
-            ;
-        if (!document_calls[n] || count + 1 >= EXPORT_CALLS)
-            return complain(
-                       name,
-                       "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area, mixture, family, "
-                       "bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
-                       call),
-                   0;
-        if (document_is_of_bsdf(call) && !document->effects.wanted)
-            return complain(name, "--only '%s' needs --bsdf", call), 0;
-        document->only[count++] = call;
+    const char *call = document->only = option_value(given, "--only");
+    for (; call && *call; call += strcspn(call, ","), call += *call == ',') {
+        const int length = (int)strcspn(call, ",");
+        if (list_place(document_calls, call, (size_t)length) < 0)
+            return complain(name, "--only '%.*s': %s are known", length, call, document_calls), 0;
+        if (strncmp(call, "bsdf", 4) == 0 && !document->effects.wanted)
+            return complain(name, "--only '%.*s' needs --bsdf", length, call), 0;
     }
     return 1;
 }
@@ -109,8 +99,8 @@ static int read_settings(const arguments *given, export_document *document)
     if (!option_count(given, "--lobes", 1, 8, &lobes))
         return 0;
     document->lobes = (long)lobes;
-    document->embeds = option_value(given, "--buffer") == NULL;
-    document->as.by_pointer = !document->embeds && document->as.to->pointer;
+    document->as.embeds = option_value(given, "--buffer") == NULL;
+    document->as.by_pointer = !document->as.embeds && !document->as.to->bound;
     if (effects && !effects_read(&document->effects, effects, why))
         return complain(name, "--bsdf %s", why), 0;
     return 1;
@@ -126,7 +116,7 @@ static int fits(const export_document *document)
         if (document->table[i].family && document->lobes < 2)
             return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
                    0;
-    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+    if (!document->as.embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     return complain(
                name,
@@ -178,7 +168,6 @@ static int run(const arguments *given)
     const int is_brdf = option_value(given, "--rgl") != NULL;
     const char *wrong = option_among(given, is_brdf ? of_kernels : of_files);
     export_document document = {0};
-    char only[200];
     int status = STATUS_USE;
     if (wrong)
         return complain(name, is_brdf ? "%s is for kernels, not for --rgl" : "%s is for --rgl", wrong);
@@ -186,7 +175,7 @@ static int run(const arguments *given)
         return complain(name, "-o OUT is missing");
     if (is_brdf)
         return export_brdf(given);
-    if (read_settings(given, &document) && read_only(given, &document, only, sizeof only) &&
+    if (read_settings(given, &document) && read_only(given, &document) &&
         named_tables_open(name, &given->positional, 1, &document) && fits(&document))
         status = write_all(given, &document);
     named_tables_close(&document);

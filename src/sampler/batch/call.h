@@ -38,39 +38,37 @@ enum {
 /* Arrays that are written: normal, density and weight of a sample; two numbers of an inverse; else one. */
 enum { VNDF_WRITES = 5 };
 
-typedef struct vndf_call {
-    vndf_task task;
+/* What a surface, or a lobe of mixtures, reads. */
+typedef struct vndf_lobe_call {
     const vndf_distribution *distribution;
-    size_t count;
-    int diagonal;                  /* roughness: xx and yy have to be above 0 */
     unsigned shared;               /* bit i: read[i] points to one number for all */
     const float *read[VNDF_READS]; /* NULL for zeros */
-    float *write[VNDF_WRITES];     /* NULL for what is not asked for */
+} vndf_lobe_call;
+
+typedef struct vndf_call {
+    vndf_task task;
+    const float *given[3];     /* numbers, or a normal: what each lobe reads from VNDF_READ_A on */
+    float *write[VNDF_WRITES]; /* NULL for what is not asked for */
+    const int *asked;          /* the lobes of an inverse of mixtures; NULL for -1 */
+    int *drawn;                /* the lobes that mixtures drew from, or NULL */
+    size_t count;
+    int diagonal; /* roughness: xx and yy have to be above 0 */
+    int mixed;    /* mixtures of `lobes` lobes, 1 to VNDF_MIXTURE_LOBES; else the surface is the one lobe */
+    int lobes;
+    const vndf_lobe_call *lobe;
 } vndf_call;
 
-/* Mixtures: what each lobe reads, a distribution among it, and what is written: two numbers of an inverse, or a normal
- * and its density, or else one. */
-typedef struct vndf_mixture_call {
-    vndf_task task;
-    size_t count;
-    int lobes; /* 1 to VNDF_MIXTURE_LOBES */
-    vndf_call lobe[VNDF_MIXTURE_LOBES];
-    const int *asked; /* of an inverse; NULL for -1 */
-    float *write[VNDF_WRITES];
-    int *drawn; /* the lobe; or NULL */
-} vndf_mixture_call;
-
-/* Element i of what it writes equals, to the bit, the call for one element. The distribution is not NULL. */
+/* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL. */
 typedef void vndf_lanes(const vndf_call *call);
-typedef void vndf_mixture_lanes(const vndf_mixture_call *call);
 
 #if defined(__GNUC__)
 vndf_lanes vndf_lanes_4;
-vndf_mixture_lanes vndf_mixture_lanes_4;
 #endif
 #if VNDF_HAS_WIDE_LANES /* the build compiles them */
 vndf_lanes vndf_lanes_8, vndf_lanes_16;
-vndf_mixture_lanes vndf_mixture_lanes_8, vndf_mixture_lanes_16;
 #endif
+
+/* The same by the calls for one (elements.c): distributions may be NULL, and the number of lobes any. */
+vndf_lanes vndf_one_by_one;
 
 #endif

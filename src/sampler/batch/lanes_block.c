@@ -17,13 +17,10 @@
 
 #if VNDF_LANES == 4
 #  define LANES_ENTRY vndf_lanes_4
-#  define LANES_MIXTURE vndf_mixture_lanes_4
 #elif VNDF_LANES == 8
 #  define LANES_ENTRY vndf_lanes_8
-#  define LANES_MIXTURE vndf_mixture_lanes_8
 #else
 #  define LANES_ENTRY vndf_lanes_16
-#  define LANES_MIXTURE vndf_mixture_lanes_16
 #endif
 
 enum { BLOCK = 128, GROUPS = BLOCK / LANES };
@@ -33,9 +30,11 @@ enum { BLOCK = 128, GROUPS = BLOCK / LANES };
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
-/* A block of a call: where its inputs lie, all of them readable up to the last lane, and valid; which elements are. */
+/* A block of a call, or of a lobe of it: where its inputs lie, all of them readable up to the last lane, and valid;
+ * which elements are. */
 typedef struct block {
-    const vndf_call *call;
+    const vndf_lobe_call *lobe;
+    vndf_task task;
     table t;
     int groups, plain; /* plain: of all its surfaces (kernel/surface.h) */
     const float *read[VNDF_READS];
@@ -68,7 +67,7 @@ typedef struct side {
 /* A matrix in units of the distribution's slopes. */
 HERE affine_map map_at(const block *b, int g)
 {
-    const float unit = b->call->distribution->unit;
+    const float unit = b->lobe->distribution->unit;
     const real zero = set(0.0f);
     affine_map m = {input(b, VNDF_READ_XX, g) * unit,
                     zero,
@@ -347,67 +346,35 @@ HERE void area_side(table t, int groups, side *s, const int law_alone, const int
         store(s->write[RESULT_A] + g * LANES, area[g]);
 }
 
-/* What a side does, above and below the horizon. */
-typedef void side_step(table t, int groups, side *s);
+/* What is done to a side. */
+typedef enum side_task { DRAW, WEIGH, DENSITY, INVERT, AREA, DRAWN_AREA } side_task;
 
-STEP void draw_above(table t, int groups, side *s)
+/* How many rows of a side that takes and gives. */
+static const struct side_rows {
+    int reads, writes;
+} side_rows[] = {{GIVEN_C, RESULT_E}, {GIVEN_C, SIDE_WRITES}, {SIDE_READS, RESULT_B},
+                 {GIVEN_D, RESULT_C}, {GIVEN_A, RESULT_B},    {GIVEN_A, RESULT_B}};
+
+HERE void do_side(side_task task, table t, int groups, side *s, const int below)
 {
-    draw_side(t, groups, s, 0, 0);
+    switch (task) {
+    case DRAW: draw_side(t, groups, s, 0, below); break;
+    case WEIGH: draw_side(t, groups, s, 1, below); break;
+    case DENSITY: density_side(t, groups, s, below); break;
+    case INVERT: invert_side(t, groups, s, below); break;
+    case AREA: area_side(t, groups, s, 0, below); break;
+    case DRAWN_AREA: area_side(t, groups, s, 1, below); break;
+    }
 }
 
-STEP void draw_below(table t, int groups, side *s)
+STEP void do_above(side_task task, table t, int groups, side *s)
 {
-    draw_side(t, groups, s, 0, 1);
+    do_side(task, t, groups, s, 0);
 }
 
-STEP void weigh_above(table t, int groups, side *s)
+STEP void do_below(side_task task, table t, int groups, side *s)
 {
-    draw_side(t, groups, s, 1, 0);
-}
-
-STEP void weigh_below(table t, int groups, side *s)
-{
-    draw_side(t, groups, s, 1, 1);
-}
-
-STEP void density_above(table t, int groups, side *s)
-{
-    density_side(t, groups, s, 0);
-}
-
-STEP void density_below(table t, int groups, side *s)
-{
-    density_side(t, groups, s, 1);
-}
-
-STEP void invert_above(table t, int groups, side *s)
-{
-    invert_side(t, groups, s, 0);
-}
-
-STEP void invert_below(table t, int groups, side *s)
-{
-    invert_side(t, groups, s, 1);
-}
-
-STEP void area_above(table t, int groups, side *s)
-{
-    area_side(t, groups, s, 0, 0);
-}
-
-STEP void area_below(table t, int groups, side *s)
-{
-    area_side(t, groups, s, 0, 1);
-}
-
-STEP void drawn_above(table t, int groups, side *s)
-{
-    area_side(t, groups, s, 1, 0);
-}
-
-STEP void drawn_below(table t, int groups, side *s)
-{
-    area_side(t, groups, s, 1, 1);
+    do_side(task, t, groups, s, 1);
 }
 
 /* Some elements of a block, to be put together: which, how many, and in how many groups. */
@@ -471,8 +438,8 @@ HERE void scatter(const some *e, int groups, const float *from, float *to)
 #endif
 }
 
-/* A side_step on the elements of one side of a block, which are put together for it. */
-HERE void take_some(table t, side *s, int groups, int reads, int writes, side_step *step, const int below)
+/* A task on the elements of one side of a block, which are put together for it. */
+HERE void take_some(side_task task, table t, side *s, int groups, const int below)
 {
     side own;
     some e;
@@ -481,15 +448,15 @@ HERE void take_some(table t, side *s, int groups, int reads, int writes, side_st
         e.of[g] = below ? less(height, set(0.0f)) : at_most(set(0.0f), height);
     }
     count_some(&e, groups);
-    for (int r = 0; r < reads; r++)
+    for (int r = 0; r < side_rows[task].reads; r++)
         gather(&e, groups, s->read[r], own.read[r]);
-    step(t, e.groups, &own);
-    for (int w = 0; w < writes; w++)
+    (below ? do_below : do_above)(task, t, e.groups, &own);
+    for (int w = 0; w < side_rows[task].writes; w++)
         scatter(&e, groups, own.write[w], s->write[w]);
 }
 
-/* Each element by the step of its side. */
-HERE void take_sides(const block *b, side *s, int reads, int writes, side_step *above, side_step *below)
+/* A task on each side that has elements. */
+HERE void take_sides(side_task task, const block *b, side *s)
 {
     real least_height = set(0.0f), most_height = set(-1.0f);
     for (int g = 0; g < b->groups; g++) {
@@ -498,12 +465,12 @@ HERE void take_sides(const block *b, side *s, int reads, int writes, side_step *
         most_height = most(most_height, height);
     }
     if (!any(less(least_height, set(0.0f))))
-        above(b->t, b->groups, s);
+        do_above(task, b->t, b->groups, s);
     else if (!any(at_most(set(0.0f), most_height)))
-        below(b->t, b->groups, s);
+        do_below(task, b->t, b->groups, s);
     else {
-        take_some(b->t, s, b->groups, reads, writes, above, 0);
-        take_some(b->t, s, b->groups, reads, writes, below, 1);
+        take_some(task, b->t, s, b->groups, 0);
+        take_some(task, b->t, s, b->groups, 1);
     }
 }
 
@@ -526,20 +493,20 @@ HERE void keep_frame(frames *at, int g, frame f)
     at->f[g].near = f.near;
 }
 
-/* Writes the samples of a group. */
+/* Writes the samples of a group; density and weight where that is asked for. */
 HERE void put_sample(const block *b, const frames *at, int g, drawn n, real weight, float *const to[VNDF_WRITES])
 {
     frame f = at->f[g];
     f.m = map_at(b, g);
-    sampled s = frame_sampled(f, n);
+    sampled_normal s = frame_sampled(f, n);
     mask valid = b->valid[g];
     real zero = set(0.0f);
     store(to[0] + g * LANES, pick(valid, s.x, zero));
     store(to[1] + g * LANES, pick(valid, s.y, zero));
     store(to[2] + g * LANES, pick(valid, s.z, set(1.0f)));
-    if (b->call->write[3])
+    if (to[3])
         store(to[3] + g * LANES, pick(valid, s.pdf, zero));
-    if (b->call->write[4])
+    if (to[4])
         store(to[4] + g * LANES, pick(valid, weight, zero));
 }
 
@@ -547,7 +514,7 @@ HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
 {
     frames at;
     side s;
-    const int weigh = b->call->write[4] != NULL;
+    const int weigh = to[4] != NULL;
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g);
         table_direction w = put_direction(&s, g, f);
@@ -557,10 +524,7 @@ HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
         store(s.read[GIVEN_A] + g * LANES, unit_input(b, VNDF_READ_A, g));
         store(s.read[GIVEN_B] + g * LANES, unit_input(b, VNDF_READ_B, g));
     }
-    if (weigh)
-        take_sides(b, &s, GIVEN_C, SIDE_WRITES, weigh_above, weigh_below);
-    else
-        take_sides(b, &s, GIVEN_C, RESULT_E, draw_above, draw_below);
+    take_sides(weigh ? WEIGH : DRAW, b, &s);
     for (int g = 0; g < b->groups; g++) {
         const float *from = s.write[0] + g * LANES;
         drawn n = {load(from), load(from + BLOCK), load(from + 2 * BLOCK), load(from + 3 * BLOCK)};
@@ -569,34 +533,28 @@ HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
     }
 }
 
-HERE void sample_ggx(const block *b, float *const to[VNDF_WRITES])
+HERE void sample_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
     frames at;
-    ggx_view v[GROUPS];
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        keep_frame(&at, g, f);
-        v[g] = ggx_see(f.ux, f.uy, f.uz);
-    }
-    for (int g = 0; g < b->groups; g++) {
-        drawn n = ggx_draw(v[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
-        put_sample(b, &at, g, n, set(1.0f), to);
-    }
-}
-
-HERE void sample_beckmann(const block *b, float *const to[VNDF_WRITES])
-{
-    frames at;
-    beckmann_view v[GROUPS];
+    ggx_view caps[GROUPS];
+    beckmann_view laws[GROUPS];
     drawn n[GROUPS];
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g);
         keep_frame(&at, g, f);
-        v[g] = beckmann_see(f.ux, f.uy, f.uz);
+        if (kind == VNDF_KIND_GGX)
+            caps[g] = ggx_see(f.ux, f.uy, f.uz);
+        else
+            laws[g] = beckmann_see(f.ux, f.uy, f.uz);
     }
-    for (int g = 0; g < b->groups; g++)
-        n[g] = beckmann_draw(v[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
-    for (int g = 0; g < b->groups; g++)
+    for (int g = 0; g < b->groups; g++) {
+        real u1 = unit_input(b, VNDF_READ_A, g), u2 = unit_input(b, VNDF_READ_B, g);
+        if (kind == VNDF_KIND_GGX)
+            put_sample(b, &at, g, ggx_draw(caps[g], u1, u2), set(1.0f), to);
+        else
+            n[g] = beckmann_draw(laws[g], u1, u2); /* long enough for a loop of its own */
+    }
+    for (int g = 0; kind == VNDF_KIND_BECKMANN && g < b->groups; g++)
         put_sample(b, &at, g, n[g], set(1.0f), to);
 }
 
@@ -644,7 +602,7 @@ HERE void density_table(const block *b, float *to)
         store(s.read[GIVEN_C] + g * LANES, n.z);
         store(s.read[GIVEN_D] + g * LANES, n.facing / frame_reach(f));
     }
-    take_sides(b, &s, SIDE_READS, RESULT_B, density_above, density_below);
+    take_sides(DENSITY, b, &s);
     for (int g = 0; g < b->groups; g++)
         put_density(&at, g, load(s.write[RESULT_A] + g * LANES) / at.f[g].determinant, to);
 }
@@ -679,7 +637,7 @@ HERE void visible_table(const block *b, float *to)
         facing[g] = n.facing;
         reach[g] = frame_reach(f);
     }
-    take_sides(b, &s, GIVEN_A, RESULT_B, area_above, area_below);
+    take_sides(AREA, b, &s);
     p22_table(b->t, b->groups, &s, p22);
     for (int g = 0; g < b->groups; g++) {
         real area = most(load(s.write[RESULT_A] + g * LANES) * reach[g], set(1e-37f));
@@ -725,7 +683,7 @@ HERE void invert_table(const block *b, float *const to[VNDF_WRITES])
         table_direction w = put_direction(&s, g, f);
         put_given(&s, g, table_unturned(w.ex, w.ey, inverted_at(b, g, f)));
     }
-    take_sides(b, &s, GIVEN_D, RESULT_C, invert_above, invert_below);
+    take_sides(INVERT, b, &s);
     for (int g = 0; g < b->groups; g++) {
         pair u = {load(s.write[RESULT_A] + g * LANES), load(s.write[RESULT_B] + g * LANES)};
         put_numbers(b, g, u, to);
@@ -783,18 +741,16 @@ HERE void areas(const block *b, float *to, const vndf_kind kind)
         } else
             area[g] = kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz);
     }
-    if (kind == VNDF_KIND_TABLE) {
-        int alone = b->call->task == VNDF_TASK_DRAWN_AREA;
-        take_sides(b, &s, GIVEN_A, RESULT_B, alone ? drawn_above : area_above, alone ? drawn_below : area_below);
-    }
+    if (kind == VNDF_KIND_TABLE)
+        take_sides(b->task == VNDF_TASK_DRAWN_AREA ? DRAWN_AREA : AREA, b, &s);
     for (int g = 0; g < b->groups; g++) {
         real all = area[g];
         if (kind == VNDF_KIND_TABLE)
             all = load(s.write[RESULT_A] + g * LANES) * all;
         all = all * scale[g];
-        if (b->call->task == VNDF_TASK_LAMBDA)
+        if (b->task == VNDF_TASK_LAMBDA)
             all = lambda_of(all, cosine[g]);
-        else if (b->call->task == VNDF_TASK_G1)
+        else if (b->task == VNDF_TASK_G1)
             all = g1_of(all, cosine[g]);
         store(to + g * LANES, pick(b->valid[g], all, set(0.0f)));
     }
@@ -807,57 +763,42 @@ HERE void sample(const block *b, float *const to[VNDF_WRITES], const vndf_kind k
     if (kind == VNDF_KIND_TABLE)
         sample_table(b, to);
     else
-        (kind == VNDF_KIND_GGX ? sample_ggx : sample_beckmann)(b, to);
+        sample_closed(b, to, kind);
 }
 
 HERE void block_of(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
-    block plain;
-    switch (b->call->task) {
-    case VNDF_TASK_SAMPLE:
-        if (b->plain) { /* once more, where the compiler knows it */
-            plain = *b;
-            plain.plain = 1;
-            sample(&plain, to, kind);
-        } else
-            sample(b, to, kind);
-        break;
-    case VNDF_TASK_PDF:
-        if (kind == VNDF_KIND_TABLE)
-            density_table(b, to[0]);
-        else
-            density_closed(b, to[0], kind);
-        break;
-    case VNDF_TASK_VISIBLE:
-        if (kind == VNDF_KIND_TABLE)
-            visible_table(b, to[0]);
-        else
-            density_closed(b, to[0], kind);
-        break;
-    case VNDF_TASK_INVERT:
-        if (kind == VNDF_KIND_TABLE)
-            invert_table(b, to);
-        else
-            invert_closed(b, to, kind);
-        break;
-    case VNDF_TASK_NDF: ndf(b, to[0], kind); break;
-    default: areas(b, to[0], kind);
+    const int is_table = kind == VNDF_KIND_TABLE;
+    if (b->task == VNDF_TASK_SAMPLE && b->plain) { /* once more, where the compiler knows it */
+        block plain = *b;
+        plain.plain = 1;
+        sample(&plain, to, kind);
+    } else if (b->task == VNDF_TASK_SAMPLE)
+        sample(b, to, kind);
+    else if (b->task == VNDF_TASK_PDF && is_table)
+        density_table(b, to[0]);
+    else if (b->task == VNDF_TASK_VISIBLE && is_table)
+        visible_table(b, to[0]);
+    else if (b->task == VNDF_TASK_PDF || b->task == VNDF_TASK_VISIBLE)
+        density_closed(b, to[0], kind);
+    else if (b->task == VNDF_TASK_INVERT && is_table)
+        invert_table(b, to);
+    else if (b->task == VNDF_TASK_INVERT)
+        invert_closed(b, to, kind);
+    else if (b->task == VNDF_TASK_NDF)
+        ndf(b, to[0], kind);
+    else
+        areas(b, to[0], kind);
+}
+
+/* One for each kind, which the compiler then knows. */
+STEP void run_block(const block *b, float *const to[VNDF_WRITES])
+{
+    switch (b->lobe->distribution->kind) {
+    case VNDF_KIND_TABLE: block_of(b, to, VNDF_KIND_TABLE); break;
+    case VNDF_KIND_GGX: block_of(b, to, VNDF_KIND_GGX); break;
+    case VNDF_KIND_BECKMANN: block_of(b, to, VNDF_KIND_BECKMANN); break;
     }
-}
-
-STEP void block_of_table(const block *b, float *const to[VNDF_WRITES])
-{
-    block_of(b, to, VNDF_KIND_TABLE);
-}
-
-STEP void block_of_ggx(const block *b, float *const to[VNDF_WRITES])
-{
-    block_of(b, to, VNDF_KIND_GGX);
-}
-
-STEP void block_of_beckmann(const block *b, float *const to[VNDF_WRITES])
-{
-    block_of(b, to, VNDF_KIND_BECKMANN);
 }
 
 /* Copies for the last lanes of a call, numbers that all elements share, and what became valid. */
@@ -871,10 +812,9 @@ static const row zeros;
  * elements share is copied to `fresh` copies. */
 HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
 {
-    const vndf_call *call = b->call;
     for (int r = 0; r < VNDF_READS; r++) {
-        const float *from = call->read[r];
-        int one = (int)(call->shared >> r & 1), in_place = !one && count == b->groups * LANES;
+        const float *from = b->lobe->read[r];
+        int one = (int)(b->lobe->shared >> r & 1), in_place = !one && count == b->groups * LANES;
         b->read[r] = !from ? zeros : in_place ? from + first : c->read[r];
         if (!from || in_place)
             continue;
@@ -900,26 +840,24 @@ HERE mask is_ordinary(const block *b, int g)
     return both(both(less(largest, set(1e6f)), less(set(1e-9f), sum)), regular);
 }
 
-/* Reads a group of elements from copies, where those that are invalid have the unit matrix and a direction straight up.
- * Returns which were valid. */
-HERE mask make_valid(const block *b, int g, copies *c)
+/* Which elements of a group are valid. */
+HERE mask valid_at(const block *b, int g)
 {
-    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
     mask valid = affine_is_valid(map_at(b, g));
     if (b->plain)
         valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
-    if (b->call->task != VNDF_TASK_NDF)
+    if (b->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                                                input(b, VNDF_READ_WI_Z, g)));
-    for (int r = 0; r < VNDF_READ_A; r++)
-        store(c->valid[r] + g * LANES, pick(valid, input(b, r, g), set(valid_one[r])));
     return valid;
 }
 
-/* Sets which elements are valid; if some are not, the block reads from copies. */
+/* Sets which elements are valid. If some are not, the block reads from copies, in which they have the unit matrix and a
+ * direction straight up. */
 HERE void set_valid(block *b, copies *c)
 {
-    mask ordinary = less(set(0.0f), set(1.0f));
+    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
+    mask ordinary = same(set_whole(0), 0);
     for (int g = 0; g < b->groups; g++) {
         b->valid[g] = is_ordinary(b, g);
         ordinary = both(ordinary, b->valid[g]);
@@ -927,26 +865,22 @@ HERE void set_valid(block *b, copies *c)
     if (all(ordinary))
         return;
     for (int g = 0; g < b->groups; g++)
-        b->valid[g] = make_valid(b, g, c);
-    for (int r = 0; r < VNDF_READ_A; r++)
+        b->valid[g] = valid_at(b, g);
+    for (int r = 0; r < VNDF_READ_A; r++) {
+        for (int g = 0; g < b->groups; g++)
+            store(c->valid[r] + g * LANES, pick(b->valid[g], input(b, r, g), set(valid_one[r])));
         b->read[r] = c->valid[r];
+    }
 }
 
-static void run_block(const block *b, float *const to[VNDF_WRITES])
+static void surfaces(const vndf_call *call)
 {
-    const vndf_kind kind = b->call->distribution->kind;
-    (kind == VNDF_KIND_TABLE ? block_of_table : kind == VNDF_KIND_GGX ? block_of_ggx : block_of_beckmann)(b, to);
-}
-
-void LANES_ENTRY(const vndf_call *call)
-{
+    const vndf_distribution *d = call->lobe->distribution;
     table_copies table_parts;
     copies c;
-    block b;
-    b.call = call;
-    b.plain = call->diagonal;
-    if (call->distribution->kind == VNDF_KIND_TABLE)
-        b.t = table_of(call->distribution, &table_parts);
+    block b = {.lobe = call->lobe, .task = call->task, .plain = call->diagonal};
+    if (d->kind == VNDF_KIND_TABLE)
+        b.t = table_of(d, &table_parts);
     for (size_t first = 0; first < call->count; first += BLOCK) {
         int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
         float *to[VNDF_WRITES];
@@ -955,14 +889,19 @@ void LANES_ENTRY(const vndf_call *call)
         place_reads(&b, first, count, first == 0, &c);
         set_valid(&b, &c);
         for (int w = 0; w < VNDF_WRITES; w++)
-            to[w] = in_place && call->write[w] ? call->write[w] + first : c.write[w];
+            to[w] = !call->write[w] ? NULL : in_place ? call->write[w] + first : c.write[w];
         run_block(&b, to);
         for (int w = 0; !in_place && w < VNDF_WRITES; w++)
-            if (call->write[w])
-                memcpy(call->write[w] + first, c.write[w], (size_t)count * sizeof(float));
+            if (to[w])
+                memcpy(call->write[w] + first, to[w], (size_t)count * sizeof(float));
     }
 }
 
 #include "sampler/batch/mixture_lanes.h"
+
+void LANES_ENTRY(const vndf_call *call)
+{
+    (call->mixed ? mixtures : surfaces)(call);
+}
 
 #endif

@@ -4,9 +4,8 @@
 #ifndef VNDF_SAMPLER_BATCH_MIXTURE_LANES_H
 #define VNDF_SAMPLER_BATCH_MIXTURE_LANES_H
 
-/* What a call keeps: of each lobe its call, with the task at hand, and its table. */
+/* The tables of a call's lobes. */
 typedef struct lobes {
-    vndf_call call[VNDF_MIXTURE_LOBES];
     table t[VNDF_MIXTURE_LOBES];
     table_copies parts[VNDF_MIXTURE_LOBES];
 } lobes;
@@ -14,7 +13,7 @@ typedef struct lobes {
 /* A block of mixtures: of each lobe its weight over the sum of all, its share, and what a task found; which mixtures
  * are valid; the chosen lobe, where its share begins, and what is drawn from it with. */
 typedef struct mixed {
-    const vndf_mixture_call *call;
+    const vndf_call *call;
     lobes *of;
     size_t first;
     int count, groups;
@@ -27,22 +26,22 @@ typedef struct mixed {
 /* A lobe of the block, as a block of its own. */
 STEP void enter_lobe(const mixed *m, int l, vndf_task task, block *b, copies *c)
 {
-    m->of->call[l].task = task;
-    b->call = &m->of->call[l];
+    b->lobe = &m->call->lobe[l];
+    b->task = task;
     b->t = m->of->t[l];
     b->groups = m->groups;
-    b->plain = b->call->diagonal;
+    b->plain = 0;
     place_reads(b, m->first, m->count, 1, c);
 }
 
-/* A task on all elements of a lobe. */
-STEP void run_lobe(const mixed *m, int l, vndf_task task, float *const to[VNDF_WRITES])
+/* A task on all elements of a lobe; the block says which of them are valid. */
+STEP void run_lobe(const mixed *m, int l, vndf_task task, float *to, block *b)
 {
-    block b;
     copies c;
-    enter_lobe(m, l, task, &b, &c);
-    set_valid(&b, &c);
-    run_block(&b, to);
+    float *const writes[VNDF_WRITES] = {to};
+    enter_lobe(m, l, task, b, &c);
+    set_valid(b, &c);
+    run_block(b, writes);
 }
 
 /* A task on some elements of a lobe, all of them valid, with these numbers or this normal. */
@@ -57,7 +56,7 @@ STEP void run_some(const mixed *m, int l, vndf_task task, some *e, const float *
         return;
     enter_lobe(m, l, task, &b, &c);
     for (int r = 0; r < VNDF_READ_A; r++)
-        if (b.call->read[r] && !(b.call->shared >> r & 1)) { /* others are the same for all */
+        if (b.lobe->read[r] && !(b.lobe->shared >> r & 1)) { /* others are the same for all */
             gather(e, m->groups, b.read[r], own.read[r]);
             b.read[r] = own.read[r];
         }
@@ -68,7 +67,7 @@ STEP void run_some(const mixed *m, int l, vndf_task task, some *e, const float *
     for (int g = 0; g < e->groups; g++)
         b.valid[g] = same(set_whole(0), 0);
     for (int w = 0; w < VNDF_WRITES; w++)
-        results[w] = own.write[w];
+        results[w] = to[w] ? own.write[w] : NULL;
     b.groups = e->groups;
     run_block(&b, results);
     for (int w = 0; w < VNDF_WRITES; w++)
@@ -134,11 +133,7 @@ HERE void set_shares(mixed *m, vndf_task area)
         sum[g] = total[g] = set(0.0f);
     for (int l = 0; l < n; l++) {
         block b;
-        copies c;
-        float *const to[VNDF_WRITES] = {m->share[l]};
-        enter_lobe(m, l, area, &b, &c);
-        set_valid(&b, &c);
-        run_block(&b, to);
+        run_lobe(m, l, area, m->share[l], &b);
         for (int g = 0; g < m->groups; g++) {
             mask has = has_lobe(m, l, g);
             real w = load(m->weight[l] + g * LANES);
@@ -162,8 +157,8 @@ HERE void sum_lobes(mixed *m, vndf_task task, row *by, real sum[GROUPS])
     for (int g = 0; g < m->groups; g++)
         sum[g] = set(0.0f);
     for (int l = 0; l < m->call->lobes; l++) {
-        float *const to[VNDF_WRITES] = {m->value[l]};
-        run_lobe(m, l, task, to);
+        block b;
+        run_lobe(m, l, task, m->value[l], &b);
         for (int g = 0; g < m->groups; g++) {
             real part = load(by[l] + g * LANES) * load(m->value[l] + g * LANES);
             sum[g] = sum[g] + pick(has_lobe(m, l, g), part, set(0.0f));
@@ -335,20 +330,15 @@ STEP void block_of_mixtures(mixed *m, float *const to[VNDF_WRITES])
         density_mixtures(m, task, to[0]);
 }
 
-void LANES_MIXTURE(const vndf_mixture_call *call)
+static void mixtures(const vndf_call *call)
 {
     lobes of;
     mixed m = {.call = call, .of = &of};
     row results[VNDF_WRITES];
-    float *to[VNDF_WRITES];
-    for (int w = 0; w < VNDF_WRITES; w++)
-        to[w] = results[w];
-    for (int l = 0; l < call->lobes; l++) {
-        of.call[l] = call->lobe[l];
-        of.call[l].write[3] = results[3]; /* densities are wanted */
-        if (of.call[l].distribution->kind == VNDF_KIND_TABLE)
-            of.t[l] = table_of(of.call[l].distribution, &of.parts[l]);
-    }
+    float *const to[VNDF_WRITES] = {results[0], results[1], results[2], results[3]};
+    for (int l = 0; l < call->lobes; l++)
+        if (call->lobe[l].distribution->kind == VNDF_KIND_TABLE)
+            of.t[l] = table_of(call->lobe[l].distribution, &of.parts[l]);
     for (m.first = 0; m.first < call->count; m.first += BLOCK) {
         m.count = call->count - m.first < BLOCK ? (int)(call->count - m.first) : BLOCK;
         m.groups = (m.count + LANES - 1) / LANES;
