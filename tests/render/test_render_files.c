@@ -169,7 +169,7 @@ static const struct {
     {SCENE, BYTES("camera from 0 0 5 to 0 0 0 fild 3\n"),
      ":1:28: 'fild' is no clause here; did you mean 'field'?"},
     {SCENE, BYTES("film width 1.5 height 3\n"), ":1:12: width is 1.5, it must be a whole number"},
-    {SCENE, BYTES("film width 16384 height 16384\n"), ":1:6: 16384 x 16384 pixels are more than"},
+    {SCENE, BYTES("film width 16384 height 16384\n"), ":1:1: 16384 x 16384 pixels are more than"},
     {SCENE, BYTES("environment scale 2\n"), ":1:1: 'environment' needs one of 'constant R G B' and 'image NAME'"},
     {SCENE, BYTES("environment constant 1 1 1 turn 3\n"), ":1:28: 'turn' stands beside 'image' only"},
     {SCENE, BYTES("image a pattern tils\n"), ":1:17: tils: there is no such pattern, but tiles, grid and studio"},

@@ -344,38 +344,29 @@ static int find_image(reader *r, const char *name, const char *what, int channel
 
 /* ---- once in a scene ---- */
 
-static int read_film(reader *r)
+/* The film, the camera or the integrator: what the others set stays. */
+static int read_view(reader *r)
 {
     scene *s = r->made;
-    s->width = (int)number_of(r, "width", 0);
-    s->height = (int)number_of(r, "height", 0);
-    return (int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
-           refuse(r, clause_of(r, "width")->at, "%d x %d pixels are more than %d", s->width, s->height,
-                  IMAGE_PIXELS_MAX);
-}
-
-static int read_camera(reader *r)
-{
-    scene *s = r->made;
-    const clause *up = clause_of(r, "up");
+    const clause *to = clause_of(r, "to"), *up = clause_of(r, "up");
+    s->width = (int)number_of(r, "width", s->width);
+    s->height = (int)number_of(r, "height", s->height);
+    s->depth = (unsigned)number_of(r, "depth", s->depth);
+    s->samples = (unsigned)number_of(r, "samples", s->samples);
+    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
+    if ((int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
+        return refuse(r, &r->list[0], "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
+    if (!to->at)
+        return 1;
     s->from = vector_of(r, "from");
     s->to = vector_of(r, "to");
     s->up = up->at ? vector_of(r, "up") : s->up;
     s->field = number_of(r, "field", 40) * (PI / 180);
     const vec3 forward = subtract(s->to, s->from);
     if (!(length(forward) >= least_size))
-        return refuse(r, clause_of(r, "to")->at, "'from' and 'to' are the same place");
+        return refuse(r, to->at, "'from' and 'to' are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
            refuse(r, up->at ? up->at : &r->list[0], "'up' is the direction of the view");
-}
-
-static int read_integrator(reader *r)
-{
-    scene *s = r->made;
-    s->depth = (unsigned)number_of(r, "depth", s->depth);
-    s->samples = (unsigned)number_of(r, "samples", s->samples);
-    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
-    return 1;
 }
 
 static int read_environment(reader *r)
@@ -596,8 +587,8 @@ static int read_mesh(reader *r, int of)
 enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
                                               "material", "sphere", "rectangle",  "mesh"};
-static int (*const readers[NAMED])(reader *r) = {read_film,        read_camera, read_integrator,
-                                                 read_environment, read_image,  read_material};
+static int (*const readers[NAMED])(reader *r) = {read_view,        read_view,  read_view,
+                                                 read_environment, read_image, read_material};
 static int (*const shape_readers[])(reader *r, int of) = {read_sphere, read_rectangle, read_mesh};
 
 static int read_statement(reader *r)
@@ -660,18 +651,17 @@ static int finish(reader *r)
 
 scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
 {
-    scene *s = malloc(sizeof *s);
+    scene *s = calloc(1, sizeof *s);
     reader r = {
         .name = name, .error = error, .made = s, .at = text, .start = text, .end = text + length, .line = 1};
     if (!s)
         return refuse_at(error, name, 0, 0, "there is no memory"), NULL;
-    *s = (scene){.up = {0, 1, 0},
-                 .width = 640,
-                 .height = 360,
-                 .depth = 12,
-                 .samples = 64,
-                 .exposure = 1.0f,
-                 .environment = {.scale = 1.0f}};
+    s->up = vec(0, 1, 0);
+    s->width = 640;
+    s->height = 360;
+    s->depth = 12;
+    s->samples = 64;
+    s->exposure = s->environment.scale = 1.0f;
     if (read_statements(&r) && finish(&r))
         return s;
     scene_free(s);
