@@ -243,14 +243,14 @@ static char *whole_text(const export_document *document, const char *more, long 
     return NULL;
 }
 
-const char document_calls[] = "view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area, mixture, family, "
-                              "bsdf_sample, bsdf_eval, bsdf_pdf";
-
 /* Marks what is asked for; without --only the calls of normals, or in their place those of a BSDF. */
 static void want_all(translation *t, const export_document *document)
 {
     static const char *const always[] = {"VNDF_NUMBERS", "vndf_surface_of", "vndf_bsdf_of", "vndf_bsdf_cosine"};
-    const char *calls = document->only ? document->only : document->effects.wanted ? "bsdf" : document_calls;
+    const char *calls = document->only ? document->only
+                        : document->effects.wanted
+                            ? "bsdf"
+                            : "view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family";
     for (int i = 0; i < t->count && t->at[i].begin == 0 && !t->indents; i++)
         t->at[i].wanted = 1; /* constants before the kernel */
     for (size_t i = 0; i < sizeof always / sizeof *always && !t->indents; i++)

@@ -43,9 +43,6 @@ typedef struct embedded_text {
 /* Ended by a name NULL: the kernel, in the order in which it is read; the page of `vndf explore`. */
 extern const embedded_text kernel_text[], page_texts[];
 
-/* The calls that can be wanted: "view, sample, ...", and those of a BSDF, "bsdf_sample, ...". */
-extern const char document_calls[];
-
 /* Adds a table or, where `distribution` is NULL, a family, with its numbers; 0 if its constant, named after the file,
  * is none or another one's, -1 if there is no memory. */
 int document_add(export_document *document, const char *file, vndf_distribution *distribution,

@@ -3,7 +3,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Choices in the order of vndf_bsdf.h, the default first. */
+#include "core/nearest.h"
+
+/* Choices in the order of vndf_bsdf.h, the default first; lists have ", " between words. */
 enum { LOBES, FRESNEL, MASKING, TRANSPORT, REFLECTION, KEYS };
 static const char keys[] = "lobes, fresnel, masking, transport, reflection";
 static const char *const choices[KEYS] = {"reflection, transmission, both", "none, schlick, dielectric, conductor",
@@ -18,7 +20,8 @@ static const char *list_word(const char *list, int place)
     return list;
 }
 
-int list_place(const char *list, const char *word, size_t length)
+/* The place of a word in a list, or -1. */
+static int list_place(const char *list, const char *word, size_t length)
 {
     int place = 0;
     for (const char *at = list; strcspn(at, ",") != length || memcmp(at, word, length) != 0;
@@ -26,6 +29,23 @@ int list_place(const char *list, const char *word, size_t length)
         if (!at[strcspn(at, ",")])
             return -1;
     return place;
+}
+
+/* "; did you mean 'both'?", or "". */
+static const char *nearest_in(const char *list, const char *word, size_t length)
+{
+    static char hint[64];
+    size_t least = vndf_word_slip(length);
+    hint[0] = '\0';
+    for (int place = 0, is_last = 0; !is_last; place++) {
+        const char *at = list_word(list, place);
+        char one[40];
+        snprintf(one, sizeof one, "%.*s", (int)strcspn(at, ","), at);
+        if (vndf_word_is_nearer(word, length, one, &least))
+            snprintf(hint, sizeof hint, "; did you mean '%s'?", one);
+        is_last = !at[strcspn(at, ",")];
+    }
+    return hint;
 }
 
 int effects_read(export_effects *effects, const char *text, char error[EFFECTS_ERROR_MAX])
@@ -36,15 +56,15 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
         const int key = list_place(keys, text, (size_t)name);
         if (key < 0 || name == length) {
             snprintf(error, EFFECTS_ERROR_MAX,
-                     "'%.*s': key=choice is needed, with the keys %s; files scatter once, at "
+                     "'%.*s': key=choice is needed, with the keys %s%s; files scatter once, at "
                      "one surface, by visible normals: all else needs the library",
-                     length < 60 ? length : 60, text, keys);
+                     length < 60 ? length : 60, text, keys, nearest_in(keys, text, (size_t)name));
             return 0;
         }
         choice[key] = list_place(choices[key], text + name + 1, (size_t)(length - name - 1));
         if (choice[key] < 0) {
-            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s", length < 60 ? length : 60, text,
-                     choices[key]);
+            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s%s", length < 60 ? length : 60, text,
+                     choices[key], nearest_in(choices[key], text + name + 1, (size_t)(length - name - 1)));
             return 0;
         }
         text += length;

@@ -2,8 +2,6 @@
 #ifndef TOOLS_EXPORT_EFFECTS_H
 #define TOOLS_EXPORT_EFFECTS_H
 
-#include <stddef.h>
-
 #include "vndf_bsdf.h"
 
 enum { EFFECTS_ERROR_MAX = 600 };
@@ -17,8 +15,5 @@ typedef struct export_effects {
 /* Reads key=choice, separated by blanks or commas; 0 and a reason for words that are none, for what files do not
  * have, and for what the library refuses. */
 int effects_read(export_effects *effects, const char *text, char error[EFFECTS_ERROR_MAX]);
-
-/* The place of a word in a list, whose words have ", " between them, or -1. */
-int list_place(const char *list, const char *word, size_t length);
 
 #endif

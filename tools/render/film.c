@@ -11,7 +11,7 @@
 #  include <pthread.h>
 #endif
 
-#include "cli/clock.h"
+#include "cli/progress.h"
 
 enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
 
