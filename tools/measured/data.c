@@ -59,17 +59,14 @@ void put_little(FILE *file, uint64_t value, size_t bytes)
 
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count, data_file *file)
 {
-    *made = (profile){over, of, count, calloc(count, sizeof(double)), calloc(count, sizeof(double))};
-    if (made->x && made->value)
-        return 1;
-    profile_free(made);
-    return refuse(file, "there is no memory for %zu rows", count);
+    double *x = calloc(2 * count, sizeof *x);
+    *made = (profile){over, of, x ? count : 0, x, x ? x + count : NULL};
+    return x != NULL || refuse(file, "there is no memory for %zu rows", count);
 }
 
 void profile_free(profile *freed)
 {
     free(freed->x);
-    free(freed->value);
     *freed = (profile){freed->over, freed->of, 0, NULL, NULL};
 }
 

@@ -34,7 +34,7 @@ typedef struct profile {
     vndf_rows_over over;
     vndf_rows_of of;
     size_t count;
-    double *x, *value; /* owned */
+    double *x, *value; /* owned, one behind the other */
 } profile;
 
 /* Room for `count` rows of zeros. 0 and the reason if there is no memory. */
