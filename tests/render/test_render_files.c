@@ -191,8 +191,6 @@ static const struct {
      ":1:30: 'distribution ggx' needs 'alpha A' or 'alpha AX AY'"},
     {SCENE, BYTES("material m shape distribution ggx 2 alpha 1\n"),
      ":1:35: 'distribution ggx' takes nothing more"},
-    {SCENE, BYTES("material m shape distribution ggx alpha 1 bytes 4096\n"),
-     ":1:43: 'bytes' is of tables that are made here"},
     {SCENE, BYTES("material m shape distribution slope alpha 1\n"),
      ":1:31: 'distribution slope' needs a formula between quotes"},
     {SCENE, BYTES("material m shape distribution slope \"exp(-\" alpha 1\n"), ":1:37: "},

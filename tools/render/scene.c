@@ -81,7 +81,6 @@ static const key keys[] = {
     {"dielectric", "index", "N", NUMBERS, 1, 1, 0.01, 100, NEEDED, NULL},
     {"rough", "distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", WORDS, 1, 2, 0, 0,
      NEEDED, NULL},
-    {"rough", "bytes", "COUNT", WHOLE, 1, 1, 2048, 1 << 20, MAY_BE, NULL},
     {"rough", "alpha", "A or AX AY", NUMBERS, 1, 2, 1e-6, 1e3, MAY_BE, NULL},
     {"rough", "alpha-map", "IMAGE", NAME, MAY_BE, NULL},
     {"rough", "scattering", "single|multiple", NAME, MAY_BE, NULL},
@@ -117,7 +116,6 @@ typedef struct reader {
     size_t pixels;                                                         /* of all images so far */
     struct made_table {
         size_t form;
-        unsigned bytes;
         const char *text;
     } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
 } reader;
@@ -405,9 +403,8 @@ static int read_image(reader *r)
 
 enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 
-static vndf_distribution *make_table(reader *r, size_t form, const word *of, unsigned bytes, vndf_error *error)
+static vndf_distribution *make_table(reader *r, size_t form, const word *of, vndf_error *error)
 {
-    const vndf_build_options options = {.max_bytes = bytes};
     if (form == TABLE) {
         char *path = path_of(r, of);
         const char *role = path ? files_note(path, 0) : NULL;
@@ -420,7 +417,7 @@ static vndf_distribution *make_table(reader *r, size_t form, const word *of, uns
     vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
                           : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
                                           : vndf_source_ndf_expression(of->text, NULL, 0, error);
-    vndf_distribution *built = source ? vndf_build(source, &options, NULL, error) : NULL;
+    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, error) : NULL;
     vndf_source_free(source);
     return built;
 }
@@ -430,15 +427,13 @@ static int read_distribution(reader *r, const vndf_distribution **found)
     static const char *const names[FORMS] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
     static const char *const takes[FORMS] = {
         "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
-    const clause *c = clause_of(r, "distribution"), *bytes = clause_of(r, "bytes");
+    const clause *c = clause_of(r, "distribution");
     const word *of = &c->value[1];
     scene *s = r->made;
     vndf_error error = {VNDF_OK, ""};
     size_t form, i = 0;
     if (!read_choice(r, c->value, "distribution", names, FORMS, &form))
         return 0;
-    if (bytes->at && form <= TABLE)
-        return refuse(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
     if (c->count > 1 && form <= BECKMANN)
         return refuse(r, of, "'distribution %s' takes nothing more", names[form]);
     if (c->count < 2 && form > BECKMANN)
@@ -448,17 +443,15 @@ static int read_distribution(reader *r, const vndf_distribution **found)
         return clause_of(r, "alpha")->at ||
                refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
     }
-    /* materials with the same form, text and size share a table */
-    const struct made_table is = {form, (unsigned)number_of(r, "bytes", 4096), of->text};
-    while (i < s->table_count && (r->tables[i].form != form || r->tables[i].bytes != is.bytes ||
-                                  strcmp(r->tables[i].text, is.text) != 0))
+    /* materials with the same form and text share a table */
+    while (i < s->table_count && (r->tables[i].form != form || strcmp(r->tables[i].text, of->text) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
         return refuse(r, of, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
-        if (!(s->tables[i] = make_table(r, form, of, is.bytes, &error))) /* else path_of has refused */
+        if (!(s->tables[i] = make_table(r, form, of, &error))) /* else path_of has refused */
             return error.message[0] ? refuse(r, of, "%s", error.message) : 0;
-        r->tables[s->table_count++] = is;
+        r->tables[s->table_count++] = (struct made_table){form, of->text};
     }
     *found = s->tables[i];
     return 1;
