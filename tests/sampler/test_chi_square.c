@@ -63,7 +63,7 @@ static void test_subject(const subject *of, size_t index)
                  off = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
     for (size_t view = index % stride; view < VIEWS; view += stride) {
         seen s = view_of(of->d, &views[view]);
-        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi, 0);
+        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi);
         if (seen_quantity(&s, AREA, s.wi) <= 1e-6f) /* next to nothing is seen */
             continue;
         slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);

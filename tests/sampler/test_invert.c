@@ -51,7 +51,7 @@ static int comes_back(const seen *s, const float u[4], float t, double *lost)
         lobe = vndf_mixture_invert(&s->mixture, wm, drawn, &v1, &v2);
     } else
         vndf_invert(&s->view, wm, &v1, &v2);
-    slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi, 0);
+    slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi);
     *lost = seen_apart(&f, wm, seen_draw(s, v1, v2, NULL));
     if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
@@ -97,7 +97,7 @@ static void test_inverse(const subject *of, size_t count, unsigned long long *st
 static double coordinate(const seen *s, int which, double u, double other)
 {
     const vndf_distribution *d = s->surface.distribution;
-    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi, 0);
+    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi);
     double n[3], length = hypot(f.s, f.c), facing;
     slope_over(&f, which ? seen_draw(s, (float)other, (float)u, NULL) : seen_draw(s, (float)u, (float)other, NULL),
                n);

@@ -10,18 +10,16 @@
 
 /* ---- the frame ---- */
 
-slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi, int all)
+slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi)
 {
     double scale = vndf_distribution_info(shape->distribution).scale;
     scale = scale > 0 ? scale : 1;
-    slope_frame f = {.mean_x = (double)shape->mean_x, .mean_y = (double)shape->mean_y, .c = 1, .x = 1};
+    slope_frame f = {.mean_x = (double)shape->mean_x, .mean_y = (double)shape->mean_y, .x = 1};
     f.xx = scale * (double)shape->xx, f.xy = scale * (double)shape->xy;
     f.yx = scale * (double)shape->yx, f.yy = scale * (double)shape->yy;
     double length = sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + (double)wi.z * wi.z);
     double x = wi.x / length, y = wi.y / length, a = f.xx * x + f.yx * y, b = f.xy * x + f.yy * y;
     f.det = fabs(f.xx * f.yy - f.xy * f.yx);
-    if (all)
-        return f;
     f.c = wi.z / length - x * f.mean_x - y * f.mean_y;
     f.s = hypot(a, b);
     if (f.s > 0)
