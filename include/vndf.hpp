@@ -29,17 +29,15 @@
 //
 // prints four zeros.
 //
-// Errors. What can fail returns a vndf::result: it converts to true or false, *result is the value, message() says
-// what went wrong, and value() throws a vndf::error. Nothing else throws but std::bad_alloc, and the header
-// compiles without exceptions and RTTI. The value of a failed result is an empty owner, and so is one that was
-// moved from: C takes it as NULL.
+// Errors. What can fail returns a vndf::result: it converts to true or false, *result is the value, an empty owner
+// where it failed, message() says what went wrong, and value() throws a vndf::error. Nothing else throws but
+// std::bad_alloc, and the header compiles without exceptions and RTTI. What a callable throws does not cross C: the
+// build stops, its result holds the exception, and value() throws it again. Called by a function of C outside this
+// header, such a callable gives NaN.
 //
-// What a callable throws does not cross C: the build stops, its result holds the exception, and value() throws it
-// again. Called by a function of C outside this header, such a callable gives NaN.
-//
-// Owners move and do not copy. Plain structs hold pointers to what they were made from, which must outlive them,
-// as in C: a surface its distribution, a family its distributions, a vndf_bsdf its material. A temporary owner
-// does not convert to a pointer, since that would dangle.
+// Owners move and do not copy; C takes an empty one as NULL, and a temporary one does not convert to a pointer, since
+// that would dangle. Plain structs hold pointers to what they were made from, which must outlive them, as in C: a
+// surface its distribution, a family its distributions, a vndf_bsdf its material.
 #ifndef VNDF_HPP
 #define VNDF_HPP
 
@@ -52,6 +50,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "vndf.h"
@@ -66,8 +65,6 @@
 
 namespace vndf
 {
-
-using vec3 = vndf_vec3;
 
 // ---- results --------------------------------------------------------------------------------------
 
@@ -91,30 +88,22 @@ template <class T> class [[nodiscard]] result
     explicit operator bool() const noexcept { return error_.status == VNDF_OK; }
     vndf_status status() const noexcept { return error_.status; }
     const char *message() const noexcept { return error_.message; }
-    // What a callable threw meanwhile, or null.
-    std::exception_ptr thrown() const noexcept { return thrown_; }
+    std::exception_ptr thrown() const noexcept { return thrown_; } // by a callable meanwhile, or null
     T &operator*() &noexcept { return value_; }
     const T &operator*() const &noexcept { return value_; }
     T &&operator*() &&noexcept { return std::move(value_); }
-    T *operator->() noexcept { return &value_; }
-    const T *operator->() const noexcept { return &value_; }
 #if VNDF_HPP_EXCEPTIONS
     const T &value() const &
-    {
-        check();
-        return value_;
-    }
-    T value() &&
-    {
-        check();
-        return std::move(value_);
-    }
-    void check() const
     {
         if (thrown_)
             std::rethrow_exception(thrown_);
         if (error_.status != VNDF_OK)
             throw error(error_);
+        return value_;
+    }
+    T value() &&
+    {
+        return static_cast<const result &>(*this).value(), std::move(value_);
     }
 #endif
 
@@ -156,20 +145,6 @@ template <class R, class Call> R guard(R otherwise, const Call &call) noexcept
 #endif
 }
 
-inline vndf_error describe([[maybe_unused]] const std::exception_ptr &thrown)
-{
-    vndf_error error = {VNDF_ERROR_ARGUMENT, "a callable threw something that is no std::exception"};
-#if VNDF_HPP_EXCEPTIONS
-    try {
-        std::rethrow_exception(thrown);
-    } catch (const std::exception &known) {
-        std::snprintf(error.message, sizeof error.message, "a callable threw: %s", known.what());
-    } catch (...) {
-    }
-#endif
-    return error;
-}
-
 // What call(&error) returns, unless it fails or a callable throws meanwhile.
 template <class T, class Call> result<T> made(const Call &call)
 {
@@ -178,23 +153,32 @@ template <class T, class Call> result<T> made(const Call &call)
     std::exception_ptr *const outer = std::exchange(pending(), &thrown);
     T value(call(&error));
     pending() = outer;
-    if (thrown)
-        return {describe(thrown), thrown};
-    if (error.status != VNDF_OK)
-        return error;
-    return result<T>(std::move(value));
+    if (error.status == VNDF_OK && !thrown)
+        return result<T>(std::move(value));
+#if VNDF_HPP_EXCEPTIONS
+    if (thrown) {
+        error = {VNDF_ERROR_ARGUMENT, "a callable threw something that is no std::exception"};
+        try {
+            std::rethrow_exception(thrown);
+        } catch (const std::exception &known) {
+            std::snprintf(error.message, sizeof error.message, "a callable threw: %s", known.what());
+        } catch (...) {
+        }
+    }
+#endif
+    return {error, thrown};
 }
 
 } // namespace detail
 
 // ---- owners ---------------------------------------------------------------------------------------
 
-// Owns what a call of C returned.
-template <class T, void (*Free)(T *)> class owner
+// Owns what a call of C returned, and a callable that C calls back.
+template <class T, void (*Free)(T *), class Kept = std::nullptr_t> class owner
 {
   public:
     owner() noexcept = default;
-    explicit owner(T *owned) noexcept : owned_(owned) {}
+    explicit owner(T *owned, Kept kept = {}) noexcept : kept_(std::move(kept)), owned_(owned) {}
     explicit operator bool() const noexcept { return owned_ != nullptr; }
     operator const T *() const &noexcept { return owned_.get(); }
     operator const T *() const && = delete; // it would be gone
@@ -204,28 +188,17 @@ template <class T, void (*Free)(T *)> class owner
     struct freer {
         void operator()(T *owned) const noexcept { Free(owned); }
     };
+    Kept kept_ = {};
     std::unique_ptr<T, freer> owned_;
 };
+
+using density = std::function<double(double)>;
 
 using distribution = owner<vndf_distribution, vndf_free>;
 using family = owner<vndf_family, vndf_family_free>;
 using reference = owner<vndf_reference, vndf_reference_free>;
 using albedo = owner<vndf_albedo, vndf_albedo_free>;
-
-// A source owns its callable, too.
-class source : public owner<vndf_source, vndf_source_free>
-{
-  public:
-    using density = std::function<double(double)>;
-    source() noexcept = default;
-    explicit source(vndf_source *owned, std::unique_ptr<density> callable = nullptr) noexcept
-        : owner(owned), callable_(std::move(callable))
-    {
-    }
-
-  private:
-    std::unique_ptr<density> callable_;
-};
+using source = owner<vndf_source, vndf_source_free, std::unique_ptr<density>>;
 
 // What a call of C makes, owned, and how a call that returns a status went. Both take its arguments without the
 // error:
@@ -248,11 +221,6 @@ inline result<distribution> load(const std::string &path)
     return own<distribution>(vndf_load, path.c_str());
 }
 
-inline result<nothing> save(const vndf_distribution *table, const std::string &path)
-{
-    return done(vndf_save, table, path.c_str());
-}
-
 // ---- sources and builds ---------------------------------------------------------------------------
 
 // Formulas, with their parameters: {{"k", 3.0}}.
@@ -266,42 +234,26 @@ inline result<source> slope_expression(const std::string &text, std::initializer
     return own<source>(vndf_source_slope_expression, text.c_str(), set.begin(), set.size());
 }
 
-namespace detail
-{
-
-inline double evaluate(double x, void *user) noexcept
-{
-    const source::density &called = *static_cast<const source::density *>(user);
-    return guard(std::numeric_limits<double>::quiet_NaN(), [&] { return called(x); });
-}
-
-template <class Make> result<source> of_callable(Make *make, source::density given, const std::string &name)
-{
-    auto kept = std::make_unique<source::density>(std::move(given));
-    return made<source>([&](vndf_error *error) {
-        vndf_source *from = make(evaluate, kept.get(), name.c_str(), error);
-        return source(from, std::move(kept));
-    });
-}
-
-} // namespace detail
-
-// D(cos theta_m), and P22(r), as anything that is called with a double and returns one. The source keeps it alive.
-inline result<source> ndf_callback(source::density ndf, const std::string &name)
-{
-    return detail::of_callable(vndf_source_ndf_callback, std::move(ndf), name);
-}
-
-inline result<source> slope_callback(source::density p22, const std::string &name)
-{
-    return detail::of_callable(vndf_source_slope_callback, std::move(p22), name);
-}
-
 // Told how far a build is, in [0, 1], and its stage. True: go on; false: stop.
 using progress = std::function<bool(double done, const char *what)>;
 
 namespace detail
 {
+
+inline double evaluate(double x, void *user) noexcept
+{
+    const density &called = *static_cast<const density *>(user);
+    return guard(std::numeric_limits<double>::quiet_NaN(), [&] { return called(x); });
+}
+
+template <class Make> result<source> of_callable(Make *make, density given, const std::string &name)
+{
+    auto kept = std::make_unique<density>(std::move(given));
+    return made<source>([&](vndf_error *error) {
+        vndf_source *from = make(evaluate, kept.get(), name.c_str(), error);
+        return source(from, std::move(kept));
+    });
+}
 
 // Options that tell `told`, which outlives the build.
 template <class Options> Options telling(Options options, const progress &told)
@@ -317,6 +269,17 @@ template <class Options> Options telling(Options options, const progress &told)
 
 } // namespace detail
 
+// D(cos theta_m), and P22(r), as anything that is called with a double and returns one. The source keeps it alive.
+inline result<source> ndf_callback(density ndf, const std::string &name)
+{
+    return detail::of_callable(vndf_source_ndf_callback, std::move(ndf), name);
+}
+
+inline result<source> slope_callback(density p22, const std::string &name)
+{
+    return detail::of_callable(vndf_source_slope_callback, std::move(p22), name);
+}
+
 inline result<distribution> build(const source &from, const vndf_build_options &options = {},
                                   const progress &told = {})
 {
@@ -331,27 +294,16 @@ inline result<family> build_family(const std::string &specification, double low,
     return own<family>(vndf_build_family, specification.c_str(), low, high, &all);
 }
 
-inline result<albedo> build_albedo(const vndf_distribution *of, float eta = 0.0f)
-{
-    return own<albedo>(vndf_albedo_build, of, eta);
-}
-
 // ---- samples --------------------------------------------------------------------------------------
 
-// Results of several numbers, for structured bindings: auto [wm, pdf] = vndf::sample(view, u1, u2).
+// For structured bindings: auto [wm, pdf] = vndf::sample(view, u1, u2).
 struct drawn {
-    vec3 wm;
+    vndf_vec3 wm;
     float pdf;
-};
-
-struct drawn_of_lobe {
-    vec3 wm;
-    float pdf;
-    int lobe;
 };
 
 struct weighted {
-    vec3 wm;
+    vndf_vec3 wm;
     float pdf, weight;
 };
 
@@ -359,13 +311,6 @@ inline drawn sample(const vndf_view &view, float u1, float u2) noexcept
 {
     drawn d;
     d.wm = vndf_sample(&view, u1, u2, &d.pdf);
-    return d;
-}
-
-inline drawn_of_lobe sample(const vndf_mixture_view &view, float u1, float u2) noexcept
-{
-    drawn_of_lobe d;
-    d.wm = vndf_mixture_sample(&view, u1, u2, &d.pdf, &d.lobe);
     return d;
 }
 
@@ -396,25 +341,10 @@ class normals
     std::size_t size_; // the largest number if the arrays differ
 };
 
-// An array that a call allows to be NULL.
+// In the place of an array that a call allows to be NULL.
 struct none {
     std::nullptr_t data() const noexcept { return nullptr; }
 };
-
-namespace detail
-{
-
-template <class Array> bool has(std::size_t count, const Array &array) noexcept
-{
-    return array.size() == count;
-}
-
-inline bool has(std::size_t, none) noexcept
-{
-    return true;
-}
-
-} // namespace detail
 
 // Calls a batch of C, of any kind, over arrays that are as long as the batch; if one is not, it does nothing and
 // says which. Arrays are anything with data() and size(), temporary or not: std::vector, std::array, std::span,
@@ -422,9 +352,15 @@ inline bool has(std::size_t, none) noexcept
 template <class Batch, class... Given, class... Arrays>
 result<nothing> run(void (*call)(const Batch *, Given...), const Batch &batch, Arrays &&...arrays)
 {
+    const auto has_all = [&](const auto &array) {
+        if constexpr (std::is_same_v<decltype(array), const none &>)
+            return true;
+        else
+            return array.size() == batch.count;
+    };
     vndf_error error = {VNDF_ERROR_ARGUMENT, ""};
     int place = 1;
-    for (const bool has : {detail::has(batch.count, arrays)...}) {
+    for (const bool has : {has_all(arrays)...}) {
         if (!has) {
             std::snprintf(error.message, sizeof error.message,
                           "array %d does not have the %zu elements of the batch", place, batch.count);

@@ -89,7 +89,7 @@ enum { VNDF_WAVELENGTHS = 4 };
  *     E(wi) = integral f(wi, wo) |cos_o| dwo,
  *
  * with height-correlated masking and alpha_x = alpha_y = alpha, over cosine and roughness: what energy compensation
- * gives back is 1 - E. A table of some 7 KB, by quadrature without random numbers. It is immutable; threads may share
+ * gives back is 1 - E. A table of some 7 KB, made without random numbers. It is immutable; threads may share
  * it, and the distribution need not outlive it. */
 typedef struct vndf_albedo vndf_albedo;
 
@@ -97,7 +97,7 @@ typedef struct vndf_albedo vndf_albedo;
 #define VNDF_ALBEDO_ALPHA_MAX 4.0f
 
 /* Of a mirror (eta 0: F = 1) or of both lobes of a dielectric: eta is the index beyond the surface over that on the
- * side of z, 0.01 to 100 and farther than 1e-3 from 1. Takes a tenth of a second to two. NULL and an error for other
+ * side of z, 0.01 to 100 and farther than 1e-3 from 1. Takes a tenth of a second to one. NULL and an error for other
  * eta, and a distribution whose median slope is outside [1e-6, 1e6]. */
 VNDF_API vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error);
 

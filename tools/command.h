@@ -22,21 +22,8 @@ typedef struct subcommand {
     const char *const *help;              /* its chapters, NULL ends them: C promises 4095 characters of a text */
 } subcommand;
 
-extern const subcommand command_build, command_info, command_check, command_sample, command_eval, command_plot,
-    command_report, command_bench, command_bench_effects, command_bake, command_export, command_explore,
-    command_render, command_judge, command_help;
-
-/* All of them, in the order of `vndf --help`; NULL ends them. */
-extern const subcommand *const subcommands[];
-
-/* The command that words call and how many of them are its name; NULL after a complaint of `who`. */
-const subcommand *command_named(const char *who, int argc, const char *const *argv, int *used);
-
-/* All chapters of its help. */
-enum { HELP_MAX = 1 << 14 };
-void command_help_text(const subcommand *of, char text[HELP_MAX]);
-
-/* What `vndf --help` prints. */
-void command_list_text(char text[HELP_MAX]);
+extern const subcommand command_build, command_info, command_check, command_sample, command_plot, command_report,
+    command_bench, command_bench_effects, command_bake, command_export, command_explore, command_render,
+    command_judge;
 
 #endif

@@ -1,5 +1,5 @@
-/* vndf: one program, a command for each thing that can be done with a distribution of normals. This file reads the
- * words by the help of the command and runs it; commands/help.c lists all. */
+/* vndf: one program, a command for each thing that can be done with a distribution of normals. This file lists them and
+ * their helps, as a manual page too, reads the words by the help of the command, and runs it. */
 #include <stdio.h>
 #include <string.h>
 
@@ -8,9 +8,137 @@
 #include "command.h"
 #include "vndf.h"
 
+static const subcommand *const subcommands[] = {&command_build,   &command_info,
+                                                &command_check,   &command_sample,
+                                                &command_plot,    &command_report,
+                                                &command_bench,   &command_bench_effects,
+                                                &command_bake,    &command_export,
+                                                &command_explore, &command_render,
+                                                &command_judge,   NULL};
+
+/* ---- all commands -------------------------------------------------------------------------------- */
+
+static const char purpose[] = "sampling of visible normals for any isotropic distribution of microfacet normals";
+
+static const char usage[] =
+    "usage: vndf COMMAND ...    vndf help COMMAND says more, with an example; vndf --man is all of it\n"
+    "\n";
+
+static const char rest[] =
+    "example: vndf build --slope 'exp(-3*r)*(1+0.8*cos(6*r))' -o wavy.vndf\n"
+    "         vndf check wavy.vndf\n"
+    "         vndf sample wavy.vndf --theta 60 --alpha 0.3 -n 1000000 -o normals.f32\n"
+    "\n"
+    "exit status: 0 good; 1 the answer is no; 2 wrong use, or an input or output failed. Text for a full\n"
+    "stdout is such a failure, even if the file of -o is whole. A reader that closes the pipe ends\n"
+    "the program quietly, by SIGPIPE or, where SIGPIPE is ignored, with status 2\n"
+    "\n"
+    "files: a written file appears whole or not at all, keeps its permissions, and is never an input of the\n"
+    "same command; symbolic links are followed to their file. `-o -` is stdout, without other text, and - in\n"
+    "the place of an input is stdin, once\n"
+    "\n"
+    "figures: lines of a name, a value and its unit, or rows; --json prints them as JSON, -q not at all;\n"
+    "every command takes both\n";
+
+enum { HELP_MAX = 1 << 14 };
+
+static void list_text(char text[HELP_MAX])
+{
+    int at = snprintf(text, HELP_MAX, "vndf - %s\n\n%s", purpose, usage);
+    for (const subcommand *const *c = subcommands; *c; c++)
+        at += snprintf(text + at, HELP_MAX - (size_t)at, "  %-13s %s\n", (*c)->name + strlen("vndf "),
+                       (*c)->purpose);
+    snprintf(text + at, HELP_MAX - (size_t)at, "\n%s", rest);
+}
+
+/* What every command takes stands before its last example. */
+static void help_text(const subcommand *of, char text[HELP_MAX])
+{
+    static const char every[] = "\n"
+                                "  --json           prints figures as JSON, here and in every command\n"
+                                "  -q               prints neither figures nor progress\n";
+    const size_t length = sizeof every - 1;
+    char *last = text;
+    text[0] = '\0';
+    for (const char *const *chapter = of->help; *chapter; chapter++)
+        strncat(text, *chapter, HELP_MAX - length - 1 - strlen(text));
+    for (char *at = text; (at = strstr(at, "\nexample: ")) != NULL; at++)
+        last = at;
+    memmove(last + length, last, strlen(last) + 1);
+    memcpy(last, every, length);
+}
+
+/* `bench effects` is two words, which are looked for first. */
+static const subcommand *find_command(int argc, const char *const *argv, int *used)
+{
+    const char *names[WORDS_MAX] = {"--help", "--version", "help"}, *hint = NULL, *word = NULL;
+    char two[128];
+    size_t count = 3;
+    for (const subcommand *const *c = subcommands; *c; c++)
+        names[count++] = (*c)->name + strlen("vndf ");
+    snprintf(two, sizeof two, "%.60s %.60s", argv[0], argc > 1 ? argv[1] : "");
+    for (*used = argc > 1 ? 2 : 1; *used > 0 && !hint; --*used) {
+        word = *used == 2 ? two : argv[0];
+        for (const subcommand *const *c = subcommands; *c; c++)
+            if (strcmp((*c)->name + strlen("vndf "), word) == 0)
+                return *c;
+        hint = nearest_word(word, names, count);
+        hint = hint && *used == 2 && !strchr(hint, ' ') ? NULL : hint;
+    }
+    if (hint)
+        complain("vndf", "there is no command '%s'; did you mean '%s'?", word, hint);
+    else if (strchr(word, '.'))
+        complain("vndf", "there is no command '%s'; did you mean `vndf info %s`?", word, word);
+    else
+        complain("vndf", "there is no command '%s'; `vndf --help` lists them", word);
+    return NULL;
+}
+
+/* ---- the manual page ----------------------------------------------------------------------------- */
+
+/* In the macros that man and mandoc share: the text as it stands, with what troff reads otherwise escaped. */
+static void put_man(FILE *to, const char *text)
+{
+    static const char special[] = "\\-'`^~";
+    static const char *const as[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti"};
+    fputs(".nf\n\\&", to); /* a dot at the beginning of a line would be a request */
+    for (; *text; text++) {
+        const char *found = strchr(special, *text);
+        if (found)
+            fputs(as[found - special], to);
+        else
+            fputc(*text, to);
+        fputs(*text == '\n' && text[1] ? "\\&" : "", to);
+    }
+    fputs(".fi\n", to);
+}
+
+static void write_man(FILE *to)
+{
+    static char text[HELP_MAX];
+    fprintf(to,
+            ".\\\" Made by `vndf --man`.\n.TH VNDF 1 \"\" \"vndf %s\" \"User Commands\"\n"
+            ".SH NAME\nvndf \\- %s\n.SH DESCRIPTION\n",
+            VNDF_VERSION, purpose);
+    list_text(text);
+    put_man(to, strstr(text, "usage: "));
+    for (const subcommand *const *c = subcommands; *c; c++) {
+        fprintf(to, ".SH \"%s\"\n", (*c)->name);
+        help_text(*c, text);
+        put_man(to, text);
+    }
+}
+
+/* ---- the program --------------------------------------------------------------------------------- */
+
 static int asks(const char *word, const char *long_name, const char *short_name)
 {
     return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
+}
+
+static int print(const char *text)
+{
+    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
 }
 
 static int dispatch(int argc, char **argv)
@@ -20,29 +148,39 @@ static int dispatch(int argc, char **argv)
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
     if (asks(argv[1], "--version", "-V"))
-        return puts("vndf " VNDF_VERSION) < 0 ? STATUS_USE : STATUS_GOOD;
-    if (asks(argv[1], "--help", "-h")) {
-        command_list_text(help);
-        return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+        return print("vndf " VNDF_VERSION "\n");
+    if (asks(argv[1], "--man", "--man")) {
+        write_man(stdout);
+        return STATUS_GOOD;
     }
-    const subcommand *c = command_named("vndf", argc - 1, (const char *const *)(argv + 1), &used);
+    int is_help = asks(argv[1], "--help", "-h") || asks(argv[1], "help", "help");
+    if (is_help && argc == 2) {
+        list_text(help);
+        return print(help);
+    }
+    argc -= 1 + is_help;
+    argv += 1 + is_help;
+    const subcommand *c = find_command(argc, (const char *const *)argv, &used);
     if (!c)
         return STATUS_USE;
-    command_help_text(c, help);
-    for (int i = 1 + used; i < argc && strcmp(argv[i], "--") != 0; i++)
-        if (asks(argv[i], "--help", "-h"))
-            return fputs(help, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    help_text(c, help);
+    if (is_help && argc > used)
+        return complain("vndf help", "'%s' is one word too many", argv[used]);
+    for (int i = used; i < argc && strcmp(argv[i], "--") != 0; i++)
+        is_help |= asks(argv[i], "--help", "-h");
+    if (is_help)
+        return print(help);
     arguments given = {.command = c->name, .help = help};
-    if (!arguments_read(&given, argc - 1 - used, argv + 1 + used))
+    if (!arguments_read(&given, argc - used, argv + used))
         return STATUS_USE;
     if (given.positional.count < c->least)
         return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
-    if (given.positional.count > c->most && c->most == 0)
-        return complain(c->name, "'%s' is not expected; only options are%s", given.positional.item[0],
-                        c->positional);
-    if (given.positional.count > c->most)
-        return complain(c->name, "'%s' is one word too many; expected only %s", given.positional.item[c->most],
-                        c->positional);
+    if (given.positional.count > c->most) {
+        const char *word = given.positional.item[c->most];
+        return complain(c->name, "'%s' is not expected; %s%s%s", word,
+                        c->most ? "words that are no options are only " : "only options are", c->positional,
+                        strspn(word, "0123456789.") == strlen(word) ? "; lists have commas, as in 1,2" : "");
+    }
     return c->run(&given);
 }
 

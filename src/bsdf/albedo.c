@@ -1,5 +1,6 @@
-/* The table of albedos: quadrature in the nodes of a grid over cosine and roughness, and a polynomial of degree 3
- * in each direction between them. With a = scale alpha, the median slope, and c = |cos_i|, its coordinates are
+/* The table of albedos: the mean weight of single scattering in the nodes of a grid over cosine and roughness, and a
+ * polynomial of degree 3 in each direction between them. With a = scale alpha, the median slope, and c = |cos_i|, its
+ * coordinates are
  *
  *     x = (t + t^(1/4))/2,  t = c (1 + K a)/(c + K a)         from X to 1
  *     y = (a (1 + Q A)/(A (1 + Q a)))^(1/2),  A the largest a from 0 to 1
@@ -7,13 +8,18 @@
  * E changes where c is of the size of a, at any roughness: in x that is one place, and E as a function of x tends
  * to a limit for a = 0. Near c = 0 1 - E falls as c log c or as a low power of c, which a root makes smooth;
  * elsewhere x is nearly even in c. What a dielectric transmits falls by a power so low that no root helps: there
- * the grid begins at X > 0. */
+ * the grid begins at X > 0.
+ *
+ * E is the mean of F G2/G1 over the normals that wi sees, and of both lobes that of (1 - F) G2/G1 too. The normals are
+ * those of a Fibonacci lattice (Sloan & Joe, "Lattice Methods for Multiple Integration", 1994), whose second number is
+ * crowded where slopes are steep, since these lose light: u2 = 1 - (1 - t)^2, so that a point counts for 2 (1 - t).
+ * Within 4e-4 for a mirror and 2e-3 for a dielectric (beside Gauss's rule over slopes and azimuths in panels, GGX,
+ * Beckmann and four tables, alpha 0.01 to 4, cosines from 1e-4 on). */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bsdf/bsdf.h"
-#include "bsdf/quadrature.h"
 #include "core/error.h"
 
 enum { COLUMNS = 32, ROWS = 24 };
@@ -130,16 +136,38 @@ static double average_of(const vndf_albedo *albedo, float side, float alpha)
     return 4.0 * sum / NODES;
 }
 
-static void fill(vndf_albedo *albedo, const vndf_quadrature *q, int side)
+/* E from the side of z, or the other; `lobe` has a material of each lobe that light takes. */
+static float kept_of(const vndf_material *lobe, int lobes, double cosine, double alpha, int side)
 {
-    double eta = side ? 1.0 / (double)albedo->eta : (double)albedo->eta;
-    for (int i = 0; i < ROWS; i++)
-        for (int j = 0; j < COLUMNS; j++) {
-            double alpha = alpha_at(albedo, i);
-            albedo->value[side][i][j] = (float)vndf_quadrature_albedo(q, cosine_at(albedo, j, alpha), alpha, eta);
+    enum { POINTS = 2584, STEP = 1597 }; /* neighbours in Fibonacci's series */
+    const float c = cosine > 1e-15 ? (float)cosine : 1e-15f, rough = (float)alpha;
+    const vndf_roughness of = {rough, rough, 1.0f, 0.0f};
+    vndf_bsdf hit[2];
+    double sum = 0.0, all = 0.0;
+    for (int k = 0; k < lobes; k++)
+        vndf_bsdf_rough(&hit[k], &lobe[k], &of, vndf_vec3_of(sqrtf((1.0f - c) * (1.0f + c)), 0.0f, side ? -c : c));
+    for (int i = 0; i < POINTS; i++) {
+        double t = (i + 0.5) / POINTS, u = t * STEP - floor(t * STEP), rest = 1.0 - t;
+        vndf_drawn_normal n = vndf_sample_visible(&hit[0].own.view.of.one, (float)u, (float)(1.0 - rest * rest));
+        all += rest * (double)n.weight;
+        for (int k = 0; k < lobes; k++) {
+            vndf_scattered s;
+            lobe[k].own.routines->scatter(&hit[k], &n, 0.0f, &s);
+            sum += rest * (double)s.weight[0];
         }
-    for (int i = 0; i < ROWS; i++)
-        albedo->average[side][i] = (float)average_of(albedo, side ? -1.0f : 1.0f, (float)alpha_at(albedo, i));
+    }
+    return all > 0.0 ? (float)(sum / all) : 1.0f;
+}
+
+static void fill(vndf_albedo *albedo, const vndf_material *lobe, int lobes)
+{
+    for (int side = 0; side < lobes; side++)
+        for (int i = 0; i < ROWS; i++) {
+            double alpha = alpha_at(albedo, i);
+            for (int j = 0; j < COLUMNS; j++)
+                albedo->value[side][i][j] = kept_of(lobe, lobes, cosine_at(albedo, j, alpha), alpha, side);
+            albedo->average[side][i] = (float)average_of(albedo, side ? -1.0f : 1.0f, (float)alpha);
+        }
 }
 
 vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error)
@@ -160,17 +188,22 @@ vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta,
     }
     size_t letters = strlen(info.source) + 1;
     vndf_albedo *albedo = malloc(sizeof *albedo + letters);
-    vndf_quadrature q;
     if (!albedo) {
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of albedos");
         return NULL;
     }
     *albedo = (vndf_albedo){.eta = eta, .scale = (float)info.scale, .from = eta > 0.0f ? 0.03f : 0.0f};
     memcpy(albedo->source, info.source, letters);
-    vndf_quadrature_of(&q, distribution);
-    fill(albedo, &q, 0);
+    vndf_description is = {.distribution = distribution, .alpha_x = 1.0f, .alpha_y = 1.0f, .wavelengths = 1};
+    vndf_material lobe[2];
+    is.eta = eta;
+    is.effects.fresnel = eta > 0.0f ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
+    is.effects.transport = VNDF_TRANSPORT_IMPORTANCE;
+    vndf_material_resolve(&is, &lobe[0], NULL);
+    is.effects.lobes = VNDF_LOBES_TRANSMISSION;
     if (eta > 0.0f)
-        fill(albedo, &q, 1);
+        vndf_material_resolve(&is, &lobe[1], NULL);
+    fill(albedo, lobe, eta > 0.0f ? 2 : 1);
     return albedo;
 }
 

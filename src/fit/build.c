@@ -23,6 +23,7 @@ typedef struct builder {
     size_t least_bytes, max_bytes; /* a smaller table than the first is not looked for */
     double max_tv;                 /* 0: the best that fits */
     unsigned moments;
+    vndf_distribution *table; /* the last that was tried; NULL if the build must end */
 } builder;
 
 /* ---- tables ---- */
@@ -33,44 +34,48 @@ static double excess_of(const vndf_certificate *c, double tv)
     return tv > 0 ? fmax((double)c->tv_above, (double)c->tv / BELOW) / tv : 0;
 }
 
-/* The table as it would be read back from its file: certificate and texts included. */
-static vndf_distribution *finish(const builder *b, vndf_draft *draft)
+/* The table of a draft as it is read back from its file, measured. */
+static vndf_distribution *measured(const builder *b, vndf_table_draft *draft)
 {
-    draft->table.source = b->profile->description;
-    draft->table.tool = TOOL;
     vndf_writer file = {NULL, 0, 0, 0};
     vndf_error inner = {VNDF_ERROR_MEMORY, ""};
-    vndf_table_write(&draft->table, &file);
+    draft->tool = TOOL;
+    vndf_table_write(draft, &file);
     vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
     free(file.bytes);
-    if (!table && inner.status == VNDF_ERROR_MEMORY)
+    if (table && vndf_certificate_measure(&table->certificate, table, b->profile))
+        return table;
+    if (table || inner.status == VNDF_ERROR_MEMORY)
         vndf_guard_starve(b->profile->guard);
-    else if (!table)
+    else
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_DISTRIBUTION,
                   "the distribution cannot be held in a table of floats: %s", inner.message);
-    return table;
+    vndf_free(table);
+    return NULL;
 }
 
-/* Measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
-static double try_knots(builder *b, unsigned knots, vndf_draft *draft)
+/* Makes the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
+static double try_knots(builder *b, unsigned knots)
 {
-    vndf_draft_free(draft);
+    vndf_table_draft draft;
+    vndf_free(b->table);
     vndf_knots_place(&b->knots, knots);
-    int good = vndf_draft_from(draft, &b->knots, b->moments) &&
-               vndf_certificate_measure(&draft->table.certificate, draft, b->profile);
+    int good = vndf_draft_from(&draft, &b->knots, b->moments);
     if (!good)
         vndf_guard_starve(b->profile->guard);
-    return good ? excess_of(&draft->table.certificate, b->max_tv) : 0;
+    b->table = good && !vndf_guard_stopped(b->profile->guard) ? measured(b, &draft) : NULL;
+    free(draft.knot);
+    return b->table ? excess_of(&b->table->certificate, b->max_tv) : 0;
 }
 
 /* About as few knots as reach the target, from `least` to `most`: the total variation falls as the square of their
  * number, or hardly at all where the moments limit it. Then the number is halved between what is enough and what is
  * not. */
-static void search(builder *b, unsigned least, unsigned most, vndf_draft *draft)
+static void search(builder *b, unsigned least, unsigned most)
 {
     const double step_least = 1.1, step_most = 2.5, step_slow = 1.5, close = 0.7;
     unsigned few = least, enough = least, there = 0;
-    double excess = try_knots(b, least, draft), before = HUGE_VAL;
+    double excess = try_knots(b, least), before = HUGE_VAL;
     while (excess > 1 && enough < most && b->knots.count > there) {
         there = b->knots.count;
         int slow = excess * enough > before * few;
@@ -78,16 +83,16 @@ static void search(builder *b, unsigned least, unsigned most, vndf_draft *draft)
         few = enough;
         before = excess;
         enough = next < most ? (unsigned)next : most;
-        excess = try_knots(b, enough, draft);
+        excess = try_knots(b, enough);
     }
     int reached = excess <= 1;
     while (reached && excess < close && enough - few > 1 + enough / 16 && !vndf_guard_stopped(b->profile->guard)) {
         unsigned middle = (few + enough) / 2;
-        excess = try_knots(b, middle, draft);
+        excess = try_knots(b, middle);
         *(excess <= 1 ? &enough : &few) = middle;
     }
     if (reached && excess > 1)
-        try_knots(b, enough, draft);
+        try_knots(b, enough);
 }
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
@@ -103,25 +108,21 @@ static unsigned knots_in(const builder *b, size_t bytes)
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
-static vndf_distribution *make_table(builder *b)
+static void make_table(builder *b)
 {
     unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes), least = CELLS_LEAST + 1;
     if (most >= least && !vndf_knots_from(&b->knots, b->profile, most)) {
         vndf_guard_starve(b->profile->guard);
-        return NULL;
+        return;
     }
     least = b->knots.least > least ? b->knots.least : least;
     if (most < least) {
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
                   "%lu bytes are too few: the smallest table of this distribution takes %lu",
                   (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
-        return NULL;
+        return;
     }
-    vndf_draft draft = {.first = NULL};
-    search(b, !(b->max_tv > 0) ? most : few > least ? few : least, most, &draft);
-    vndf_distribution *table = vndf_guard_stopped(b->profile->guard) ? NULL : finish(b, &draft);
-    vndf_draft_free(&draft);
-    return table;
+    search(b, !(b->max_tv > 0) ? most : few > least ? few : least, most);
 }
 
 /* ---- the call ---- */
@@ -173,17 +174,17 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
         return NULL;
     b.profile = profile;
     vndf_guard_stage(&guard, 0.5, "knots and certificate");
-    vndf_distribution *table = make_table(&b);
-    if (table)
-        check_target(table, given.max_tv, vndf_guard_why(&guard));
+    make_table(&b);
+    if (b.table)
+        check_target(b.table, given.max_tv, vndf_guard_why(&guard));
     if (vndf_guard_status(&guard, error) != VNDF_OK) {
-        vndf_free(table);
-        table = NULL;
+        vndf_free(b.table);
+        b.table = NULL;
     } else if (certificate)
-        *certificate = table->certificate;
+        *certificate = b.table->certificate;
     vndf_knots_free(&b.knots);
     vndf_profile_free(profile);
-    return table;
+    return b.table;
 }
 
 vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
@@ -202,16 +203,13 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_guard_status(&guard, error);
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
-    vndf_draft draft = {.first = NULL};
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))
         vndf_fail(vndf_guard_why(&guard), VNDF_ERROR_DISTRIBUTION,
                   "the table is of another distribution: scale %.9g and normalization %.9g, "
                   "the source has %.9g and %.9g",
                   distribution->scale, distribution->normalization, profile->scale, profile->normalization);
-    else if (!vndf_draft_of(&draft, distribution, profile) ||
-             !vndf_certificate_measure(certificate, &draft, profile))
+    else if (!vndf_certificate_measure(certificate, distribution, profile))
         vndf_guard_starve(&guard);
-    vndf_draft_free(&draft);
     vndf_profile_free(profile);
     return vndf_guard_status(&guard, error);
 }

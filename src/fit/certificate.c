@@ -1,10 +1,15 @@
 /* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
- * that of the laws of R: the drawn one (draft.h) against f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
-#include "fit/draft.h"
-
-#include <math.h>
+ * that of the laws of R: the drawn one, by the text of the run time in double (kernel/law.h), against
+ * f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
 #include <stdlib.h>
-#include <string.h>
+
+#include "fit/draft.h"
+#include "kernel/wide.h"
+#include "math/ascending.h"
+
+#include "kernel/rows.h"
+
+#include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
@@ -21,8 +26,9 @@ typedef struct direction {
 } direction;
 
 typedef struct survey {
-    const vndf_draft *draft;
+    table table;
     const vndf_profile *profile;
+    vndf_strips strips;
     direction *at;       /* of each edge */
     double *xi, *kernel; /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
     double
@@ -41,27 +47,34 @@ static double largest_weight(const survey *s, double least)
     return least;
 }
 
-/* Compares what is drawn with what is seen, strip by strip. */
-static void compare(survey *s, const vndf_law *law, size_t edge, double seen_area, double drawn_area,
-                    double *figure)
+/* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
+static vndf_drawn drawn_in(table t, seen v, int i, int below)
 {
-    const vndf_draft *d = s->draft;
-    double miss = 0, weight = 1, add = law->below ? 0 : PI * law->rho, per = law->s / (PI * seen_area);
+    const weights near = {0, v.c, 0, 0};
+    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
+    return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
+}
+
+/* Compares what is drawn with what is seen, strip by strip. */
+static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
+{
+    const size_t *strip = s->strips.first;
+    double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
     memset(s->rarely, 0, sizeof s->rarely);
-    for (unsigned i = law->below ? law->first : 0; i <= d->table.cells; i++) {
-        vndf_drawn cell = vndf_law_cell(law, i);
-        int partial = law->below && i == law->first;
-        double xi = partial ? law->xi : 0, stretch = 1 / (1 - xi), before = 0;
-        for (size_t n = partial ? edge : d->first[i]; n < d->first[i + 1]; n++) {
-            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
-            double drawn = (next - before) / drawn_area;
-            double seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * d->strips.at[n].f);
+    for (int first = below ? v.first : 0, i = first; i <= s->table.cells; i++) {
+        vndf_drawn cell = drawn_in(s->table, v, i, below);
+        int partial = below && i == first;
+        double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
+        for (size_t n = partial ? edge : strip[i]; n < strip[i + 1]; n++) {
+            double next = vndf_drawn_before(&cell, n + 1 < strip[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
+            double is = (next - before) / area_drawn;
+            double right = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f);
             before = next;
-            miss += fabs(seen - drawn);
-            if (seen > LEFT_OUT && seen > weight * drawn)
-                weight = drawn > 0 ? seen / drawn : HUGE_VAL;
-            else if (seen > weight * drawn)
-                s->rarely[drawn * 0x1p31 > seen ? (int)(PER_OCTAVE * log2(seen / drawn)) : RATIOS - 1] += seen;
+            miss += fabs(right - is);
+            if (right > LEFT_OUT && right > weight * is)
+                weight = is > 0 ? right / is : HUGE_VAL;
+            else if (right > weight * is)
+                s->rarely[is * 0x1p31 > right ? (int)(PER_OCTAVE * log2(right / is)) : RATIOS - 1] += right;
         }
     }
     figure[TV] = fmin(miss / 2, 1);
@@ -69,34 +82,29 @@ static void compare(survey *s, const vndf_law *law, size_t edge, double seen_are
 }
 
 /* One side. */
-static void look(survey *s, size_t edge, int below, double *figure)
+static void look_at_side(survey *s, size_t edge, int below, double *figure)
 {
-    const vndf_draft *d = s->draft;
-    double rho = d->strips.at[edge].edge;
-    vndf_law law = vndf_law_of(d, rho, below);
-    unsigned cell = vndf_draft_cell(d, rho), first = below ? law.first : 0;
-    double drawn = 0, seen = below ? 0 : PI * rho, beyond = 0;
-    float rounded = 0;
-    for (unsigned i = d->table.cells + 1; i-- > first;) {
-        double mass = vndf_law_cell(&law, i).mass;
-        drawn += mass;
-        rounded += (float)mass;
-    }
-    for (size_t i = 2 * edge; i < 2 * d->strips.count; i++)
+    table t = s->table;
+    double rho = s->strips.at[edge].edge, sine = 1 / (1 + rho), beyond = 0, all = 0;
+    int cell = find_knot(t, rho * rho, 1);
+    seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
+    for (size_t i = 2 * edge; i < 2 * s->strips.count; i++)
         beyond += s->kernel[i];
-    seen = (seen + beyond) * law.s / PI;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
         return;
-    figure[CONSISTENCY] = fabs(rounded / drawn - 1);
-    if (cell == d->table.cells || d->cell[cell + 1].r - d->cell[cell].r > VNDF_GRAIN * rho)
-        figure[AREA_ERROR] = fabs(vndf_law_public_area(&law, drawn) / seen - 1);
-    compare(s, &law, edge, seen, drawn, figure);
+    for (int i = t.cells; i >= (below ? cell : 0); i--)
+        all += drawn_in(t, v, i, below).mass;
+    double area = (beyond + (below ? 0 : PI * rho)) * sine / PI, knot = look(t, VNDF_KNOT, cell).a;
+    figure[CONSISTENCY] = fabs((double)(float)v.total / all - 1);
+    if (cell == t.cells || look(t, VNDF_KNOT, cell + 1).a - knot > VNDF_GRAIN * rho)
+        figure[AREA_ERROR] = fabs(law_area_in(t, v, cell, below) / area - 1);
+    compare(s, v, below, edge, area, all, figure);
 }
 
 /* Looks from rho at an edge, above and below the horizon. */
 static void look_from(survey *s, size_t edge)
 {
-    const vndf_strips *strips = &s->draft->strips;
+    const vndf_strips *strips = &s->strips;
     double rho = strips->at[edge].edge;
     direction *at = &s->at[edge];
     if (at->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
@@ -107,8 +115,8 @@ static void look_from(survey *s, size_t edge)
         double r = strips->at[i / 2].r[i % 2];
         s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_profile_kernel(r, rho) : 0;
     }
-    look(s, edge, 0, at->side[0]);
-    look(s, edge, 1, at->side[1]);
+    look_at_side(s, edge, 0, at->side[0]);
+    look_at_side(s, edge, 1, at->side[1]);
 }
 
 /* ---- all directions ---- */
@@ -116,7 +124,7 @@ static void look_from(survey *s, size_t edge)
 /* Looks from the edges beside the one with the largest figure, the nearer the later. */
 static void look_near_worst(survey *s, int side, int figure, size_t apart)
 {
-    size_t best = 0, edges = s->draft->strips.count;
+    size_t best = 0, edges = s->strips.count;
     for (; apart > 0; apart /= 2) {
         for (size_t i = 0; i < edges; i++)
             best = s->at[i].known && s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
@@ -130,11 +138,12 @@ static void look_near_worst(survey *s, int side, int figure, size_t apart)
 static void look_around(survey *s)
 {
     static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
-    const vndf_draft *d = s->draft;
+    const vndf_strip *at = s->strips.at;
     for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
-        look_from(s, vndf_strips_edge(&d->strips, 1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
-    for (unsigned i = 0; i <= d->table.cells; i += d->table.cells / CELLS_MOST + 1) {
-        size_t from = d->first[i], strips = d->first[i + 1] - from;
+        look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count,
+                                      1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
+    for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
+        size_t from = s->strips.first[i], strips = s->strips.first[i + 1] - from;
         look_from(s, from);
         look_from(s, from + strips / 3);
         if (i > 0)
@@ -168,46 +177,52 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
  * were, over the strips that hold all but LEFT_OUT of the mass on either side. */
 static double ndf_error(const survey *s)
 {
-    const vndf_draft *d = s->draft;
+    const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
-    for (unsigned i = 0; i <= d->table.cells; i++) {
-        int tail = i == d->table.cells;
-        const vndf_weight all = {tail, !tail, 0, 0};
-        vndf_drawn cell = vndf_drawn_by(&d->cell[i], &all);
+    for (int i = 0; i <= s->table.cells; i++) {
+        int tail = i == s->table.cells;
+        piece all = law_cell_all(s->table, i);
+        vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0;
-        for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
-            const vndf_strip *strip = &d->strips.at[n];
-            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? s->xi[n + 1] : 1);
+        for (size_t n = first[i]; n < first[i + 1]; n++) {
+            const vndf_strip *strip = &s->strips.at[n];
+            double next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? s->xi[n + 1] : 1);
             double error = fabs((next - before) / (tail ? strip->along : strip->f) - 1);
             before = next;
             sum += strip->f;
             if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                strip->f > LEFT_OUT * log(d->strips.at[n + 1].edge / d->strips.at[n].edge))
+                strip->f > LEFT_OUT * log(strip[1].edge / strip->edge))
                 worst = fmax(worst, error);
         }
     }
     return worst;
 }
 
-int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const vndf_profile *profile)
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_profile *profile)
 {
-    size_t n = draft->strips.count;
-    survey s = {.draft = draft,
-                .profile = profile,
-                .at = calloc(n + 1, sizeof *s.at),
-                .xi = malloc((n + 1) * sizeof *s.xi),
-                .kernel = malloc(2 * n * sizeof *s.kernel)};
-    int good = s.at && s.xi && s.kernel;
+    const unsigned cells = (unsigned)d->cells;
+    survey s = {.table = table_of(d), .profile = profile};
+    float *knot = malloc((cells + 1) * sizeof *knot);
+    for (unsigned i = 0; knot && i <= cells; i++)
+        knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
+    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
+    size_t n = good ? s.strips.count : 0;
+    s.at = calloc(n + 1, sizeof *s.at);
+    s.xi = malloc((n + 1) * sizeof *s.xi);
+    s.kernel = malloc((2 * n + 1) * sizeof *s.kernel);
+    good = good && s.at && s.xi && s.kernel;
     if (good) {
-        for (unsigned i = 0; i <= draft->table.cells; i++)
-            for (size_t k = draft->first[i]; k < draft->first[i + 1]; k++)
-                s.xi[k] = vndf_cell_place(&draft->cell[i], draft->strips.at[k].edge);
+        for (unsigned i = 0; i <= cells; i++) {
+            vndf_cell cell =
+                vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)d->squarings);
+            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++)
+                s.xi[k] = vndf_cell_place(&cell, s.strips.at[k].edge);
+        }
         look_around(&s);
-        memset(c, 0, sizeof *c);
-        c->max_weight = 1;
+        *c = (vndf_certificate){.max_weight = 1};
         for (size_t i = 0; i < 2 * n; i++)
             if (s.at[i / 2].known)
-                take(c, s.at[i / 2].side[i % 2], draft->strips.at[i / 2].edge, i % 2, profile->scale);
+                take(c, s.at[i / 2].side[i % 2], s.strips.at[i / 2].edge, i % 2, profile->scale);
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;
@@ -218,6 +233,8 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_draft *draft, const
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }
+    vndf_strips_free(&s.strips);
+    free(knot);
     free(s.at);
     free(s.xi);
     free(s.kernel);

@@ -1,13 +1,10 @@
-/* The law of the slope length R that a table draws, from its numbers as they stand on disk, in double: what the run
- * time computes in float. The fit and the certificate ask here, and nobody states the law again.
+/* What a table is made from: strips of a profile, cells of strips, knots where cells end; and numbers of all cells,
+ * shares below the horizon, areas.
  *
  * Units and symbols are those of src/table/table.h: f = 2 pi R P22 of mass 1, x = R/(1 + R), z = 1/(1 + R), a
  * direction (s, 0, c) with s + |c| = 1, rho = |c|/s. In a cell the law is W(R) f/R with a polynomial W of the
  * direction; a cell is drawn as a rational density (Gregory & Delbourgo) with the exact mass and the densities at
- * both ends per unit of its coordinate xi. Masses are those of the projected area: they add up to it.
- *
- * Then where the knots of a table stand, and from knots to a table: numbers of all cells, shares below the horizon,
- * areas. */
+ * both ends per unit of its coordinate xi (kernel/law.h). Masses are those of the projected area: they add up to it. */
 #ifndef VNDF_FIT_DRAFT_H
 #define VNDF_FIT_DRAFT_H
 
@@ -35,18 +32,16 @@ typedef struct vndf_strip {
 typedef struct vndf_strips {
     size_t count;
     vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
+    size_t *first;  /* those of knots, and behind them the count */
 } vndf_strips;
 
-/* About as many as a table of so many cells needs; some end at knots, which ascend from 0. 0 if there is no memory;
- * free them either way. */
+/* About as many as a table of so many cells needs; some end at these knots, which ascend from 0. 0 if there is no
+ * memory; free them either way. */
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
                      size_t cells);
 void vndf_strips_free(vndf_strips *strips);
 
-/* The last edge at or before a slope. */
-size_t vndf_strips_edge(const vndf_strips *strips, double r);
-
-/* ---- cells and laws ---- */
+/* ---- cells ---- */
 
 /* x grows by h from the left knot; in the tail cell z falls as (1 - xi)^power, to 0. The numbers are the table's. */
 typedef struct vndf_cell {
@@ -60,7 +55,8 @@ typedef struct vndf_cell {
 vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
                             unsigned squarings);
 
-/* That of a table. */
+/* Where the cell of a table is, and all of it. */
+vndf_cell vndf_cell_between(double from, double to, unsigned squarings);
 vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
 
 /* xi of a slope in the cell. */
@@ -87,38 +83,6 @@ static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
     double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
     return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
 }
-
-/* A table, its cells with the tail cell, and the profile in strips that end at its knots: those of cell i from
- * first[i] to first[i + 1]. */
-typedef struct vndf_draft {
-    vndf_table_draft table;
-    vndf_cell *cell;
-    vndf_strips strips;
-    size_t *first;
-} vndf_draft;
-
-/* The cell of a slope. */
-unsigned vndf_draft_cell(const vndf_draft *draft, double r);
-
-/* A direction. */
-typedef struct vndf_law {
-    const vndf_draft *draft;
-    double rho, s, c; /* c >= 0 on either side */
-    int below;
-    unsigned first;             /* above: the switch knot; below: the cell of rho */
-    vndf_weight near, far, end; /* above: before the switch, from it on, and where far is not used */
-    double xi, b0, b1;          /* below: of rho in its cell; the shares */
-} vndf_law;
-
-vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below);
-
-/* What is drawn in a cell, from `first` on below the horizon. There the first cell has a coordinate of its own, which
- * is 0 at rho: (xi - law.xi)/(1 - law.xi). */
-vndf_drawn vndf_law_cell(const vndf_law *law, unsigned cell);
-
-/* The area that the run time gives out: above the horizon a spline of the numbers; below it that less c, or the drawn
- * area where the two are close. */
-double vndf_law_public_area(const vndf_law *law, double drawn);
 
 /* ---- knots ----
  *
@@ -158,15 +122,12 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 /* ---- tables ---- */
 
-/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free it either way. */
-int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments);
+/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free table->knot
+ * either way. */
+int vndf_draft_from(vndf_table_draft *table, vndf_knots *knots, unsigned moments);
 
-/* The same of a table that was loaded, beside a profile. */
-int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_profile *profile);
-
-void vndf_draft_free(vndf_draft *draft);
-
-/* How good the table is (certificate.c); 0 if there is no memory. */
-int vndf_certificate_measure(vndf_certificate *certificate, const vndf_draft *draft, const vndf_profile *profile);
+/* How good a table is (certificate.c); 0 if there is no memory. */
+int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
+                             const vndf_profile *profile);
 
 #endif

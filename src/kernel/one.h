@@ -6,15 +6,12 @@
 
 #include <math.h>
 #include <stdint.h>
-#include <string.h>
 
 #include "core/inline.h"
-#include "table/table.h"
 
 #define HERE VNDF_INLINE
 
 typedef float real;
-typedef int32_t whole;
 
 #if defined(__SSE2__) /* choices without a branch, which random data would mispredict; lane 0 of four */
 #  include <emmintrin.h>
@@ -24,19 +21,9 @@ typedef __m128 mask;
 typedef int mask;
 #endif
 
-/* Four numbers of a table that stand side by side. */
-typedef struct quad {
-    real a, b, c, d;
-} quad;
-
 HERE real set(float x)
 {
     return x;
-}
-
-HERE whole set_whole(int i)
-{
-    return i;
 }
 
 #if defined(VNDF_KERNEL_SSE2)
@@ -63,7 +50,7 @@ HERE mask at_most(real a, real b)
     return _mm_cmple_ss(lane(a), lane(b));
 }
 
-HERE mask same(whole a, int b)
+HERE mask same(int32_t a, int b)
 {
     return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_cvtsi32_si128(a), _mm_cvtsi32_si128(b)));
 }
@@ -97,12 +84,9 @@ HERE real pick(mask m, real yes, real no)
 
 #  include "kernel/plain.h"
 
-HERE mask same(whole a, int b)
-{
-    return a == b;
-}
-
 #endif
+
+#include "kernel/rows.h"
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
 HERE real least(real a, real b)
@@ -113,11 +97,6 @@ HERE real least(real a, real b)
 HERE real most(real a, real b)
 {
     return a > b ? a : b;
-}
-
-HERE whole pick_whole(mask m, whole yes, whole no)
-{
-    return no + ((yes - no) & -any(m));
 }
 
 HERE real root(real x)
@@ -134,71 +113,6 @@ HERE real size(real x)
 HERE real with_sign(real x, real y)
 {
     return copysignf(x, y);
-}
-
-HERE whole bits(real x)
-{
-    whole i;
-    memcpy(&i, &x, sizeof i);
-    return i;
-}
-
-HERE real of_bits(whole i)
-{
-    real x;
-    memcpy(&x, &i, sizeof x);
-    return x;
-}
-
-HERE real to_real(whole i)
-{
-    return (real)i;
-}
-
-/* The whole part of x, |x| < 2^31. */
-HERE whole to_whole(real x)
-{
-    return (whole)x;
-}
-
-HERE whole least_whole(whole a, whole b)
-{
-    return a < b ? a : b;
-}
-
-HERE whole most_whole(whole a, whole b)
-{
-    return a > b ? a : b;
-}
-
-/* ---- tables ---- */
-
-/* A table as the kernel reads it (table/table.h). */
-typedef struct table {
-    const float *numbers, *columns;
-    const uint16_t *first;
-    int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
-    int column, pivots;                            /* table/table.h */
-} table;
-
-HERE table table_of(const vndf_distribution *d)
-{
-    table t = {d->numbers + VNDF_HEAD, d->columns, d->first, d->cells,  d->moments,
-               d->squarings,           d->highest, d->steps, d->column, d->pivots};
-    return t;
-}
-
-HERE whole look_first(table t, whole eighth)
-{
-    return t.first[eighth];
-}
-
-/* A row of knot i. */
-HERE quad look(table t, int group, whole i)
-{
-    const float *row = t.numbers + VNDF_STRIDE * (size_t)(unsigned)i + 4 * group;
-    quad q = {row[0], row[1], row[2], row[3]};
-    return q;
 }
 
 #if defined(VNDF_KERNEL_SSE2)

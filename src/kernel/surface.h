@@ -119,9 +119,9 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
 }
 
 /* A normal that a frame draws: unit, and its density per steradian. */
-typedef struct sampled {
+typedef struct sampled_normal {
     real x, y, z, pdf;
-} sampled;
+} sampled_normal;
 
 /* A density that a float can hold, not 0 where something is seen. */
 HERE real frame_density(frame f, real density)
@@ -143,7 +143,7 @@ HERE triple frame_turned_back(frame f, triple n)
 }
 
 /* The normal of the surface for one of the unit problem; the density is that of where it was turned to. */
-HERE sampled frame_sampled(frame f, drawn n)
+HERE sampled_normal frame_sampled(frame f, drawn n)
 {
     affine_map m = f.m;
     triple w = {m.xx * n.x, m.yy * n.y, n.z};
@@ -158,8 +158,8 @@ HERE sampled frame_sampled(frame f, drawn n)
         reach = root(square);
     }
     real per = reach * (1.0f / square);
-    sampled s = {w.x * per, w.y * per, w.z * per,
-                 frame_density(f, (n.density * reach) * (square / f.determinant))};
+    sampled_normal s = {w.x * per, w.y * per, w.z * per,
+                        frame_density(f, (n.density * reach) * (square / f.determinant))};
     return s;
 }
 

@@ -28,7 +28,7 @@ static vndf_drawn_normal no_normal(void)
 /* The drawn normal on the surface, without a look at wi. */
 static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, drawn n)
 {
-    sampled s = frame_sampled(*f, n);
+    sampled_normal s = frame_sampled(*f, n);
     vndf_drawn_normal d = {{s.x, s.y, s.z}, s.pdf, 0.0f};
     d.weight = quotient(view, d.wm, d.density);
     return d;

@@ -140,7 +140,7 @@ VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int we
 
 VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    sampled n = {0.0f, 0.0f, 1.0f, 0.0f};
+    sampled_normal n = {0.0f, 0.0f, 1.0f, 0.0f};
     float factor = 0.0f;
     if (view->distribution) {
         weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);

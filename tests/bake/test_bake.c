@@ -77,18 +77,17 @@ static void test_places(void)
 /* ---- light from a rectangle ---- */
 
 /* The integral over a square of 2 x 2 at height 1, whose middle is `along` from above the point, of f cos and of the
- * cosine. */
-static void light(const bake_settings *s, float alpha, double cosine, const bake_cosine *c, double all,
+ * cosine; their squared difference and the square of the first are added to sum. */
+static void light(const bake_settings *s, const float alpha[2], vndf_vec3 wi, const bake_cosine *c, double all,
                   double along, double sum[2])
 {
-    enum { SIDE = 160 };
-    const vndf_description of = {.distribution = s->distribution, .alpha_x = alpha, .alpha_y = alpha};
+    enum { SIDE = 96 };
+    const vndf_description of = {.distribution = s->distribution, .alpha_x = alpha[0], .alpha_y = alpha[1]};
     vndf_material material;
     vndf_error error;
     vndf_bsdf hit;
-    const vndf_vec3 wi = {(float)sqrt(1 - cosine * cosine), 0, (float)cosine};
+    double true_light = 0, cosine_light = 0;
     TEST(vndf_material_resolve(&of, &material, &error) == VNDF_OK && vndf_bsdf_at(&hit, &material, wi));
-    sum[0] = sum[1] = 0;
     for (int i = 0; i < SIDE * SIDE; i++) {
         double x = along + (i % SIDE + 0.5) * 2 / SIDE - 1, y = (i / SIDE + 0.5) * 2.0 / SIDE - 1;
         double length = sqrt(x * x + y * y + 1), solid = 4.0 / (SIDE * SIDE) / (length * length * length);
@@ -96,9 +95,11 @@ static void light(const bake_settings *s, float alpha, double cosine, const bake
         const vndf_vec3 out = {(float)wo[0], (float)wo[1], (float)wo[2]};
         float f[VNDF_WAVELENGTHS];
         vndf_bsdf_eval(&hit, out, 0, f);
-        sum[0] += (double)f[0] * wo[2] * solid;
-        sum[1] += all * bake_cosine_density(c, wo) * solid;
+        true_light += (double)f[0] * wo[2] * solid;
+        cosine_light += all * bake_cosine_density(c, wo) * solid;
     }
+    sum[0] += (true_light - cosine_light) * (true_light - cosine_light);
+    sum[1] += true_light * true_light;
 }
 
 /* The root of the mean square of the difference over that of the light itself. */
@@ -106,23 +107,47 @@ static double light_error(const vndf_distribution *d)
 {
     bake_settings s = settings(d, 8);
     baked_list list = {.count = 0};
-    double wrong = 0, whole = 0;
+    double sum[2] = {0, 0};
     TEST(bake_ltc(&s, &list) && list.count == 2);
     for (int k = 0; k < 12 && list.count == 2; k++) {
         const size_t rough = 3 + (size_t)k % 4, at = (size_t)k / 4 * 2;
         const float *m = list.table[0].value + 4 * (at * 8 + rough),
-                    *n = list.table[1].value + 3 * (at * 8 + rough);
-        const bake_cosine c = {{(double)m[0], (double)m[2], 1, (double)m[1], (double)m[3]}};
-        for (int j = 0; j < 5; j++) {
-            double sum[2];
-            light(&s, bake_alpha(BAKE_SQUARE, (double)rough / 7), 1 - (double)(at * at) / 49, &c, (double)n[0],
-                  1 - j, sum);
-            wrong += (sum[0] - sum[1]) * (sum[0] - sum[1]);
-            whole += sum[0] * sum[0];
-        }
+                    *n = list.table[1].value + 3 * (at * 8 + rough),
+                    a = bake_alpha(BAKE_SQUARE, (double)rough / 7), alpha[2] = {a, a};
+        const bake_cosine c = {{{(double)m[0], 0, (double)m[2]}, {0, 1, 0}, {(double)m[1], 0, (double)m[3]}}};
+        const double cosine = 1 - (double)(at * at) / 49;
+        const vndf_vec3 wi = {(float)sqrt(1 - cosine * cosine), 0, (float)cosine};
+        for (int j = 0; j < 5; j++)
+            light(&s, alpha, wi, &c, (double)n[0], 1 - j, sum);
     }
     baked_free(&list);
-    return sqrt(wrong / whole);
+    return sqrt(sum[0] / sum[1]);
+}
+
+/* The same of two roughnesses, at 24 texels: alpha_y a half of alpha_x and less, light from all azimuths. */
+static double anisotropic_error(const vndf_distribution *d)
+{
+    enum { N = 4 };
+    bake_settings s = settings(d, N);
+    baked_list list = {.count = 0};
+    double sum[2] = {0, 0};
+    TEST(bake_anisotropic(&s, &list) && list.count == 3);
+    for (size_t k = 0; k < 24 && list.count == 3; k++) {
+        const size_t rough = 2 + k % 2, ratio = k / 2 % 2, theta = k / 4 % 3, phi = k % N;
+        const size_t at = 4 * (((rough * N + ratio) * N + theta) * N + phi);
+        const float a = bake_alpha(BAKE_SQUARE, (double)rough / (N - 1)),
+                    alpha[2] = {a, a * (float)(ratio + 1) / N};
+        const double cosine = 1 - (double)(theta * theta) / 9, r = sqrt(1 - cosine * cosine),
+                     turn = 1.5707963267949 * (double)phi / (N - 1);
+        const vndf_vec3 wi = {(float)(r * cos(turn)), (float)(r * sin(turn)), (float)cosine};
+        bake_cosine c;
+        for (int i = 0; i < 9; i++)
+            c.inverse[i / 3][i % 3] = (double)list.table[i / 3].value[at + (size_t)i % 3];
+        for (int j = 0; j < 5; j++)
+            light(&s, alpha, wi, &c, (double)list.table[0].value[at + 3], 1 - j, sum);
+    }
+    baked_free(&list);
+    return sqrt(sum[0] / sum[1]);
 }
 
 /* ---- half floats ---- */
@@ -164,6 +189,9 @@ int main(void)
     for (int i = 0; i < 4; i++)
         fprintf(stderr, "light of distribution %d: %.4f\n", i, errors[i] = light_error(all[i]));
     TEST(errors[0] < 0.03 && errors[1] < 0.11 && errors[2] < 0.06 && errors[3] < 0.3);
+    double anisotropic = anisotropic_error(haze);
+    fprintf(stderr, "light of two roughnesses: %.4f\n", anisotropic);
+    TEST(anisotropic < 0.1);
     vndf_free(haze);
     vndf_free(ring);
     return test_done();

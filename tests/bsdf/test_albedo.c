@@ -1,24 +1,20 @@
-/* Albedos are right. The quadrature agrees with the mean weight of samples of the BSDF (test_bsdf_values has
- * these against the oracle) over an even set of uniform numbers, for closed forms, tables and a disc, mirrors
- * and dielectrics, and with what is known exactly: E = 1 - log 2 for GGX of alpha 1 from straight above
- * (integral of u/(1 + u) from 0 to 1, u = cos_o), E = 1 at grazing incidence and in the limit of no roughness.
- * Look-ups are within 1e-3 of the quadrature, 1.5e-2 of dielectrics, and averages are integrals of the look-ups;
- * any numbers give results in [0, 1]. What cannot be built is refused. Notices a missing shadow, F that is not
- * that of the side, weights of nodes that do not add up to 1. */
+/* Albedos are right: look-ups are the mean weight of samples of the BSDF (test_bsdf_values has these against the
+ * oracle) within 1e-3 for mirrors and 1.5e-2 for glass, over an even set of uniform numbers that is not the builder's,
+ * for closed forms and tables, from both sides; and what is known exactly: E = 1 - log 2 for GGX of alpha 1 from
+ * straight above (integral of u/(1 + u) from 0 to 1, u = cos_o), E = 1 at grazing incidence and in the limit of no
+ * roughness. Averages are integrals of the look-ups; any numbers give results in [0, 1]. What cannot be built is
+ * refused. Notices a missing shadow, F that is not that of the side, weights of nodes that do not add up to 1. */
 #include "bsdf/bsdf_case.h"
-#include "bsdf/quadrature.h"
-
-/* ---- the quadrature ---- */
 
 /* Of each normal both lobes are looked at, the third number being 0 and 1. */
 static double by_samples(const oracle_ndf *ndf, double cosine, double alpha, double eta)
 {
-    const int count = (int)test_amount(20000, 60000, 400000);
+    const int count = (int)test_amount(20000, 20000, 30000);
     const vndf_vec3 wi = oracle_toward(cosine, 0);
     vndf_description is = {.distribution = ndf->distribution, .eta = (float)eta, .wavelengths = 1};
     vndf_material material;
     vndf_bsdf bsdf;
-    double sum = 0;
+    double sum = 0, index = cosine > 0 ? eta : 1 / eta;
     is.alpha_x = is.alpha_y = (float)alpha;
     is.effects.transport = VNDF_TRANSPORT_IMPORTANCE;
     is.effects.lobes = eta > 0 ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
@@ -31,39 +27,12 @@ static double by_samples(const oracle_ndf *ndf, double cosine, double alpha, dou
             vndf_scattered s;
             vndf_bsdf_sample(&bsdf, u, &s);
             double facing = (double)wi.x * s.wm.x + (double)wi.y * s.wm.y + (double)wi.z * s.wm.z;
-            double f = eta > 0 ? (double)oracle_fresnel((long double)facing, (long double)eta, 0) : 1;
+            double f = eta > 0 ? (double)oracle_fresnel((long double)facing, (long double)index, 0) : 1;
             if (s.lobe == (lobe ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION))
                 sum += (double)s.weight[0] * (lobe ? 1 - f : f);
         }
     return sum / count;
 }
-
-/* `within`: the error of the set, largest where D jumps and where F has a root. */
-static void test_quadrature(const oracle_ndf *ndf, double within)
-{
-    static const double alphas[] = {0.05, 0.3, 1}, cosines[] = {1, 0.6, 0.15, 0.02}, etas[] = {0, 1.5, 1 / 1.5};
-    vndf_quadrature q;
-    double worst = 0;
-    vndf_quadrature_of(&q, ndf->distribution);
-    for (int i = 0; i < 3 * 4 * 3; i++) {
-        double alpha = alphas[i / 12], cosine = cosines[i / 3 % 4], eta = etas[i % 3];
-        if (!test_long() && (i + i / 3) % 2)
-            continue;
-        double got = vndf_quadrature_albedo(&q, cosine, alpha, eta), want = by_samples(ndf, cosine, alpha, eta);
-        if (!TEST_NEAR(got, want, within))
-            fprintf(stderr, "  %s, cosine %g, alpha %g, eta %g\n", ndf->name, cosine, alpha, eta);
-        worst = fmax(worst, fabs(got - want));
-    }
-    printf("%s: at most %.2g from samples\n", ndf->name, worst);
-    for (double alpha = 0.1; alpha < 2; alpha *= 4)
-        TEST_NEAR(vndf_quadrature_albedo(&q, 0, alpha, 0), 1, 1e-4);
-    for (double eta = 0; eta < 2; eta += 1.5)
-        TEST_NEAR(vndf_quadrature_albedo(&q, 0.5, 1e-5, eta), 1, 1e-3);
-    if (ndf->distribution == vndf_ggx())
-        TEST_NEAR(vndf_quadrature_albedo(&q, 1, 1, 0), 1 - log(2), 1e-5);
-}
-
-/* ---- the table ---- */
 
 /* By the midpoint rule over roots of the cosine. */
 static double average_of(const vndf_albedo *albedo, float alpha, float side)
@@ -79,31 +48,32 @@ static double average_of(const vndf_albedo *albedo, float alpha, float side)
 
 static void test_places(const oracle_ndf *ndf, float eta, double most)
 {
+    const double set = 3e-4; /* the error of the even set */
     unsigned long long state = 31;
     vndf_albedo *albedo = vndf_albedo_build(ndf->distribution, eta, NULL);
-    vndf_quadrature q;
     double worst = 0;
-    vndf_quadrature_of(&q, ndf->distribution);
     if (!TEST(albedo != NULL))
         return;
-    for (size_t i = 0; i < test_amount(100, 400, 4000); i++) {
+    for (size_t i = 0; i < test_amount(20, 40, 80); i++) {
         double u = test_uniform_double(&state), v = test_uniform_double(&state);
-        int below = eta > 0 && i % 2;
-        float alpha = (float)(eta > 0 ? 0.05 + 0.95 * u : 4 * u * u), cosine = (float)(i % 3 ? v : v * v * v);
-        if (alpha < 1e-4f || cosine < 1e-4f * alpha)
-            continue;
-        double want = vndf_quadrature_albedo(&q, (double)cosine, (double)alpha, pow((double)eta, below ? -1 : 1));
-        double off = fabs((double)vndf_albedo_directional(albedo, below ? -cosine : cosine, alpha) - want);
-        if (!TEST(off <= most))
-            fprintf(stderr, "  %s, cosine %g, alpha %g: off by %g\n", ndf->name, (double)cosine, (double)alpha,
-                    off);
+        double alpha = eta > 0 ? 0.05 + 0.95 * u : 0.01 + 3.99 * u * u, cosine = i % 3 ? v : v * v * v;
+        cosine = fmax(cosine, 1e-4 * alpha) * (eta > 0 && i % 2 ? -1 : 1);
+        double want = by_samples(ndf, cosine, alpha, (double)eta);
+        double off = fabs((double)vndf_albedo_directional(albedo, (float)cosine, (float)alpha) - want);
+        if (!TEST(off <= most + set))
+            fprintf(stderr, "  %s, cosine %g, alpha %g: off by %g\n", ndf->name, cosine, alpha, off);
         worst = fmax(worst, off);
     }
-    for (float alpha = 0.01f; alpha < 4; alpha *= 2.3f)
+    for (float alpha = 0.01f; alpha < 4; alpha *= 2.3f) {
+        TEST_NEAR((double)vndf_albedo_directional(albedo, 0, alpha), 1, eta > 0 ? 1 : 1e-4);
         for (int side = 1; side >= (eta > 0 ? -1 : 1); side -= 2)
             TEST_NEAR((double)vndf_albedo_average(albedo, alpha, side), average_of(albedo, alpha, (float)side),
                       2e-4);
-    printf("%s, eta %g: at most %.2g from the quadrature\n", ndf->name, (double)eta, worst);
+    }
+    TEST_NEAR((double)vndf_albedo_directional(albedo, 0.5f, 1e-5f), 1, 1e-3);
+    if (ndf->distribution == vndf_ggx() && eta == 0)
+        TEST_NEAR((double)vndf_albedo_directional(albedo, 1, 1), 1 - log(2), 3e-4);
+    printf("%s, eta %g: at most %.2g from samples\n", ndf->name, (double)eta, worst);
     vndf_albedo_free(albedo);
 }
 
@@ -142,20 +112,19 @@ static void test_refusals(void)
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"ggx",  "beckmann", "student-t-2.5-small",
-                                        "hazy", "gtr-1.5",  "student-t-1.8"};
+    static const char *const names[] = {"ggx",      "hazy",    "student-t-1.8",
+                                        "beckmann", "gtr-1.5", "student-t-2.5-small"};
     if (oracle_wanted(arguments, argument, 0, "numbers")) {
         test_any_numbers(0);
         test_any_numbers(1.5f);
         test_refusals();
     }
-    for (size_t i = 0; i < 6; i++) {
+    for (size_t i = 0; i < test_amount(1, 3, 6); i++) {
         oracle_ndf ndf;
         if (!oracle_wanted(arguments, argument, i + 1, names[i]) || !TEST(oracle_ndf_open(&ndf, names[i])))
             continue;
-        test_quadrature(&ndf, test_quick() ? 1e-3 : 2e-4);
         test_places(&ndf, 0, 1e-3);
-        if (test_long() || i % 3 == 0)
+        if (test_long() || i < 2)
             test_places(&ndf, 1.5f, 1.5e-2);
         oracle_ndf_close(&ndf);
     }

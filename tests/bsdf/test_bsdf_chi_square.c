@@ -97,8 +97,8 @@ static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const s
 int main(int arguments, char **argument)
 {
     static const char *const names[KIND_COUNT] = {"ggx", "beckmann", "student-t-2.5"};
-    double samples = arguments > 2 ? strtod(argument[2], NULL) : (double)test_amount(30000, 200000, 200000);
-    size_t every = arguments > 2 ? 1 : test_amount(17, 17, 1), done = 0, sets = 0; /* of the settings */
+    double samples = arguments > 2 ? strtod(argument[2], NULL) : (double)test_amount(30000, 50000, 200000);
+    size_t every = arguments > 2 ? 1 : 17, done = 0, sets = 0; /* of the settings */
     for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
         vndf_effects e = oracle_effects(i);
         sets += (size_t)is_tried(&e);

@@ -1,6 +1,6 @@
 /* Compensated materials keep all light: the mean weight is 1 within a hundredth at alpha 0.05 to 1 and every angle, for
- * mirrors and for glass from both sides, by both ways, for closed forms and tables (4.5 sigma, 7e-6 each, of 80 or
- * 680). Where F is less than 1 it is less, and single scattering less still. f of Kulla & Conty is reciprocal within
+ * mirrors and for glass from both sides, by both ways, for closed forms and tables (4.5 sigma, 7e-6 each, of 160
+ * or 720). Where F is less than 1 it is less, and single scattering less still. f of Kulla & Conty is reciprocal within
  * 1e-5; that of Turquin is f of single scattering times one number of wi. Samples have the density and weight of where
  * they go, within 1e-5. F_avg is that of a finer quadrature within 1e-3. What makes no sense is refused by name. */
 #include <float.h>
@@ -62,7 +62,7 @@ static void test_furnace(const subject *s, const char *name)
     double worst = 0;
     for (int k = 0; k < 2 * 4 * (s->eta > 0 ? 10 : 5); k++) {
         vndf_description is = describe(s, WAYS[k % 2], alphas[k / 2 % 4]);
-        mean got = furnace(&is, cosines[k / 8], test_amount(4000, 20000, 60000), &state);
+        mean got = furnace(&is, cosines[k / 8], test_amount(4000, 20000, 30000), &state);
         double error = fmax(fabs(got.value - 1) - 4.5 * got.error, 0);
         worst = fmax(worst, error);
         if (!TEST(error <= 0.01))
@@ -194,10 +194,9 @@ static void test_refusals(const subject *mirror, const subject *glass)
 
 int main(int arguments, char **argument)
 {
-    static const char *const names[] = {"ggx",           "hazy",       "beckmann",           "student-t-2.5",
-                                        "gtr-1.5",       "epd-0.6",    "abc-two-layer-gold", "sgd-alum-bronze-r",
-                                        "student-t-1.8", "student-t-6"};
-    size_t count = test_amount(1, 2, sizeof names / sizeof *names);
+    static const char *const names[] = {"ggx",          "hazy", "beckmann", "epd-0.6", "abc-two-layer-gold",
+                                        "student-t-1.8"};
+    size_t count = test_amount(1, 2, 6);
     for (size_t i = 0; i < count; i++) {
         oracle_ndf ndf;
         if (!oracle_wanted(arguments, argument, i, names[i]) || !TEST(oracle_ndf_open(&ndf, names[i])))

@@ -324,7 +324,7 @@ int main(int arguments, char **argument)
             continue;
         for (size_t n = 0; n < ORACLE_EFFECT_SETS; n++) {
             vndf_effects e = oracle_effects(n);
-            for (size_t k = 0; k < test_amount(4, 24, 120) && oracle_effects_sensible(&e); k++)
+            for (size_t k = 0; k < test_amount(4, 8, 24) && oracle_effects_sensible(&e); k++)
                 if (e.scattering == VNDF_SCATTERING_SINGLE)
                     test_hit(&all[i], NDFS - i, i >= UNEVEN, &e, &state, &found);
         }

@@ -38,26 +38,28 @@ static int is_in(const char *json, const char *line)
     }
 }
 
-/* `names`, between blanks, stand in the text. */
+static char text[RUN_TEXT], other[RUN_TEXT];
+
+/* `names`, between blanks, stand in what info prints. */
 static void test_both(const char *name, const char *names)
 {
-    char *text = PRINTED(NULL, "info", name), *json = PRINTED(NULL, "info", name, "--json"), key[64], line[80];
-    char *quiet = PRINTED(NULL, "info", name, "-q");
+    char line[80], key[64];
     int length = 0;
-    TEST(*quiet == '\0' && is_json(json));
-    for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
-        if (!TEST(is_in(json, at)))
-            fprintf(stderr, "  '%.100s' in %s\n", at, json);
+    snprintf(line, sizeof line, "info %s --json", name);
+    TEST(is_json(run_said(other, NULL, line)));
+    snprintf(line, sizeof line, "info %s", name);
+    for (const char *at = run_said(text, NULL, line); *at; at += strcspn(at, "\n") + 1)
+        if (!TEST(is_in(other, at)))
+            fprintf(stderr, "  '%.100s' in %s\n", at, other);
     for (; sscanf(names, "%63s%n", key, &length) == 1; names += length) {
         snprintf(line, sizeof line, "\n%s ", key);
         TEST_HAS(text, line);
     }
-    free(text);
-    free(json);
-    free(quiet);
+    snprintf(line, sizeof line, "info %s -q", name);
+    TEST(*run_said(other, NULL, line) == '\0');
 }
 
-static double number_behind(const char *text, const char *key)
+static double number_behind(const char *key)
 {
     const char *at = strstr(text, key);
     return at ? strtod(at + strlen(key), NULL) : NAN;
@@ -67,80 +69,57 @@ static double number_behind(const char *text, const char *key)
 
 static void test_verdicts(void)
 {
-    static const char *const moments[] = {"2", "3", "4"};
+    static const char *const lines[] = {"build --slope exp(-r) --max-bytes 4096 --moments 2 -o m",
+                                        "build --slope exp(-r) --max-bytes 4096 --moments 3 -o m",
+                                        "build --slope exp(-r) --max-bytes 4096 --moments 4 -o m"};
     double before = 1;
     for (int i = 0; i < 3; i++) {
-        char *text = PRINTED(NULL, "build", "--slope", "exp(-r)", "--max-bytes", "4096", "--moments", moments[i],
-                             "-o", "m");
-        double above = number_behind(text, "\ntv_above ");
-        TEST(number_behind(text, "\nmoments ") == 2 + i && above < before);
+        run_said(text, NULL, lines[i]);
+        double above = number_behind("\ntv_above ");
+        TEST(number_behind("\nmoments ") == 2 + i && above < before);
         before = above;
-        TEST_NEAR(number_behind(text, "\nverdict within "), 100 * above, 0.05 * 100 * above);
+        TEST_NEAR(number_behind("\nverdict within "), 100 * above, 0.05 * 100 * above);
         TEST(strcmp(text + strlen(text) - 15, "; good to ship\n") == 0);
-        free(text);
     }
-    char *poor =
-        PRINTED(NULL, "build", "--slope", "exp(-r)*(1+0.9*sin(300*r))", "--max-bytes", "2048", "-q", "-o", "m");
-    TEST_HAS(poor, "vndf build: within ");
-    TEST_HAS(poor, "worth little at ");
-    TEST_HAS(poor, "try a larger --max-bytes");
-    free(poor);
+    run_said(text, NULL, "build --slope exp(-r)*(1+0.9*sin(300*r)) --max-bytes 2048 -q -o m");
+    TEST_HAS(text, "vndf build: within ");
+    TEST_HAS(text, "worth little at ");
+    TEST_HAS(text, "try a larger --max-bytes");
 }
 
-/* check says the same in a line and in JSON, of a table and of a claim that does not hold. */
+/* check says the same in a line and in JSON. */
 static void test_check(void)
 {
-    char *text = PRINTED(NULL, "check", "t", "--samples", "20000"), *quiet;
-    char *json = PRINTED(NULL, "check", "t", "--samples", "20000", "--hard", "--json");
+    run_said(text, NULL, "check t --samples 20000");
     TEST(strstr(text, "\ncertificate of tv_above ") && strstr(text, "\nchi_square alpha_x 1 ") &&
          strstr(text, "\nresult good\n"));
-    TEST(is_json(json));
-    TEST_HAS(json, "\"chi_square\": [\n    {\"alpha_x\": 1, \"alpha_y\": 1, \"theta\": 0, ");
-    TEST_HAS(json, "\"of\": \"facing\"");
-    TEST_HAS(json, "\"result\": \"good\"");
-    quiet = PRINTED(NULL, "check", "ggx", "--samples", "1000", "-q");
-    TEST(quiet && *quiet == '\0');
-    free(text);
-    free(json);
-    free(quiet);
+    TEST(is_json(run_said(text, NULL, "check t --samples 20000 --hard --json")));
+    TEST_HAS(text, "\"chi_square\": [\n    {\"alpha_x\": 1, \"alpha_y\": 1, \"theta\": 0, ");
+    TEST_HAS(text, "\"of\": \"facing\"");
+    TEST_HAS(text, "\"result\": \"good\"");
+    TEST(*run_said(text, NULL, "check ggx --samples 1000 -q") == '\0');
 }
 
 int main(void)
 {
-    char folder[] = "figures.XXXXXX", *built, *told, *csv;
+    char folder[] = "figures.XXXXXX";
+    struct stat is;
     if (!run_begin(folder))
         return test_done();
-    built = PRINTED(NULL, "build", "--slope", "exp(-k*r)", "--set", "k=2", "--break", "2", "--max-bytes", "4096",
-                    "-o", "t");
-    told = PRINTED(NULL, "info", "t");
-    csv = PRINTED("t", "info", "-");
-    TEST(strcmp(built, told) == 0 && strcmp(csv, told) == 0);
-    TEST_HAS(built, "source --slope 'exp(-k*r)' --set k=2 --break 2\n");
-    struct stat is;
-    TEST(stat("t", &is) == 0 && number_behind(built, "\nbytes ") == (double)is.st_size && is.st_size <= 4096);
-    free(built);
-    free(told);
-    free(csv);
-    free(PRINTED(NULL, "build", "--family", "student-t", "--parameter", "1.8..3", "--knots", "2", "--max-bytes",
-                 "2048", "-q", "-o", "two.vndfs"));
+    run_said(text, NULL, "build --slope exp(-k*r) --set k=2 --break 2 --max-bytes 4096 -o t");
+    TEST_HAS(text, "source --slope 'exp(-k*r)' --set k=2 --break 2\n");
+    TEST(stat("t", &is) == 0 && number_behind("\nbytes ") == (double)is.st_size && is.st_size <= 4096);
+    TEST(strcmp(text, run_said(other, NULL, "info t")) == 0 && strcmp(text, run_said(other, "t", "info -")) == 0);
+    run_said(text, NULL, "build --family student-t --parameter 1.8..3 --knots 2 --max-bytes 2048 -q -o two.vndfs");
     test_both("ggx", "tool bytes memory cells moments normalization scale");
     test_both("t",
               "tool bytes memory cells moments normalization scale tv tv_theta tv_above tv_above_theta max_weight "
               "weight_bounded area_error consistency ndf_error hidden finest horizon_power verdict");
     test_both("two.vndfs", "knots low high linear_in distance grazing tables_tv knot verdict");
     TEST(run_put("rows.csv", "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n"));
-    csv = PRINTED("rows.csv", "build", "--csv", "-", "-o", "c");
-    TEST_HAS(csv, "source --csv stdin (crc32 ");
-    free(csv);
-    TEST(run_put("rows.csv", "0,0,1\n0,0.6,0.8\n"));
-    csv = PRINTED("rows.csv", "eval", "ggx", "--theta", "0", "--json");
-    TEST(is_json(csv));
-    TEST_HAS(csv, "{\"ndf\": 0.3183098");
-    TEST_HAS(csv, "\"values.pdf\": \"per steradian\"");
-    free(csv);
+    TEST_HAS(run_said(text, "rows.csv", "build --csv - -o c"), "source --csv stdin (crc32 ");
     test_verdicts();
     test_check();
-    TEST(remove("t") == 0 && remove("m") == 0 && remove("c") == 0 && remove("rows.csv") == 0);
-    TEST(remove("two.vndfs") == 0);
+    TEST(system("rm t m c rows.csv two.vndfs") == 0);
     return run_end(folder);
 }

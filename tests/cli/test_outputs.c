@@ -32,11 +32,11 @@ static int is_old(const char *name)
     return run_has(name, old_text) && is_alone();
 }
 
-/* Fails a test of these words if they do not end so: with this status, and a line that holds `why`. */
-static void expect(int good, const char *const *words, const run_outcome *o, int status, const char *why)
+/* Fails a test of this line if it does not end so: with this status, and a text that holds `why`. */
+static void expect(int good, const char *line, const run_outcome *o, int status, const char *why)
 {
     if (!(TEST(good) & TEST(o->status == status) & TEST_HAS(o->text, why)))
-        run_tell(words, o);
+        fprintf(stderr, "  vndf %s: status %d, signal %d\n%.300s\n", line, o->status, o->signal, o->text);
 }
 
 /* ---- steps of saving, which the linker lets fail (--wrap) ---- */
@@ -109,85 +109,58 @@ static void test_steps(void)
 
 /* ---- what every command writes ---- */
 
-#define OUTPUT "OUTPUT" /* stands for the file */
-
-typedef struct subject {
-    const char *name; /* of the file */
-    const char *words[RUN_WORDS];
-} subject;
-
-static const subject writers[] = {
-    {"a.vndf", {"build", "--family", "ggx", "--max-bytes", "2048", "-o", OUTPUT}},
-    {"a.csv", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
-    {"a.f32", {"sample", table, "--theta", "60", "-n", "5000", "-o", OUTPUT}},
-    {"a.svg", {"plot", table, "--theta", "60", "-o", OUTPUT}},
-    {"a.md", {"bench", "--only", "ggx", "--seconds", "0.1", "-o", OUTPUT}},
-    {"a.png", {"render", "ball.scene", "--spp", "1", "-o", OUTPUT}},
-};
-
-static const run_outcome *write_to(const subject *s, const run_setting *setting, const char *name)
+/* The output of the line and the file's name, which is the last word. */
+static void write_to(const char *line, const run_setting *setting, const char *name, int status, const char *why)
 {
-    const char *words[RUN_WORDS] = {NULL};
-    for (int i = 0; i < RUN_WORDS && s->words[i]; i++)
-        words[i] = strcmp(s->words[i], OUTPUT) == 0 ? name : s->words[i];
-    return run_program(setting, words);
+    char whole[256];
+    snprintf(whole, sizeof whole, "%s%s", line, name);
+    expect(1, whole, run_line(setting, whole), status, why);
 }
 
-static void test_writer(const subject *s)
+static void test_writer(const char *line, const char *name)
 {
     const run_setting full = {.file_limit = 30}, crashed = {.left = 1};
     struct stat is;
-    TEST(put_old(s->name));
-    expect(is_old(s->name), s->words, write_to(s, &full, s->name), 2, strerror(EFBIG));
-    TEST(is_old(s->name));
-    expect(1, s->words, write_to(s, &run_plain, s->name), 0, "");
-    TEST(is_written(s->name) && stat(s->name, &is) == 0 && (is.st_mode & 07777) == 0751 && remove(s->name) == 0);
+    TEST(put_old(name));
+    write_to(line, &full, name, 2, strerror(EFBIG));
+    TEST(is_old(name));
+    write_to(line, &run_plain, name, 0, "");
+    TEST(is_written(name) && stat(name, &is) == 0 && (is.st_mode & 07777) == 0751 && remove(name) == 0);
 
-    TEST(symlink("folder/link", s->name) == 0 && symlink("../real", "folder/link") == 0 && put_old("real"));
-    expect(1, s->words, write_to(s, &run_plain, s->name), 0, "");
-    TEST(lstat(s->name, &is) == 0 && S_ISLNK(is.st_mode) && is_written("real"));
-    TEST(remove("real") == 0 && remove("folder/link") == 0 && remove(s->name) == 0);
+    TEST(symlink("folder/link", name) == 0 && symlink("../real", "folder/link") == 0 && put_old("real"));
+    write_to(line, &run_plain, name, 0, "");
+    TEST(lstat(name, &is) == 0 && S_ISLNK(is.st_mode) && is_written("real"));
+    TEST(remove("real") == 0 && remove("folder/link") == 0 && remove(name) == 0);
 
-    expect(1, s->words, write_to(s, &crashed, s->name), 0, ""); /* a temporary of that name is there already */
-    TEST(run_count(".", ".tmp") == 1 && system("rm *.tmp") == 0 && is_written(s->name) && remove(s->name) == 0);
+    write_to(line, &crashed, name, 0, ""); /* a temporary of that name is there already */
+    TEST(run_count(".", ".tmp") == 1 && system("rm *.tmp") == 0 && is_written(name) && remove(name) == 0);
 
     TEST(mkfifo("pipe", 0666) == 0);
-    expect(1, s->words, write_to(s, &run_plain, "pipe"), 2, "");
-    expect(1, s->words, write_to(s, &run_plain, "folder"), 2, "");
-    expect(1, s->words, write_to(s, &run_plain, ""), 2, "");
+    write_to(line, &run_plain, "pipe", 2, "");
+    write_to(line, &run_plain, "folder", 2, "");
+    write_to(line, &run_plain, "", 2, "");
     TEST(stat("pipe", &is) == 0 && S_ISFIFO(is.st_mode) && remove("pipe") == 0 && is_alone());
 }
 
 /* ---- outputs that are inputs ---- */
-
-/* The input stands in the words; `all.png` is a scene, which reads the others that it names. */
-static const subject readers[] = {
-    {"gloss.csv", {"build", "--csv", "gloss.csv", "-o", OUTPUT}},
-    {"table.csv", {"sample", "table.csv", "--theta", "60", "-n", "10", "-o", OUTPUT}},
-    {"gloss.csv", {"bench", "--csv", "gloss.csv", "--only", "ggx", "--seconds", "0.1", "-o", OUTPUT}},
-    {"table.csv", {"bench", "effects", "--distribution", "table.csv", "--seconds", "0.01", "-o", OUTPUT}},
-    {"all.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
-    {"table.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
-    {"mesh.png", {"render", "all.png", "--spp", "1", "-o", OUTPUT}},
-};
 
 static const char all_png[] = "film width 8 height 8\ncamera from 0 0 5 to 0 0 0\nenvironment constant 1 1 1\n"
                               "material gold conductor of gold distribution table table.png alpha 0.2\n"
                               "mesh file mesh.png material gold\n";
 
 /* Names with the ending of the input: by a folder, by a link, by another hard link, its own. */
-static void test_reader(const subject *s)
+static void test_reader(const char *line, const char *name)
 {
-    char by_folder[64], other[64];
-    snprintf(by_folder, sizeof by_folder, "folder/../%s", s->name);
-    snprintf(other, sizeof other, "other%s", strrchr(s->name, '.'));
-    TEST(run_copy(s->name, "before"));
+    char whole[256], by_folder[64], other[64];
+    snprintf(by_folder, sizeof by_folder, "folder/../%s", name);
+    snprintf(other, sizeof other, "other%s", strrchr(name, '.'));
+    TEST(run_copy(name, "before"));
     for (int kind = 0; kind < 4; kind++) {
         if (kind >= 2)
-            TEST((kind == 2 ? symlink : link)(s->name, other) == 0);
-        const run_outcome *o = write_to(s, &run_plain, kind == 0 ? s->name : kind == 1 ? by_folder : other);
-        int told = strstr(o->text, "put of this command") || strstr(o->text, "is kept;");
-        expect(told && run_same(s->name, "before"), s->words, o, 2, "");
+            TEST((kind == 2 ? symlink : link)(name, other) == 0);
+        snprintf(whole, sizeof whole, "%s%s", line, kind == 0 ? name : kind == 1 ? by_folder : other);
+        const run_outcome *o = run_line(&run_plain, whole);
+        expect(run_same(name, "before"), whole, o, 2, strstr(o->text, "is kept;") ? "" : "put of this command");
         if (kind >= 2)
             TEST(remove(other) == 0);
     }
@@ -198,24 +171,21 @@ static void test_reader(const subject *s)
 /* What prints to a full disk ends with 2 and says so. */
 static void test_full(void)
 {
-    static const char *const subjects[][RUN_WORDS] = {{"--help"},
-                                                      {"build", "--list"},
-                                                      {"info", table},
-                                                      {"sample", table, "--theta", "60", "-n", "5000", "-o", "-"}};
-    int full = open("/dev/full", O_WRONLY);
-    const run_setting s = {.out = full};
-    for (size_t i = 0; i < sizeof subjects / sizeof *subjects && full > 0; i++)
-        expect(1, subjects[i], run_program(&s, subjects[i]), 2, strerror(ENOSPC));
-    close(full);
+    static const char *const lines[] = {"--help", "build --list", "info table.csv",
+                                        "sample table.csv --theta 60 -n 5000 -o -"};
+    const run_setting s = {.out = open("/dev/full", O_WRONLY)};
+    for (size_t i = 0; i < sizeof lines / sizeof *lines && s.out > 0; i++)
+        expect(1, lines[i], run_line(&s, lines[i]), 2, strerror(ENOSPC));
+    close(s.out);
 }
 
 static void test_stdout(void)
 {
-    static const char *const to_stdout[] = {"build", "--family", "ggx", "--max-bytes", "2048", "-o", "-", NULL};
+    static const char line[] = "build --family ggx --max-bytes 2048 -o ";
     const run_setting to_file = {.append = "b"};
-    free(PRINTED(NULL, "build", "--family", "ggx", "--max-bytes", "2048", "-o", "a.vndf"));
+    write_to(line, &run_plain, "a.vndf", 0, "");
     TEST(run_put("b", ""));
-    expect(1, to_stdout, run_program(&to_file, to_stdout), 0, "");
+    write_to(line, &to_file, "-", 0, "");
     TEST(run_same("a.vndf", "b") && remove("a.vndf") == 0 && remove("b") == 0);
 }
 
@@ -232,7 +202,7 @@ static void test_pipe(void)
         run_child c = run_start(&s, words);
         close(ends[1]);
         const run_outcome *o = run_finish(c);
-        expect((ignores || o->signal == SIGPIPE) && !o->text[0], words, o, ignores ? 2 : -1, "");
+        expect((ignores || o->signal == SIGPIPE) && !o->text[0], "sample | ", o, ignores ? 2 : -1, "");
     }
 }
 
@@ -252,7 +222,7 @@ static void test_signal(int number)
         run_pause(renders ? 1500 : 0);
         kill(c.pid, number);
         const run_outcome *o = run_finish(c);
-        expect(o->signal == number && is_alone(), renders ? render : sample, o, -1, "interrupted");
+        expect(o->signal == number && is_alone(), renders ? "render" : "sample", o, -1, "interrupted");
     }
     TEST(is_old("a.csv") && is_written("a.pfm") && remove("a.csv") == 0 && remove("a.pfm") == 0);
 }
@@ -267,10 +237,19 @@ int main(void)
     TEST(run_put("gloss.csv", "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n") && run_copy(table, "table.csv"));
     TEST(run_put("mesh.png", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n") && run_copy(table, "table.png"));
     test_steps();
-    for (size_t i = 0; i < sizeof writers / sizeof *writers; i++)
-        test_writer(&writers[i]);
-    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
-        test_reader(&readers[i]);
+    test_writer("build --family ggx --max-bytes 2048 -o ", "a.vndf");
+    test_writer("sample table.csv --theta 60 -n 5000 -o ", "a.csv");
+    test_writer("sample table.csv --theta 60 -n 5000 -o ", "a.f32");
+    test_writer("plot table.csv --theta 60 -o ", "a.svg");
+    test_writer("bench --only ggx --seconds 0.1 -o ", "a.md");
+    test_writer("render ball.scene --spp 1 -o ", "a.png");
+    test_reader("build --csv gloss.csv -o ", "gloss.csv");
+    test_reader("sample table.csv --theta 60 -n 10 -o ", "table.csv");
+    test_reader("bench --csv gloss.csv --only ggx --seconds 0.1 -o ", "gloss.csv");
+    test_reader("bench effects --distribution table.csv --seconds 0.01 -o ", "table.csv");
+    test_reader("render all.png --spp 1 -o ", "all.png"); /* a scene, which reads both others */
+    test_reader("render all.png --spp 1 -o ", "table.png");
+    test_reader("render all.png --spp 1 -o ", "mesh.png");
     test_full();
     test_stdout();
     test_pipe();

@@ -96,7 +96,7 @@ static void test_png(const char *pattern, int width, int height, float exposure,
                      unsigned char *out)
 {
     image made;
-    image_error error;
+    vndf_error error;
     size_t length = 0;
     FILE *file = tmpfile();
     if (!TEST(file && image_make_pattern(&made, pattern, width, height, &error)))

@@ -1,6 +1,6 @@
-/* `vndf report` writes a page that is well-formed and needs nothing else, with the data behind each plot beside
- * it, for a D with a jump and for a CSV; what is not a report is not replaced, and a signal leaves nothing behind.
- * With VNDF_TEST_QUICK one page is written instead of two. */
+/* `vndf report` writes a page that is well-formed and needs nothing else, with its data beside it, for a D with a jump
+ * and for a CSV; what is not a report is not replaced, and a signal or a full disk leaves nothing behind. With
+ * VNDF_TEST_QUICK one page is written instead of two. */
 #if defined(__unix__) || defined(__APPLE__)
 #  define _XOPEN_SOURCE 700
 #  define HAS_PROCESSES 1
@@ -12,39 +12,6 @@
 
 #  include "command.h"
 #  include "harness/run_program.h"
-
-enum { PATH_SIZE = 512, DEPTH_MAX = 64 };
-
-/* ---- files ---- */
-
-static char *read_file(const char *folder, const char *name)
-{
-    char path[PATH_SIZE];
-    size_t size;
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return run_file(path, &size);
-}
-
-static void make_file(const char *folder, const char *name)
-{
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    close(open(path, O_WRONLY | O_CREAT, 0666));
-}
-
-static void remove_folder(const char *folder)
-{
-    DIR *directory = opendir(folder);
-    const struct dirent *entry;
-    while (directory && (entry = readdir(directory)) != NULL) {
-        char path[PATH_SIZE];
-        snprintf(path, sizeof path, "%s/%s", folder, entry->d_name);
-        unlink(path);
-    }
-    if (directory)
-        closedir(directory);
-    rmdir(folder);
-}
 
 /* ---- the page ---- */
 
@@ -63,6 +30,7 @@ static const char *skip_attributes(const char *at)
 /* Every tag closed in its order, every attribute in quotes, every & an entity. */
 static int is_well_formed(const char *at)
 {
+    enum { DEPTH_MAX = 64 };
     char stack[DEPTH_MAX][16], name[16];
     int depth = 0;
     while (*(at += strcspn(at, "<&")) != '\0') {
@@ -86,167 +54,131 @@ static int is_well_formed(const char *at)
     return depth == 0;
 }
 
-/* ---- the data ---- */
-
-/* A header and rows of as many fields; commas inside quotes divide none. */
-static int is_table(const char *text)
+/* A file in the folder of the page, to be freed. */
+static char *read_page_file(const char *name)
 {
-    int columns = 0, fields = 1, quoted = 0, rows = 0;
-    for (; *text; text++) {
-        quoted ^= *text == '"';
-        fields += !quoted && *text == ',';
-        if (quoted || *text != '\n')
-            continue;
-        if (columns && fields != columns)
-            return 0;
-        columns = fields;
-        fields = 1;
-        rows++;
-    }
-    return columns > 1 && rows > 1 && !quoted;
+    char path[128];
+    size_t size;
+    snprintf(path, sizeof path, "page/%s", name);
+    return run_file(path, &size);
 }
 
-/* Every file that the page links is there, and those named .csv parse. */
-static int count_linked(const char *folder, const char *page)
+/* The files that a page links are there, and begin as they have to. */
+static void check_page(void)
 {
-    char name[64];
-    int count = 0;
-    for (const char *at = page; (at = strstr(at, "href=\"")) != NULL; at++) {
-        if (sscanf(at + 6, "%63[^\"]", name) != 1 || name[0] == '#' || strncmp(name, "data:", 5) == 0)
-            continue;
-        char *text = read_file(folder, name);
-        int is_csv = strstr(name, ".csv") != NULL;
-        if (!TEST(text && (!is_csv || is_table(text))))
-            fprintf(stderr, "  %s is no table\n", name);
-        count += is_csv;
-        free(text);
-    }
-    return count;
-}
-
-static void check_page(const char *folder)
-{
-    static const char *const parts[] = {
-        "<h2 id=\"advice\">", "<h2 id=\"frontier\">", "<h2 id=\"time\">", "<h2 id=\"normals\">", ": ship ",
-        "moments.</strong>",  ">advised</text>",      "student-t:2.5"};
+    static const char *const parts[] = {"<h2 id=\"advice\">",
+                                        "<h2 id=\"frontier\">",
+                                        "<h2 id=\"time\">",
+                                        "<h2 id=\"normals\">",
+                                        ": ship ",
+                                        "moments.</strong>",
+                                        ">advised</text>",
+                                        "student-t:2.5",
+                                        "href=\"tables.csv\"",
+                                        "href=\"methods.csv\"",
+                                        "href=\"frontier.svg\""};
     static const char *const never[] = {"<script", "src=", "url(", "@import", ">nan<", "nan\"", "nan "};
-    char *page = read_file(folder, "index.html"), *alone = read_file(folder, "frontier.svg");
-    if (!TEST(page && alone))
+    char *page = read_page_file("index.html"), *alone = read_page_file("frontier.svg"),
+         *tables = read_page_file("tables.csv"), *methods = read_page_file("methods.csv");
+    if (!TEST(page && alone && tables && methods))
         return;
     TEST(strncmp(page, "<!DOCTYPE html>\n", 16) == 0 && is_well_formed(page + 16) && is_well_formed(alone));
+    TEST(strncmp(tables, "file (bytes),moments,", 21) == 0 && strncmp(methods, "method,distribution,", 20) == 0);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         TEST_HAS(page, parts[i]);
     for (size_t i = 0; i < sizeof never / sizeof *never; i++)
         TEST(!strstr(page, never[i]));
-    TEST(count_linked(folder, page) == 2);
     free(page);
     free(alone);
+    free(tables);
+    free(methods);
 }
 
 /* ---- the tests ---- */
 
-static void test_checkers(void)
+static void test_checker(void)
 {
+    static const char *const bad[] = {"<p><b></p></b>",  "<p>",          "</p>",
+                                      "<p class=a></p>", "<p>x & y</p>", "<p a=\"<\"></p>"};
     TEST(is_well_formed("<p class=\"a\">x &amp; y<br><b/></p>"));
-    TEST(!is_well_formed("<p><b></p></b>"));
-    TEST(!is_well_formed("<p>"));
-    TEST(!is_well_formed("</p>"));
-    TEST(!is_well_formed("<p class=a></p>"));
-    TEST(!is_well_formed("<p>x & y</p>"));
-    TEST(!is_well_formed("<p a=\"<\"></p>"));
-    TEST(is_table("a,b\n\"x,\"\"y\"\"\",1e-3\n"));
-    TEST(!is_table("a,b\n"));
-    TEST(!is_table("a,b\n1\n"));
-    TEST(!is_table("a,b\n\"1,2\n"));
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        TEST(!is_well_formed(bad[i]));
 }
 
-static void test_page(const char *folder, const char *option, const char *value)
+static void test_replaced(void)
 {
-    const char *words[] = {"report", option, value, "--seconds", "1", folder, NULL};
-    const run_outcome *o = run_program(&run_plain, words);
-    TEST(o->status == STATUS_GOOD);
-    TEST_HAS(o->text, "/index.html\n");
-    TEST(run_count(folder, "") == 4);
-    check_page(folder);
-}
-
-static void test_replaced(const char *folder)
-{
-    const char *words[] = {"report", "--csv", VNDF_SOURCE_DIR "/tables/example.csv", "--seconds=1", folder, NULL};
-    make_file(folder, "note.txt");
-    const run_outcome *o = run_program(&run_plain, words);
+    TEST(run_put("page/note.txt", "") && run_count("page", "") == 5);
+    const run_outcome *o =
+        run_line(&run_plain, "report --csv " VNDF_SOURCE_DIR "/tables/example.csv --seconds=1 page");
     TEST(o->status == STATUS_GOOD);
     TEST_HAS(o->text, "replaced the report in ");
-    TEST(run_count(folder, "") == 5); /* the note is still there */
-    check_page(folder);
+    TEST(run_count("page", "") == 5); /* the note is still there */
+    check_page();
 }
 
-static void test_refused(const char *folder)
+static void test_refused(void)
 {
-    const struct {
-        const char *reason, *words[8];
-    } cases[] = {
-        {"has files in it, and no page of", {"report", folder}},
-        {"is no folder", {"report", VNDF_SOURCE_DIR "/tables/example.csv"}},
-        {"more than one of", {"report", "--ndf", "c", "--slope", "exp(-r)", "x"}},
-        {"DIR is missing", {"report"}},
-        {"column", {"report", "--slope", "exp(-r", "no-such-folder"}},
-        {"--set is for", {"report", "--family", "ggx", "--set", "k=1", "x"}},
-        {"no-such-folder", {"report", "no-such-folder/x"}}, /* before anything is measured */
+    static const char *const cases[][2] = {
+        {"has files in it, and no page of", "report other"},
+        {"is no folder", "report " VNDF_SOURCE_DIR "/tables/example.csv"},
+        {"--ndf and --slope are given", "report --ndf c --slope exp(-r) x"},
+        {"DIR is missing", "report"},
+        {"column", "report --slope exp(-r x"},
+        {"--set is for", "report --family ggx --set k=1 x"},
+        {"no-such-folder", "report no-such-folder/x"}, /* before anything is measured */
     };
+    TEST(mkdir("other", 0777) == 0 && run_put("other/file.txt", ""));
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const run_outcome *o = run_program(&run_plain, cases[i].words);
+        const run_outcome *o = run_line(&run_plain, cases[i][1]);
         TEST(o->status == STATUS_USE);
-        TEST_HAS(o->text, cases[i].reason);
+        TEST_HAS(o->text, cases[i][0]);
     }
-    TEST(run_count("no-such-folder", "") == -1 && run_count("x", "") == -1);
-    TEST(run_count(folder, "") == 1);
+    TEST(run_count("x", "") == -1 && run_count("other", "") == 1);
+    TEST(remove("other/file.txt") == 0 && rmdir("other") == 0);
 }
 
-static void test_interrupted(const char *folder)
+static void test_interrupted(void)
 {
-    const char *words[] = {"report", "--seconds", "60", folder, NULL};
-    run_child c = run_start(&run_plain, words);
+    run_child c = run_start(&run_plain, RUN_LIST("report", "--seconds", "60", "page"));
     run_pause(1000);
     kill(c.pid, SIGINT);
     const run_outcome *o = run_finish(c);
     TEST(o->signal == SIGINT);
     TEST_HAS(o->text, "interrupted");
-    TEST(run_count(folder, "") == -1);
+    TEST(run_count("page", "") == -1);
 }
 
 /* The page is larger than that, most of the data is not. */
-static void test_full_disk(const char *folder)
+static void test_full_disk(void)
 {
-    const char *words[] = {"report", "--family", "ggx", "--seconds", "1", folder, NULL};
     const run_setting full = {.file_limit = 100000};
-    const run_outcome *o = run_program(&full, words);
+    const run_outcome *o = run_line(&full, "report --family ggx --seconds 1 page");
     TEST(o->status == STATUS_USE);
     TEST_HAS(o->text, "cannot write");
-    TEST(run_count(folder, "") == -1);
+    TEST(run_count("page", "") == -1);
 }
 
 int main(void)
 {
-    char scratch[] = "report-XXXXXX", path[PATH_SIZE];
-    int quick = test_quick();
-    if (!TEST(mkdtemp(scratch) != NULL))
+    char scratch[] = "report-XXXXXX";
+    if (!run_begin(scratch))
         return test_done();
-    test_checkers();
-    snprintf(path, sizeof path, "%s/page", scratch);
-    test_interrupted(path);
-    if (!quick)
-        test_full_disk(path);
-    test_page(path, "--ndf", "step(c-0.5)*(1+theta)");
-    if (!quick)
-        test_replaced(path);
-    remove_folder(path);
-    mkdir(path, 0777);
-    make_file(path, "other.txt");
-    test_refused(path);
-    remove_folder(path);
-    rmdir(scratch);
-    return test_done();
+    test_checker();
+    test_interrupted();
+    test_refused();
+    if (!test_quick())
+        test_full_disk();
+    const run_outcome *o = run_line(&run_plain, "report --ndf step(c-0.5)*(1+theta) --seconds 1 page");
+    TEST(o->status == STATUS_GOOD && run_count("page", "") == 4);
+    TEST_HAS(o->text, "page/index.html\n");
+    check_page();
+    if (!test_quick())
+        test_replaced();
+    static const char *const files[] = {"index.html", "tables.csv", "methods.csv", "frontier.svg", "note.txt"};
+    for (size_t i = 0; i < sizeof files / sizeof *files && chdir("page") == 0; i++)
+        TEST((remove(files[i]) == 0 || i == 4) && chdir("..") == 0);
+    TEST(rmdir("page") == 0);
+    return run_end(scratch);
 }
 
 #else

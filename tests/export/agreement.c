@@ -89,7 +89,7 @@ static void turn(random_stream *stream, record *q)
 static vndf_material material_of(const subjects *s, const export_effects *effects, record *q)
 {
     vndf_description is = {.affine = surface_of(s, q),
-                           .effects = effects_of(effects),
+                           .effects = effects->is,
                            .eta = 1.5f,
                            .f0 = {0.0f, 0.04f, 0.9f},
                            .conductor_eta = {0.2f, 0.9f, 1.5f},
@@ -315,9 +315,9 @@ static int ask(const export_effects *effects, const char *in, const char *prefix
 {
     static char text[1 << 14];
     export_document document = {
-        .as = {.to = language_named(in)}, .lobes = 4, .embeds = embeds, .kinds = EXPORT_ALL, .effects = *effects};
+        .as = {.to = language_named(in), .embeds = embeds}, .lobes = 4, .kinds = EXPORT_ALL, .effects = *effects};
     text[fread(text, 1, sizeof text - 1, stdin)] = '\0';
-    document.as.by_pointer = !embeds && document.as.to->pointer;
+    document.as.by_pointer = !embeds && !document.as.to->bound;
     return !translation_prefix(&document.as, prefix) || !document_write(&document, stdout, text);
 }
 

@@ -32,7 +32,7 @@ vndf_pdf(;vndf_visible(;vndf_ndf(;vndf_lambda(;vndf_g1(;vndf_g2(;vndf_projected_
 exports("VNDF_HAZY" "" ${SOURCE}/tables/hazy.vndf) # a table of the default size
 exports("vndf_sample(" "vndf_pdf;vndf_table_at;vndf_beckmann_draw;vndf_mixture_pdf" --distribution ggx
     --only view,sample)
-exports("lobes=both, fresnel=dielectric, masking=correlated;vndf_bsdf_sample(;vndf_bsdf_eval(;vndf_bsdf_pdf(;\
+exports("lobes=both fresnel=dielectric masking=correlated;vndf_bsdf_sample(;vndf_bsdf_eval(;vndf_bsdf_pdf(;\
 vndf_dielectric(;vndf_beta_of(;vndf_refracted_at("
     "vndf_conductor;vndf_schlick;vndf_masked_apart;vndf_table_at;vndf_mixture_pdf;vndf_g2" --distribution ggx
     --bsdf "lobes=both fresnel=dielectric")
@@ -115,12 +115,13 @@ endforeach()
 answers(0 "good to ship" build --family student-t --parameter 2..4 --max-tv 0.05 -o ${OUT}/tails.vndfs)
 answers(2 "a family is a mixture of two tables" export tails.vndfs --language c --lobes 1 -o no.txt)
 file(REMOVE ${OUT}/tails.vndfs)
-refuses("--only 'size'" --only sample,size)
+refuses("did you mean 'sample'?" --only smple,sample)
+refuses("did you mean 'both'?" --bsdf lobes=bth)
 refuses("needs --bsdf" --only bsdf_eval)
 refuses("table, ggx or beckmann" --distribution phong)
 refuses("leaves out" --distribution ggx)
 foreach(pair "lobes=three: there are reflection, transmission, both" "lobe=both: with the keys lobes, fresnel"
-        "both: key=choice is needed" "scattering=multiple: need the library" "lobes=both: VNDF_FRESNEL_NONE"
+        "both: key=choice is needed" "scattering=multiple: needs the library" "lobes=both: VNDF_FRESNEL_NONE"
         "shape=mixture: one surface")
     string(REGEX MATCH "^(.*): (.*)$" pair "${pair}")
     refuses("${CMAKE_MATCH_2}" --bsdf ${CMAKE_MATCH_1})

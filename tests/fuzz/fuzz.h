@@ -48,17 +48,6 @@ static inline int fuzz_loaded(const void *loaded, const vndf_error *error)
     return loaded != NULL;
 }
 
-/* Whether this input is one of a few, for what takes long. */
-static inline int fuzz_is_seldom(const uint8_t *data, size_t size, uint32_t of)
-{
-    return size > 0 && vndf_crc32(0, data, size) % of == 0;
-}
-
-static inline int fuzz_is_finite(vndf_vec3 v)
-{
-    return isfinite(v.x) && isfinite(v.y) && isfinite(v.z);
-}
-
 /* Keeps a value that only a fault on the way to it is interesting of. */
 static inline void fuzz_use(double value)
 {

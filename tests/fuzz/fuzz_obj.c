@@ -34,14 +34,14 @@ static void shoot(const geometry *g, const shape *t)
 
 static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
-    const placement where = {1.5, 30, {0.5, 0, -0.5}};
     geometry g = {0};
-    char message[128] = "";
-    const int is_read = obj_read_text(&g, "fuzz.obj", text, size, &where, 0, message, sizeof message);
+    vndf_error error = {VNDF_OK, ""};
+    const int is_read = obj_read_text(&g, "fuzz.obj", text, size, 0, &error);
     (void)data;
-    fuzz_require(is_read == (message[0] == '\0'), "0 and a message come together");
-    fuzz_require(is_read || strncmp(message, "fuzz.obj:", 9) == 0, "a message names the file and the line");
+    fuzz_require(is_read == (error.message[0] == '\0'), "0 and a message come together");
+    fuzz_require(is_read || strncmp(error.message, "fuzz.obj:", 9) == 0, "a message names the file and the line");
     fuzz_require(is_read == (g.count > 0), "all or nothing is added");
+    geometry_place(&g, 0, 1.5, 0.5, vec(0.5, 0, -0.5));
     fuzz_require(geometry_build(&g), "there is memory for a hierarchy");
     for (size_t i = 0; i < g.count && i < 20; i++)
         shoot(&g, &g.shapes[i]);

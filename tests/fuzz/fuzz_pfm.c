@@ -6,7 +6,7 @@
 static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
     image made;
-    image_error error = {""};
+    vndf_error error = {VNDF_OK, ""};
     float between[3];
     int good = image_read_bytes(&made, "fuzz.pfm", size ? data : (uint8_t *)text, size, &error);
     fuzz_require(good == (made.rgb != NULL), "an image comes with success");

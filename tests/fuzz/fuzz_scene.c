@@ -43,14 +43,14 @@ static void check_scene(const scene *s)
 
 static void fuzz_one(const uint8_t *data, size_t size, char *text)
 {
-    char message[512] = "";
+    vndf_error error = {VNDF_OK, ""};
     (void)data;
     if (takes_long(text))
         return;
-    scene *made = scene_read_text("fuzz.scene", text, size, message, sizeof message);
+    scene *made = scene_read_text("fuzz.scene", text, size, &error);
     if (made)
         check_scene(made);
     else
-        fuzz_require(strncmp(message, "fuzz.scene:", 11) == 0, "a refusal begins with the place");
+        fuzz_require(strncmp(error.message, "fuzz.scene:", 11) == 0, "a refusal begins with the place");
     scene_free(made);
 }

@@ -131,6 +131,31 @@ static inline const run_outcome *run_program(const run_setting *s, const char *c
     return run_finish(run_start(s, words));
 }
 
+/* The same of a line, whose words are between single blanks. */
+static inline const run_outcome *run_line(const run_setting *s, const char *line)
+{
+    char text[512], *at = text;
+    const char *words[RUN_WORDS + 1] = {NULL};
+    snprintf(text, sizeof text, "%s", line);
+    for (int i = 0; at && *text && i < RUN_WORDS; i++) {
+        words[i] = at;
+        at = strchr(at, ' ');
+        if (at)
+            *at++ = '\0';
+    }
+    return run_program(s, words);
+}
+
+/* What a line prints that has to end with 0; it may read `in`. */
+static inline char *run_said(char into[RUN_TEXT], const char *in, const char *line)
+{
+    const run_setting s = {.in = in};
+    const run_outcome *o = run_line(&s, line);
+    if (!TEST(o->status == 0))
+        fprintf(stderr, "  vndf %s: %.300s\n", line, o->text);
+    return strcpy(into, o->text);
+}
+
 static inline void run_pause(long milliseconds)
 {
     const struct timespec time = {milliseconds / 1000, milliseconds % 1000 * 1000000};

@@ -1,6 +1,6 @@
-# The compiler of the build, and clang where it is here, warn of nothing in the library, the program and the tests where
-# they do not optimise: they then have macros in place of functions, of which they say other things than of those that
-# everyone compiles. They read all sources, without making code.
+# Clang, or where it is not here the compiler of the build, warns of nothing in the library, the program and the tests
+# where it does not optimise: it then has macros in place of functions, of which it says other things than of those
+# that everyone compiles. It reads all sources, without making code.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT WARNINGS)
@@ -9,24 +9,20 @@ if(NOT WARNINGS)
 endif()
 separate_arguments(warnings UNIX_COMMAND "${WARNINGS}")
 separate_arguments(arithmetic UNIX_COMMAND "${ARITHMETIC}")
-set(compilers ${C_COMPILER})
 find_program(CLANG clang)
 if(CLANG)
-    list(APPEND compilers ${CLANG})
+    set(C_COMPILER ${CLANG})
 endif()
 
 # warn_not(WHAT SOURCES [FLAG...])
 function(warn_not what sources)
     list(LENGTH sources count)
-    foreach(compiler IN LISTS compilers)
-        execute_process(COMMAND ${compiler} -std=c11 -O0 -fsyntax-only -Werror ${warnings} ${ARGN}
-                -I${SOURCE}/include -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests -I${BUILD}/exported
-                ${sources}
-            RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-        if(NOT status EQUAL 0 OR count LESS 50)
-            message(SEND_ERROR "${what}, ${count} files by ${compiler}:\n${output}")
-        endif()
-    endforeach()
+    execute_process(COMMAND ${C_COMPILER} -std=c11 -O0 -fsyntax-only -Werror ${warnings} ${ARGN} -I${SOURCE}/include
+            -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests -I${BUILD}/exported ${sources}
+        RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+    if(NOT status EQUAL 0 OR count LESS 50)
+        message(SEND_ERROR "${what}, ${count} files by ${C_COMPILER}:\n${output}")
+    endif()
 endfunction()
 
 file(GLOB_RECURSE library ${SOURCE}/src/*.c)

@@ -7,15 +7,7 @@
  * first. */
 #include "measured_case.h"
 
-static height_field field_of(int width, int height)
-{
-    height_field made;
-    data_file file = {.name = "made"};
-    if (!TEST(heights_make(&made, width, height, &file)))
-        exit(1);
-    return made;
-}
-
+/* Each of `count` numbers becomes the mean of those around it, without ends, by a Gaussian. */
 static void blur(float *line, size_t stride, int count, double sigma)
 {
     enum { REACH = 40 };
@@ -35,10 +27,13 @@ static void blur(float *line, size_t stride, int count, double sigma)
  * P22 is Beckmann's with alpha = sqrt 2 times the rms of the slope along one axis. */
 static height_field gaussian(int side, double sigma_x, double sigma_y, double rms)
 {
-    height_field made = field_of(side, side);
+    height_field made;
+    data_file file = {.name = "made"};
     unsigned long long state = 9;
     double square = 0;
-    size_t n = (size_t)side;
+    const size_t n = (size_t)side;
+    if (!TEST(heights_make(&made, side, side, &file)))
+        exit(1);
     for (size_t i = 0; i < n * n; i++)
         made.z[i] = (float)case_normal(&state);
     for (size_t i = 0; i < n; i++)
@@ -53,9 +48,8 @@ static height_field gaussian(int side, double sigma_x, double sigma_y, double rm
     return made;
 }
 
-/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1; frees them.
- */
-static double from_beckmann(profile *rows, double alpha)
+/* Total variation between the slopes of rows and those of Beckmann's distribution, both scaled to mass 1. */
+static double from_beckmann(const profile *rows, double alpha)
 {
     data_file file = {.name = "made"};
     vndf_source *source = profile_source(rows, &file);
@@ -67,16 +61,17 @@ static double from_beckmann(profile *rows, double alpha)
     }
     printf("TV from Beckmann %.4f\n", off);
     vndf_source_free(source);
-    profile_free(rows);
     return off;
 }
 
+/* The rows of slopes, which are freed. */
 static profile law_of(slope_set *slopes, data_file *file, int is_there)
 {
     profile rows;
     if (!case_read(is_there && slopes_law(slopes, file, &rows), file))
         exit(1);
     printf("%s\n", file->notes);
+    slopes_free(slopes);
     return rows;
 }
 
@@ -84,10 +79,7 @@ static profile law_of_field(const height_field *field, data_file *file)
 {
     slope_set slopes;
     *file = (data_file){.name = "made"};
-    int is_there = heights_slopes(field, 1, &slopes, file);
-    profile rows = law_of(&slopes, file, is_there);
-    slopes_free(&slopes);
-    return rows;
+    return law_of(&slopes, file, heights_slopes(field, 1, &slopes, file));
 }
 
 static void test_gaussian(void)
@@ -103,6 +95,7 @@ static void test_gaussian(void)
     TEST(fabs(case_number(&file, "tilt ")) < 0.01);
     TEST(case_number(&file, "p22_error_99 ") < 0.1);
     TEST(strstr(file.notes, "matrix") == NULL && strstr(file.notes, "implausible") == NULL);
+    profile_free(&rows);
     field.step_x = field.step_y = 1e-6; /* heights in micrometres, steps in metres */
     rows = law_of_field(&field, &file);
     TEST_HAS(file.notes, "implausible median slope 2.3e+05: are heights and steps in the same unit?");
@@ -124,51 +117,43 @@ static void test_stretched(void)
     TEST_NEAR(xx / yy, 2, 0.15);
     TEST_NEAR(xy, 0, 0.05);
     TEST(from_beckmann(&rows, 0.2) < 0.04); /* the geometric mean of 0.2 and 0.1, times sqrt 2 */
+    profile_free(&rows);
     heights_free(&field);
 }
 
 /* ---- slopes that are drawn ----------------------------------------------------------------------- */
 
-typedef double slope_of_part(double u);
+/* Lengths of slopes of alpha 0.3, by their quantile. */
+typedef enum drawn_law { BECKMANN, CUT_BECKMANN, GGX } drawn_law;
 
-static double whole_beckmann(double u)
-{
-    return 0.3 * sqrt(-log1p(-u));
-}
-
-static double cut_beckmann(double u)
-{
-    return whole_beckmann(0.95 * u);
-}
-
-static double whole_ggx(double u)
-{
-    return 0.3 * sqrt(u / (1 - u));
-}
-
-static slope_set drawn(slope_of_part *slope_of, size_t count, data_file *file)
+static slope_set drawn(drawn_law of, size_t count, data_file *file)
 {
     unsigned long long state = 6;
     slope_set slopes;
     *file = (data_file){.name = "made"};
-    TEST(slopes_make(&slopes, count, file));
+    TEST(slopes_make(&slopes, count + 2, file));
     for (size_t i = 0; i < count; i++) {
-        double r = slope_of(test_uniform_double(&state)), phi = 2 * PI * test_uniform_double(&state);
+        double u = test_uniform_double(&state), phi = 2 * PI * test_uniform_double(&state);
+        double r = 0.3 * sqrt(of == GGX ? u / (1 - u) : -log1p(of == BECKMANN ? -u : -0.95 * u));
         slopes_add(&slopes, r * cos(phi), r * sin(phi), (int)(i % SLOPE_PARTS));
     }
     return slopes;
 }
 
 /* Slopes that end abruptly give a curve that ends there; a tail has the mass of few slopes beyond the longest. */
-static void ends_at(slope_of_part *slope_of, int has_end, double most)
+static void ends_at(drawn_law of, int has_end, double most)
 {
     enum { COUNT = 1 << 16 };
-    double longest = 0;
+    double longest = 0, x = 0, y = 0;
     data_file file;
-    slope_set slopes = drawn(slope_of, COUNT, &file);
+    slope_set slopes = drawn(of, COUNT, &file);
+    for (int i = 0; i < COUNT; i++) {
+        x += (double)slopes.at[i].x / COUNT;
+        y += (double)slopes.at[i].y / COUNT;
+    }
+    for (int i = 0; i < COUNT; i++) /* from the mean, which is taken off */
+        longest = fmax(longest, hypot((double)slopes.at[i].x - x, (double)slopes.at[i].y - y));
     profile rows = law_of(&slopes, &file, 1);
-    for (int i = 0; i < COUNT; i++)
-        longest = fmax(longest, hypot((double)slopes.x[i], (double)slopes.y[i]));
     double end = rows.x[rows.count - 1], last = rows.value[rows.count - 1];
     double beyond = case_number(&file, "mass_beyond ");
     TEST(beyond * COUNT < most);
@@ -176,7 +161,6 @@ static void ends_at(slope_of_part *slope_of, int has_end, double most)
     vndf_source *source = profile_source(&rows, &file);
     TEST_NEAR(slope_mass(source, longest, has_end ? end : INFINITY), beyond, 0.1 * beyond);
     vndf_source_free(source);
-    slopes_free(&slopes);
     profile_free(&rows);
 }
 
@@ -185,8 +169,7 @@ static void test_heavy_tail(void)
 {
     data_file file;
     double worst = 0;
-    slope_set slopes = drawn(whole_ggx, 1 << 17, &file);
-    slopes.count -= 2;
+    slope_set slopes = drawn(GGX, (1 << 17) - 2, &file);
     slopes_add(&slopes, 1e6, 0, 0);
     slopes_add(&slopes, -1e6, 0, 1);
     profile rows = law_of(&slopes, &file, 1);
@@ -194,7 +177,6 @@ static void test_heavy_tail(void)
         worst = fmax(worst, fabs(rows.value[i] / case_ggx(rows.x[i], 0.3) - 1));
     printf("slopes of GGX: rows up to %.3g off by %.3f at most\n", rows.x[rows.count - 1], worst);
     TEST(worst < 0.4 && strstr(file.notes, "matrix") == NULL);
-    slopes_free(&slopes);
     profile_free(&rows);
 }
 
@@ -204,8 +186,10 @@ static void test_heavy_tail(void)
 static void test_cutoff(void)
 {
     for (double wave = 8; wave <= 32; wave *= 2) {
-        height_field field = field_of(512, 64);
+        height_field field;
+        data_file file = {.name = "made"};
         double most = 0;
+        TEST(heights_make(&field, 512, 64, &file));
         for (int k = 0; k < 512 * 64; k++)
             field.z[k] = (float)cos(2 * PI * (k % 512) / wave);
         TEST(heights_smooth(&field, 16));
@@ -230,41 +214,28 @@ static void test_gaps(void)
     heights_free(&field);
 }
 
-static double along_x(int x)
-{
-    return x;
-}
-
-static double wave_along_x(int x)
-{
-    return sin(x * 1.3);
-}
-
-static double nowhere(int x)
-{
-    return x < 0 ? x : (double)NAN;
-}
-
 static void test_refusals(void)
 {
+    enum { GAUSSIAN, PLANE, WAVE, GAPS };
     static const struct {
-        double (*height)(int x); /* NULL: Gaussian */
-        int margin;
+        int kind, margin;
         const char *reason;
     } cases[] = {
-        {NULL, 45, "100 slopes; at least 1000 are needed"},
-        {NULL, 50, "nothing is left inside a rim of 50"},
-        {along_x, 1, "9604 of 9604 slopes are the same: this is a plane"},
-        {wave_along_x, 1, "the slopes lie on a line"},
-        {nowhere, 1, "0 slopes; at least 1000"},
+        {GAUSSIAN, 45, "100 slopes; at least 1000 are needed"},
+        {GAUSSIAN, 50, "nothing is left inside a rim of 50"},
+        {PLANE, 1, "9604 of 9604 slopes are the same: this is a plane"},
+        {WAVE, 1, "the slopes lie on a line"},
+        {GAPS, 1, "0 slopes; at least 1000"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         height_field field = gaussian(100, 3, 3, 0.2);
         slope_set slopes;
         profile rows = {0};
         data_file file = case_file("", 0);
-        for (int k = 0; k < 10000 && cases[i].height; k++)
-            field.z[k] = (float)cases[i].height(k % 100);
+        for (int k = 0; k < 10000 && cases[i].kind != GAUSSIAN; k++)
+            field.z[k] = cases[i].kind == GAPS    ? NAN
+                         : cases[i].kind == PLANE ? (float)(k % 100)
+                                                  : (float)sin(k % 100 * 1.3);
         int good = heights_slopes(&field, cases[i].margin, &slopes, &file) && slopes_law(&slopes, &file, &rows);
         TEST(rows.x == NULL);
         case_refused(good, &file, cases[i].reason);
@@ -305,16 +276,6 @@ static void test_kinds(void)
     }
 }
 
-static size_t put_float(char *at, double value)
-{
-    float as_float = (float)value;
-    uint32_t bits;
-    memcpy(&bits, &as_float, sizeof bits);
-    for (int i = 0; i < 4; i++)
-        at[i] = (char)(bits >> 8 * i & 255);
-    return 4;
-}
-
 /* Heights of a Gaussian surface as normals, of bytes or floats; the law is that of the heights. */
 static void test_normals(void)
 {
@@ -332,10 +293,12 @@ static void test_normals(void)
             double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
             for (int k = 0; k < 3; k++) {
                 double value = kind == 1 ? n[k] / length : n[k] / length / 2 + 0.5;
+                float as_float = (float)value;
+                uint32_t bits = (uint32_t)floor(value * 255 + 0.5);
                 if (kind)
-                    at += put_float(text + at, value);
-                else
-                    text[at++] = (char)(int)floor(value * 255 + 0.5);
+                    memcpy(&bits, &as_float, sizeof bits);
+                for (int byte = 0; byte < (kind ? 4 : 1); byte++)
+                    text[at++] = (char)(bits >> 8 * byte & 255);
             }
         }
         slope_set slopes;
@@ -347,7 +310,7 @@ static void test_normals(void)
         double rms = case_number(&file, "rms_slope ");
         TEST_RELATIVE(rms, 0.2, 0.02);
         TEST(from_beckmann(&rows, sqrt(2) * rms) < (kind ? 0.015 : 0.04)); /* bytes are coarse */
-        slopes_free(&slopes);
+        profile_free(&rows);
         case_free(&file);
     }
     heights_free(&field);
@@ -360,7 +323,7 @@ static void refused(const char *bytes, size_t size, int is_map, const char *reas
     slope_set slopes = {0};
     data_file file = case_file(bytes, size);
     int good = is_map ? normals_slopes(&file, &slopes) : heights_read(&file, &field);
-    TEST(field.z == NULL && slopes.x == NULL);
+    TEST(field.z == NULL && slopes.at == NULL);
     case_refused(good, &file, reason);
 }
 
@@ -388,7 +351,7 @@ static void test_refused_files(void)
         {BYTES("P6\n1 2\n255\n\0\0\0\0\0\0"), 1, "2 of 2 pixels are no normals"},
         {BYTES("P6\n1 2\n255\n\x7f\x7f\0\x7f\x7f\1"), 1, "2 of 2 pixels are no normals with z above 0"},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         refused(cases[i].bytes, cases[i].size, cases[i].is_map, cases[i].reason);
     for (size_t cut = 0; cut + 1 < sizeof image; cut++)
         refused(image, cut, 0, "");
@@ -399,9 +362,9 @@ int main(void)
     test_gaussian();
     test_stretched();
     test_heavy_tail();
-    ends_at(cut_beckmann, 1, 1);
-    ends_at(whole_ggx, 0, 4);
-    ends_at(whole_beckmann, 0, 4);
+    ends_at(CUT_BECKMANN, 1, 1);
+    ends_at(GGX, 0, 4);
+    ends_at(BECKMANN, 0, 4);
     test_cutoff();
     test_gaps();
     test_refusals();

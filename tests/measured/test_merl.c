@@ -7,7 +7,7 @@
 
 enum { PLANE = 90 * 90 * 180, SIZE = 12 + 3 * 8 * PLANE };
 
-static const double scale[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+static const double unit_of[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 static unsigned char *bytes;
 
 static void put(size_t channel, size_t i, double value)
@@ -39,7 +39,7 @@ static void make(double alpha, const double f0[3])
         double ci = up - side, co = up + side, a = twice_area(ci, alpha), b = twice_area(co, alpha);
         double f = ci > 0 && co > 0 ? ggx(h, alpha) / (2 * (a * co + b * ci - 2 * ci * co)) : 0;
         for (size_t k = 0; k < 3; k++)
-            put(k, i, f * (f0[k] + (1 - f0[k]) * pow(1 - cos(d), 5)) / scale[k]);
+            put(k, i, f * (f0[k] + (1 - f0[k]) * pow(1 - cos(d), 5)) / unit_of[k]);
     }
 }
 
@@ -77,7 +77,7 @@ static void test_diffuse(void)
 {
     data_file file;
     for (size_t i = 0; i < PLANE; i++)
-        put(0, i, little_double(bytes + 12 + 8 * i) + 0.25 / PI / scale[0]);
+        put(0, i, little_double(bytes + 12 + 8 * i) + 0.25 / PI / unit_of[0]);
     TEST(read_back(&file, 0.3, MERL_RED) < 0.03);
     TEST_NEAR(case_number(&file, "diffuse "), 0.25, 0.005);
     TEST_RELATIVE(case_number(&file, "\nf0 "), 0.9, 0.02);

@@ -1,5 +1,4 @@
-# Runs one test of the Python package with the library and the KERNEL of this build: PYTHON, NAME (test_NAME.py or
-# layout), VARIANT of Mitsuba.
+# Runs test_NAME.py by PYTHON, of the package with the library and the KERNEL of this build; VARIANT is of Mitsuba.
 function(run)
     execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${OUT} RESULT_VARIABLE status)
     if(NOT status EQUAL 0)
@@ -19,12 +18,8 @@ endif()
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 file(COPY ${SOURCE}/tools/python/vndf ${KERNEL} DESTINATION ${OUT}/python)
+file(COPY ${SOURCE}/include DESTINATION ${OUT}/python/vndf)
 file(RENAME ${OUT}/python/_kernel.py ${OUT}/python/vndf/_kernel.py)
 set(with ${CMAKE_COMMAND} -E env "PYTHONPATH=${OUT}/python" PYTHONDONTWRITEBYTECODE=1 "VNDF_KERNEL=${KERNEL}"
     "VNDF_LIBRARY=${SHARED_LIBRARY}" "VNDF_PROGRAM=${VNDF}" "VNDF_SOURCE=${SOURCE}")
-if(NAME STREQUAL "layout")
-    run(${with} ${PYTHON} ${SOURCE}/tests/python/layout.py ${OUT}/layout.c)
-    run(${C_COMPILER} -std=c11 -I${SOURCE}/include -c ${OUT}/layout.c -o ${OUT}/layout.o)
-else()
-    run(${with} ${PYTHON} ${SOURCE}/tests/python/test_${NAME}.py ${VARIANT})
-endif()
+run(${with} ${PYTHON} ${SOURCE}/tests/python/test_${NAME}.py ${VARIANT})

@@ -27,7 +27,7 @@ def upright_and_general(distribution, rng):
     diagonal, none, general = shapes(rng)
     x, y = diagonal[0][0], diagonal[1][1]
     yield vndf.Surface(distribution, x, y), np.array(diagonal), np.array(none)
-    yield vndf.Affine(distribution, *general), *general
+    yield vndf.Surface(distribution, matrix=general[0], mean=general[1]), *general
 
 
 class Surfaces(unittest.TestCase):
@@ -109,17 +109,18 @@ class Surfaces(unittest.TestCase):
         (matrix, mean), wi, wo = shapes(rng)[2], directions(rng), directions(rng)
         alpha, angle, u = np.exp(rng.uniform(-3, 0, (2, COUNT))), rng.random(COUNT), rng.random((3, COUNT))
         glass = dict(fresnel="dielectric", lobes="both", eta=1.5)
+        table = vndf.load(TABLE)
         for arrays, effects in (
             (dict(alpha=alpha[0], alpha_y=alpha[1]), glass),
             (dict(alpha=alpha[0], alpha_y=alpha[1], rotation=angle), dict(fresnel="schlick", f0=(0.9, 0.5, 0.1))),
             (dict(alpha=alpha[0]), dict(scattering="multiple")),
             (dict(matrix=matrix, mean=mean), dict(fresnel="schlick", f0=0.5)),
         ):
-            material = vndf.Material(vndf.load(TABLE), **arrays, **effects)
+            material = vndf.Material(vndf.Surface(table, **arrays), **effects)
             drawn, (value, pdf) = material.sample(wi, u), material.eval_pdf(wi, wo, np.arange(COUNT))
             for i in range(0, COUNT, 500):
                 alone = {name: array[..., i] for name, array in arrays.items()}
-                one = vndf.Material(vndf.load(TABLE), **alone, **effects)
+                one = vndf.Material(vndf.Surface(table, **alone), **effects)
                 for whole, single in zip(drawn, one.sample(wi[:, i], u[:, i])):
                     self.same(single, whole[..., i])
                 self.same(one.eval(wi[:, i], wo[:, i], i), value[:, i])

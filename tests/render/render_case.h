@@ -8,22 +8,22 @@
 
 enum { CASE_TEXT = 8192 };
 
-/* Reads text as the file tests/x.scene; NULL and a message. */
-static inline scene *case_read(const char *text, char message[1024])
+/* Reads text as the file tests/x.scene; NULL and an error. */
+static inline scene *case_read(const char *text, vndf_error *error)
 {
     char copy[CASE_TEXT];
     snprintf(copy, sizeof copy, "%s", text);
-    message[0] = '\0';
-    return scene_read_text(VNDF_SOURCE_DIR "/tests/x.scene", copy, strlen(copy), message, 1024);
+    *error = (vndf_error){VNDF_OK, ""};
+    return scene_read_text(VNDF_SOURCE_DIR "/tests/x.scene", copy, strlen(copy), error);
 }
 
 /* A scene that has to be good. */
 static inline scene *case_scene(const char *text)
 {
-    char message[1024];
-    scene *s = case_read(text, message);
+    vndf_error error;
+    scene *s = case_read(text, &error);
     if (!TEST(s != NULL))
-        fprintf(stderr, "    %s\n", message);
+        fprintf(stderr, "    %s\n", error.message);
     return s;
 }
 
@@ -41,11 +41,11 @@ static inline scene *case_point(const char *text)
 /* Adds samples to a film, which is made if it has no pixels. */
 static inline void case_render(film *f, const scene *s, path_sampler sampler, uint64_t samples, uint64_t seed)
 {
-    char message[512] = "";
+    vndf_error error;
     const film_run run = {.samples = samples, .threads = 2, .seed = seed};
-    path_plan *plan = path_prepare(s, sampler, message, sizeof message);
+    path_plan *plan = path_prepare(s, sampler, &error);
     if (!TEST(plan != NULL))
-        fprintf(stderr, "    %s\n", message);
+        fprintf(stderr, "    %s\n", error.message);
     else if (TEST(f->sum || film_make(f, s->width, s->height)))
         TEST(film_render(f, plan, &run));
     path_free(plan);
@@ -63,8 +63,7 @@ static inline case_mean case_mean_of(const film *f)
         square += f->square[i];
     }
     double variance = fmax(square / count - sum * sum / (count * count), 0);
-    const case_mean mean = {sum / count, sqrt(variance / count), variance};
-    return mean;
+    return (case_mean){sum / count, sqrt(variance / count), variance};
 }
 
 /* The mean light of a point. */
@@ -81,8 +80,7 @@ static inline case_mean case_light(const scene *s, path_sampler sampler, uint64_
 /* 4.5 sigma: 7e-6 by chance. */
 static inline int case_agrees(case_mean mean, double want, double slack)
 {
-    int good = TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
-    return good;
+    return TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
 }
 
 #endif

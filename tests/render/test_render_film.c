@@ -76,13 +76,13 @@ static void test_figures(void)
 
 static void test_run(void)
 {
-    char message[512];
+    vndf_error error;
     scene *s = scene_of(30, 0.2);
     comparison c = {.count = 2,
                     .run = {.samples = 24, .threads = 2},
                     .way = {{.sampler = SAMPLER_VISIBLE}, {.sampler = SAMPLER_ALL}}};
     for (size_t i = 0; i < 2 && s; i++) {
-        c.way[i].plan = path_prepare(s, c.way[i].sampler, message, sizeof message);
+        c.way[i].plan = path_prepare(s, c.way[i].sampler, &error);
         TEST(c.way[i].plan && film_make(&c.way[i].film, s->width, s->height));
     }
     TEST(comparison_run(&c) && c.way[0].film.samples == 24 && c.way[1].film.samples == 24);

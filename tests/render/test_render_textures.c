@@ -21,11 +21,12 @@ static int put_quarters(const char *name, const float (*pixels)[3])
 /* A scene whose files are in the folder at hand. */
 static scene *here(const char *text)
 {
-    char message[1024], copy[2048];
+    char copy[2048];
+    vndf_error error;
     snprintf(copy, sizeof copy, "%s", text);
-    scene *s = scene_read_text("here", copy, strlen(copy), message, sizeof message);
+    scene *s = scene_read_text("here", copy, strlen(copy), &error);
     if (!TEST(s != NULL))
-        fprintf(stderr, "    %s\n", message);
+        fprintf(stderr, "    %s\n", error.message);
     return s;
 }
 

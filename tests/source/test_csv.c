@@ -137,6 +137,9 @@ static void test_tails(void)
         {"theta,ndf\n0,3\n0.5,2\n1.5707963263,1\n", 1e9, 1e-36}, /* or nearly there */
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1, 0.5},
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e300, 0},
+        {"theta_deg,ndf\n0,3\n80,0.171\n90,0\n", 11.430052302761343,
+         4.933443377501309e-06}, /* it falls to 0 there */
+        {"theta_deg,ndf\n0,3\n80,0.171\n90,0\n", 1e6, 9.624789422114103e-31},
     };
     for (size_t i = 0; i < sizeof tails / sizeof *tails; i++) {
         vndf_source *source = csv(tails[i].text);
@@ -148,28 +151,6 @@ static void test_tails(void)
     TEST(steep->break_count == 2 && steep->breaks[1] == 2);
     vndf_source_free(steep);
     vndf_source_free(full);
-}
-
-/* D that falls to 0 at 90 degrees, as cos^k: it joins, it ends as cos, and a table is made of it. */
-static void test_falling(void)
-{
-    const vndf_build_options options = {0};
-    for (int k = 1; k <= 4; k *= 2)
-        for (size_t count = 10; count <= 91; count += 81) {
-            double x[91], y[91], last = (double)(count - 1);
-            for (size_t i = 0; i < count; i++) {
-                x[i] = PI / 2 * (double)i / last;
-                y[i] = i < count - 1 ? pow(cos(x[i]), k) : 0;
-            }
-            vndf_source *source = rows_of(THETA_NDF, x, y, count);
-            double join = tan(x[count - 2]);
-            TEST_RELATIVE(vndf_source_p22(source, join * (1 + 1e-12)), vndf_source_p22(source, join), 1e-10);
-            TEST_NEAR(log10(vndf_source_p22(source, 1e11) / vndf_source_p22(source, 1e12)), 5, 1e-6);
-            vndf_distribution *table = vndf_build(source, &options, NULL, NULL);
-            TEST(table != NULL);
-            vndf_free(table);
-            vndf_source_free(source);
-        }
 }
 
 /* ---- refusals ---- */
@@ -277,7 +258,6 @@ int main(void)
     test_accuracy();
     test_shape();
     test_tails();
-    test_falling();
     test_refused_texts();
     test_refused_files();
     test_refused_rows();

@@ -2,8 +2,9 @@
  *
  *     dfg        the split sum: f is f0 times the scale plus the bias
  *     energy     what one scattering event keeps of the light, by itself and in the mean over all directions
- *     ltc        a linearly transformed cosine for each roughness and cosine (Heitz, Dupuy, Hill & Neubauer,
- *                "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", TOG 35(4), 2016)
+ *     ltc        a linearly transformed cosine for each roughness and cosine, or for two roughnesses (Heitz, Dupuy,
+ *                Hill & Neubauer, "Real-Time Polygonal-Light Shading with Linearly Transformed Cosines", TOG 35(4),
+ *                2016)
  *     prefilter  normals with weights, for environments that are looked up at N = V = R (Karis, "Real Shading in
  *                Unreal Engine 4", 2013)
  *
@@ -65,7 +66,7 @@ typedef struct bake_points {
 } bake_points;
 
 /* Samples with the numbers in `u`, of a material of one or two wavelengths. */
-void bake_sample(const vndf_material *material, double cosine, size_t count, bake_points *points);
+void bake_sample(const vndf_material *material, const double wi[3], size_t count, bake_points *points);
 vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], size_t count);
 
 /* A mirror of two wavelengths: F = 1, and Schlick's F of f0 = 0. */
@@ -75,6 +76,7 @@ vndf_description bake_mirror(const bake_settings *s, float alpha);
 typedef struct bake_sum {
     double all, grazing;
 } bake_sum;
+bake_sum bake_mean(const vndf_description *of, const double wi[3], int side);
 bake_sum bake_direction(const bake_settings *s, float alpha, double cosine);
 
 /* The same by a quadrature over slopes that draws nothing, from D, Lambda and the law of reflection; with eta above 0
@@ -97,9 +99,13 @@ int bake_energy(const bake_settings *s, const char *shape, baked_list *list);
 int bake_ltc(const bake_settings *s, baked_list *list);
 int bake_prefilter(const bake_settings *s, baked_list *list);
 
-/* A linearly transformed cosine: the inverse of M over its middle number. */
+/* For alpha_x and alpha_y that differ, on a grid of so many places in each of four numbers, or of the size if less. */
+enum { BAKE_ANISOTROPIC = 8 };
+int bake_anisotropic(const bake_settings *s, baked_list *list);
+
+/* A linearly transformed cosine: the inverse of M over its middle number, by rows. */
 typedef struct bake_cosine {
-    double inverse[5]; /* xx, xz, yy, zx, zz */
+    double inverse[3][3];
 } bake_cosine;
 
 /* The density of a direction. */

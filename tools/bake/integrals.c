@@ -24,16 +24,15 @@ vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], siz
     return batch;
 }
 
-void bake_sample(const vndf_material *material, double cosine, size_t count, bake_points *p)
+void bake_sample(const vndf_material *material, const double wi[3], size_t count, bake_points *p)
 {
     const float *const u[3] = {p->u[0], p->u[1], p->u[2]};
     const vndf_scattered_n to = {.wo = {p->wo[0], p->wo[1], p->wo[2]},
                                  .weight = {p->weight[0], p->weight[1]},
                                  .density = p->density,
                                  .lobe = p->lobe};
-    p->wi[0] = (float)sqrt(fmax(1 - cosine * cosine, 0));
-    p->wi[1] = 0;
-    p->wi[2] = (float)cosine;
+    for (int k = 0; k < 3; k++)
+        p->wi[k] = (float)wi[k];
     const vndf_bsdf_batch batch = bake_batch(material, p->wi, count);
     vndf_bsdf_sample_n(&batch, u, to);
 }
@@ -51,7 +50,7 @@ vndf_description bake_mirror(const bake_settings *s, float alpha)
 
 /* The mean weights from one direction. Samples are a continuous function of their numbers: midpoints t of [0, 1] in
  * each, u = t^2 (3 - 2 t), are dense at both ends, where samples change fast. */
-static bake_sum mean_of(const vndf_description *of, double cosine, int side)
+bake_sum bake_mean(const vndf_description *of, const double wi[3], int side)
 {
     static bake_points p;
     vndf_material material;
@@ -66,7 +65,7 @@ static bake_sum mean_of(const vndf_description *of, double cosine, int side)
         p.u[1][i] = (float)(t * t * (3 - 2 * t));
         p.u[2][i] = 0.5f;
     }
-    bake_sample(&material, cosine, (size_t)(side * side), &p);
+    bake_sample(&material, wi, (size_t)(side * side), &p);
     for (int i = 0; i < side * side; i++) {
         double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side, part = s * (1 - s) * t * (1 - t);
         whole += part;
@@ -81,18 +80,20 @@ static bake_sum mean_of(const vndf_description *of, double cosine, int side)
 bake_sum bake_direction(const bake_settings *s, float alpha, double cosine)
 {
     const vndf_description of = bake_mirror(s, alpha);
-    return mean_of(&of, cosine, BAKE_SIDE);
+    const double wi[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
+    return bake_mean(&of, wi, BAKE_SIDE);
 }
 
 double bake_glass(const bake_settings *s, float alpha, double cosine, double eta)
 {
+    const double wi[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
     vndf_description of = bake_mirror(s, alpha);
     of.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
     of.eta = (float)eta;
-    double sum = mean_of(&of, cosine, BAKE_SIDE_GLASS).all;
+    double sum = bake_mean(&of, wi, BAKE_SIDE_GLASS).all;
     of.effects.lobes = VNDF_LOBES_TRANSMISSION;
     of.effects.transport = VNDF_TRANSPORT_IMPORTANCE; /* the part of the light, without 1/eta^2 of radiance */
-    return sum + mean_of(&of, cosine, BAKE_SIDE_GLASS).all;
+    return sum + bake_mean(&of, wi, BAKE_SIDE_GLASS).all;
 }
 
 /* Nodes and weights of Gauss's rule on [0, 1], by Newton's method on Legendre's polynomial. */

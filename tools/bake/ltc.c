@@ -1,14 +1,17 @@
-/* Linearly transformed cosines. A texel is fitted by the simplex method of Nelder & Mead (1965) to three numbers of M,
+/* Linearly transformed cosines. A texel is fitted by the simplex method of Nelder & Mead (1965) to the numbers of M,
  *
- *     M = (X Y Z) (a 0 c; 0 b 0; 0 0 1),       Z the mean direction of the reflected light, Y across the plane of it,
+ *     M = (X Y Z) (a d c; 0 b e; 0 0 1),
  *
- * for the least integral of |f cos/E - density|^3, by samples of both. Neighbours begin where the last one ended. */
+ * Z the mean direction of the reflected light, Y across the plane of Z and the normal, for the least integral of
+ * |f cos/E - density|^3, by samples of both. Of isotropic roughness that plane is wi's, and d = e = 0; with alpha_x and
+ * alpha_y that differ all five are fitted (KT, Heitz, Dupuy & Narayanan, "Bringing Linearly Transformed Cosines to
+ * Anisotropic GGX", 2022). Neighbours begin where the last one ended. */
 #include <math.h>
 #include <string.h>
 
 #include "bake/bake.h"
 
-enum { SIDE = 20, SAMPLES = SIDE * SIDE };
+enum { SIDE = 20, SAMPLES = SIDE * SIDE, NUMBERS = 5 };
 
 /* What a texel is fitted to: samples of the BSDF with the f cos that they were drawn with, and room for those of the
  * cosine. */
@@ -18,34 +21,56 @@ typedef struct target {
     float cosines[SAMPLES]; /* f cos of the samples */
     float other[3][SAMPLES], other_density[SAMPLES], other_value[2][SAMPLES];
     bake_sum sum;
-    double x, z;  /* the mean direction */
-    double wrong; /* half the integral of |f cos/E - density|, of the numbers that error_of saw last */
+    double frame[3][3]; /* X, Y, Z */
+    int numbers;        /* that are fitted: log a, log b, c, and where roughness is not isotropic d, e */
+    double wrong;       /* half the integral of |f cos/E - density|, of the numbers that error_of saw last */
 } target;
 
 /* ---- the transformed cosine ---- */
 
-/* M of the numbers (log a, log b, c), by rows. */
-static void matrix_of(const target *t, const double p[3], double m[3][3])
+/* M of the numbers, by rows. A cosine may be turned about its axis: it is turned until its y is Y's azimuth, so that
+ * the matrices of neighbours are near each other, and their middle number is not 0. */
+static void matrix_of(const target *t, const double p[NUMBERS], double m[3][3])
 {
-    double a = exp(p[0]), b = exp(p[1]), c = p[2];
-    const double rows[3][3] = {{t->z * a, 0, t->z * c + t->x}, {0, b, 0}, {-t->x * a, 0, t->z - t->x * c}};
-    memcpy(m, rows, sizeof rows);
+    const double a = exp(p[0]), b = exp(p[1]), c = p[2], d = p[3], e = p[4];
+    const double x = t->frame[1][0], y = t->frame[1][1];
+    const double inner[3][3] = {{a * y + d * x, d * y - a * x, c}, {b * x, b * y, e}, {0, 0, 1}};
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) {
+            m[i][k] = 0;
+            for (int n = 0; n < 3; n++)
+                m[i][k] += t->frame[n][i] * inner[n][k];
+        }
 }
 
-/* Its inverse over the middle number, which leaves directions as they are. */
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Its inverse over the middle number, which leaves directions as they are: columns are products of rows. */
 static bake_cosine inverse_of(double m[3][3])
 {
-    double det = m[0][0] * m[2][2] - m[0][2] * m[2][0], y = m[1][1];
-    bake_cosine c = {{m[2][2] / det * y, -m[0][2] / det * y, 1, -m[2][0] / det * y, m[0][0] / det * y}};
+    double column[3][3];
+    bake_cosine c;
+    for (int i = 0; i < 3; i++)
+        cross(m[(i + 1) % 3], m[(i + 2) % 3], column[i]);
+    for (int i = 0; i < 9; i++)
+        c.inverse[i / 3][i % 3] = column[i % 3][i / 3] / column[1][1];
     return c;
 }
 
 double bake_cosine_density(const bake_cosine *c, const double wo[3])
 {
-    const double *k = c->inverse;
-    double x = k[0] * wo[0] + k[1] * wo[2], y = k[2] * wo[1], z = k[3] * wo[0] + k[4] * wo[2];
-    double square = x * x + y * y + z * z, det = fabs(k[2] * (k[0] * k[4] - k[1] * k[3]));
-    return z > 0 && wo[2] > 0 ? z * det / (3.14159265358979 * square * square) : 0;
+    double w[3], yz[3], square = 0, det = 0;
+    cross(c->inverse[1], c->inverse[2], yz);
+    for (int i = 0; i < 3; i++) {
+        w[i] = c->inverse[i][0] * wo[0] + c->inverse[i][1] * wo[1] + c->inverse[i][2] * wo[2];
+        square += w[i] * w[i];
+        det += c->inverse[0][i] * yz[i];
+    }
+    return w[2] > 0 && wo[2] > 0 ? w[2] * fabs(det) / (3.14159265358979 * square * square) : 0;
 }
 
 /* ---- one texel ---- */
@@ -68,7 +93,7 @@ static double mean_cube(target *t, const bake_cosine *c, float *const wo[3], con
 }
 
 /* The mean cube of the difference with these numbers. */
-static double error_of(target *t, const double p[3])
+static double error_of(target *t, const double p[NUMBERS])
 {
     double m[3][3];
     matrix_of(t, p, m);
@@ -98,38 +123,47 @@ static double error_of(target *t, const double p[3])
            mean_cube(t, &c, to, t->other_value[0], t->other_density);
 }
 
-/* Samples, E and the mean direction. */
-static int target_of(target *t, const bake_settings *s, float alpha, double cosine)
+/* Samples, E and the frame for light from wi. */
+static int target_of(target *t, const bake_settings *s, const float alpha[2], const double wi[3])
 {
-    const vndf_description of = bake_mirror(s, alpha);
+    vndf_description of = bake_mirror(s, alpha[0]);
     bake_points *p = &t->drawn;
     vndf_error error;
-    double x = 0, z = 0;
+    double mean[3] = {0, 0, 0}, length = 0;
     for (int i = 0; i < SAMPLES; i++) {
         p->u[0][i] = ((float)(i % SIDE) + 0.5f) / SIDE;
         p->u[1][i] = ((float)(i / SIDE) + 0.5f) / SIDE;
         p->u[2][i] = 0.5f;
     }
+    of.alpha_y = alpha[1];
     if (vndf_material_resolve(&of, &t->material, &error) != VNDF_OK)
         return 0;
-    bake_sample(&t->material, cosine, SAMPLES, p);
+    bake_sample(&t->material, wi, SAMPLES, p);
     /* f cos as it was drawn: that of a rounded direction differs on smooth surfaces. */
     for (int i = 0; i < SAMPLES; i++) {
         if (p->lobe[i] == VNDF_LOBE_NONE)
             p->wo[2][i] = -1; /* lost */
         t->cosines[i] = p->weight[0][i] * p->density[i];
-        x += (double)p->weight[0][i] * (double)p->wo[0][i];
-        z += (double)p->weight[0][i] * (double)p->wo[2][i];
+        for (int k = 0; k < 3; k++)
+            mean[k] += (double)p->weight[0][i] * (double)p->wo[k][i];
     }
-    t->sum = bake_direction(s, alpha, cosine);
-    t->x = cosine > 0.9999 ? 0 : x / hypot(x, z);
-    t->z = sqrt(1 - t->x * t->x);
-    return t->sum.all > 0 && z > 0;
+    t->sum = bake_mean(&of, wi, BAKE_SIDE);
+    for (int k = 0; k < 2; k++)
+        if (fabs(wi[k]) < 1e-9) /* what is symmetric is kept so */
+            mean[k] = 0;
+    for (int k = 0; k < 3; k++)
+        length += mean[k] * mean[k];
+    double across = hypot(mean[0], mean[1]);
+    const double y[3] = {across > 0 ? mean[1] / across : 0, across > 0 ? -mean[0] / across : 1, 0};
+    for (int k = 0; k < 3; k++) {
+        t->frame[1][k] = y[k];
+        t->frame[2][k] = mean[k] / sqrt(length);
+    }
+    cross(t->frame[1], t->frame[2], t->frame[0]);
+    return t->sum.all > 0 && mean[2] > 0;
 }
 
 /* ---- the simplex method ---- */
-
-enum { NUMBERS = 3, CORNERS = NUMBERS + 1, STEPS = 90 };
 
 typedef struct corner {
     double at[NUMBERS], error;
@@ -138,20 +172,20 @@ typedef struct corner {
 /* The corner at `mean` + `by` (mean - the last one). */
 static corner beyond(target *t, const corner *all, double by)
 {
-    corner c;
-    for (int k = 0; k < NUMBERS; k++) {
+    corner c = all[0];
+    for (int k = 0; k < t->numbers; k++) {
         double mean = 0;
-        for (int i = 0; i < NUMBERS; i++)
-            mean += all[i].at[k] / NUMBERS;
-        c.at[k] = mean + by * (mean - all[NUMBERS].at[k]);
+        for (int i = 0; i < t->numbers; i++)
+            mean += all[i].at[k] / t->numbers;
+        c.at[k] = mean + by * (mean - all[t->numbers].at[k]);
     }
     c.error = error_of(t, c.at);
     return c;
 }
 
-static void put_in_order(corner *c)
+static void put_in_order(corner *c, int count)
 {
-    for (int i = 1; i < CORNERS; i++)
+    for (int i = 1; i < count; i++)
         for (int k = i; k > 0 && c[k].error < c[k - 1].error; k--) {
             corner swap = c[k];
             c[k] = c[k - 1];
@@ -162,38 +196,71 @@ static void put_in_order(corner *c)
 /* Moves p to where the error is least nearby. `step`: how far to look at first. */
 static void minimise(target *t, double p[NUMBERS], double step)
 {
-    corner c[CORNERS];
-    for (int i = 0; i < CORNERS; i++) {
+    const int last = t->numbers;
+    corner c[NUMBERS + 1];
+    for (int i = 0; i <= last; i++) {
         memcpy(c[i].at, p, sizeof c[i].at);
-        if (i < NUMBERS) /* c is a slope, and looked at in parts of the width of the lobe */
+        if (i < last) /* c, d and e are slopes, and looked at in parts of the width of the lobe */
             c[i].at[i] += i < 2 ? step : step * 2 * exp(p[0]);
         c[i].error = error_of(t, c[i].at);
     }
-    for (int n = 0; n < STEPS; n++) {
-        put_in_order(c);
-        if (c[NUMBERS].error - c[0].error <= 1e-4 * c[0].error)
+    for (int n = 0; n < 30 * last; n++) {
+        put_in_order(c, last + 1);
+        if (c[last].error - c[0].error <= 1e-4 * c[0].error)
             break;
         corner other = beyond(t, c, 1);
         if (other.error < c[0].error) {
             corner farther = beyond(t, c, 2);
             other = farther.error < other.error ? farther : other;
-        } else if (other.error >= c[NUMBERS - 1].error)
-            other = beyond(t, c, other.error < c[NUMBERS].error ? 0.5 : -0.5);
-        if (other.error < c[NUMBERS].error) {
-            c[NUMBERS] = other;
+        } else if (other.error >= c[last - 1].error)
+            other = beyond(t, c, other.error < c[last].error ? 0.5 : -0.5);
+        if (other.error < c[last].error) {
+            c[last] = other;
             continue;
         }
-        for (int i = 1; i < CORNERS; i++) {
-            for (int k = 0; k < NUMBERS; k++)
+        for (int i = 1; i <= last; i++) {
+            for (int k = 0; k < last; k++)
                 c[i].at[k] = (c[i].at[k] + c[0].at[k]) / 2;
             c[i].error = error_of(t, c[i].at);
         }
     }
-    put_in_order(c);
+    put_in_order(c, last + 1);
     memcpy(p, c[0].at, sizeof c[0].at);
 }
 
-/* ---- the table ---- */
+/* ---- the tables ---- */
+
+static const char norm_holds[] =
+    "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E - density|";
+static const char error_says[] = "half the integral of |f cos/E - density| over all texels";
+
+/* Fits where the light comes from wi, beginning with p, which becomes what was found; the inverse. 0: no reflection. */
+static int fit(target *t, const bake_settings *s, const float alpha[2], const double wi[3], double step,
+               double p[NUMBERS], bake_cosine *found)
+{
+    double m[3][3];
+    if (!target_of(t, s, alpha, wi))
+        return 0;
+    minimise(t, p, step);
+    error_of(t, p);
+    matrix_of(t, p, m);
+    *found = inverse_of(m);
+    return 1;
+}
+
+static void note_wrong(baked *b, double wrong, size_t texels)
+{
+    b->error = error_says;
+    b->worst = fmax(b->worst, wrong);
+    b->mean += wrong / (double)texels;
+}
+
+/* Place i of n on the axis of cosines, which is dense at grazing incidence. */
+static double cosine_at(size_t i, size_t n)
+{
+    double v = (double)i / (double)(n - 1);
+    return fmax(1 - v * v, 2e-3);
+}
 
 /* Rougher first, from straight above to grazing: what is smooth is the easiest, and begins what follows. */
 int bake_ltc(const bake_settings *s, baked_list *list)
@@ -205,43 +272,112 @@ int bake_ltc(const bake_settings *s, baked_list *list)
         baked_add(list, "ltc_inverse",
                   "the inverse of M over its middle number: xx, zx, xz, zz, as mat3(xx,0,zx, 0,1,0, xz,0,zz)", 2,
                   axis, count, 4);
-    baked *norm =
-        inverse ? baked_add(list, "ltc_norm",
-                            "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E "
-                            "- density|",
-                            2, axis, count, 3)
-                : NULL;
-    double row[NUMBERS] = {0, 0, 0};
+    baked *norm = inverse ? baked_add(list, "ltc_norm", norm_holds, 2, axis, count, 3) : NULL;
+    double row[NUMBERS] = {0};
     if (!norm)
         return 0;
+    t.numbers = 3;
     for (size_t i = n; i-- > 0;) {
         double p[NUMBERS];
-        float alpha = bake_alpha(s->mapping, (double)i / (double)(n - 1));
+        const float alpha = bake_alpha(s->mapping, (double)i / (double)(n - 1)), both[2] = {alpha, alpha};
         memcpy(p, row, sizeof p);
+        p[2] = 0;
         for (size_t j = 0; j < n; j++) {
-            double v = (double)j / (double)(n - 1), m[3][3];
-            if (!target_of(&t, s, alpha, fmax(1 - v * v, 2e-3)))
+            const double c = cosine_at(j, n), wi[3] = {sqrt(1 - c * c), 0, c};
+            bake_cosine found;
+            if (!fit(&t, s, both, wi, i == n - 1 && j == 0 ? 0.3 : 0.1, p, &found))
                 return 0;
             if (j == 0)
-                p[2] = 0;
-            minimise(&t, p, i == n - 1 && j == 0 ? 0.3 : 0.1);
-            if (j == 0)
                 memcpy(row, p, sizeof p);
-            error_of(&t, p);
-            matrix_of(&t, p, m);
-            bake_cosine c = inverse_of(m);
-            float *k = inverse->value + 4 * (j * n + i), *e = norm->value + 3 * (j * n + i);
-            k[0] = (float)c.inverse[0], k[1] = (float)c.inverse[3];
-            k[2] = (float)c.inverse[1], k[3] = (float)c.inverse[4];
-            e[0] = (float)t.sum.all, e[1] = (float)t.sum.grazing, e[2] = (float)t.wrong;
-            norm->worst = fmax(norm->worst, t.wrong);
-            norm->mean += t.wrong / (double)(n * n);
+            const float k[4] = {(float)found.inverse[0][0], (float)found.inverse[2][0], (float)found.inverse[0][2],
+                                (float)found.inverse[2][2]};
+            const float e[3] = {(float)t.sum.all, (float)t.sum.grazing, (float)t.wrong};
+            memcpy(inverse->value + 4 * (j * n + i), k, sizeof k);
+            memcpy(norm->value + 3 * (j * n + i), e, sizeof e);
+            note_wrong(inverse, t.wrong, n * n);
+            note_wrong(norm, t.wrong, n * n);
             if (progress_show((double)((n - 1 - i) * n + j) / (double)(n * n), "ltc", s->progress))
                 return 0;
         }
     }
-    inverse->error = norm->error = "half the integral of |f cos/E - density| over all texels";
-    inverse->worst = norm->worst;
-    inverse->mean = norm->mean;
+    return 1;
+}
+
+/* One direction on a surface with these two alphas, beginning with what fitted its neighbour. Where the light comes
+ * along an axis, the cosine is symmetric and has three numbers. Where five end in a bad place, they begin once more. */
+static int fit_anisotropic(target *t, const bake_settings *s, const float alpha[2], const double wi[3],
+                           const double symmetric[NUMBERS], double p[NUMBERS], bake_cosine *found)
+{
+    double other[NUMBERS];
+    t->numbers = fabs(wi[0]) < 1e-9 || wi[1] == 0 ? 3 : NUMBERS;
+    if (t->numbers == 3)
+        p[3] = p[4] = 0;
+    memcpy(other, symmetric, sizeof other);
+    if (!fit(t, s, alpha, wi, 0.1, p, found))
+        return 0;
+    const double wrong = t->wrong;
+    const bake_cosine first = *found;
+    if (wrong < 0.3)
+        return 1;
+    if (!fit(t, s, alpha, wi, 0.4, other, found))
+        return 0;
+    if (t->wrong < wrong)
+        memcpy(p, other, sizeof other);
+    else {
+        *found = first;
+        t->wrong = wrong;
+    }
+    return 1;
+}
+
+/* The first direction of a surface begins the next one; the first of a cosine, along x, what has that cosine and the
+ * next one. */
+int bake_anisotropic(const bake_settings *s, baked_list *list)
+{
+    static const char *const names[] = {"ltc_anisotropic_x", "ltc_anisotropic_y", "ltc_anisotropic_z"};
+    static const char *const holds[] = {
+        "row x of the inverse of M over its middle number, and E of F = 1",
+        "row y of it, and the part of E by (1 - cos)^5",
+        "row z of it, and the error: half the integral of |f cos/E - density|",
+    };
+    const char *const axis[] = {"n i + j: roughness of alpha_x i/(n - 1), alpha_y/alpha_x (j + 1)/n",
+                                "cosine: 1 - (i/(n - 1))^2", "azimuth from x: pi/2 i/(n - 1)"};
+    const size_t n = s->size < BAKE_ANISOTROPIC ? s->size : BAKE_ANISOTROPIC, count[] = {n * n, n, n},
+                 all = n * n * n * n;
+    static target t;
+    baked *b[3];
+    double along_x[NUMBERS] = {0}, of_surface[NUMBERS] = {0};
+    for (int k = 0; k < 3; k++)
+        if (!(b[k] = baked_add(list, names[k], holds[k], 3, axis, count, 4)))
+            return 0;
+    for (size_t done = 0; done < all; done += n) {
+        double p[NUMBERS];
+        const size_t surface = n * n - 1 - done / (n * n), theta = done / n % n;
+        const float alpha = bake_alpha(s->mapping, (double)(surface / n) / (double)(n - 1)),
+                    both[2] = {alpha, fmaxf(alpha * (float)(surface % n + 1) / (float)n, 1e-3f)};
+        const double c = cosine_at(theta, n);
+        memcpy(p, theta ? along_x : of_surface, sizeof p);
+        for (size_t phi = 0; phi < n; phi++) {
+            const double turn = 1.5707963267949 * (double)phi / (double)(n - 1), r = sqrt(1 - c * c);
+            const double wi[3] = {r * cos(turn), r * sin(turn), c};
+            bake_cosine found;
+            if (!fit_anisotropic(&t, s, both, wi, along_x, p, &found))
+                return 0;
+            if (phi == 0)
+                memcpy(along_x, p, sizeof p);
+            if (phi == 0 && theta == 0)
+                memcpy(of_surface, p, sizeof p);
+            const double more[3] = {t.sum.all, t.sum.grazing, t.wrong};
+            for (int k = 0; k < 3; k++) {
+                float *to = b[k]->value + 4 * ((surface * n + theta) * n + phi);
+                for (int m = 0; m < 3; m++)
+                    to[m] = (float)found.inverse[k][m];
+                to[3] = (float)more[k];
+                note_wrong(b[k], t.wrong, all);
+            }
+        }
+        if (progress_show((double)done / (double)all, "anisotropic ltc", s->progress))
+            return 0;
+    }
     return 1;
 }

@@ -43,7 +43,15 @@ void list_words(const char *const *candidates, const char *before, char listed[L
 
 /* ---- the help as a table of options -------------------------------------------------------------- */
 
-int next_option(const char **at, option_term *term)
+typedef struct option_term {
+    const char *name, *value;         /* in the help */
+    size_t name_length, value_length; /* value_length 0: a flag */
+    size_t indent;                    /* of its item: 2 or 4 columns */
+    int repeats;
+} option_term;
+
+/* The option behind *at, which begins at the help and moves on; 0: there is none. */
+static int next_option(const char **at, option_term *term)
 {
     const char *p = *at;
     size_t indent = 0;
@@ -127,24 +135,37 @@ static int has_choices(const option_term *term)
 
 /* ---- reading ------------------------------------------------------------------------------------- */
 
+/* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--output" -o. */
+static option_term nearest_option(const char *help, const char *name)
+{
+    const size_t size = strlen(name), dashes = strspn(name, "-");
+    size_t least = vndf_word_slip(size);
+    option_term term, found = {.name = NULL};
+    while (next_option(&help, &term)) {
+        const int is_letter = size == dashes + 1;
+        const int begins = is_letter ? term.name[1] == '-' && term.name[2] == name[dashes]
+                                     : term.name_length > size && memcmp(term.name, name, size) == 0;
+        if (begins ? least > 0 : !is_letter && vndf_word_is_nearer(term.name, term.name_length, name, &least))
+            found = term;
+        else if (!found.name && term.name_length == 2 && term.name[1] == name[dashes])
+            found = term;
+        least = begins ? 0 : least;
+    }
+    return found;
+}
+
 /* `value` is what it was given, or the word behind it, or NULL; 0. */
 static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
 {
     char name[32];
-    option_term term, hint = {.name = NULL};
-    size_t least = vndf_word_slip(length);
+    option_term set;
     snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, word);
+    const option_term hint = nearest_option(given->help, name);
     const char letter = name[strspn(name, "-")];
-    const int is_letter = isalpha((unsigned char)letter) && length <= 3; /* "-a 0.3" or "--a=0.3" */
-    if (is_letter && value && isdigit((unsigned char)*value) && find_option(given->help, "--set", 5, &term))
-        return complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter,
-                        value),
-               0;
-    for (const char *at = given->help; next_option(&at, &term);)
-        if (is_letter ? !hint.name && term.name[1] == '-' && term.name[2] == letter
-                      : vndf_word_is_nearer(term.name, term.name_length, name, &least))
-            hint = term;
-    if (hint.name)
+    if (isalpha((unsigned char)letter) && length <= 3 && value && isdigit((unsigned char)*value) &&
+        find_option(given->help, "--set", 5, &set))
+        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
+    else if (hint.name)
         complain(given->command, "there is no option '%s'; did you mean '%.*s'?", name, (int)hint.name_length,
                  hint.name);
     else
@@ -212,10 +233,15 @@ static int check_parts(const arguments *given)
 int arguments_read(arguments *given, int argc, char **argv)
 {
     int options_end = 0;
+    option_term set;
     for (int i = 0; i < argc; i++) {
         if (options_end || argv[i][0] != '-' || !argv[i][1]) {
             if (given->positional.count == WORDS_MAX)
                 return complain(given->command, "these are more than %d words", WORDS_MAX), 0;
+            if (strchr(argv[i], '=') && !strchr(argv[i], '/') && find_option(given->help, "--set", 5, &set))
+                return complain(given->command, "'%s' is not expected; did you mean '--set %s'?", argv[i],
+                                argv[i]),
+                       0;
             given->positional.item[given->positional.count++] = argv[i];
         } else if (strcmp(argv[i], "--") == 0)
             options_end = 1;
@@ -280,7 +306,7 @@ const char *option_alone(const arguments *given, const char *const *names)
     if (other)
         complain(given->command, "%s and %s are given; only one is possible of %s", one, other, known);
     else
-        complain(given->command, "exactly one is needed of %s", known);
+        complain(given->command, "exactly one is needed of %s; `%s --help` has an example", known, given->command);
     return NULL;
 }
 

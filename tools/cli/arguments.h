@@ -80,16 +80,4 @@ const char *nearest_word(const char *word, const char *const *candidates, size_t
 /* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it. */
 int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* ---- what a help names ---- */
-
-typedef struct option_term {
-    const char *name, *value;         /* in the help */
-    size_t name_length, value_length; /* value_length 0: a flag */
-    size_t indent;                    /* of its item: 2 or 4 columns */
-    int repeats;
-} option_term;
-
-/* The option behind *at, which begins at the help and moves on; 0: there is none. */
-int next_option(const char **at, option_term *term);
-
 #endif

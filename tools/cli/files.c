@@ -55,13 +55,6 @@ int files_same(const char *a, const char *b)
 
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-/* NULL, or why stdin cannot be read: what is read once is gone. */
-static const char *take_stdin(void)
-{
-    static int is_taken;
-    return is_taken++ ? "this command reads it twice" : NULL;
-}
-
 /* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
 static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_t reason_size)
 {
@@ -94,13 +87,13 @@ static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_
 
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
+    static int stdin_is_taken; /* what is read once is gone */
     const int is_stdin = strcmp(path, "-") == 0;
-    const char *role = is_stdin ? take_stdin() : files_note(path, 0);
+    const char *role = is_stdin ? stdin_is_taken++ ? "read already" : NULL : files_note(path, 0);
     errno = 0;
     FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
     if (!file) {
-        snprintf(reason, reason_size, role && !is_stdin ? "it is %s as well" : "%s",
-                 role ? role : strerror(errno));
+        snprintf(reason, reason_size, role ? "it is %s" : "%s", role ? role : strerror(errno));
         return NULL;
     }
     char *bytes = read_all(file, most, size, reason, reason_size);
@@ -121,12 +114,4 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
     if (!bytes)
         complain(command, "cannot read %s: %s", input_name(path), reason);
     return bytes;
-}
-
-int input_stdin(const char *command)
-{
-    const char *why = take_stdin();
-    if (why)
-        complain(command, "cannot read stdin: %s", why);
-    return !why;
 }

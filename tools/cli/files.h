@@ -23,7 +23,4 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
 /* "stdin" for "-". */
 const char *input_name(const char *path);
 
-/* Takes stdin for a command that reads it line by line: it can be taken once. 1, or 0 after a complaint. */
-int input_stdin(const char *command);
-
 #endif

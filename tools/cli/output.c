@@ -67,30 +67,21 @@ int output_is_stdout(const char *path)
     return strcmp(path, "-") == 0;
 }
 
-int output_replaceable(const char *command, const char *path)
-{
-    struct stat status;
-    if (path[0] == '\0')
-        return complain(command, "the name of the output file is empty"), 0;
-    if (output_is_stdout(path))
-        return 1;
-    if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
-        return complain(command, "'%s' is a %s; the output has to be a file", path,
-                        S_ISDIR(status.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
-               0;
-    const char *role = files_note(path, 1);
-    if (role)
-        complain(command, "'%s' is not replaced: it is %s", path, role);
-    return !role;
-}
-
 int output_open(output_file *output, const char *command, const char *path)
 {
+    struct stat is;
     *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
     if (!output->path)
         return 1;
-    if (!output_replaceable(command, path))
-        return 0;
+    if (path[0] == '\0')
+        return complain(command, "the name of the output file is empty"), 0;
+    if (stat(path, &is) == 0 && !S_ISREG(is.st_mode))
+        return complain(command, "'%s' is a %s; the output has to be a file", path,
+                        S_ISDIR(is.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
+               0;
+    const char *role = files_note(path, 1);
+    if (role)
+        return complain(command, "'%s' is not replaced: it is %s", path, role), 0;
     output_hold_signals();
     if (vndf_replace_begin(&output->replaces, path)) {
         output->file = output->replaces.file;

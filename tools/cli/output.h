@@ -15,7 +15,8 @@ typedef struct output_file {
     vndf_replacement replaces; /* unless it is stdout */
 } output_file;
 
-/* Opens path, "-" for stdout. Returns 1, or 0 after a complaint. */
+/* Opens path, "-" for stdout. What a rename would damage is refused: a device, a pipe, a folder, an input of the
+ * command. Returns 1, or 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
 /* 1 if one of the signals that wait has come; close with output_give_up then. */
@@ -29,10 +30,6 @@ int output_give_up(output_file *output, const char *why);
 
 /* "-" */
 int output_is_stdout(const char *path);
-
-/* Refuses a path that a rename would damage: a device, a pipe, a folder, or an input of the command. 1 if it
- * is free or another file, which is noted as an output, or "-". */
-int output_replaceable(const char *command, const char *path);
 
 /* A file that outgrows a limit of the shell fails to be written, as on a full disk, and ends nothing. */
 void output_begin(void);

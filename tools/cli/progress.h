@@ -26,4 +26,8 @@ int progress_tell(double done, void *user);
 /* Clears the line. */
 void progress_end(const progress *p);
 
+/* Seconds that pass, on a clock that only goes forward; and seconds that all threads of this process worked. */
+double clock_seconds(void);
+double clock_processor_seconds(void);
+
 #endif

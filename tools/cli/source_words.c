@@ -42,6 +42,15 @@ static vndf_source *source_from_formula(const arguments *given, const char *kind
         option_value(given, kind), parameters, set.count, error);
 }
 
+/* What the program has beside the library for a name that is not known. */
+static const char *more_of(const char *message)
+{
+    return strstr(message, "did you mean")     ? ""
+           : strstr(message, "unknown name")   ? "; a parameter of your own has its value by --set NAME=X"
+           : strstr(message, "unknown family") ? "; `vndf build --list` has them and all materials"
+                                               : "";
+}
+
 vndf_source *source_from_words(const arguments *given, const char *otherwise)
 {
     const char *command = given->command, *kind = option_among(given, source_kinds);
@@ -60,10 +69,7 @@ vndf_source *source_from_words(const arguments *given, const char *otherwise)
     else
         source = vndf_source_family(kind ? option_value(given, kind) : otherwise, &error);
     if (!source && error.status != VNDF_OK)
-        complain(command, "%s: %s%s", kind ? kind : "--family", error.message,
-                 strstr(error.message, "unknown name") && !strstr(error.message, "did you mean")
-                     ? "; a parameter of your own has its value by --set NAME=X"
-                     : "");
+        complain(command, "%s: %s%s", kind ? kind : "--family", error.message, more_of(error.message));
     return source;
 }
 

@@ -18,9 +18,10 @@ static const char *const help[] = {
     "for numpy (.npy), a texture of half floats (.dds) and arrays for C (.h), GLSL and JavaScript; and index.html,\n"
     "which shows them all with their errors. The same words give the same bytes.\n"
     "\n"
-    "  --what dfg,energy,ltc,prefilter  only these. dfg: scale and bias of the split sum, and E_avg; energy: E and\n"
-    "                   E_avg of a mirror and of glass; ltc: linearly transformed cosines for area lights;\n"
-    "                   prefilter: taps for environments\n"
+    "  --what dfg,energy,ltc,prefilter,anisotropic  only these (default the first four). dfg: scale and bias of\n"
+    "                   the split sum, and E_avg; energy: E and E_avg of a mirror and of glass; ltc: linearly\n"
+    "                   transformed cosines for area lights; prefilter: taps for environments; anisotropic: such\n"
+    "                   cosines where alpha_x and alpha_y differ, which take 40 s\n"
     "  --mapping square|linear|sqrt  what alpha is of the roughness in a texture (default square)\n"
     "  --masking correlated|separable  Smith's masking and shadowing together (default correlated)\n"
     "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64)\n"
@@ -34,27 +35,33 @@ static const char *const help[] = {
     "         vndf bake ggx --what energy --shape cycles --format npy energy\n",
     NULL};
 
-/* Which words of a list were given, a bit each; all without the option. */
-static unsigned listed(const arguments *given, const char *option)
+/* Which words of a list were given, a bit each; without the option those of `otherwise`. */
+static unsigned listed(const arguments *given, const char *option, unsigned otherwise)
 {
     int which[WORDS_MAX];
     unsigned bits = 0;
     for (size_t i = option_choices(given, option, which); i-- > 0;)
         bits |= 1u << which[i];
-    return bits ? bits : ~0u;
+    return bits ? bits : otherwise;
 }
 
 static int make(const bake_settings *s, unsigned what, const char *shape, baked_list *list)
 {
-    const double end[] = {0.2, 0.5, 0.99, 1};
+    static const double seconds[] = {2, 16, 17, 0.1, 50};
+    double all = 0, end = 0;
     int good = 1;
-    for (int k = 0; k < 4 && good; k++) {
-        if (what >> k & 1)
-            good = k == 0   ? bake_dfg(s, list)
-                   : k == 1 ? bake_energy(s, shape, list)
-                   : k == 2 ? bake_ltc(s, list)
-                            : bake_prefilter(s, list);
-        progress_step(s->progress, end[k]);
+    for (int k = 0; k < 5; k++)
+        all += what >> k & 1 ? seconds[k] : 0;
+    for (int k = 0; k < 5 && good; k++) {
+        if (!(what >> k & 1))
+            continue;
+        end += seconds[k] / all;
+        progress_step(s->progress, end);
+        good = k == 0   ? bake_dfg(s, list)
+               : k == 1 ? bake_energy(s, shape, list)
+               : k == 2 ? bake_ltc(s, list)
+               : k == 3 ? bake_prefilter(s, list)
+                        : bake_anisotropic(s, list);
     }
     return good;
 }
@@ -113,13 +120,12 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     s->progress = &p;
     snprintf(made_by, sizeof made_by, "%s %s", name, given->positional.item[0]);
     options_text(given, options, made_by, sizeof made_by);
-    progress_step(&p, what & 1 ? 0.2 : 0.01);
     int status = make(s, what, shape, &list) ? STATUS_GOOD
                  : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
                                              : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
     if (status == STATUS_GOOD &&
-        !write_page(&page, &list, listed(given, "--format"), made_by, input_name(given->positional.item[0])))
+        !write_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
         status = STATUS_USE;
     status = page_close(&page, status);
     if (status == STATUS_GOOD)
@@ -140,7 +146,7 @@ static int run(const arguments *given)
                        .masking = option_choice(given, "--masking", 0) ? VNDF_MASKING_SEPARABLE
                                                                        : VNDF_MASKING_HEIGHT_CORRELATED,
                        .size = (size_t)size};
-    int status = bake(given, &s, listed(given, "--what"));
+    int status = bake(given, &s, listed(given, "--what", 15));
     distribution_close(&chosen);
     return status;
 }

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "cli/arguments.h"
-#include "cli/clock.h"
+#include "cli/progress.h"
 #include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/source_words.h"

@@ -229,23 +229,20 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     return to->owned || to->family;
 }
 
-static int save(const chosen_distribution *of, const char *path)
+static int save(const chosen_distribution *of, output_file *output)
 {
     vndf_error error = {VNDF_OK, ""};
-    output_file output;
     size_t size = of->owned ? vndf_distribution_info(of->owned).bytes : vndf_family_info(of->family).bytes;
     void *bytes = malloc(size);
     if (!bytes)
-        return complain(name, "no memory for the file");
+        return output_give_up(output, "no memory for the file");
     if (of->owned)
         vndf_save_memory(of->owned, bytes, size, &error);
     else
         vndf_family_save_memory(of->family, bytes, size, &error);
-    int opened = output_open(&output, name, path);
-    if (opened)
-        fwrite(bytes, 1, size, output.file); /* committing tells what could not be written */
+    fwrite(bytes, 1, size, output->file); /* committing tells what could not be written */
     free(bytes);
-    return opened ? output_commit(&output) : STATUS_USE;
+    return output_commit(output);
 }
 
 /* Says what was built and what it is worth, and that on stderr too where it is worth little. Where the file itself is
@@ -303,6 +300,7 @@ static int run(const arguments *given)
     const char *path = option_value(given, "-o");
     chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
+    output_file output;
     if (option_value(given, "--list"))
         return print_list();
     if (!check_words(given))
@@ -313,15 +311,14 @@ static int run(const arguments *given)
         source = source_from_words(given, NULL);
     if (!source && !option_value(given, "--parameter"))
         return STATUS_USE;
-    output_hold_signals();
     int status = STATUS_USE;
-    if (output_replaceable(name, path) && build(given, source, &made))
-        status = save(&made, path);
+    if (output_open(&output, name,
+                    path)) /* before the work, so that a place that cannot be written is told first */
+        status = build(given, source, &made) ? save(&made, &output) : output_give_up(&output, NULL);
     if (status == STATUS_GOOD)
         tell(given, &made, found);
     distribution_close(&made);
     vndf_source_free(source);
-    output_release_signals();
     return status;
 }
 

@@ -1,12 +1,13 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
  * file that draws in WebGL2. tools/export/page/explorer.html is the frame. A line of it that is {{file}} stands for
- * that file, and {{choices}}, {{numbers}}, {{kernel}} and {{shaders}} for what differs from page to page. A letter
- * after a file's name is its $. */
+ * that file, and {{choices}}, {{numbers}}, {{kernel}}, {{shaders}}, {{engines}} and {{baked}} for what differs from
+ * page to page. A letter after a file's name is its $. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "bake/bake.h"
 #include "cli/arguments.h"
 #include "cli/output.h"
 #include "command.h"
@@ -14,6 +15,13 @@
 #include "draw/png.h"
 #include "draw/svg.h"
 #include "export/document.h"
+
+/* What the page is made of. */
+typedef struct contents {
+    export_document document;
+    float *baked; /* tables of `vndf bake` for each table, GGX and Beckmann, where they are wanted; owned */
+    size_t baked_count;
+} contents;
 
 /* Numbers that the smallest float texture of WebGL2 holds: 1024 columns, 2048 rows. */
 enum { NUMBERS_MAX = 1024 * 2048 };
@@ -30,6 +38,9 @@ static const char *const help[] = {
     "writes, and the page shows it.\n"
     "\n"
     "  -o PAGE.html     the page; - for stdout\n"
+    "  --engines N      also what engines that look light up make of them in one pass, beside samples, with tables\n"
+    "                   of `vndf bake` of N x N, 4 to 64; 32 takes some 5 s for each FILE, GGX and Beckmann\n"
+    "  -q               no progress\n"
     "\n"
     "Settings stand in the page's address, so that a link keeps them: PAGE.html#alpha=0.2,0.05&theta=70&light=lamp;\n"
     "#frames=64 draws that many samples per pixel before the page is shown, for pictures.\n"
@@ -70,15 +81,15 @@ static void put_choices(FILE *to, const export_document *document)
 }
 
 /* Little-endian, in lines of base64. */
-static void put_numbers(FILE *to, const export_document *document)
+static void put_numbers(FILE *to, const float *numbers, size_t count)
 {
     unsigned char line[84];
     size_t n = 0;
-    for (size_t i = 0; i < 4 * document->count; i++) {
+    for (size_t i = 0; i < 4 * count; i++) {
         unsigned bits;
-        memcpy(&bits, &document->numbers[i / 4], sizeof bits);
+        memcpy(&bits, &numbers[i / 4], sizeof bits);
         line[n++] = (unsigned char)(bits >> 8 * (i % 4) & 255u);
-        if (n == sizeof line || i + 1 == 4 * document->count) {
+        if (n == sizeof line || i + 1 == 4 * count) {
             base64_write(to, line, n);
             fputs("\n", to);
             n = 0;
@@ -99,35 +110,39 @@ static int put_kernel(FILE *to, const export_document *document)
     return good;
 }
 
-static int put_file(FILE *to, const export_document *document, const char *file, const char *letter);
+static int put_file(FILE *to, const contents *of, const char *file, const char *letter);
 
-static void put_shaders(FILE *to, const export_document *document)
+static void put_shaders(FILE *to, const contents *of)
 {
     for (const embedded_text *text = page_texts; text->name; text++)
         if (strstr(text->name, ".glsl")) {
             fprintf(to, "<script type=\"text/plain\" id=\"%s\">\n", text->name);
-            put_file(to, document, text->name, "");
+            put_file(to, of, text->name, "");
             fputs("</script>\n", to);
         }
 }
 
 /* What stands for {{name letter}}. */
-static int put_part(FILE *to, const export_document *document, const char *part, const char *letter)
+static int put_part(FILE *to, const contents *of, const char *part, const char *letter)
 {
     if (strcmp(part, "kernel") == 0)
-        return put_kernel(to, document);
+        return put_kernel(to, &of->document);
     if (strcmp(part, "choices") == 0)
-        put_choices(to, document);
+        put_choices(to, &of->document);
     else if (strcmp(part, "numbers") == 0)
-        put_numbers(to, document);
+        put_numbers(to, of->document.numbers, of->document.count);
     else if (strcmp(part, "shaders") == 0)
-        put_shaders(to, document);
+        put_shaders(to, of);
+    else if (strcmp(part, "baked") == 0)
+        put_numbers(to, of->baked, of->baked_count);
+    else if (strcmp(part, "engines") == 0)
+        return !of->baked || put_file(to, of, "engines.html", letter);
     else
-        return put_file(to, document, part, letter);
+        return put_file(to, of, part, letter);
     return 1;
 }
 
-static int put_file(FILE *to, const export_document *document, const char *file, const char *letter)
+static int put_file(FILE *to, const contents *of, const char *file, const char *letter)
 {
     const embedded_text *text = page_texts;
     while (text->name && strcmp(text->name, file) != 0)
@@ -135,7 +150,7 @@ static int put_file(FILE *to, const export_document *document, const char *file,
     for (const char *const *line = text->name ? text->lines : NULL; line && *line; line++) {
         char inner[32], its_letter[16] = "";
         if (sscanf(*line, "{{%31[^ }] %15[^}]", inner, its_letter) > 0) {
-            if (!put_part(to, document, inner, its_letter))
+            if (!put_part(to, of, inner, its_letter))
                 return 0;
             continue;
         }
@@ -151,28 +166,70 @@ static int put_file(FILE *to, const export_document *document, const char *file,
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int write_page(const arguments *given, export_document *document)
+/* The tables of one distribution, one after the other. */
+static int bake_one(const vndf_distribution *d, size_t size, progress *p, contents *of)
 {
+    const bake_settings s = {.distribution = d, .size = size, .progress = p};
+    baked_list list = {.count = 0};
+    int good = bake_ltc(&s, &list) && bake_dfg(&s, &list) && bake_prefilter(&s, &list);
+    for (size_t i = 0; good && i < list.count; i++) {
+        const size_t n = baked_size(&list.table[i]);
+        float *all = realloc(of->baked, (of->baked_count + n) * sizeof *all);
+        good = all != NULL;
+        if (good) {
+            memcpy(all + of->baked_count, list.table[i].value, n * sizeof *all);
+            of->baked = all;
+            of->baked_count += n;
+        }
+    }
+    baked_free(&list);
+    return good;
+}
+
+/* Those of each table, GGX and Beckmann; 0 after a complaint. */
+static int bake_all(const arguments *given, size_t size, contents *of)
+{
+    const size_t tables = of->document.tables;
+    progress p = progress_begin(name, option_value(given, "-q") != NULL);
+    int good = 1;
+    output_hold_signals();
+    for (size_t i = 0; i < tables + 2 && good; i++) {
+        const vndf_distribution *d = i < tables ? of->document.table[i].distribution : vndf_ggx();
+        progress_step(&p, (double)(i + 1) / (double)(tables + 2));
+        good = bake_one(i <= tables ? d : vndf_beckmann(), size, &p, of);
+    }
+    progress_end(&p);
+    if (!good)
+        complain(name, output_stopping() ? "interrupted" : "no memory for the tables");
+    output_release_signals();
+    return good;
+}
+
+static int write_page(const arguments *given, contents *of)
+{
+    unsigned long long size = 0;
     output_file page;
-    translation_prefix(&document->as, "vndf");
-    if (!named_tables_open(name, &given->positional, 0, document))
+    translation_prefix(&of->document.as, "vndf");
+    if (!option_count(given, "--engines", 4, 64, &size) ||
+        !named_tables_open(name, &given->positional, 0, &of->document))
         return STATUS_USE;
-    if (document->count > NUMBERS_MAX)
-        return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", document->count,
+    if (of->document.count > NUMBERS_MAX)
+        return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", of->document.count,
                         NUMBERS_MAX);
-    if (!output_open(&page, name, option_value(given, "-o")))
+    if ((size && !bake_all(given, (size_t)size, of)) || !output_open(&page, name, option_value(given, "-o")))
         return STATUS_USE;
-    return put_file(page.file, document, "explorer.html", "") ? output_commit(&page)
-                                                              : output_give_up(&page, "no memory");
+    return put_file(page.file, of, "explorer.html", "") ? output_commit(&page)
+                                                        : output_give_up(&page, "no memory");
 }
 
 static int run(const arguments *given)
 {
-    export_document document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL};
+    contents of = {.document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL}};
     if (!option_value(given, "-o"))
         return complain(name, "-o PAGE.html is missing");
-    int status = write_page(given, &document);
-    named_tables_close(&document);
+    int status = write_page(given, &of);
+    named_tables_close(&of.document);
+    free(of.baked);
     return status;
 }
 

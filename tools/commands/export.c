@@ -30,13 +30,12 @@ static const char *const help[] = {
     "                   16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
     "  --distribution table|ggx|beckmann ...  only these; a kernel has all three by default\n"
-    "  --only CALLS     only these calls and what they need: view,sample,pdf,visible,ndf,lambda,g1,g2,\n"
-    "                   projected_area,mixture,family\n"
+    "  --only view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family,bsdf_sample,bsdf_eval,bsdf_pdf\n"
+    "                   only these calls and what they need; the last three are of --bsdf\n"
     "  --bsdf EFFECTS   a BSDF with these effects, its sample, value and density, in the place of the calls above:\n"
     "                   'lobes=reflection|transmission|both fresnel=none|schlick|dielectric|conductor\n"
     "                   masking=correlated|separable|v-cavities|none transport=radiance|importance\n"
-    "                   reflection=specular|retro'; the first of each is the default. --only has bsdf_sample,\n"
-    "                   bsdf_eval and bsdf_pdf too\n"
+    "                   reflection=specular|retro'; the first of each is the default\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
     "\n"
     "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
@@ -46,32 +45,19 @@ static const char *const help[] = {
     "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n"
     "         vndf export tables/hazy.vndf --bsdf 'lobes=both fresnel=dielectric' --language wgsl -o glass.wgsl\n"
     "\n",
-    BRDF_HELP "\nexit status: 0 good, 2 wrong use\n", NULL};
+    "As reflectances, for hosts that read measured ones: what a surface of this D mirrors once, F by Schlick, masked\n"
+    "by Smith with heights correlated. FILE is one table, ggx or beckmann.\n"
+    "\n"
+    "  --rgl            a .bsdf that Mitsuba 3 (plugin measured) renders as it is; with --wavelengths, its spectral\n"
+    "                   variants and pbrt-v4\n"
+    "    --alpha A      roughness (default 1, D as the table holds it)\n"
+    "    --f0 R[,G,B]   reflectance at normal incidence, 0 to 1 (default 1: all light is reflected)\n"
+    "    --wavelengths L,...  nanometres, ascending, up to 16; --f0 then has one number, or one for each\n"
+    "\n"
+    "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n",
+    NULL};
 
 /* ---- words --------------------------------------------------------------------------------------- */
-
-/* A list with commas, cut in `text`. */
-static int read_only(const arguments *given, export_document *document, char *text, size_t size)
-{
-    size_t count = 0, n = 0;
-    const char *only = option_value(given, "--only");
-    snprintf(text, size, "%s", only ? only : "");
-    for (char *call = strtok(text, ","); call; call = strtok(NULL, ",")) {
-        for (n = 0; document_calls[n] && strcmp(document_calls[n], call) != 0; n++)
-            ;
-        if (!document_calls[n] || count + 1 >= EXPORT_CALLS)
-            return complain(
-                       name,
-                       "--only '%s': view, sample, pdf, visible, ndf, lambda, g1, g2, projected_area, mixture, family, "
-                       "bsdf_sample, bsdf_eval and bsdf_pdf are known, each once",
-                       call),
-                   0;
-        if (document_is_of_bsdf(call) && !document->effects.wanted)
-            return complain(name, "--only '%s' needs --bsdf", call), 0;
-        document->only[count++] = call;
-    }
-    return 1;
-}
 
 static int read_kinds(const arguments *given, export_document *document)
 {
@@ -109,10 +95,13 @@ static int read_settings(const arguments *given, export_document *document)
     if (!option_count(given, "--lobes", 1, 8, &lobes))
         return 0;
     document->lobes = (long)lobes;
-    document->embeds = option_value(given, "--buffer") == NULL;
-    document->as.by_pointer = !document->embeds && document->as.to->pointer;
+    document->as.embeds = option_value(given, "--buffer") == NULL;
+    document->as.by_pointer = !document->as.embeds && !document->as.to->bound;
     if (effects && !effects_read(&document->effects, effects, why))
         return complain(name, "--bsdf %s", why), 0;
+    document->only = option_value(given, "--only");
+    if (document->only && strstr(document->only, "bsdf_") && !effects)
+        return complain(name, "--only '%s': a BSDF needs --bsdf", document->only), 0;
     return 1;
 }
 
@@ -126,7 +115,7 @@ static int fits(const export_document *document)
         if (document->table[i].family && document->lobes < 2)
             return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
                    0;
-    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+    if (!document->as.embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     return complain(
                name,
@@ -174,20 +163,18 @@ static int run(const arguments *given)
 {
     static const char *const of_kernels[] = {"--language", "--buffer",       "--prefix", "--lobes",
                                              "--only",     "--distribution", "--bsdf",   NULL};
-    static const char *const of_files[] = {"--alpha", "--f0", "--wavelengths", NULL};
     const int is_brdf = option_value(given, "--rgl") != NULL;
-    const char *wrong = option_among(given, is_brdf ? of_kernels : of_files);
+    const char *wrong = is_brdf ? option_among(given, of_kernels) : NULL;
     export_document document = {0};
-    char only[200];
     int status = STATUS_USE;
     if (wrong)
-        return complain(name, is_brdf ? "%s is for kernels, not for --rgl" : "%s is for --rgl", wrong);
+        return complain(name, "%s is for kernels, not for --rgl", wrong);
     if (!option_value(given, "-o"))
         return complain(name, "-o OUT is missing");
     if (is_brdf)
         return export_brdf(given);
-    if (read_settings(given, &document) && read_only(given, &document, only, sizeof only) &&
-        named_tables_open(name, &given->positional, 1, &document) && fits(&document))
+    if (read_settings(given, &document) && named_tables_open(name, &given->positional, 1, &document) &&
+        fits(&document))
         status = write_all(given, &document);
     named_tables_close(&document);
     return status;

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/arguments.h"
+#include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "command.h"
@@ -48,8 +48,10 @@ typedef struct render_work {
     comparison ways; /* one of them is no comparison */
     unsigned long long spp, width;
     double exposure;
-    const char *output; /* NULL: none */
-    int is_pfm, has_json, is_quiet;
+    const char *path; /* of the picture; NULL: none */
+    output_file output;
+    int is_pfm;
+    figures_form form;
 } render_work;
 
 /* ---- words ---- */
@@ -61,9 +63,7 @@ static int read_words(const arguments *given, render_work *w)
     unsigned long long threads = film_processors(), seed = 0;
     int sampler[WORDS_MAX] = {option_choice(given, "--sampler", 0)};
     const size_t compared = option_choices(given, "--compare", sampler);
-    *w = (render_work){.output = option_value(given, "-o"),
-                       .has_json = option_value(given, "--json") != NULL,
-                       .is_quiet = option_value(given, "-q") != NULL};
+    *w = (render_work){.path = option_value(given, "-o"), .form = figures_begin(given).form};
     if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
         !option_count(given, "--seed", 0, 0x1p53, &seed) ||
         !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
@@ -78,12 +78,12 @@ static int read_words(const arguments *given, render_work *w)
     w->ways.count = compared ? compared : 1;
     for (size_t k = 0; k < w->ways.count; k++)
         w->ways.way[k].sampler = (path_sampler)sampler[k];
-    if (!w->output)
+    if (!w->path)
         return compared || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
-    if (output_is_stdout(w->output) && (compared || w->has_json))
+    if (output_is_stdout(w->path) && (compared || w->form == FIGURES_JSON))
         return complain(name, "figures go to stdout, where -o - puts the picture; give -o a file"), 0;
-    w->is_pfm = output_form(name, w->output, forms);
-    return w->is_pfm >= 0 && output_replaceable(name, w->output);
+    w->is_pfm = output_form(name, w->path, forms);
+    return w->is_pfm >= 0;
 }
 
 /* ---- figures ---- */
@@ -108,6 +108,7 @@ static void add_measured(text_table *t, const char *key, const measured *m, int 
 static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
     const comparison *c = &w->ways;
+    const int has_json = w->form == FIGURES_JSON;
     text_table t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
@@ -117,12 +118,12 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         table_word(&t, "sampler", path_sampler_names[c->way[i].sampler]);
         table_number(&t, "samples", "%.0f", (double)f->samples);
         table_number(&t, "seconds", "%.3g", f->processor);
-        table_number(&t, "noise", w->has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
-        add_measured(&t, "samples_needed", &a->samples, w->has_json);
-        add_measured(&t, "efficiency", &a->efficiency, w->has_json);
-        table_number(&t, "light", w->has_json ? "%.9g" : "%.5f", a->ratio);
+        table_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
+        add_measured(&t, "samples_needed", &a->samples, has_json);
+        add_measured(&t, "efficiency", &a->efficiency, has_json);
+        table_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio);
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
-        if (w->has_json) {
+        if (has_json) {
             table_number(&t, "noise_trimmed", "%.9g", sqrt(a->noise.trimmed));
             table_number(&t, "deviations", "%.9g", a->whole);
             table_number(&t, "worst_block", "%.9g", a->worst);
@@ -133,7 +134,7 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
             table_word(&t, "interrupted", is_whole ? "no" : "yes");
         }
     }
-    int good = table_print(stdout, &t, w->has_json ? FIGURES_JSON : FIGURES_TEXT);
+    int good = table_print(stdout, &t, w->form);
     table_free(&t);
     return good;
 }
@@ -158,7 +159,7 @@ static int tell(const render_work *w, int is_whole)
             "%s shows something else: light by %+.1f standard deviations, at worst a block by %+.1f, at (%d, %d)",
             path_sampler_names[c->way[i].sampler], a->whole, a->worst, a->x, a->y);
     }
-    if (!w->is_quiet && !w->has_json) {
+    if (w->form == FIGURES_TEXT) {
         printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
                is_whole ? "" : " (interrupted)");
         printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->run.threads,
@@ -166,7 +167,7 @@ static int tell(const render_work *w, int is_whole)
         if (f->counts.lost)
             printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
     }
-    if (!w->is_quiet && (w->has_json || c->count > 1) && !print_rows(w, found, is_whole))
+    if (w->form != FIGURES_NONE && (w->form == FIGURES_JSON || c->count > 1) && !print_rows(w, found, is_whole))
         return complain(name, "no memory for figures");
     return status;
 }
@@ -188,64 +189,47 @@ static int render_ways(comparison *c, const scene *s, int is_quiet)
     return is_whole;
 }
 
-static int save(output_file *output, const render_work *w, float exposure)
+static int save(render_work *w, float exposure)
 {
     const comparison *c = &w->ways;
     image made;
     const float by = w->exposure > 0 ? (float)w->exposure : exposure;
     if (!(c->count > 1 ? comparison_image(c, w->is_pfm ? 1.0f : by, &made) : film_image(&c->way[0].film, &made)))
-        return output_give_up(output, "no memory for the picture");
-    int is_written = w->is_pfm ? image_write_pfm(output->file, &made)
-                               : image_write_png(output->file, &made, c->count > 1 ? 1.0f : by);
+        return output_give_up(&w->output, "no memory for the picture");
+    int is_written = w->is_pfm ? image_write_pfm(w->output.file, &made)
+                               : image_write_png(w->output.file, &made, c->count > 1 ? 1.0f : by);
     image_free(&made);
-    return is_written || ferror(output->file) /* which is told by closing */
-               ? output_commit(output)
-               : output_give_up(output, "no memory for the picture");
+    return is_written || ferror(w->output.file) /* which is told by closing */
+               ? output_commit(&w->output)
+               : output_give_up(&w->output, "no memory for the picture");
 }
 
-/* With a picture or figures alone: then no file is open, and signals wait for the end of a pass. */
-static int render(render_work *w, const scene *s)
+/* With a picture, which is open, or figures alone. */
+static int render(render_work *w, scene *s)
 {
-    output_file output;
-    const int compares = w->ways.count > 1;
-    if (w->output && !output_open(&output, name, w->output))
-        return STATUS_USE;
-    if (!w->output)
-        output_hold_signals();
-    const int is_whole = render_ways(&w->ways, s, w->is_quiet);
-    int status = STATUS_USE;
-    if (!is_whole && (compares || !w->ways.way[0].film.samples)) {
-        const char *why = !output_stopping() ? "no memory for the films"
-                          : compares         ? "interrupted; nothing was written"
-                                             : "interrupted before every pixel had a sample";
-        status = w->output ? output_give_up(&output, why) : complain(name, "%s", why);
-    } else {
-        status = w->output && !output.path ? STATUS_GOOD : tell(w, is_whole);
-        fflush(stdout); /* a signal that waits ends the program when the picture is saved */
-        const int saved = w->output ? save(&output, w, s->exposure) : STATUS_GOOD;
-        status = saved != STATUS_GOOD ? saved : status;
-    }
-    if (!w->output)
-        output_release_signals();
-    return status;
-}
-
-static int render_scene(render_work *w, scene *s)
-{
-    char message[640];
+    vndf_error error = {VNDF_OK, ""};
     comparison *c = &w->ways;
-    if (w->width && !scene_resize(s, (int)w->width, message, sizeof message))
-        return complain(name, "--width: %s", message);
+    int is_ready = !w->width || scene_resize(s, (int)w->width, &error);
     c->run.samples = w->spp ? w->spp : s->samples;
-    for (size_t i = 0; i < c->count; i++)
-        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, message, sizeof message)))
-            return complain(name, "%s", message);
-    return render(w, s);
+    for (size_t i = 0; i < c->count && is_ready; i++)
+        is_ready = (c->way[i].plan = path_prepare(s, c->way[i].sampler, &error)) != NULL;
+    const int is_whole = is_ready && render_ways(c, s, w->form == FIGURES_NONE);
+    if (!is_whole && (c->count > 1 || !c->way[0].film.samples)) {
+        complain(name, "%s",
+                 !is_ready           ? error.message
+                 : output_stopping() ? "interrupted; nothing was written"
+                                     : "no memory for the films");
+        return w->path ? output_give_up(&w->output, NULL) : STATUS_USE;
+    }
+    const int status = w->path && !w->output.path ? STATUS_GOOD : tell(w, is_whole);
+    fflush(stdout); /* a signal that waits ends the program when the picture is saved */
+    const int saved = w->path ? save(w, s->exposure) : STATUS_GOOD;
+    return saved != STATUS_GOOD ? saved : status;
 }
 
 static int run(const arguments *given)
 {
-    char message[1024];
+    vndf_error error;
     render_work w;
     if (option_value(given, "--grammar"))
         return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
@@ -253,10 +237,10 @@ static int run(const arguments *given)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0], message, sizeof message);
+    scene *s = scene_read(given->positional.item[0], &error);
     if (!s)
-        return complain(name, "%s", message);
-    int status = render_scene(&w, s);
+        return complain(name, "%s", error.message);
+    int status = !w.path || output_open(&w.output, name, w.path) ? render(&w, s) : STATUS_USE;
     for (size_t i = 0; i < w.ways.count; i++) {
         path_free(w.ways.way[i].plan);
         film_free(&w.ways.way[i].film);

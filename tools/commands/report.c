@@ -3,7 +3,7 @@
 #include <stdio.h>
 
 #include "cli/arguments.h"
-#include "cli/clock.h"
+#include "cli/progress.h"
 #include "cli/source_words.h"
 #include "command.h"
 #include "draw/svg.h"

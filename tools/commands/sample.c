@@ -1,24 +1,30 @@
-/* vndf sample draws visible normals into a file, vndf eval says what normals are worth that it reads from stdin. */
-#include <errno.h>
-#include <math.h>
+/* vndf sample: visible normals into a file, in a format that outsiders read. */
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "cli/figures.h"
-#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/random.h"
 #include "cli/subject.h"
 #include "command.h"
 
-/* ---- sample -------------------------------------------------------------------------------------- */
+#define POSITIONAL "FILE|ggx|beckmann|FILE.vndfs@P"
 
-static const char *const sample_help[] = {
-    "usage: vndf sample " SURFACE_POSITIONAL " --theta DEG -n N -o OUT [options]\n"
+static const char name[] = "vndf sample";
+
+static const char *const help[] = {
+    "usage: vndf sample " POSITIONAL " --theta DEG -n N -o OUT [options]\n"
     "\n"
-    "Draws visible normals from one incident direction, each with its density per steradian.\n" SURFACE_HELP
+    "Draws visible normals from one incident direction, each with its density per steradian. FILE is a table (vndf\n"
+    "build), - for stdin; FILE.vndfs@P is a family of tables (vndf build --parameter) at the parameter P, as in\n"
+    "tails.vndfs@2.7.\n"
+    "\n"
+    "  --theta DEG      angle of the incident direction from the normal, 0 to 180; above 90 is below the surface\n"
+    "  --phi DEG        its azimuth from the x axis, -360 to 360 (default 0)\n"
+    "  --alpha AX[,AY]  roughness along x and y (default 1: the distribution as the builder received it), or\n"
+    "  --matrix XX,XY,YX,YY  the linear map of its slopes, s = M u + mean, not singular\n"
+    "  --mean X,Y       its mean slope (default 0,0)\n"
     "  -n N             the number of samples\n"
     "  --seed S         the stream of random numbers, a whole number (default 1)\n"
     "  -o OUT           OUT.csv: a header wm.x,wm.y,wm.z,pdf, then lines of 9 digits, which give the float back;\n"
@@ -27,6 +33,66 @@ static const char *const sample_help[] = {
     "example: vndf sample wavy.vndf --theta 60 --phi 30 --alpha 0.1,0.3 -n 1000000 -o normals.f32\n"
     "         vndf sample ggx --theta 60 --matrix 0.5,0.2,-0.1,0.4 --mean 0.05,0 -n 1000 -o -\n",
     NULL};
+
+/* ---- the surface --------------------------------------------------------------------------------- */
+
+/* --alpha or --matrix, and --mean, of ggx. 1, or 0 after a complaint. */
+static int read_map(const arguments *given, vndf_affine *map)
+{
+    const char *alpha = option_value(given, "--alpha"), *matrix = option_value(given, "--matrix");
+    const char *mean = option_value(given, "--mean");
+    double m[4] = {1, 0, 0, 1}, shift[2] = {0, 0};
+    vndf_surface plain;
+    if (alpha && matrix)
+        return complain(name, "--alpha and --matrix are given; one of them is possible"), 0;
+    if (!roughness_from(name, alpha, &plain) ||
+        (matrix && !parse_numbers(name, "--matrix", matrix, -1e18, 1e18, 4, 4, m)) ||
+        (mean && !parse_numbers(name, "--mean", mean, -1e6, 1e6, 2, 2, shift)))
+        return 0;
+    *map = (vndf_affine){vndf_ggx(),  (float)m[0],     (float)m[1],    (float)m[2],
+                         (float)m[3], (float)shift[0], (float)shift[1]};
+    if (!matrix) {
+        map->xx = plain.alpha_x;
+        map->yy = plain.alpha_y;
+    }
+    const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
+    if (vndf_mixture_view_from(&alone, (vndf_vec3){0, 0, 1}).count != 1)
+        return complain(
+                   name,
+                   "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
+                   matrix ? matrix : ""),
+               0;
+    return 1;
+}
+
+/* One distribution, or the two neighbours of a family's parameter. Close what it is of. 1, or 0 after a complaint. */
+static int read_surface(const arguments *given, vndf_mixture *surface, chosen_distribution *of)
+{
+    const char *word = given->positional.item[0], *at = strstr(word, ".vndfs@");
+    char path[4096];
+    double p;
+    vndf_affine map;
+    if (is_family_file(word))
+        return complain(name, "'%s' is a family; say at which parameter, as in %s@2.5", word, word), 0;
+    snprintf(path, sizeof path, "%.*s", at ? (int)(at - word) + 6 : (int)strlen(word), word);
+    if (!read_map(given, &map) || !distribution_open(of, name, path, at != NULL))
+        return 0;
+    map.distribution = of->distribution;
+    *surface = (vndf_mixture){1, {{map, 1}}};
+    if (!at)
+        return 1;
+    if (!parse_numbers(name, "the parameter", at + 7, -1e30, 1e30, 1, 1, &p))
+        return 0;
+    vndf_family_facts facts = vndf_family_info(of->family);
+    if (!((float)p >= facts.low && (float)p <= facts.high))
+        return complain(name, "the parameter '%s' is not in the range of the family, from %.7g to %.7g", at + 7,
+                        (double)facts.low, (double)facts.high),
+               0;
+    vndf_family_at(of->family, (float)p, &map, surface);
+    return 1;
+}
+
+/* ---- samples ------------------------------------------------------------------------------------- */
 
 static void write_f32(FILE *file, const float values[4])
 {
@@ -38,18 +104,17 @@ static void write_f32(FILE *file, const float values[4])
 }
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
-static int write_samples(const arguments *given, const chosen_surface *surface, unsigned long long count,
-                         uint64_t seed, int is_csv, output_file *output)
+static int write_samples(const vndf_mixture_view *view, unsigned long long count, uint64_t seed, int is_csv,
+                         int is_quiet, output_file *output)
 {
     random_stream stream = random_from(seed);
-    vndf_mixture_view view = vndf_mixture_view_from(&surface->mixture, surface->wi);
-    progress p = progress_begin("sampling", option_value(given, "-q") || !output->path); /* lines show it, too */
+    progress p = progress_begin("sampling", is_quiet || !output->path); /* lines on the terminal show it, too */
     int stops = 0;
     p.tells_left = 1;
     fputs(is_csv ? "wm.x,wm.y,wm.z,pdf\n" : "", output->file);
     for (unsigned long long i = 0; i < count && !ferror(output->file) && !stops; i++) {
         float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
-        vndf_vec3 wm = vndf_mixture_sample(&view, u1, u2, &pdf, NULL);
+        vndf_vec3 wm = vndf_mixture_sample(view, u1, u2, &pdf, NULL);
         if (is_csv)
             fprintf(output->file, "%.9g,%.9g,%.9g,%.9g\n", (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf);
         else
@@ -60,102 +125,31 @@ static int write_samples(const arguments *given, const chosen_surface *surface, 
     return stops ? output_give_up(output, "interrupted") : output_commit(output);
 }
 
-static int run_sample(const arguments *given)
+static int run(const arguments *given)
 {
+    static const char *const needed[][2] = {{"--theta", " DEG"}, {"-n", " N"}, {"-o", " OUT"}};
     static const char *const forms[] = {"csv", "f32", NULL};
-    const char *command = given->command, *path = option_value(given, "-o");
+    const char *path = option_value(given, "-o");
     output_file output;
-    chosen_surface surface;
+    chosen_distribution of = {NULL, NULL, NULL};
+    vndf_mixture surface;
     unsigned long long count = 0, seed = 1;
-    if (!option_value(given, "-n") || !path)
-        return complain(command, "%s is missing", path ? "-n N" : "-o OUT");
-    const int form = output_form(command, path, forms);
-    if (form < 0 || !option_count(given, "-n", 1, 1e12, &count) ||
-        !option_count(given, "--seed", 0, 0x1p53, &seed) || !surface_open(&surface, given))
-        return STATUS_USE;
-    int status = output_open(&output, command, path)
-                     ? write_samples(given, &surface, count, seed, form == 0, &output)
-                     : STATUS_USE;
-    distribution_close(&surface.of);
+    double theta = 0, phi = 0;
+    for (int i = 0; i < 3; i++)
+        if (!option_value(given, needed[i][0]))
+            return complain(name, "%s%s is missing; `%s --help` has an example", needed[i][0], needed[i][1], name);
+    const int form = output_form(name, path, forms);
+    int status = STATUS_USE;
+    if (form >= 0 && option_count(given, "-n", 1, 1e12, &count) &&
+        option_count(given, "--seed", 0, 0x1p53, &seed) && option_number(given, "--theta", 0, 180, &theta) &&
+        option_number(given, "--phi", -360, 360, &phi) && read_surface(given, &surface, &of) &&
+        output_open(&output, name, path)) {
+        const vndf_mixture_view view = vndf_mixture_view_from(&surface, direction_from(theta, phi));
+        status = write_samples(&view, count, seed, form == 0, option_value(given, "-q") != NULL, &output);
+    }
+    distribution_close(&of);
     return status;
 }
 
 const subcommand command_sample = {
-    "vndf sample", "draw visible normals into a CSV or a file of floats", SURFACE_POSITIONAL, 1, 1, run_sample,
-    sample_help};
-
-/* ---- eval ---------------------------------------------------------------------------------------- */
-
-static const char *const eval_help[] = {
-    "usage: vndf eval " SURFACE_POSITIONAL " --theta DEG [options]\n"
-    "\n"
-    "Reads one normal a line from stdin, wm.x,wm.y,wm.z (unit within 1e-3; no header), and prints for each a line\n"
-    "ndf,pdf,lambda,g1: D(wm) per steradian; the density per steradian with which `vndf sample` draws wm from this\n"
-    "incident direction; Smith's Lambda of the direction; and its masking, 1/(1 + lambda), 0 below the horizon.\n"
-    "\n" SURFACE_HELP "\n"
-    "example: echo 0.6,0,0.8 | vndf eval ggx --theta 45 --alpha 0.5\n"
-    "         echo 0.6,0,0.8 | vndf eval beckmann --theta 45 --matrix 0.5,0.2,-0.1,0.4 --json\n",
-    NULL};
-
-/* Line `number` of stdin, counted from 1: normalised, so that nine digits of a text file are as good as the float. 1,
- * or 0 after a complaint. */
-static int read_normal(const char *command, char *line, unsigned long long number, vndf_vec3 *wm)
-{
-    char where[48];
-    double v[3];
-    line[strcspn(line, "\r\n")] = '\0';
-    snprintf(where, sizeof where, "stdin, line %llu:", number);
-    if (!parse_numbers(command, where, line, -2, 2, 3, 3, v))
-        return complain(command, "a line has to be wm.x,wm.y,wm.z, a unit vector"), 0;
-    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    if (fabs(length - 1) > 1e-3)
-        return complain(command, "%s '%s' has length %.6g; it has to be 1 within 1e-3", where, line, length), 0;
-    *wm = (vndf_vec3){(float)(v[0] / length), (float)(v[1] / length), (float)(v[2] / length)};
-    return 1;
-}
-
-static int evaluate_lines(const char *command, const chosen_surface *surface, figures *f)
-{
-    static const char *const names[4] = {"ndf", "pdf", "lambda", "g1"};
-    char line[256];
-    const vndf_mixture *m = &surface->mixture;
-    const vndf_mixture_view view = vndf_mixture_view_from(m, surface->wi);
-    double value[4] = {0, 0, (double)vndf_mixture_lambda(m, surface->wi), (double)vndf_mixture_g1(m, surface->wi)};
-    for (unsigned long long number = 1; fgets(line, sizeof line, stdin); number++) {
-        vndf_vec3 wm;
-        if (!read_normal(command, line, number, &wm))
-            return STATUS_USE;
-        value[0] = (double)vndf_mixture_ndf(m, wm);
-        value[1] = (double)vndf_mixture_pdf(&view, wm);
-        if (f->form == FIGURES_TEXT)
-            printf("%.9g,%.9g,%.9g,%.9g\n", value[0], value[1], value[2], value[3]);
-        else
-            figures_record(f);
-        for (int i = 0; i < 4 && f->form != FIGURES_TEXT; i++)
-            figures_number(f, names[i], 9, value[i], i < 2 ? "per steradian" : "ratio");
-        if (ferror(stdout))
-            return STATUS_USE; /* main says why */
-    }
-    return ferror(stdin) ? complain(command, "cannot read stdin: %s", strerror(errno)) : STATUS_GOOD;
-}
-
-static int run_eval(const arguments *given)
-{
-    chosen_surface surface;
-    if (!surface_open(&surface, given))
-        return STATUS_USE;
-    int status = STATUS_USE;
-    if (input_stdin(given->command)) {
-        figures f = figures_begin(given);
-        figures_list(&f, "values");
-        status = evaluate_lines(given->command, &surface, &f);
-        figures_list_end(&f);
-        figures_end(&f);
-    }
-    distribution_close(&surface.of);
-    return status;
-}
-
-const subcommand command_eval = {
-    "vndf eval", "ndf, pdf, lambda, g1 for normals read from stdin", SURFACE_POSITIONAL, 1, 1, run_eval,
-    eval_help};
+    name, "draw visible normals into a CSV or a file of floats", POSITIONAL, 1, 1, run, help};

@@ -14,12 +14,16 @@ typedef struct ink {
     const char *mark, *text;
 } ink;
 
-static const ink light[CHART_COLOURS] = {{"#0072b2", "#005f96"}, {"#d55e00", "#a94a00"}, {"#009e73", "#007354"},
-                                         {"#cc79a7", "#9c3f74"}, {"#e69f00", "#8a5f00"}, {"#56b4e9", "#1f719f"},
-                                         {"#6f42c1", "#5a34a0"}, {"#6c757d", "#545b62"}};
-static const ink dark[CHART_COLOURS] = {{"#4da3e0", "#7fbfec"}, {"#f0803c", "#f4a06d"}, {"#2fc59a", "#5ad6b2"},
-                                        {"#e39ac3", "#ecb5d3"}, {"#f2b632", "#f5c862"}, {"#8fd0f5", "#aadcf8"},
-                                        {"#b395f0", "#c5aef4"}, {"#9aa3ab", "#b3bac1"}};
+static const ink light[CHART_COLOURS] = {{"#0072b2", "#005f96"},
+                                         {"#d55e00", "#a94a00"},
+                                         {"#009e73", "#007354"},
+                                         {"#6f42c1", "#5a34a0"},
+                                         {"#6c757d", "#545b62"}};
+static const ink dark[CHART_COLOURS] = {{"#4da3e0", "#7fbfec"},
+                                        {"#f0803c", "#f4a06d"},
+                                        {"#2fc59a", "#5ad6b2"},
+                                        {"#b395f0", "#c5aef4"},
+                                        {"#9aa3ab", "#b3bac1"}};
 
 static void write_rules(FILE *file, const ink *inks)
 {
@@ -58,32 +62,29 @@ static double place_of(const chart_axis *axis, double value)
     return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : (double)NAN;
 }
 
-/* Whole decades that hold what lies from low to high. */
-static void fit(chart_axis *axis, double low, double high)
-{
-    double first = floor(log10(low) + 1e-3), last = ceil(log10(high) - 1e-3);
-    if (!(low > 0 && low <= high && high < HUGE_VAL)) /* nothing is known */
-        first = -1, last = 0;
-    axis->low = pow(10, first);
-    axis->high = pow(10, last > first ? last : first + 1);
-}
-
 void chart_fit(chart *c, double decades)
 {
-    double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {0, 0};
-    for (size_t k = 0; k < c->count; k++)
-        for (size_t i = 0; i < c->series[k].count; i++) {
-            const double at[2] = {c->series[k].x[i], c->series[k].y[i]};
-            for (int axis = 0; axis < 2; axis++)
-                if (at[axis] > 0 && at[axis] < 1e37) {
-                    low[axis] = fmin(low[axis], at[axis]);
-                    high[axis] = fmax(high[axis], at[axis]);
+    for (int is_y = 0; is_y < 2; is_y++) {
+        chart_axis *axis = is_y ? &c->y : &c->x;
+        double low = HUGE_VAL, high = 0;
+        for (const chart_series *s = c->series; s < c->series + c->count; s++)
+            for (size_t i = 0; i < s->count; i++) {
+                const double at = is_y ? s->y[i] : s->x[i];
+                if (at > 0 && at < 1e37) {
+                    low = fmin(low, at);
+                    high = fmax(high, at);
                 }
-        }
-    if (c->x.scale == CHART_LOG)
-        fit(&c->x, low[0], high[0]);
-    if (c->y.scale == CHART_LOG)
-        fit(&c->y, fmax(low[1], high[1] / pow(10, decades)), high[1]);
+            }
+        if (axis->scale != CHART_LOG)
+            continue;
+        if (is_y)
+            low = fmax(low, high / pow(10, decades));
+        double first = floor(log10(low) + 1e-3), last = ceil(log10(high) - 1e-3);
+        if (!(low <= high)) /* nothing is known */
+            first = -1, last = 0;
+        axis->low = pow(10, first);
+        axis->high = pow(10, last > first ? last : first + 1);
+    }
 }
 
 /* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
@@ -91,8 +92,8 @@ void chart_fit(chart *c, double decades)
 static void name_number(const chart_axis *axis, char name[16], double value)
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    int power = (int)floor(log10(value) + 1e-9), size = abs(power);
-    int is_wide = axis->low < 9e-4 || axis->high > 2e5;
+    const int is_wide = axis->scale == CHART_LOG && (axis->low < 9e-4 || axis->high > 2e5);
+    const int power = is_wide ? (int)floor(log10(value) + 1e-9) : 0, size = abs(power);
     if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
         snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
                  digits[size % 10]);
@@ -117,17 +118,14 @@ typedef struct picture {
     size_t count, marks; /* what comes after the marks and lines is labels */
 } picture;
 
-static double pixel_x(const picture *p, double x)
-{
-    return p->left + p->width * place_of(&p->c->x, x);
-}
-
 /* A zero lies in the band, if the chart has one. */
-static double pixel_y(const picture *p, double y)
+static double pixel(const picture *p, int is_y, double value)
 {
-    if (p->band > 0 && y == 0)
+    if (!is_y)
+        return p->left + p->width * place_of(&p->c->x, value);
+    if (p->band > 0 && value == 0)
         return p->top + p->height + p->band / 2;
-    return p->top + p->height * (1 - place_of(&p->c->y, y));
+    return p->top + p->height * (1 - place_of(&p->c->y, value));
 }
 
 static void write_line(FILE *file, const char *kind, double x1, double y1, double x2, double y2)
@@ -138,22 +136,17 @@ static void write_line(FILE *file, const char *kind, double x1, double y1, doubl
 static void draw_tick(picture *p, int is_y, double value, int is_named)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    double place = place_of(axis, value), bottom = p->top + p->height + p->band;
+    const double place = place_of(axis, value), bottom = p->top + p->height + p->band, at = pixel(p, is_y, value);
     const char *kind = is_named ? "grid" : "grid fine";
     char name[16] = "";
     if (!(place > -1e-9 && place < 1 + 1e-9))
         return;
-    if (is_named && axis->scale == CHART_LOG)
+    if (is_named)
         name_number(axis, name, value);
-    else if (is_named)
-        snprintf(name, sizeof name, "%.4g", value);
-    if (is_y) {
-        write_line(p->file, kind, p->left, pixel_y(p, value), p->left + p->width, pixel_y(p, value));
-        svg_text(p->file, "tick quiet", SVG_END, p->left - 6, pixel_y(p, value) + 4, name);
-    } else {
-        write_line(p->file, kind, pixel_x(p, value), p->top, pixel_x(p, value), bottom);
-        svg_text(p->file, "tick quiet", SVG_MIDDLE, pixel_x(p, value), bottom + 16, name);
-    }
+    write_line(p->file, kind, is_y ? p->left : at, is_y ? at : p->top, is_y ? p->left + p->width : at,
+               is_y ? at : bottom);
+    svg_text(p->file, "tick quiet", is_y ? SVG_END : SVG_MIDDLE, is_y ? p->left - 6 : at,
+             is_y ? at + 4 : bottom + 16, name);
 }
 
 /* Linear axes have a tick every step. Logarithmic ones have decades, where there are many every second of them with
@@ -215,7 +208,7 @@ static void draw_line(picture *p, const chart_series *s)
     double last_x = NAN, last_y = NAN;
     fprintf(p->file, "<path class=\"line l%u\"%s d=\"", s->colour, dashes[s->line]);
     for (size_t i = 0; i < s->count; i++) {
-        double x = pixel_x(p, s->x[i]), y = pixel_y(p, s->y[i]);
+        double x = pixel(p, 0, s->x[i]), y = pixel(p, 1, s->y[i]);
         if (is_inside(p, s->x[i], s->y[i])) {
             fprintf(p->file, "%c%.1f %.1f", isnan(last_x) ? 'M' : 'L', x, y);
             double steps = s->texts && !isnan(last_x) ? ceil(hypot(x - last_x, y - last_y) / 6) : 0;
@@ -313,29 +306,28 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
 
 static void draw_inside(FILE *file, const chart *c)
 {
-    double band = c->zero ? c->band : 0, top = (c->title ? 30 : 10) + (c->key_count ? 20 : 0);
+    const double band = c->zero ? c->band : 0, top = (c->title ? 30 : 10) + (c->key_count ? 20 : 0);
     picture p = {file, c, 66, top, c->width - 66 - 20, c->height - top - 50 - band, band, {{0, 0, 0, 0}}, 0, 0};
     draw_frame(&p);
     draw_key(&p);
     for (double x = 0; band > 0 && x < p.width; x += 6)
         take(&p, p.left + x, p.top + p.height, 3);
-    for (size_t k = 0; k < c->count; k++) {
-        const chart_series *s = &c->series[k];
+    for (const chart_series *s = c->series; s < c->series + c->count; s++) {
         if (s->line != CHART_NO_LINE)
             draw_line(&p, s);
         for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
             if (is_inside(&p, s->x[i], s->y[i])) {
-                draw_mark(file, s->mark, s->colour, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]));
-                take(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), radius + (s->mark == CHART_RING ? 6 : 2));
+                const double x = pixel(&p, 0, s->x[i]), y = pixel(&p, 1, s->y[i]);
+                draw_mark(file, s->mark, s->colour, x, y);
+                take(&p, x, y, radius + (s->mark == CHART_RING ? 6 : 2));
             }
     }
     p.marks = p.count;
-    for (size_t k = 0; k < c->count; k++)
-        for (size_t i = 0; c->series[k].texts && i < c->series[k].count; i++) {
-            const chart_series *s = &c->series[k];
+    for (const chart_series *s = c->series; s < c->series + c->count; s++)
+        for (size_t i = 0; s->texts && i < s->count; i++)
             if (s->texts[i][0] && is_inside(&p, s->x[i], s->y[i]))
-                label_point(&p, pixel_x(&p, s->x[i]), pixel_y(&p, s->y[i]), s->colour, s->texts[i]);
-        }
+                label_point(&p, pixel(&p, 0, s->x[i]), pixel(&p, 1, s->y[i]), s->colour, s->texts[i]);
+    fputs("</svg>\n", file);
 }
 
 static void open_element(FILE *file, double left, double top, double width, double height, const char *about)
@@ -354,7 +346,6 @@ void chart_draw(FILE *file, const chart *c)
 {
     open_element(file, c->left, c->top, c->width, c->height, c->title);
     draw_inside(file, c);
-    fputs("</svg>\n", file);
 }
 
 void chart_begin_alone(FILE *file, double width, double height, const char *about)
@@ -369,5 +360,4 @@ void chart_draw_alone(FILE *file, const chart *c)
 {
     chart_begin_alone(file, c->width, c->height, c->title);
     draw_inside(file, c);
-    fputs("</svg>\n", file);
 }

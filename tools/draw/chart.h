@@ -39,7 +39,7 @@ typedef struct chart_key {
     chart_line line;
 } chart_key;
 
-enum { CHART_COLOURS = 8 };
+enum { CHART_COLOURS = 5 }; /* blue, orange, green, violet, grey */
 
 typedef struct chart {
     const char *title;    /* above the frame */

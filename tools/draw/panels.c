@@ -47,7 +47,7 @@ void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
     }
     const chart_series series[2] = {
         {x, y[0], POINTS, 0, CHART_NO_MARK, CHART_SOLID, NULL},
-        {x, y[1], POINTS, is_round ? 7 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
+        {x, y[1], POINTS, is_round ? 4 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
     const chart_key key[2] = {{is_round ? "D" : "D along x", 0, CHART_NO_MARK, CHART_SOLID},
                               {is_round ? "GGX of the same median slope" : "D along y", series[1].colour,
                                CHART_NO_MARK, series[1].line}};

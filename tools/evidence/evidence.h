@@ -1,8 +1,8 @@
 /* Evidence: what it costs to sample, and what a sample is worth; the inside of `vndf bench` and `vndf report`.
  *
- *     row.h        a row of numbers for each method, the one list of columns, the printers
- *     method.h     what a method is, and the blocks of inputs it runs over; the methods are in methods/, materials
- *                  with their sets of effects among them
+ *     method.h     what a method is, the blocks of inputs it runs over, and the row of numbers that is measured of it;
+ *                  the methods are in methods/, materials with their sets of effects among them
+ *     row.c        the one list of columns, the printers
  *     list.c       which methods of which distributions: entries, made ready, and which of them are needed
  *     verify.c     whether the results of a method are right, before it is timed
  *     worth.c      error and variance of a method from one direction

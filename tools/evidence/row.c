@@ -1,4 +1,5 @@
-#include "evidence/row.h"
+/* The one list of columns, which every printer reads. */
+#include "evidence/method.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cli/clock.h"
+#include "cli/progress.h"
 #include "cli/sort.h"
 #include "evidence/evidence.h"
 

@@ -42,50 +42,54 @@ static int is_taken(const export_document *document, const char *name)
     return strcmp(name, "NUMBERS") == 0 || strcmp(name, "KERNEL") == 0;
 }
 
+/* Room for more numbers, which begin at the old count; 0 if there is no memory. */
+static int add_numbers(export_document *document, size_t more)
+{
+    float *numbers = realloc(document->numbers, (document->count + more + 1) * sizeof *numbers);
+    if (!numbers)
+        return 0;
+    document->numbers = numbers;
+    document->count += more;
+    return 1;
+}
+
+static int add_distribution(export_document *document, const vndf_distribution *d)
+{
+    const size_t at = document->count, size = vndf_numbers(d, NULL, 0);
+    if (!add_numbers(document, size))
+        return 0;
+    vndf_numbers(d, document->numbers + at, size);
+    return 1;
+}
+
+static int add_family(export_document *document, const vndf_family *family)
+{
+    const vndf_family_facts facts = vndf_family_info(family);
+    const size_t base = document->count;
+    if (!add_numbers(document, 2 + 2 * facts.count))
+        return 0;
+    document->numbers[base] = (float)facts.count;
+    document->numbers[base + 1] = (float)facts.reciprocal;
+    for (size_t i = 0; i < facts.count; i++) {
+        document->numbers[base + 2 + 2 * i] = vndf_family_parameter(family, i);
+        document->numbers[base + 3 + 2 * i] = (float)document->count;
+        if (!add_distribution(document, vndf_family_distribution(family, i)))
+            return 0;
+    }
+    return 1;
+}
+
 int document_add(export_document *document, const char *file, vndf_distribution *distribution, vndf_family *family)
 {
     exported_table *table = &document->table[document->tables];
-    size_t count = vndf_family_info(family).count;
-    *table =
-        (exported_table){distribution, family, file, "", document->count, vndf_numbers(distribution, NULL, 0)};
-    table->size += family ? 2 + 2 * count : 0;
-    for (size_t i = 0; i < count; i++)
-        table->size += vndf_numbers(vndf_family_distribution(family, i), NULL, 0);
+    *table = (exported_table){distribution, family, file, "", document->count, 0};
     name_table(table);
-    int good = *table->name && !is_taken(document, table->name);
+    const int named = *table->name && !is_taken(document, table->name);
     document->tables++;
-    document->count += table->size;
-    return good;
-}
-
-static void fill_family(const exported_table *t, float *numbers)
-{
-    const vndf_family_facts facts = vndf_family_info(t->family);
-    size_t at = t->base + 2 + 2 * facts.count;
-    float *head = numbers + t->base;
-    head[0] = (float)facts.count;
-    head[1] = (float)facts.reciprocal;
-    for (size_t i = 0; i < facts.count; i++) {
-        const vndf_distribution *d = vndf_family_distribution(t->family, i);
-        size_t size = vndf_numbers(d, NULL, 0);
-        head[2 + 2 * i] = vndf_family_parameter(t->family, i);
-        head[3 + 2 * i] = (float)at;
-        vndf_numbers(d, numbers + at, size);
-        at += size;
-    }
-}
-
-int document_fill(export_document *document)
-{
-    document->numbers = malloc((document->count + 1) * sizeof *document->numbers);
-    for (size_t i = 0; document->numbers && i < document->tables; i++) {
-        const exported_table *t = &document->table[i];
-        if (t->family)
-            fill_family(t, document->numbers);
-        else
-            vndf_numbers(t->distribution, document->numbers + t->base, t->size);
-    }
-    return document->numbers != NULL;
+    if (!(family ? add_family(document, family) : add_distribution(document, distribution)))
+        return -1;
+    table->size = document->count - table->base;
+    return named;
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */
@@ -130,181 +134,161 @@ static const char bsdf_head[] =
     "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
     "// wo. Directions with z < 0 are on the other side of the surface.\n";
 
-static void put_all(FILE *to, const export_document *document, const char *text)
+static void put_all(const translation *t, const char *text)
 {
-    put_prefixed(&document->as, to, text, strlen(text));
+    put_prefixed(t, text, strlen(text));
 }
 
-static void put_head(FILE *to, const export_document *document)
+static void put_head(const translation *t, const export_document *document)
 {
-    fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
-            document->as.to->title, VNDF_VERSION);
-    put_all(to, document, head);
+    fprintf(t->file, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
+            t->to->title, VNDF_VERSION);
+    put_all(t, head);
     for (size_t i = 0; i < document->tables; i++)
-        put_table(to, document, &document->table[i]);
-    if (document->effects.wanted) {
-        char effects[200];
-        effects_name(&document->effects, effects, sizeof effects);
-        fprintf(to, "//\n// BSDF: %s.\n", effects);
-        put_all(to, document, bsdf_head);
-    }
-    fputs("\n", to);
+        put_table(t->file, document, &document->table[i]);
+    if (document->effects.wanted)
+        fprintf(t->file, "//\n// BSDF: %s.\n", document->effects.words);
+    put_all(t, document->effects.wanted ? bsdf_head : "");
+    fputs("\n", t->file);
 }
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
 
-/* Whether the file has all that a mark names: kinds of distributions, normals or a BSDF, effects. */
-static int has_parts(const export_document *document, const char *mark)
+/* The parts that a file has, between blanks: kinds of distributions, normals or a BSDF, its choices ("lobes=both"), and
+ *
+ *     family                 one of the tables is a family
+ *     reflects, transmits    a lobe is on this side, on the other
+ *     indexed                there is an index ratio, and both sides are seen
+ *     coloured               there are reflectances
+ *     smith                  masking takes the area that wo sees */
+static void name_parts(const export_document *document, char *parts, size_t size)
 {
-    static const char *const names[] = {"table ", "ggx ", "beckmann ", "normals ", "bsdf "};
-    const unsigned is = document->kinds | (document->effects.wanted ? 16u : 8u);
-    int has = 1;
-    for (unsigned i = 0; *mark != '*'; mark += strcspn(mark, " ") + 1) {
-        for (i = 0; i < 5 && strncmp(mark, names[i], strlen(names[i])) != 0; i++)
-            ;
-        has &= i < 5 ? (int)(is >> i & 1u) : effects_have(&document->effects, mark, strcspn(mark, " "));
+    const vndf_effects *is = &document->effects.is;
+    const int transmits = is->lobes != VNDF_LOBES_REFLECTION;
+    int has_family = document->only != NULL;
+    for (size_t i = 0; i < document->tables; i++)
+        has_family |= document->table[i].family != NULL;
+    snprintf(parts, size, " %s%s%s%s%s %s %s%s%s%s%s", has_family ? "family " : "",
+             document->kinds & EXPORT_TABLE ? "table " : "", document->kinds & EXPORT_GGX ? "ggx " : "",
+             document->kinds & EXPORT_BECKMANN ? "beckmann " : "", document->effects.wanted ? "bsdf" : "normals",
+             document->effects.words, is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "",
+             transmits ? "transmits " : "", transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
+             transmits || is->fresnel != VNDF_FRESNEL_NONE ? "coloured " : "",
+             is->masking < VNDF_MASKING_V_CAVITIES ? "smith " : "");
+}
+
+/* Whether there is all that a mark names, up to its end. */
+static int has_parts(const char *parts, const char *mark)
+{
+    char part[40];
+    for (int n; *mark != '*'; mark += n) {
+        n = snprintf(part, sizeof part, " %.*s ", (int)strcspn(mark, " "), mark) - 1;
+        if (!strstr(parts, part))
+            return 0;
     }
-    return has;
+    return 1;
 }
 
 /* A line that ends in a mark is left out where the file has not what that names; so are the lines between a mark that
  * stands alone and the next one, "end". *in: whether lines are written. */
-static void put_line(FILE *to, const export_document *document, const char *line, int *in)
+static void put_line(FILE *to, const char *parts, const char *line, int *in)
 {
     static const char only[] = "/* only ";
-    const int length = (int)strcspn(line, "\n");
+    int length = (int)strcspn(line, "\n");
     const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
-    int has = mark && mark < line + length ? has_parts(document, mark + sizeof only - 1) : -1;
-    if (end && end < line + length)
+    int has = mark && mark < line + length ? has_parts(parts, mark + sizeof only - 1) : -1;
+    if (end && end < line + length) {
         *in = 1;
-    else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line))
+    } else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line)) {
         *in = has;
-    else if (*in && has != 0)
-        fprintf(to, "%.*s\n", has > 0 ? (int)(mark - line) : length, line);
+    } else if (*in && has != 0) {
+        for (length = has > 0 ? (int)(mark - line) : length; length > 0 && line[length - 1] == ' ';)
+            length--;
+        fprintf(to, "%.*s\n", length, line);
+    }
 }
 
 /* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
  * memory. */
 static char *whole_text(const export_document *document, const char *more, long *behind)
 {
-    char *whole = NULL;
+    char *whole = NULL, parts[300];
     size_t size = 0;
-    int in = 1;
+    int in = 1, effects = document->effects.wanted;
     FILE *to = open_memstream(&whole, &size);
     if (!to)
         return NULL;
+    name_parts(document, parts, sizeof parts);
     fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
         fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    fputs(" };\n\n", to);
-    for (size_t i = 0; document->embeds && i < document->count; i++) {
-        fputs(i ? ", " : "static const float VNDF_NUMBERS[] = {", to);
-        put_float(&document->as, to, (double)document->numbers[i]);
-    }
-    fputs(document->embeds && document->count ? "};\n\n" : "", to);
+    fputs(" };\n", to);
+    if (document->as.embeds && document->count)
+        fprintf(to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
+    for (size_t i = 0; document->as.embeds && i < document->count; i++)
+        fprintf(to, "%.8e%s", (double)document->numbers[i],
+                i + 1 == document->count ? "};\n"
+                : i % 8 == 7             ? ",\n    "
+                                         : ", ");
     for (const embedded_text *file = kernel_text; file->name; file++)
-        for (const char *const *line = file->lines; *line; line++)
-            put_line(to, document, *line, &in);
+        for (const char *const *line = file->lines; *line && (effects || strcmp(file->name, "scatter.h") != 0);
+             line++)
+            put_line(to, parts, *line, &in);
     *behind = ftell(to);
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
-        put_line(to, document, line, &in);
+        put_line(to, parts, line, &in);
     if (fclose(to) == 0)
         return whole;
     free(whole);
     return NULL;
 }
 
-const char *const document_calls[EXPORT_CALLS] = {
-    "view", "sample",         "pdf",     "visible", "ndf",         "lambda",    "g1",
-    "g2",   "projected_area", "mixture", "family",  "bsdf_sample", "bsdf_eval", "bsdf_pdf"};
-
-int document_is_of_bsdf(const char *call)
+/* Marks what is asked for; without --only the calls of normals, or in their place those of a BSDF. */
+static void want_all(translation *t, const export_document *document)
 {
-    return strncmp(call, "bsdf_", 5) == 0;
-}
-
-/* Of names with a blank between them. */
-static void want(const translation *t, kernel *from, const char *before, const char *names)
-{
-    for (char whole[80]; *names; names += strspn(names, " ")) {
-        const int length = (int)strcspn(names, " ");
-        const word wanted = {WORD_NAME, whole, snprintf(whole, sizeof whole, "%s%.*s", before, length, names), 0,
-                             0};
-        translation_want(t, from, &wanted);
-        names += length;
+    static const char *const always[] = {"VNDF_NUMBERS", "vndf_surface_of", "vndf_bsdf_of", "vndf_bsdf_cosine"};
+    const char *calls = document->only ? document->only
+                        : document->effects.wanted
+                            ? "bsdf"
+                            : "view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family";
+    for (int i = 0; i < t->count && t->at[i].begin == 0 && !t->indents; i++)
+        t->at[i].wanted = 1; /* constants before the kernel */
+    for (size_t i = 0; i < sizeof always / sizeof *always && !t->indents; i++)
+        translation_want(t, always[i]);
+    for (; *calls; calls += strcspn(calls, ","), calls += strspn(calls, ", ")) {
+        char name[80];
+        snprintf(name, sizeof name, "%s%.*s", t->indents ? "" : "vndf_", (int)strcspn(calls, ","), calls);
+        translation_want(t, name);
     }
-}
-
-static void want_all(const export_document *document, const translation *t, kernel *from)
-{
-    int has_family = 0;
-    if (t->to
-            ->indents) { /* Python, whose arrays stand for many hits, has the kernel's functions without the face */
-        want(
-            t, from, "",
-            "frame_of frame_sampled frame_normal frame_density frame_reach ggx_see ggx_draw ggx_density ggx_area "
-            "ggx_p22 beckmann_see beckmann_draw beckmann_area beckmann_density beckmann_p22 table_view_of table_draw "
-            "table_pdf table_given table_p22 law_area");
-        return;
-    }
-    for (int i = 0; i < from->count && from->at[i].begin == 0; i++) /* the constants before the kernel */
-        translation_want(t, from, &from->word[from->at[i].name]);
-    for (size_t i = 0; i < document->tables; i++)
-        has_family |= document->table[i].family != NULL;
-    want(t, from, "VNDF_", document->embeds ? "NUMBERS" : "GGX");
-    want(t, from, "vndf_", "surface_of");
-    for (const char *const *call = document->only[0] ? document->only : document_calls; *call; call++) {
-        const int of_bsdf = document_is_of_bsdf(*call), of_family = strcmp(*call, "family") == 0;
-        if (!document->only[0] && (of_bsdf != document->effects.wanted || (of_family && !has_family)))
-            continue;
-        want(t, from, "vndf_", *call);
-        want(t, from, "vndf_",
-             of_bsdf                      ? "bsdf_of bsdf_cosine"
-             : of_family                  ? "family_at"
-             : strcmp(*call, "view") == 0 ? "view_of"
-             : strcmp(*call, "mixture") == 0
-                 ? "mixture_view_of mixture_pdf mixture_visible mixture_sample mixture_ndf"
-                 : "");
-    }
-}
-
-/* Only what stands behind the kernel. */
-static void want_more(const translation *t, kernel *from, const char *behind)
-{
-    int first = from->count;
-    while (first > 0 && from->word[from->at[first - 1].begin].text >= behind)
-        first--;
-    for (int i = first; i < from->count; i++)
-        translation_want(t, from, &from->word[from->at[i].name]);
-    for (int i = 0; i < first; i++)
-        from->at[i].wanted = 0;
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)
 {
-    translation as = document->as;
-    kernel from = {NULL, 0, 0, {{0}}};
+    translation as = document->as, *t = &as;
     long behind;
     char *whole = whole_text(document, more, &behind);
-    int good = whole && kernel_read(&from, whole), guarded = as.to->guarded && !more;
-    as.fetched = document->embeds ? "VNDF_NUMBERS[$1]" : as.to->fetched;
-    if (good && more) {
-        want_more(&as, &from, whole + behind);
-    } else if (good) {
-        want_all(document, &as, &from);
-        if (as.to->indents)
+    const int good = whole && translation_read(t, whole), guarded = (t->to->is & LANGUAGE_GUARDED) && !more;
+    int first = 0;
+    t->file = to;
+    while (good && more && t->word[t->at[first].begin].text < whole + behind)
+        first++;
+    if (good && more)
+        translation_want(t, "ask");
+    if (good && !more) {
+        want_all(t, document);
+        if (t->indents)
             fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
         else
-            put_head(to, document);
-        put_all(to, document, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
-        put_all(to, document, as.to->begin);
-        fputs(*as.to->begin ? "\n" : "", to);
-        put_all(to, document, !document->embeds && as.to->bound && document->count ? as.to->bound : "");
+            put_head(t, document);
+        put_all(t, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
+        put_all(t, t->to->begin);
+        fputs(*t->to->begin ? "\n" : "", to);
+        put_all(t, !document->as.embeds && t->to->bound && document->count ? t->to->bound : "");
     }
     if (good)
-        translate(&as, to, &from);
+        translate(t, first);
     fputs(good && guarded ? "#endif\n" : "", to);
-    kernel_free(&from);
+    free(t->word);
     free(whole);
     return good;
 }

@@ -8,7 +8,7 @@
 #include "export/translate.h"
 #include "vndf.h"
 
-enum { EXPORT_TABLES_MAX = 16, EXPORT_CALLS = 18 };
+enum { EXPORT_TABLES_MAX = 16 };
 
 /* Kinds of distributions that a kernel draws from, as bits. */
 enum { EXPORT_TABLE = 1, EXPORT_GGX = 2, EXPORT_BECKMANN = 4, EXPORT_ALL = 7 };
@@ -29,10 +29,9 @@ typedef struct export_document {
     size_t tables, count; /* of tables; of all numbers */
     float *numbers;
     long lobes;
-    int embeds;
     unsigned kinds;
     export_effects effects;
-    const char *only[EXPORT_CALLS]; /* calls that are wanted, ended by NULL; all if there is none */
+    const char *only; /* calls that are wanted, with commas; NULL: all */
 } export_document;
 
 /* Texts that the build embeds. */
@@ -44,19 +43,12 @@ typedef struct embedded_text {
 /* Ended by a name NULL: the kernel, in the order in which it is read; the page of `vndf explore`. */
 extern const embedded_text kernel_text[], page_texts[];
 
-/* The calls that can be wanted, ended by NULL: "view" ... and those of a BSDF, "bsdf_sample" ... */
-extern const char *const document_calls[EXPORT_CALLS];
-int document_is_of_bsdf(const char *call);
-
-/* Adds a table or, where `distribution` is NULL, a family; 0 if its constant, named after the file, is none or another
- * one's. */
+/* Adds a table or, where `distribution` is NULL, a family, with its numbers; 0 if its constant, named after the file,
+ * is none or another one's, -1 if there is no memory. */
 int document_add(export_document *document, const char *file, vndf_distribution *distribution,
                  vndf_family *family);
 
-/* Fills in the numbers; 0 if there is no memory. */
-int document_fill(export_document *document);
-
-/* Writes the file; or what goes behind it, a text that calls the kernel, in the kernel's part of C. 0 if there is no
+/* Writes the file; or what goes behind it, a text in the kernel's part of C with a function `ask`. 0 if there is no
  * memory. */
 int document_write(const export_document *document, FILE *to, const char *more);
 

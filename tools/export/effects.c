@@ -3,76 +3,86 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CHOICES_MAX = 4 };
+#include "core/nearest.h"
 
-/* Choices in the order of vndf_bsdf.h, the default first; `why` is said where the library has more than files have. */
-static const struct key {
-    const char *name, *choice[CHOICES_MAX + 1], *why;
-} keys[] = {
-    {"lobes", {"reflection", "transmission", "both"}, ""},
-    {"fresnel", {"none", "schlick", "dielectric", "conductor"}, ""},
-    {"masking", {"correlated", "separable", "v-cavities", "none"}, ""},
-    {"transport", {"radiance", "importance"}, ""},
-    {"reflection", {"specular", "retro"}, ""},
-    {"normals", {"visible"}, ", since files draw visible normals"},
-    {"scattering", {"single"}, ", since random walks and compensation need the library"},
-    {"shape", {"affine"}, ", since a surface has any matrix and mean slope, and one file scatters at one surface"},
-};
+/* Choices in the order of vndf_bsdf.h, the default first; lists have ", " between words. */
+enum { LOBES, FRESNEL, MASKING, TRANSPORT, REFLECTION, KEYS };
+static const char keys[] = "lobes, fresnel, masking, transport, reflection";
+static const char *const choices[KEYS] = {"reflection, transmission, both", "none, schlick, dielectric, conductor",
+                                          "correlated, separable, v-cavities, none", "radiance, importance",
+                                          "specular, retro"};
 
-enum { KEYS = sizeof keys / sizeof *keys };
-
-static int is_word(const char *text, size_t length, const char *name)
+/* The word at a place of a list; it ends at a comma. */
+static const char *list_word(const char *list, int place)
 {
-    return strlen(name) == length && memcmp(text, name, length) == 0;
+    while (place-- > 0)
+        list += strcspn(list, ",") + 2;
+    return list;
 }
 
-/* The key of key=choice, or -1; its choice, or -1. */
-static int read_word(const char *text, size_t length, int *choice)
+/* The place of a word in a list, or -1. */
+static int list_place(const char *list, const char *word, size_t length)
 {
-    size_t name = strcspn(text, "= ,");
-    int key = KEYS - 1;
-    while (key >= 0 && !(name < length && is_word(text, name, keys[key].name)))
-        key--;
-    for (*choice = key < 0 ? -1 : CHOICES_MAX - 1; *choice >= 0; --*choice)
-        if (keys[key].choice[*choice] && is_word(text + name + 1, length - name - 1, keys[key].choice[*choice]))
-            break;
-    return key;
+    int place = 0;
+    for (const char *at = list; strcspn(at, ",") != length || memcmp(at, word, length) != 0;
+         at = list_word(at, 1), place++)
+        if (!at[strcspn(at, ",")])
+            return -1;
+    return place;
 }
 
-vndf_effects effects_of(const export_effects *effects)
+/* "; did you mean 'both'?", or "". */
+static const char *nearest_in(const char *list, const char *word, size_t length)
 {
-    const int *c = effects->choice;
-    const vndf_effects is = {.lobes = (vndf_lobes)c[0],
-                             .fresnel = (vndf_fresnel)c[1],
-                             .masking = (vndf_masking)c[2],
-                             .transport = (vndf_transport)c[3],
-                             .reflection = (vndf_reflection)c[4]};
-    return is;
+    static char hint[64];
+    size_t least = vndf_word_slip(length);
+    hint[0] = '\0';
+    for (int place = 0, is_last = 0; !is_last; place++) {
+        const char *at = list_word(list, place);
+        char one[40];
+        snprintf(one, sizeof one, "%.*s", (int)strcspn(at, ","), at);
+        if (vndf_word_is_nearer(word, length, one, &least))
+            snprintf(hint, sizeof hint, "; did you mean '%s'?", one);
+        is_last = !at[strcspn(at, ",")];
+    }
+    return hint;
 }
 
 int effects_read(export_effects *effects, const char *text, char error[EFFECTS_ERROR_MAX])
 {
-    *effects = (export_effects){.wanted = 1};
+    int choice[KEYS] = {0}, n = 0;
     for (text += strspn(text, " ,"); *text; text += strspn(text, " ,")) {
-        size_t length = strcspn(text, " ,");
-        int choice, key = read_word(text, length, &choice), n = 0;
-        if (choice < 0) {
-            n = key < 0
-                    ? snprintf(error, EFFECTS_ERROR_MAX, "'%.40s': key=choice is needed, with the keys", text)
-                    : snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are", length < 60 ? (int)length : 60, text);
-            for (int i = 0; key < 0 ? i < EFFECT_KEYS : keys[key].choice[i] != NULL; i++)
-                n += snprintf(error + n, EFFECTS_ERROR_MAX - (size_t)n, "%s %s", i ? "," : "",
-                              key < 0 ? keys[i].name : keys[key].choice[i]);
-            snprintf(error + n, EFFECTS_ERROR_MAX - (size_t)n, "%s", key < 0 ? "" : keys[key].why);
+        const int length = (int)strcspn(text, " ,"), name = (int)strcspn(text, "= ,");
+        const int key = list_place(keys, text, (size_t)name);
+        if (key < 0 || name == length) {
+            snprintf(error, EFFECTS_ERROR_MAX,
+                     "'%.*s': key=choice is needed, with the keys %s%s; files scatter once, at "
+                     "one surface, by visible normals: all else needs the library",
+                     length < 60 ? length : 60, text, keys, nearest_in(keys, text, (size_t)name));
             return 0;
         }
-        if (key < EFFECT_KEYS)
-            effects->choice[key] = choice;
+        choice[key] = list_place(choices[key], text + name + 1, (size_t)(length - name - 1));
+        if (choice[key] < 0) {
+            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s%s", length < 60 ? length : 60, text,
+                     choices[key], nearest_in(choices[key], text + name + 1, (size_t)(length - name - 1)));
+            return 0;
+        }
         text += length;
     }
+    effects->wanted = 1;
+    for (int key = 0; key < KEYS; key++) {
+        const char *name = list_word(keys, key), *chosen = list_word(choices[key], choice[key]);
+        n += snprintf(effects->words + n, sizeof effects->words - (size_t)n, "%s%.*s=%.*s", key ? " " : "",
+                      (int)strcspn(name, ","), name, (int)strcspn(chosen, ","), chosen);
+    }
+    effects->is = (vndf_effects){.lobes = (vndf_lobes)choice[LOBES],
+                                 .fresnel = (vndf_fresnel)choice[FRESNEL],
+                                 .masking = (vndf_masking)choice[MASKING],
+                                 .transport = (vndf_transport)choice[TRANSPORT],
+                                 .reflection = (vndf_reflection)choice[REFLECTION]};
     /* What makes no sense is what the library says makes none. */
     const vndf_description is = {.distribution = vndf_ggx(),
-                                 .effects = effects_of(effects),
+                                 .effects = effects->is,
                                  .alpha_x = 1.0f,
                                  .alpha_y = 1.0f,
                                  .eta = 1.5f,
@@ -83,29 +93,4 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
         return 1;
     snprintf(error, EFFECTS_ERROR_MAX, "%s", refusal.message);
     return 0;
-}
-
-int effects_have(const export_effects *effects, const char *word, size_t length)
-{
-    const int *c = effects->choice, transmits = c[0] != VNDF_LOBES_REFLECTION;
-    const struct {
-        const char *name;
-        int is;
-    } parts[] = {{"reflects", c[0] != VNDF_LOBES_TRANSMISSION},
-                 {"transmits", transmits},
-                 {"indexed", transmits || c[1] == VNDF_FRESNEL_DIELECTRIC},
-                 {"smith", c[2] < VNDF_MASKING_V_CAVITIES},
-                 {"coloured", transmits || c[1] != VNDF_FRESNEL_NONE}};
-    int choice, key = read_word(word, length, &choice), has = key >= 0 && choice == c[key];
-    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
-        has |= parts[i].is && is_word(word, length, parts[i].name);
-    return has;
-}
-
-void effects_name(const export_effects *effects, char *text, size_t size)
-{
-    size_t n = 0;
-    for (int i = 0; i < EFFECT_KEYS && n < size; i++)
-        n += (size_t)snprintf(text + n, size - n, "%s%s=%s", i ? ", " : "", keys[i].name,
-                              keys[i].choice[effects->choice[i]]);
 }

@@ -122,7 +122,7 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     /* only table */
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
-        if (view.below)
+        if (view.below != 0)
             n = table_unturned(view.ex, view.ey, n);
         density = table_pdf(view.t, seen_from, n, frame_reach(f), view.below);
     }
@@ -169,7 +169,7 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         weight = both_drawn.weight;
     }
     /* end */
-    const sampled s = frame_sampled(view.at, n);
+    const sampled_normal s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
@@ -343,8 +343,7 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
     return least(density, 3.4028234e38f);
 }
 
-/* ---- families ---- */
-
+/* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
@@ -375,3 +374,4 @@ HERE vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape
     }
     return mixture;
 }
+/* end */

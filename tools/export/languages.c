@@ -2,21 +2,21 @@
 
 #include <string.h>
 
-static const char common_types[] = "real: float; whole: int; mask: bool; ";
-static const char common_calls[] =
-    "set: $1; set_whole: $1; any: $1; less: ($1 < $2); at_most: ($1 <= $2); same: ($1 == $2); both: ($1 && $2); "
-    "either: ($1 || $2); pick: ($1 ? $2 : $3); pick_whole: ($1 ? $2 : $3); root: sqrt($1); size: abs($1); "
-    "to_real: float($1); to_whole: int($1); ";
+/* Forms: variables, parameters and members, N of them; functions, structs, constants, arrays and their ends; a struct
+ * made of its members. Of some languages: what a struct is before its members are set (ZERO); a parameter that is
+ * assigned to, which WGSL forbids and Python, whose names share structs, does for the caller too (GIVEN), and its copy;
+ * the pointer to numbers, which is the first parameter of what fetches them. */
+static const char common[] =
+    "TYPED: $T $V; SEVERAL: $T $V[$N]; FUNCTION: $T $D($P) {; STRUCT: struct $D {; STRUCT_END: };; "
+    "CONSTANT: enum { $D = $N };; ARRAY_END: \n};; MAKE: {; MADE: }; "
+    "real: float; whole: int; mask: bool; vec3: float3; "
+    "set = $1; set_whole = $1; any = $1; less = ($1 < $2); at_most = ($1 <= $2); same = ($1 == $2); both = ($1 && $2); "
+    "either = ($1 || $2); pick = ($1 ? $2 : $3); pick_whole = ($1 ? $2 : $3); root = sqrt($1); size = abs($1); "
+    "to_real = float($1); to_whole = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
 
-#define TYPED .typed = "$T $V"
-#define PLAIN_STRUCTS .structs = "struct $D {", .structs_close = "};"
-#define TYPEDEF_STRUCTS .structs = "typedef struct $D {", .structs_close = "} $D;"
-#define C_CONSTANTS .constant = "enum { $D = $N };", .array_close = "};"
-#define BY_POINTER .fetched = "numbers[$1]"
-#define BOUND(how, declared)                                                                        \
-  .fetched = "VNDF_FETCH($1)", .bound = "// Define VNDF_FETCH(i) before this to fetch number i "    \
-                                        "from anywhere else" how ".\n#ifndef VNDF_FETCH\n" declared \
-                                        "\n#define VNDF_FETCH(i) vndf_numbers[i]\n#endif\n"
+#define BOUND(how, declared)                                                     \
+  "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else" how \
+  ".\n#ifndef VNDF_FETCH\n" declared "\n#define VNDF_FETCH(i) vndf_numbers[i]\n#endif\n"
 
 /* What C and C++ do not have. Functions that are not inlined pass views through memory: a sample of a table took 1.6
  * times as long as the library's, and takes 1.2 times. */
@@ -35,7 +35,8 @@ static const char python_begin[] =
     "import struct\n\nimport drjit as dr\nimport mitsuba as mi\n\n\n"
     "class _Struct:\n    __slots__ = ()\n\n    def __init__(self, *values):\n"
     "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n"
-    "def _copy(s):\n    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"
+    "def _copy(s):\n    if not isinstance(s, _Struct):\n        return s\n"
+    "    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"
     "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"
     "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"
     "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"
@@ -47,155 +48,59 @@ static const char python_begin[] =
     "    return struct.unpack(\"f\", struct.pack(\"i\", i))[0]\n";
 
 static const language languages[] = {
-    {.name = "c",
-     .title = "C99",
-     .function = "VNDF_FUNCTION $T $D($P) {",
-     .begin = "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
-     .array = "static const float $D[$N] = {",
-     .pointer = "const float *",
-     .types = "vec3: vndf_vec3; ",
-     .calls =
-         "root: sqrtf($1); size: fabsf($1); with_sign: copysignf($1, $2); to_real: (float)($1); "
-         "to_whole: (int)($1); bits: vndf_bits($1); of_bits: vndf_of_bits($1); vec3: vndf_vec3_of($1, $2, $3); ",
-     .zero = "{0}",
-     .guarded = 1,
-     TYPED,
-     TYPEDEF_STRUCTS,
-     C_CONSTANTS,
-     BY_POINTER},
-    {.name = "cpp",
-     .title = "C++11",
-     .function = "VNDF_FUNCTION $T $D($P) {",
-     .begin = "#include <cmath>\n#include <cstring>\n" C_BEGIN,
-     .array = "static const float $D[$N] = {",
-     .pointer = "const float *",
-     .types = "vec3: vndf_vec3; ",
-     .calls = "root: std::sqrt($1); size: std::fabs($1); with_sign: std::copysign($1, $2); bits: vndf_bits($1); "
-              "of_bits: vndf_of_bits($1); vec3: vndf_vec3_of($1, $2, $3); ",
-     .zero = "{}",
-     .guarded = 1,
-     TYPED,
-     PLAIN_STRUCTS,
-     C_CONSTANTS,
-     BY_POINTER},
-    {.name = "cuda",
-     .title = "CUDA",
-     .function = "__device__ inline $T $D($P) {",
-     .begin = "",
-     .array = "static __device__ const float $D[$N] = {",
-     .pointer = "const float *__restrict__ ",
-     .types = "vec3: float3; ",
-     .calls = "root: sqrtf($1); size: fabsf($1); with_sign: copysignf($1, $2); bits: __float_as_int($1); "
-              "of_bits: __int_as_float($1); vec3: make_float3($1, $2, $3); ",
-     .unroll = "#pragma unroll",
-     .zero = "{}",
-     .guarded = 1,
-     TYPED,
-     PLAIN_STRUCTS,
-     C_CONSTANTS,
-     BY_POINTER},
-    {.name = "opencl",
-     .title = "OpenCL C 1.2",
-     .function = "static inline $T $D($P) {",
-     .begin = "",
-     .array = "__constant float $D[$N] = {",
-     .pointer = "__global const float *",
-     .most_embedded = 16384,
-     .why = "OpenCL promises 64 KiB of constants",
-     .types = "vec3: float3; ",
-     .calls = "size: fabs($1); with_sign: copysign($1, $2); to_real: (float)($1); to_whole: (int)($1); "
-              "bits: as_int($1); of_bits: as_float($1); vec3: (float3)($1, $2, $3); ",
-     .zero = "{0}",
-     TYPED,
-     TYPEDEF_STRUCTS,
-     C_CONSTANTS,
-     BY_POINTER},
-    {.name = "glsl",
-     .title = "GLSL 4.30 and GLSL ES 3.00",
-     .function = "$T $D($P) {",
-     .begin = "",
-     .constant = "const int $D = $N;",
-     .array = "const float $D[$N] = float[$N](",
-     .array_close = ");",
+    {"c", "C99", LANGUAGE_GUARDED, 0, NULL, NULL,
+     "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
+     "ARRAY: static const float $D[$N] = {\n    ; ZERO: {0}; POINTER: const float *; vec3: vndf_vec3; "
+     "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_whole = (int)($1); "
+     "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
+    {"cpp", "C++11", LANGUAGE_GUARDED, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {; ARRAY: static const float $D[$N] = {\n    ; ZERO: {}; "
+     "POINTER: const float *; vec3: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
+     "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
+     "vec3 = vndf_vec3_of($1, $2, $3); "},
+    {"cuda", "CUDA", LANGUAGE_GUARDED | LANGUAGE_UNROLLS, 0, NULL, NULL, "",
+     "FUNCTION: __device__ inline $T $D($P) {; ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; "
+     "POINTER: const float *__restrict__ ; root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
+     "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
+    {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
+     "FUNCTION: static inline $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
+     "ARRAY: __constant float $D[$N] = {\n    ; ZERO: {0}; POINTER: __global const float *; size = fabs($1); "
+     "with_sign = copysign($1, $2); to_real = (float)($1); to_whole = (int)($1); bits = as_int($1); "
+     "of_bits = as_float($1); vec3 = (float3)($1, $2, $3); "},
+    {"glsl", "GLSL 4.30 and GLSL ES 3.00", 0, 4096,
+     "drivers copy a constant array that is read at an index into registers, or refuse it",
      BOUND(", as a texture", "layout(std430, binding = 0) readonly buffer vndf_buffer { float vndf_numbers[]; };"),
-     .most_embedded = 4096,
-     .why = "drivers copy a constant array that is read at an index into registers, or refuse it",
-     .types = "",
-     .calls = "bits: floatBitsToInt($1); of_bits: intBitsToFloat($1); vec3: vec3($1, $2, $3); ",
-     .made_by_call = 1,
-     TYPED,
-     PLAIN_STRUCTS},
-    {.name = "hlsl",
-     .title = "HLSL, shader model 5 and later",
-     .function = "$T $D($P) {",
-     .begin = "",
-     .constant = "static const int $D = $N;",
-     .array = "static const float $D[$N] = {",
-     .array_close = "};",
-     BOUND("", "StructuredBuffer<float> vndf_numbers : register(t0);"),
-     .most_embedded = 4096,
-     .why = "a shader's constants end at 64 KiB, where each number takes 16 bytes",
-     .types = "vec3: float3; ",
-     .calls = "bits: asint($1); of_bits: asfloat($1); vec3: float3($1, $2, $3); ",
-     .zero = "($T)0",
-     TYPED,
-     PLAIN_STRUCTS},
-    {.name = "wgsl",
-     .title = "WGSL",
-     .typed = "$V: $T",
-     .apart = 1,
-     .made_by_call = 1,
-     .function = "fn $D($P) -> $T {",
-     .structs = "struct $D {",
-     .structs_close = "}",
-     .begin = "",
-     .constant = "const $D: i32 = $N;",
-     .array = "var<private> $D: array<f32, $N> = array<f32, $N>(", /* naga copies constant ones at every fetch */
-     .array_close = ");",
-     .fetched = "vndf_numbers[$1]",
-     .bound = "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n",
-     .most_embedded = 2047,
-     .why = "WGSL promises arrays of 2047 constants",
-     .types = "int: i32; float: f32; real: f32; whole: i32; vec3: vec3<f32>; ",
-     .calls = "pick: select($3, $2, $1); pick_whole: select($3, $2, $1); to_real: f32($1); to_whole: i32($1); "
-              "bits: bitcast<i32>($1); of_bits: bitcast<f32>($1); vec3: vec3<f32>($1, $2, $3); "},
-    {.name = "msl",
-     .title = "the Metal shading language",
-     .function = "inline $T $D($P) {",
-     .begin = "#include <metal_stdlib>\nusing namespace metal;\n",
-     .array = "constant float $D[$N] = {",
-     .pointer = "device const float *",
-     .most_embedded = 16384,
-     .why = "Metal has 64 KiB of constants",
-     .types = "vec3: float3; ",
-     .calls = "bits: as_type<int>($1); of_bits: as_type<float>($1); with_sign: copysign($1, $2); "
-              "vec3: float3($1, $2, $3); ",
-     .zero = "{}",
-     TYPED,
-     PLAIN_STRUCTS,
-     C_CONSTANTS,
-     BY_POINTER},
-    {.name = "python",
-     .title = "Python, for Dr.Jit",
-     .typed = "$V",
-     .apart = 1,
-     .made_by_call = 1,
-     .indents = 1,
-     .function = "def $D($P):",
-     .structs = "class $D(_Struct):",
-     .begin = python_begin,
-     .constant = "$D = $N",
-     .array = "$D = (",
-     .array_close = ")",
-     .fetched = "",
-     .types = "",
-     .calls = "any: True; both: ($1 & $2); either: ($1 | $2); pick: dr.select($1, $2, $3); "
-              "pick_whole: dr.select($1, $2, $3); least: _least($1, $2); most: _most($1, $2); "
-              "least_whole: _least($1, $2); most_whole: _most($1, $2); root: _root($1); "
-              "with_sign: dr.copysign($1, $2); bits: _bits($1); of_bits: _of_bits($1); to_real: mi.Float($1); "
-              "to_whole: mi.Int32($1); exp_of: dr.exp($1); exp_near: dr.exp($1); log_of: dr.log($1); "
-              "look: $1.look($2, $3); ",
-     .zero = "$T()"},
+     "",
+     "CONSTANT: const int $D = $N;; ARRAY: const float $D[$N] = float[$N](\n    ; ARRAY_END: \n);; MAKE: $T(; MADE: ); "
+     "vec3: vec3; bits = floatBitsToInt($1); of_bits = intBitsToFloat($1); vec3 = vec3($1, $2, $3); "
+     "fetch = VNDF_FETCH($1); "},
+    {"hlsl", "HLSL, shader model 5 and later", 0, 4096,
+     "a shader's constants end at 64 KiB, where each number takes 16 bytes",
+     BOUND("", "StructuredBuffer<float> vndf_numbers : register(t0);"), "",
+     "CONSTANT: static const int $D = $N;; ARRAY: static const float $D[$N] = {\n    ; ZERO: ($T)0; "
+     "bits = asint($1); of_bits = asfloat($1); fetch = VNDF_FETCH($1); "},
+    /* naga copies constant arrays at every fetch, private ones not */
+    {"wgsl", "WGSL", LANGUAGE_APART, 2047, "WGSL promises arrays of 2047 constants",
+     "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n", "",
+     "TYPED: $V: $T; SEVERAL: $V: array<$T, $N>; GIVEN: $V_in: $T; COPY: var $V = $V_in;; FUNCTION: fn $D($P) -> $T {; "
+     "STRUCT_END: }; CONSTANT: const $D: i32 = $N;; ARRAY: var<private> $D: array<f32, $N> = array<f32, $N>(\n    ; "
+     "ARRAY_END: \n);; MAKE: $T(; MADE: ); int: i32; float: f32; real: f32; whole: i32; vec3: vec3<f32>; "
+     "pick = select($3, $2, $1); pick_whole = select($3, $2, $1); to_real = f32($1); to_whole = i32($1); "
+     "bits = bitcast<i32>($1); of_bits = bitcast<f32>($1); vec3 = vec3<f32>($1, $2, $3); fetch = vndf_numbers[$1]; "},
+    {"msl", "the Metal shading language", 0, 16384, "Metal has 64 KiB of constants", NULL,
+     "#include <metal_stdlib>\nusing namespace metal;\n",
+     "FUNCTION: inline $T $D($P) {; ARRAY: constant float $D[$N] = {\n    ; ZERO: {}; POINTER: device const float *; "
+     "bits = as_type<int>($1); of_bits = as_type<float>($1); with_sign = copysign($1, $2); "},
+    {"python", "Python, for Dr.Jit", LANGUAGE_APART | LANGUAGE_INDENTS, 0, NULL, NULL, python_begin,
+     "TYPED: $V; GIVEN: $V; COPY: $V = _copy($V); FUNCTION: def $D($P):; "
+     "STRUCT: class $D(_Struct):\n    __slots__ = (; "
+     "STRUCT_END: ); CONSTANT: $D = $N; ARRAY: $D = (; ARRAY_END: ); MAKE: $T(; MADE: ); ZERO: $T(); "
+     "any = True; both = ($1 & $2); either = ($1 | $2); pick = dr.select($1, $2, $3); "
+     "pick_whole = dr.select($1, $2, $3); least = _least($1, $2); most = _most($1, $2); "
+     "least_whole = _least($1, $2); most_whole = _most($1, $2); root = _root($1); with_sign = dr.copysign($1, $2); "
+     "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_whole = mi.Int32($1); "
+     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); look = $1.look($2, $3); fetch = ; "},
 };
 
 const language *language_named(const char *name)
@@ -206,41 +111,25 @@ const language *language_named(const char *name)
     return NULL;
 }
 
-const char *const language_names[LANGUAGES] = {"c", "cpp", "cuda", "opencl", "glsl", "hlsl", "wgsl", "msl"};
-
-/* In a list of "word: pattern; ". */
-static const char *find(const char *list, const char *name, int size, int *length)
+const char *language_word(const language *in, const char *name, int size, const char *means, int *length)
 {
-    for (const char *end; (end = strchr(list, ';')); list = end + 2)
-        if (strncmp(list, name, (size_t)size) == 0 && list[size] == ':') {
-            *length = (int)(end - list) - size - 2;
-            return list + size + 2;
-        }
+    const size_t gap = strlen(means), n = (size_t)size;
+    for (const char *list = in->words, *end; list; list = list == in->words ? common : NULL)
+        for (const char *at = list; (end = strstr(at, "; ")) != NULL; at = end + 2)
+            if (strncmp(at, name, n) == 0 && strncmp(at + n, means, gap) == 0) {
+                *length = (int)(end - at - (long)(n + gap));
+                return at + n + gap;
+            }
     return NULL;
-}
-
-const char *language_type(const language *in, const char *name, int size, int *length)
-{
-    const char *own = find(in->types, name, size, length);
-    return own ? own : find(common_types, name, size, length);
-}
-
-const char *language_call(const language *in, const char *name, int size, int *length)
-{
-    const char *own = find(in->calls, name, size, length);
-    return own ? own : find(common_calls, name, size, length);
 }
 
 /* Of the eight and Python; those of C need not stand here. */
 const char language_reserved[] =
-    " abstract active alignas and as asm assert async attribute auto await become binding buffer cast centroid "
-    "class coherent common compile constant crate debugger def del delete demote device discard elif enable "
-    "except export extern filter final finally fixed flat fn fragment friend from function fxgroup generic get "
-    "global goto groupshared half handle hook impl implements import in inline inout input interface invariant "
-    "is kernel lambda layout length let line linear local lowp macro match matrix mediump meta mod module move "
-    "mut namespace new nil noexcept noinline nointerpolation None nonlocal not null of operator or out output "
-    "override package packed partition pass patch pipe pixelfragment point precise precision priv private "
-    "protected ptr pub public raise readonly ref regardless register require resource row_major sample sampler "
-    "self set shared smooth snorm std string subroutine super superp target technique template texture this "
-    "thread throw trait triangle try type typename uniform unless unorm use using var varying vec vector vertex "
-    "virtual wgsl where with writeonly xor yield ";
+    " and as asm async auto await become buffer cast centroid class common compile constant debugger def del "
+    "delete device discard elif enable except export extern filter final finally fixed flat fn fragment friend "
+    "from function get global handle half hook impl import in inout input instance interface invariant is "
+    "kernel lambda layout length let line linear local lowp macro match matrix meta mod module move namespace "
+    "new not null of operator or out output override partition pass patch pixel point precise precision "
+    "private public raise ref require resource sample sampler self set shared smooth string subroutine super "
+    "target technique template texture this thread throw trait try type typename uniform unless use using var "
+    "varying vec vector vertex virtual where with yield ";

@@ -4,38 +4,32 @@
 
 #include <stddef.h>
 
-/* In patterns $T is a type, $V a variable's name, $D a declaration's name, $P its parameters and $N a number; in those
- * of `types` and `calls`, lists of "word: pattern; ", $1, $2 and $3 are arguments. vndf_ stands for the prefix. */
+enum {
+    LANGUAGE_APART = 1,   /* one variable to a statement */
+    LANGUAGE_GUARDED = 2, /* #ifndef around all, since files include one another */
+    LANGUAGE_INDENTS = 4, /* as Python does: no braces, no types */
+    LANGUAGE_UNROLLS = 8  /* loops with a constant end, where that is asked for */
+};
+
+/* `words` says "TYPE: own; " of types and forms and "CALL = own; " of calls; what it lacks is as in most languages. Of
+ * calls $1, $2 and $3 are arguments. In forms $T is a type, $V a variable's name, $D a declaration's name, $P its
+ * parameters and $N a number. vndf_ stands for the prefix. */
 typedef struct language {
     const char *name, *title;
-    const char *typed; /* a variable, a parameter, a member */
-    const char *function, *structs, *structs_close, *constant, *array, *array_close;
-    const char *zero; /* what a struct is before its members are set, where that must be said */
-    const char
-        *pointer;      /* type of the pointer to numbers, which is the first parameter of what fetches them; or */
-    const char *bound; /* declares the buffer of numbers that a host binds */
-    const char *fetched; /* number $1 of either */
-    const char *begin;   /* after the first comment */
-    const char *types, *calls;
-    const char *unroll;   /* a line before loops with a constant end; NULL: none */
+    unsigned is;
     size_t most_embedded; /* numbers; 0 for no limit */
     const char *why;      /* the limit */
-    int apart;            /* one variable to a statement */
-    int made_by_call;     /* T(a, b), not {a, b} */
-    int guarded;          /* #ifndef around all, since files include one another */
-    int indents;          /* as Python does: no braces, no types */
+    const char *bound;    /* declares the buffer of numbers that a host binds; or NULL */
+    const char *begin;    /* after the first comment */
+    const char *words;
 } language;
 
-/* NULL if there is none of that name. */
+/* NULL if there is none of that name. Besides c, cpp, cuda, opencl, glsl, hlsl, wgsl and msl there is python, which is
+ * for tools/python. */
 const language *language_named(const char *name);
 
-/* Without Python, which is for tools/python. */
-enum { LANGUAGES = 8 };
-extern const char *const language_names[LANGUAGES];
-
-/* What a type or a call of the kernel is in the language: a pattern of *length characters, or NULL. */
-const char *language_type(const language *in, const char *name, int size, int *length);
-const char *language_call(const language *in, const char *name, int size, int *length);
+/* What a name of `size` characters is in the language: *length characters, or NULL. `means`: ": " or " = ". */
+const char *language_word(const language *in, const char *name, int size, const char *means, int *length);
 
 /* Names that are taken in one of the languages, between spaces. */
 extern const char language_reserved[];

@@ -110,7 +110,7 @@ HERE lobe_share share_of(vndf_bsdf b, meeting m)
     s.f = reflectances(b, c);
     s.part = s.f.x + ((s.f.y - s.f.x) + (s.f.z - s.f.x)) * 0.333333333f; /* only lobes=both */
     /* only transmits */
-    if (!m.reflects) {
+    if (m.reflects == 0) {
         s.f = vec3(1.0f - s.f.x, 1.0f - s.f.y, 1.0f - s.f.z);
         s.part = 1.0f - s.part; /* only lobes=both */
     }
@@ -125,13 +125,13 @@ HERE float masked(vndf_bsdf b, meeting m)
     const float area_o = vndf_projected_area(vndf_view_of(b.material.surface, vector_of(e.up))); /* only smith */
     float carried = 1.0f;
     /* only transmits transport=radiance */
-    if (!m.reflects)
+    if (m.reflects == 0)
         carried = 1.0f / (b.eta * b.eta);
     /* only transmits masking=correlated */
-    if (!m.reflects)
+    if (m.reflects == 0)
         return carried * passed_by_height(b.rise, e.rise, b.area, area_o);
     /* only transmits masking=v-cavities */
-    if (!m.reflects)
+    if (m.reflects == 0)
         return carried * passed_in_cavities(b.rise, e.rise, e.facing, e.beyond, e.wm.z);
     /* end */
     return carried * masked_by_height(b.rise, e.rise, b.area, area_o);     /* only masking=correlated */
@@ -168,9 +168,9 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     const float part = share_of(b, m).part;
     m.reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
     /* end */
-    if (m.reflects)                           /* only reflects */
+    if (m.reflects != 0)                      /* only reflects */
         m.e = reflected_at(wi, wm, c);        /* only reflects */
-    if (!m.reflects)                          /* only transmits */
+    if (m.reflects == 0)                      /* only transmits */
         m.e = refracted_at(wi, wm, c, b.eta); /* only transmits */
     m.e.rise = projected(b.material.surface, vector_of(m.e.up));
     if (!any(m.e.met) || !(m.e.rise > 0.0f) || !(b.rise > 0.0f))
@@ -182,12 +182,12 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     s.pdf = least(most(n.pdf * m.e.jacobian * share.part, 1.17549435e-38f), 3.4028234e38f);
     s.lobe = 2 - m.reflects;
     /* only transmits */
-    if (!m.reflects && b.eta == 1.0f) {
+    if (m.reflects == 0 && b.eta == 1.0f) {
         s.pdf = 1.0f;
         s.lobe = 3;
     }
     /* end */
-    if (m.reflects)                            /* only reflection=retro */
+    if (m.reflects != 0)                       /* only reflection=retro */
         s.wo = vec3(-s.wo.x, -s.wo.y, s.wo.z); /* only reflection=retro */
     return s;
 }

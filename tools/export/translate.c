@@ -4,640 +4,506 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct writer {
-    const translation *t;
-    const language *to;
-    FILE *file;
-    kernel *kernel;
-    const word *word; /* those of the kernel */
-    const declaration *in;
-    int depth; /* of indentation */
-} writer;
-
 /* ---- names --------------------------------------------------------------------------------------- */
 
 int translation_prefix(translation *t, const char *name)
 {
-    size_t n = strlen(name);
-    if (n == 0 || n > PREFIX_MAX || name[0] < 'a' || name[0] > 'z' || name[n - 1] == '_' || strstr(name, "__") ||
-        strcmp(name, "gl") == 0 || strncmp(name, "gl_", 3) == 0)
+    const size_t n = strlen(name);
+    if (n == 0 || n > PREFIX_MAX || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") < n || name[0] == '_' ||
+        isdigit((unsigned char)name[0]) || name[n - 1] == '_' || strstr(name, "__") || strcmp(name, "gl") == 0 ||
+        strncmp(name, "gl_", 3) == 0)
         return 0;
-    for (size_t i = 0; i < n; i++) {
-        int letter = name[i] >= 'a' && name[i] <= 'z', digit = name[i] >= '0' && name[i] <= '9';
-        if (!letter && !digit && name[i] != '_')
-            return 0;
-        t->lower[i] = name[i];
-        t->upper[i] = letter ? (char)(name[i] - 'a' + 'A') : name[i];
-    }
-    t->lower[n] = t->upper[n] = '_';
-    t->lower[n + 1] = t->upper[n + 1] = '\0';
+    snprintf(t->lower, sizeof t->lower, "%s_", name);
+    for (size_t i = 0; i <= n + 1; i++)
+        t->upper[i] = (char)toupper((unsigned char)t->lower[i]);
     return 1;
 }
 
-void put_prefixed(const translation *t, FILE *to, const char *from, size_t length)
+void put_prefixed(const translation *t, const char *from, size_t length)
 {
     for (const char *at = from, *end = from + length; at < end;) {
         int in_word = at > from && (at[-1] == '_' || isalnum((unsigned char)at[-1]));
         int lower = !in_word && strncmp(at, "vndf_", 5) == 0, upper = !in_word && strncmp(at, "VNDF_", 5) == 0;
         if (lower || upper)
-            fputs(lower ? t->lower : t->upper, to);
+            fputs(lower ? t->lower : t->upper, t->file);
         else
-            fputc(*at, to);
+            fputc(*at, t->file);
         at += lower || upper ? 5 : 1;
     }
 }
 
 /* A variable or a member. */
-static void put_name(const writer *w, const word *name)
+static void put_name(const translation *t, const word *name)
 {
-    fprintf(w->file, "%.*s%s", name->length, name->text, word_is_in(name, language_reserved) ? "_" : "");
+    char spaced[80];
+    snprintf(spaced, sizeof spaced, " %.*s ", name->length, name->text);
+    put_prefixed(t, name->text, (size_t)name->length);
+    fputs(strstr(language_reserved, spaced) ? "_" : "", t->file);
 }
 
-/* Functions and structs begin with the prefix, constants with it in capitals; those of the kernel that a public one
- * has are told apart. */
-static void put_declared(const writer *w, const declaration *d)
+/* All declarations begin with the prefix. */
+static void put_declared(const translation *t, const declaration *d)
 {
-    const word *name = &w->word[d->name];
-    int capital = d->kind == CONSTANT || d->kind == ARRAY, public = word_is_public(name);
-    fputs(capital ? w->t->upper : w->t->lower, w->file);
-    for (int i = 0; i < w->kernel->count && !public; i++) {
-        const word *other = &w->word[w->kernel->at[i].name];
-        if (word_is_public(other) && other->length == name->length + 5 &&
-            memcmp(other->text + 5, name->text, (size_t)name->length) == 0)
-            fputs("kernel_", w->file);
-    }
-    for (int i = public ? 5 : 0; i < name->length; i++) {
-        char c = name->text[i];
-        fputc(capital && c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c, w->file);
-    }
+    const word *name = &t->word[d->name];
+    if (strncmp(name->text, "vndf_", 5) != 0 && strncmp(name->text, "VNDF_", 5) != 0)
+        fputs(d->kind == CONSTANT ? t->upper : t->lower, t->file);
+    put_prefixed(t, name->text, (size_t)name->length);
 }
 
-static declaration *declared(const writer *w, const word *name, declaration_kind kind)
+static int is_same(const translation *t, int a, int b)
 {
-    declaration *d = name->kind == WORD_NAME ? kernel_named(w->kernel, name) : NULL;
-    return d && d->kind == kind ? d : NULL;
+    const word *v = &t->word[a], *w = &t->word[b];
+    return v->length == w->length && memcmp(v->text, w->text, (size_t)v->length) == 0;
 }
 
-static void put_type(const writer *w, const word *type)
+static declaration *declared(translation *t, int name)
 {
+    int i = 0;
+    while (i < t->count && !is_same(t, t->at[i].name, name))
+        i++;
+    return i < t->count ? &t->at[i] : NULL;
+}
+
+static int is_struct(translation *t, int type)
+{
+    const declaration *d = declared(t, type);
+    return d && d->kind == STRUCT;
+}
+
+static void put_words(translation *t, int at, int end);
+static void put_parameters(translation *t, const declaration *d);
+
+static void put_type(translation *t, int type)
+{
+    const word *w = &t->word[type];
     int length;
-    const char *own = language_type(w->to, type->text, type->length, &length);
-    const declaration *d = declared(w, type, STRUCT);
+    const char *own = language_word(t->to, w->text, w->length, ": ", &length);
     if (own)
-        put_prefixed(w->t, w->file, own, (size_t)length);
-    else if (d)
-        put_declared(w, d);
+        put_prefixed(t, own, (size_t)length);
+    else if (is_struct(t, type))
+        put_declared(t, declared(t, type));
     else
-        fprintf(w->file, "%.*s", type->length, type->text);
+        put_name(t, w);
 }
 
-static void put_parameters(writer *w, const declaration *d);
-
-/* A pattern of the language for a type, a variable, a declaration and a number. */
-static void put_form(writer *w, const char *pattern, const word *type, const word *name, const declaration *d,
-                     long n)
+/* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
+static void put_argument(translation *t, int call, int i, const char *signs)
 {
-    for (size_t plain; *pattern; pattern++) {
-        plain = strcspn(pattern, "$");
-        put_prefixed(w->t, w->file, pattern, plain);
-        if (!*(pattern += plain))
-            break;
-        switch (*++pattern) {
-        case 'T': put_type(w, type); break;
-        case 'V': put_name(w, name); break;
-        case 'D': put_declared(w, d); break;
-        case 'P': put_parameters(w, d); break;
-        default: fprintf(w->file, "%ld", n);
+    const int close = t->word[call + 1].other;
+    int at = call + 2, end, brackets = 0;
+    for (; i > 0; i--)
+        at = word_find(t, at, close, ",") + 1;
+    end = word_find(t, at, close, ",");
+    for (int sign = at; sign<end; sign = t->word[sign].other> sign ? t->word[sign].other + 1 : sign + 1)
+        brackets |= t->word[sign].kind == WORD_SIGN && strchr(signs, *t->word[sign].text);
+    fputs(brackets ? "(" : "", t->file);
+    put_words(t, at, end);
+    fputs(brackets ? ")" : "", t->file);
+}
+
+/* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
+static void put_own(translation *t, const char *own, int length, const declaration *d, int type, int name)
+{
+    for (const char *at = own, *end = own + length, *plain; at < end; at++) {
+        for (plain = at; at < end && *at != '$'; at++)
+            ;
+        put_prefixed(t, plain, (size_t)(at - plain));
+        switch (at < end ? *++at : ' ') {
+        case ' ': break;
+        case 'T': put_type(t, type); break;
+        case 'V': put_name(t, &t->word[name]); break;
+        case 'D': put_declared(t, d); break;
+        case 'P': put_parameters(t, d); break;
+        case 'N': put_words(t, name + 2, d && d->kind == CONSTANT ? d->end : name + 3); break;
+        default: put_argument(t, name, *at - '1', length == 2 ? "+-*/&|<>" : "&|<>");
         }
     }
+}
+
+/* 0 if the language has no such form. */
+static int put_form(translation *t, const char *form, const declaration *d, int type, int name)
+{
+    int length;
+    const char *own = language_word(t->to, form, (int)strlen(form), ": ", &length);
+    if (own)
+        put_own(t, own, length, d, type, name);
+    return own != NULL;
 }
 
 /* ---- expressions --------------------------------------------------------------------------------- */
 
-static void put_words(writer *w, int at, int end, int in_condition);
-
-void put_float(const translation *t, FILE *to, double x)
+/* All is float: a double of the kernel, which has no f at its end, is printed with 9 digits. */
+static void put_number(const translation *t, const word *number)
 {
-    char number[40];
-    snprintf(number, sizeof number, "%.9g", x);
-    fprintf(to, "%s%s%s", number, strpbrk(number, ".en") ? "" : ".0", t->to->indents ? "" : "f");
-}
-
-static void put_number(const writer *w, const word *number)
-{
-    int hex = number->length > 1 && number->text[1] == 'x', last = number->text[number->length - 1];
-    int real = hex ? memchr(number->text, 'p', (size_t)number->length) != NULL
-                   : last != 'f' && memchr(number->text, '.', (size_t)number->length);
-    if (real) /* of doubles too: all is float */
-        put_float(w->t, w->file, strtod(number->text, NULL));
-    else
-        fprintf(w->file, "%.*s", number->length - (w->to->indents && !hex && last == 'f'), number->text);
-}
-
-/* Whether one of the signs stands outside of brackets. */
-static int has_sign(const writer *w, int at, int end, const char *signs)
-{
-    for (; at<end; at = w->word[at].other> at ? w->word[at].other + 1 : at + 1)
-        if (w->word[at].kind == WORD_SIGN && strchr(signs, *w->word[at].text))
-            return 1;
-    return 0;
-}
-
-/* A call from its bracket on that the language has in a form of its own; `bare`: without the brackets around all. */
-static void put_call_of(writer *w, const char *pattern, int length, int open, int bare)
-{
-    bare = bare && *pattern == '(';
-    const char *weak = length == 2 && !bare ? "+-*/&|<>" : "&|<>";
-    for (int i = bare; i < length - bare; i++) {
-        int at = open + 1, end = w->word[open].other;
-        if (pattern[i] != '$') {
-            int n = (int)strcspn(pattern + i, "$");
-            n = n < length - bare - i ? n : length - bare - i;
-            put_prefixed(w->t, w->file, pattern + i, (size_t)n);
-            i += n - 1;
-            continue;
-        }
-        for (int skip = pattern[++i] - '1'; skip > 0; skip--)
-            at = kernel_find(w->kernel, at, end, ",") + 1;
-        end = kernel_find(w->kernel, at, end, ",");
-        int closed = has_sign(w, at, end, weak);
-        fputs(closed ? "(" : "", w->file);
-        put_words(w, at, end, 0);
-        fputs(closed ? ")" : "", w->file);
+    const size_t length = (size_t)number->length;
+    const int is_hex = length > 1 && number->text[1] == 'x', is_float = !is_hex && number->text[length - 1] == 'f';
+    char text[40];
+    if (is_float || !memchr(number->text, is_hex ? 'p' : '.', length)) {
+        fprintf(t->file, "%.*s", number->length - (t->indents && is_float), number->text);
+        return;
     }
+    snprintf(text, sizeof text, "%.9g", strtod(number->text, NULL));
+    fprintf(t->file, "%s%s%s", text, strpbrk(text, ".en") ? "" : ".0", t->indents ? "" : "f");
 }
 
-/* A pattern of *length characters for a call, or NULL. */
-static const char *pattern_of(const writer *w, const word *name, int *length)
+/* What the language has for a call, *length characters, or NULL. */
+static const char *own_call(const translation *t, int name, int *length)
 {
-    if (!word_is(name, "fetch"))
-        return language_call(w->to, name->text, name->length, length);
-    *length = (int)strlen(w->t->fetched);
-    return w->t->fetched;
+    const word *w = &t->word[name];
+    const int embedded = t->embeds && word_is(w, "fetch");
+    *length = 16;
+    return embedded ? "VNDF_NUMBERS[$1]" : language_word(t->to, w->text, w->length, " = ", length);
 }
 
 /* A name before its brackets; returns what follows them. */
-static int put_call(writer *w, int at, int bare)
+static int put_call(translation *t, int name)
 {
-    int length, close = w->word[at + 1].other;
-    const char *pattern = pattern_of(w, &w->word[at], &length);
-    const declaration *d = declared(w, &w->word[at], FUNCTION);
-    if (pattern) {
-        put_call_of(w, pattern, length, at + 1, bare);
+    const int close = t->word[name + 1].other;
+    const declaration *d = declared(t, name);
+    int length;
+    const char *own = own_call(t, name, &length);
+    if (own) {
+        put_own(t, own, length, NULL, 0, name);
         return close + 1;
     }
-    if (d)
-        put_declared(w, d);
+    if (d && d->kind == FUNCTION)
+        put_declared(t, d);
     else
-        put_name(w, &w->word[at]);
-    fputs(!d || !d->fetches || !w->t->by_pointer ? "(" : close == at + 2 ? "(numbers" : "(numbers, ", w->file);
-    put_words(w, at + 2, close, 0);
-    fputs(")", w->file);
+        put_name(t, &t->word[name]);
+    fputs(!d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
+    put_words(t, name + 2, close);
+    fputs(")", t->file);
     return close + 1;
 }
 
-/* The space or line break that stands before a word; a comment in an expression is left out. */
-static void put_space(const writer *w, const word *at)
+/* Blanks and comments before a word, without directives; Python, where a line ends a statement, has one blank. */
+static void put_gap(const translation *t, int at)
 {
-    int broken = memchr(at->text - at->gap, '\n', (size_t)at->gap) != NULL;
-    if (broken && !w->to->indents)
-        fprintf(w->file, "\n%*s", 4 * w->depth + 4, "");
-    else if (at->gap)
-        fputc(' ', w->file);
-}
-
-static void put_sign(const writer *w, const word *sign, const word *next)
-{
-    if (w->to->indents && word_is(sign, "/") && next->kind == WORD_NUMBER &&
-        !memchr(next->text, '.', (size_t)next->length))
-        fputs("//", w->file); /* of whole numbers */
-    else if (w->to->indents && word_is_in(sign, " && || ! "))
-        fputs(*sign->text == '!' ? "not " : *sign->text == '&' ? "and" : "or", w->file);
-    else
-        fprintf(w->file, "%.*s", sign->length, sign->text);
-}
-
-/* The end of a name with its members that is an operand of && or || by itself, so a whole number; or 0. */
-static int whole_operand(const writer *w, int at, int from, int end)
-{
-    int stop = at + 1;
-    while (stop < end && word_is(&w->word[stop], "."))
-        stop += 2;
-    int begins = at == from || word_is_in(&w->word[at - 1], " ( ! && || ");
-    return w->word[at].kind == WORD_NAME && begins && (stop >= end || word_is_in(&w->word[stop], " ) && || "))
-               ? stop
-               : 0;
-}
-
-static int put_word(writer *w, int at, int end)
-{
-    const word *next = &w->word[at];
-    const declaration *d = next->kind == WORD_NAME ? kernel_named(w->kernel, next) : NULL;
-    int member = word_is(next - 1, ".");
-    if (next->kind == WORD_NUMBER)
-        put_number(w, next);
-    else if (next->kind == WORD_SIGN)
-        put_sign(w, next, next + 1);
-    else if (!member && at + 1 < end && word_is(next + 1, "("))
-        return put_call(w, at, 0);
-    else if (at + 1 < end && next[1].kind == WORD_NAME && !word_is(next, "return"))
-        put_type(w, next);
-    else if (!member && d && (d->kind == CONSTANT || d->kind == ARRAY))
-        put_declared(w, d);
-    else
-        put_name(w, next);
-    kernel_expect(!word_is(next, "?"), next, "pick or if, not ?:,");
-    return at + 1;
-}
-
-static void put_words(writer *w, int at, int end, int in_condition)
-{
-    for (int from = at, stop; at < end;) {
-        if (at > from)
-            put_space(w, &w->word[at]);
-        int no = in_condition && word_is(&w->word[at], "!") && whole_operand(w, at + 1, from, end);
-        if (in_condition && (stop = whole_operand(w, at + no, from, end)) != 0) {
-            put_words(w, at + no, stop, 0);
-            fputs(no ? " == 0" : " != 0", w->file);
-            at = stop;
-        } else {
-            at = put_word(w, at, end);
-        }
+    const char *end = t->word[at].text, *from = end - t->word[at].gap;
+    if (t->indents)
+        fputs(from < end ? " " : "", t->file);
+    for (const char *next; from < end && !t->indents; from = next) {
+        next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
+        put_prefixed(t, from, *from == '#' ? 0 : (size_t)(next - from));
     }
 }
 
-/* What stands between the brackets of an if. */
-static void put_condition(writer *w, int at, int end)
+static int put_word(translation *t, int at)
 {
-    if (word_is(&w->word[at], "any") && !w->to->indents && word_is(&w->word[at + 3], "(") &&
-        w->word[at + 3].other + 2 == end)
-        put_call(w, at + 2, 1); /* any(less(a, b)) is a < b */
-    else
-        put_words(w, at, end, 1);
+    const word *w = &t->word[at];
+    if (w->kind == WORD_NUMBER) {
+        put_number(t, w);
+    } else if (w->kind == WORD_NAME && !word_is(w - 1, ".")) {
+        if (word_is(w + 1, "(") && !word_is(w, "return"))
+            return put_call(t, at);
+        const declaration *d = declared(t, at);
+        if (d && (d->kind == CONSTANT || d->kind == ARRAY))
+            put_declared(t, d);
+        else
+            put_name(t, w);
+    } else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
+               !memchr(w[1].text, '.', (size_t)w[1].length)) {
+        fputs("//", t->file); /* of whole numbers */
+    } else if (t->indents && word_is(w, "&&")) {
+        fputs("and", t->file);
+    } else {
+        put_name(t, w);
+    }
+    return at + 1;
+}
+
+static void put_words(translation *t, int at, int end)
+{
+    for (int from = at; at < end;) {
+        if (at > from)
+            put_gap(t, at);
+        at = put_word(t, at);
+    }
 }
 
 /* ---- statements ---------------------------------------------------------------------------------- */
 
-static int put_statement(writer *w, int at);
+static int put_statement(translation *t, int at);
 
-static void put_indent(const writer *w)
+/* Blanks before the line of a word. */
+static int indent_of(const translation *t, int at)
 {
-    fprintf(w->file, "%*s", 4 * w->depth, "");
+    const char *line = t->word[at].text;
+    while (line[-1] != '\n')
+        line--;
+    return (int)strspn(line, " ");
 }
 
-/* A comment that begins there; returns what follows. Python has a sign on each line of it. */
-static const char *put_comment(const writer *w, const char *from)
+/* Whether a function assigns to the name, or to a part of it: what stands before a "=" and is no declaration. */
+static int is_assigned(const translation *t, const declaration *d, int name)
 {
-    const char *end = strstr(from, "*/") + 2;
-    if (!w->to->indents)
-        put_prefixed(w->t, w->file, from, (size_t)(end - from));
-    for (const char *at = from + 2; w->to->indents && at < end - 3;) {
-        at += strspn(at, " *");
-        size_t line = strcspn(at, "\n");
-        line = at + line < end - 3 ? line : (size_t)(end - 3 - at);
-        if (at > from + 3)
-            fprintf(w->file, "\n%*s", 4 * w->depth, "");
-        fputs("# ", w->file);
-        put_prefixed(w->t, w->file, at, line);
-        at += line + 1;
-    }
-    return end;
-}
-
-/* The end of a statement's line, before the word `at`, with the comment there. */
-static void put_line_end(const writer *w, int at)
-{
-    const char *from = w->word[at].text - w->word[at].gap;
-    from += strspn(from, " ");
-    if (*from == '/' && w->word[at].gap > 0) {
-        fputs(w->to->indents ? "  " : " ", w->file);
-        put_comment(w, from);
-    }
-    fputs("\n", w->file);
-}
-
-/* Comments and blank lines from there on. */
-static void put_between(const writer *w, int at)
-{
-    const char *from = w->word[at].text - w->word[at].gap, *end = w->word[at].text;
-    from += strcspn(from, "\n");
-    for (int lines = 0; from < end;) {
-        if (*from == '/') {
-            put_indent(w);
-            from = put_comment(w, from);
-            fputs("\n", w->file);
-            lines = -1;
-        } else {
-            if (*from == '\n' && ++lines == 2)
-                fputs("\n", w->file);
-            from += *from == '#' ? strcspn(from, "\n") : 1;
-        }
-    }
-}
-
-/* Whether a word begins a statement that assigns to the name or to a part of it. */
-static int assigns(const writer *w, int at, const word *name)
-{
-    int begins = word_is_in(&w->word[at - 1], " ; } ) else ") ||
-                 (word_is(&w->word[at - 1], "{") && word_is_in(&w->word[at - 2], " ) else "));
-    return begins && word_is_in(&w->word[at + 1], " = . [ ++ ") && word_equals(&w->word[at], name);
-}
-
-static int is_assigned(const writer *w, const declaration *d, const word *name)
-{
-    for (int at = w->word[d->inner].other + 2; at < d->end; at++)
-        if (assigns(w, at, name))
+    for (int at = t->word[d->inner].other + 2, from; at < d->end; at++) {
+        if (!word_is(&t->word[at], "="))
+            continue;
+        for (from = at - 1; word_is(&t->word[from - 1], ".") || word_is(&t->word[from], "]");)
+            from = word_is(&t->word[from], "]") ? t->word[from].other - 1 : from - 2;
+        if (is_same(t, from, name) && (t->word[from - 1].kind != WORD_NAME || word_is(&t->word[from - 1], "else")))
             return 1;
+    }
     return 0;
 }
 
 /* Python binds names to one struct where C copies it. */
-static void put_value(writer *w, const word *type, int at, int end)
+static void put_value(translation *t, int type, int at, int end)
 {
-    int made = word_is(&w->word[at], "{");
-    int copied = w->to->indents && !made && declared(w, type, STRUCT) && !has_sign(w, at, end, "(");
-    if (made && w->to->made_by_call)
-        put_type(w, type);
+    const int made = word_is(&t->word[at], "{");
+    const int copied = t->indents && !made && is_struct(t, type) && word_find(t, at, end, "(") == end;
     if (made)
-        fputs(w->to->made_by_call ? "(" : "{", w->file);
-    fputs(copied ? "_copy(" : "", w->file);
-    put_words(w, at + made, end - made, 0);
-    fputs(copied ? ")" : made ? (w->to->made_by_call ? ")" : "}") : "", w->file);
+        put_form(t, "MAKE", NULL, type, 0);
+    fputs(copied ? "_copy(" : "", t->file);
+    put_words(t, at + made, end - made);
+    fputs(copied ? ")" : "", t->file);
+    if (made)
+        put_form(t, "MADE", NULL, 0, 0);
 }
 
 /* type a = x, b, c[N] to before `end`: variables, or members of a struct. */
-static void put_variables(writer *w, int at, int end, int members)
+static void put_variables(translation *t, int type, int end, int members)
 {
-    const language *to = w->to;
-    const word *type = &w->word[at];
-    for (int name = at + 1, stop; name < end; name = stop + 1) {
-        stop = kernel_find(w->kernel, name, end, ",");
-        if (name > at + 1) {
-            fputs(!to->apart ? "," : to->indents ? "\n" : members ? ",\n" : ";\n", w->file);
-            if (to->apart)
-                put_indent(w);
-            else
-                put_space(w, &w->word[name]);
+    int length;
+    const int zero = !members && is_struct(t, type) && language_word(t->to, "ZERO", 4, ": ", &length);
+    for (int name = type + 1, stop; name < end; name = stop + 1) {
+        const int first = name == type + 1;
+        stop = word_find(t, name, end, ",");
+        if (!first && t->apart) {
+            fprintf(t->file, "%s\n%*s", members ? "," : t->indents ? "" : ";", indent_of(t, type), "");
+        } else if (!first) {
+            fputs(",", t->file);
+            put_gap(t, name);
         }
-        int has_count = word_is(&w->word[name + 1], "["), equals = word_is(&w->word[name + 1], "=");
-        if (to->apart && has_count) { /* of WGSL */
-            put_name(w, &w->word[name]);
-            fputs(": array<", w->file);
-            put_type(w, type);
-            fputs(", ", w->file);
-            put_words(w, name + 2, name + 3, 0);
-            fputs(">", w->file);
-            continue;
+        fputs(t->apart && !t->indents && !members ? "var " : "", t->file);
+        if (first || t->apart)
+            put_form(t, word_is(&t->word[name + 1], "[") ? "SEVERAL" : "TYPED", NULL, type, name);
+        else
+            put_name(t, &t->word[name]);
+        if (word_is(&t->word[name + 1], "=")) {
+            fputs(" = ", t->file);
+            put_value(t, type, name + 2, stop);
+        } else if (zero) {
+            fputs(" = ", t->file);
+            put_form(t, "ZERO", NULL, type, 0);
+        } else if (!members && t->indents) {
+            fputs(" = 0", t->file);
         }
-        int fixed = equals && !declared(w, type, STRUCT) && !is_assigned(w, w->in, &w->word[name]);
-        if (to->apart && !to->indents &&
-            !members) /* structs are variables, since only those have elements at an index */
-            fputs(fixed ? "let " : "var ", w->file);
-        put_form(w, name == at + 1 || to->apart ? to->typed : "$V", type, &w->word[name], NULL, 0);
-        if (has_count)
-            put_words(w, name + 1, name + 4, 0);
-        if (equals || (!members && (to->indents || (to->zero && declared(w, type, STRUCT)))))
-            fputs(" = ", w->file);
-        if (equals)
-            put_value(w, type, name + 2, stop);
-        else if (!members && to->zero && declared(w, type, STRUCT))
-            put_form(w, to->zero, type, NULL, NULL, 0);
-        else if (!members && to->indents)
-            fputs("0", w->file);
     }
 }
 
-/* What an if or a for governs, in braces; returns what follows. */
-static int put_governed(writer *w, int at)
+/* What an if or a for governs, in braces, which close under the line of `head`; returns what follows. */
+static int put_governed(translation *t, int head, int at)
 {
-    int block = word_is(&w->word[at], "{"), end = block ? w->word[at].other : 0;
-    fputs(w->to->indents ? ":" : " {", w->file);
-    put_line_end(w, at + block);
-    w->depth++;
-    if (block)
-        for (at++; at < end;)
-            at = put_statement(w, at);
-    else
-        at = put_statement(w, at);
-    w->depth--;
-    if (!w->to->indents) {
-        put_indent(w);
-        fputs("}", w->file);
-    }
-    return at + block;
+    const int is_block = word_is(&t->word[at], "{"), close = is_block ? t->word[at].other : 0;
+    fputs(t->indents ? ":" : " {", t->file);
+    for (at += is_block; is_block && at < close;)
+        at = put_statement(t, at);
+    if (!is_block)
+        at = put_statement(t, at);
+    if (!t->indents && is_block)
+        put_gap(t, close);
+    else if (!t->indents)
+        fprintf(t->file, "\n%*s", indent_of(t, head), "");
+    fputs(t->indents ? "" : "}", t->file);
+    return at + is_block;
 }
 
-static int put_if(writer *w, int at)
+/* any(less(a, b)) has brackets already. */
+static void put_condition(translation *t, int at, int end)
 {
-    int close = w->word[at + 1].other, indents = w->to->indents;
-    fputs(indents ? "if " : "if (", w->file);
-    put_condition(w, at + 2, close);
-    fputs(indents ? "" : ")", w->file);
-    at = put_governed(w, close + 1);
-    if (!word_is(&w->word[at], "else"))
-        return at;
+    const word *w = &t->word[at];
+    int length, whole = word_is(w, "any") && w[1].other == end - 1 && word_is(w + 3, "(") && w[3].other == end - 2;
+    const char *own = whole ? own_call(t, at + 2, &length) : NULL;
+    const int is_not = word_is(w, "!") && at + 2 == end, is_name = at + 1 == end || is_not;
+    if (own && *own == '(' && !t->indents) {
+        put_call(t, at + 2);
+        return;
+    }
+    fputs("(", t->file);
+    put_words(t, at + is_not, end);
+    fputs(!is_name ? ")" : is_not ? " == 0)" : " != 0)", t->file);
+}
+
+static int put_if(translation *t, int at)
+{
+    const int close = t->word[at + 1].other, indents = t->indents;
+    fputs("if ", t->file);
+    put_condition(t, at + 2, close);
+    const int next = put_governed(t, at, close + 1);
+    if (!word_is(&t->word[next], "else"))
+        return next;
     if (indents)
-        put_indent(w);
-    fputs(indents ? "" : " ", w->file);
-    if (!word_is(&w->word[at + 1], "if")) {
-        fputs("else", w->file);
-        return put_governed(w, at + 1);
+        fprintf(t->file, "\n%*s", indent_of(t, next), "");
+    if (word_is(&t->word[next + 1], "if")) {
+        fputs(indents ? "el" : " else ", t->file);
+        return put_if(t, next + 1);
     }
-    fputs(indents ? "el" : "else ", w->file);
-    return put_if(w, at + 1);
+    fputs(indents ? "else" : " else", t->file);
+    return put_governed(t, next, next + 1);
 }
 
 /* for (int i = A; i < B; i++) */
-static int put_for(writer *w, int at)
+static int put_for(translation *t, int at)
 {
-    int close = w->word[at + 1].other, first = kernel_find(w->kernel, at + 2, close, ";"),
-        second = kernel_find(w->kernel, first + 1, close, ";");
-    const declaration *end = declared(w, &w->word[first + 3], CONSTANT);
-    if (end && w->to->unroll) {
-        fprintf(w->file, "%s\n", w->to->unroll);
-        put_indent(w);
-    }
-    if (w->to->indents) {
-        fputs("for ", w->file);
-        put_name(w, &w->word[at + 3]);
-        fputs(" in range(", w->file);
-        put_words(w, at + 5, first, 0);
-        fputs(", ", w->file);
-        put_words(w, first + 3, second, 0);
-        fputs(")", w->file);
+    const int close = t->word[at + 1].other, first = word_find(t, at + 2, close, ";"),
+              second = word_find(t, first + 1, close, ";");
+    const declaration *end = declared(t, first + 3);
+    if (end && end->kind == CONSTANT && t->to->is & LANGUAGE_UNROLLS)
+        fprintf(t->file, "#pragma unroll\n%*s", indent_of(t, at), "");
+    if (t->indents) {
+        put_own(t, "for $V in range(", 16, NULL, 0, at + 3);
+        put_words(t, at + 5, first);
+        fputs(", ", t->file);
+        put_words(t, first + 3, second);
     } else {
-        fputs("for (", w->file);
-        put_variables(w, at + 2, first, 0);
-        fputs("; ", w->file);
-        put_words(w, first + 1, second, 0);
-        fputs("; ", w->file);
-        put_words(w, second + 1, close, 0);
-        fputs(")", w->file);
+        fputs("for (", t->file);
+        put_variables(t, at + 2, first, 0);
+        fputs("; ", t->file);
+        put_words(t, first + 1, second);
+        fputs("; ", t->file);
+        put_words(t, second + 1, close);
     }
-    return put_governed(w, close + 1);
+    fputs(")", t->file);
+    return put_governed(t, at, close + 1);
 }
 
 /* Returns what follows. */
-static int put_statement(writer *w, int at)
+static int put_statement(translation *t, int at)
 {
-    put_between(w, at);
-    put_indent(w);
-    if (word_is(&w->word[at], "if") || word_is(&w->word[at], "for")) {
-        at = word_is(&w->word[at], "if") ? put_if(w, at) : put_for(w, at);
-        if (w->to->indents)
-            return at;
-    } else {
-        int end = kernel_find(w->kernel, at, w->in->end, ";");
-        at += word_is(&w->word[at], "const");
-        if (w->word[at + 1].kind == WORD_NAME && !word_is(&w->word[at], "return"))
-            put_variables(w, at, end, 0);
-        else
-            put_words(w, at, end, 0);
-        fputs(w->to->indents ? "" : ";", w->file);
-        at = end + 1;
-    }
-    put_line_end(w, at);
-    return at;
+    if (t->indents)
+        fprintf(t->file, "\n%*s", indent_of(t, at), "");
+    else
+        put_gap(t, at);
+    if (word_is(&t->word[at], "if"))
+        return put_if(t, at);
+    if (word_is(&t->word[at], "for"))
+        return put_for(t, at);
+    const int end = word_find(t, at, t->words, ";");
+    at += word_is(&t->word[at], "const");
+    if (t->word[at + 1].kind == WORD_NAME && !word_is(&t->word[at], "return"))
+        put_variables(t, at, end, 0);
+    else
+        put_words(t, at, end);
+    fputs(t->indents ? "" : ";", t->file);
+    return end + 1;
 }
 
 /* ---- declarations -------------------------------------------------------------------------------- */
 
-/* Python would change the caller's struct, and WGSL forbids to change a parameter. */
-static int is_copied(const writer *w, const declaration *d, int name)
+static void put_parameters(translation *t, const declaration *d)
 {
-    return is_assigned(w, d, &w->word[name]) &&
-           (w->to->indents ? declared(w, &w->word[name - 1], STRUCT) != NULL : w->to->apart);
-}
-
-static void put_parameters(writer *w, const declaration *d)
-{
-    int close = w->word[d->inner].other;
-    if (d->fetches && w->t->by_pointer)
-        fprintf(w->file, "%snumbers%s", w->to->pointer, close > d->inner + 2 ? ", " : "");
+    const int close = t->word[d->inner].other;
+    if (d->fetches && t->by_pointer) {
+        put_form(t, "POINTER", NULL, 0, 0);
+        fputs(close > d->inner + 2 ? "numbers, " : "numbers", t->file);
+    }
     for (int at = d->inner + 1; at + 1 < close; at++) {
-        at += word_is(&w->word[at], "const");
-        word name = w->word[at + 1];
-        char copied[64];
-        if (is_copied(w, d, at + 1) && !w->to->indents) {
-            name.length = snprintf(copied, sizeof copied, "%.*s_in", name.length, name.text);
-            name.text = copied;
-        }
-        put_form(w, w->to->typed, &w->word[at], &name, NULL, 0);
-        at = kernel_find(w->kernel, at, close, ",");
-        fputs(at < close ? ", " : "", w->file);
+        at += word_is(&t->word[at], "const");
+        if (!is_assigned(t, d, at + 1) || !put_form(t, "GIVEN", NULL, at, at + 1))
+            put_form(t, "TYPED", NULL, at, at + 1);
+        at = word_find(t, at, close, ",");
+        fputs(at < close ? ", " : "", t->file);
     }
 }
 
-static void put_function(writer *w, const declaration *d)
+static void put_function(translation *t, const declaration *d)
 {
-    int close = w->word[d->inner].other;
-    put_form(w, w->to->function, &w->word[d->type], NULL, d, 0);
-    fputs("\n", w->file);
-    w->depth = 1;
-    for (int at = d->inner + 1; at < close; at++)
-        if (w->word[at].kind == WORD_NAME && !word_is(&w->word[at + 1], "(") &&
-            w->word[at + 1].kind != WORD_NAME && is_copied(w, d, at)) {
-            const word *name = &w->word[at];
-            put_form(w, w->to->indents ? "    $V = _copy($V)\n" : "    var $V = ", NULL, name, NULL, 0);
-            if (!w->to->indents)
-                fprintf(w->file, "%.*s_in;\n", name->length, name->text);
+    const int close = t->word[d->inner].other;
+    put_form(t, "FUNCTION", d, d->type, 0);
+    for (int at = d->inner + 1, end; at + 1 < close && t->apart; at = end + 1) {
+        end = word_find(t, at, close, ",");
+        if (is_assigned(t, d, end - 1)) {
+            fputs("\n    ", t->file);
+            put_form(t, "COPY", NULL, 0, end - 1);
         }
+    }
     for (int at = close + 2; at < d->end - 1;)
-        at = put_statement(w, at);
-    w->depth = 0;
-    fputs(w->to->indents ? "" : "}\n", w->file);
+        at = put_statement(t, at);
+    if (t->indents)
+        return;
+    put_gap(t, d->end - 1);
+    fputs("}", t->file);
 }
 
-static void put_struct(writer *w, const declaration *d)
+static void put_struct(translation *t, const declaration *d)
 {
-    int close = w->word[d->inner].other;
-    put_form(w, w->to->structs, NULL, NULL, d, 0);
-    fputs(w->to->indents ? "\n    __slots__ = (" : "\n", w->file);
+    const int close = t->word[d->inner].other;
+    put_form(t, "STRUCT", d, 0, 0);
     for (int at = d->inner + 1, end; at < close; at = end + 1) {
-        end = kernel_find(w->kernel, at, close, ";");
-        for (int name = at + 1; name < end && w->to->indents; name = kernel_find(w->kernel, name, end, ",") + 1)
-            put_form(w, "\"$V\", ", NULL, &w->word[name], NULL, 0);
-        if (w->to->indents)
+        end = word_find(t, at, close, ";");
+        for (int name = at + 1; name < end && t->indents; name = word_find(t, name, end, ",") + 1)
+            put_own(t, "\"$V\", ", 6, NULL, 0, name);
+        if (t->indents)
             continue;
-        fputs("    ", w->file);
-        w->depth = 1;
-        put_variables(w, at, end, 1);
-        w->depth = 0;
-        fputs(w->to->apart ? "," : ";", w->file);
-        put_line_end(w, end + 1);
+        put_gap(t, at);
+        put_variables(t, at, end, 1);
+        fputs(t->apart ? "," : ";", t->file);
     }
-    if (w->to->indents)
-        fputs(")", w->file);
-    else
-        put_form(w, w->to->structs_close, NULL, NULL, d, 0);
-    fputs("\n", w->file);
-}
-
-static void put_array(writer *w, const declaration *d)
-{
-    int close = w->word[d->inner].other, count = 0;
-    for (int at = d->inner + 1; at < close; at = kernel_find(w->kernel, at, close, ",") + 1)
-        count++;
-    put_form(w, w->to->array, NULL, NULL, d, count);
-    for (int at = d->inner + 1, i = 0; at < close; at = kernel_find(w->kernel, at, close, ",") + 1, i++) {
-        fputs(i % 8 ? ", " : i ? ",\n    " : "\n    ", w->file);
-        put_words(w, at, kernel_find(w->kernel, at, close, ","), 0);
-    }
-    fprintf(w->file, "\n%s\n", w->to->array_close);
+    if (!t->indents)
+        put_gap(t, close);
+    put_form(t, "STRUCT_END", d, 0, 0);
 }
 
 /* The comment that ends on the line before. */
-static void put_comment_before(const writer *w, const declaration *d)
+static void put_comment_before(const translation *t, const declaration *d)
 {
-    const word *first = &w->word[d->begin];
+    const word *first = &t->word[d->begin];
     const char *comment = NULL;
-    if (first->gap < 5 || strncmp(first->text - 4, " */\n", 4) != 0)
+    if (first->gap < 5 || strncmp(first->text - 4, " */\n", 4) != 0 || t->indents)
         return;
     for (const char *at = first->text - first->gap; at < first->text; at++)
         comment = strncmp(at, "/*", 2) == 0 ? at : comment;
-    put_comment(w, comment);
-    fputs("\n", w->file);
+    put_prefixed(t, comment, (size_t)(first->text - comment));
 }
 
-int translation_want(const translation *t, kernel *from, const word *name)
+static void want(translation *t, declaration *d)
 {
-    declaration *d = kernel_named(from, name);
-    if (!d || d->wanted)
-        return d != NULL;
+    if (d->wanted)
+        return;
     d->wanted = 1;
-    for (int i = d->kind == CONSTANT ? d->end : d->begin; i < d->end; i++) {
-        const word *at = &from->word[i];
-        int length;
-        d->fetches |= word_is(at, "fetch");
-        declaration *of = at->kind == WORD_NAME && !word_is(at - 1, ".") ? kernel_named(from, at) : NULL;
-        if (!of || of == d || (of->kind == FUNCTION && !word_is(at + 1, "(")) ||
-            language_call(t->to, at->text, at->length, &length))
+    for (int i = d->kind == CONSTANT ? d->end : d->begin, length; i < d->end; i++) {
+        declaration *of = word_is(&t->word[i - (i > 0)], ".") ? NULL : declared(t, i);
+        d->fetches |= word_is(&t->word[i], "fetch");
+        if (!of || of == d || (of->kind == FUNCTION && !word_is(&t->word[i + 1], "(")) || own_call(t, i, &length))
             continue;
-        translation_want(t, from, at);
+        want(t, of);
         d->fetches |= of->fetches;
     }
-    return 1;
 }
 
-void translate(const translation *t, FILE *to, kernel *from)
+void translation_want(translation *t, const char *name)
 {
-    writer w = {.t = t, .to = t->to, .file = to, .kernel = from, .word = from->word};
-    for (int i = 0, in_constants = 0; i < from->count; i++) {
-        const declaration *d = w.in = &from->at[i];
+    const size_t length = strlen(name);
+    for (int i = 0; i < t->count; i++) {
+        const word *own = &t->word[t->at[i].name];
+        if (strncmp(own->text, name, length) == 0 && ((size_t)own->length == length || own->text[length] == '_'))
+            want(t, &t->at[i]);
+    }
+}
+
+void translate(translation *t, int first)
+{
+    for (int i = first, in_constants = 0; i < t->count; i++) {
+        const declaration *d = &t->at[i];
         if (!d->wanted)
             continue;
-        fputs(in_constants && d->kind != CONSTANT ? "\n" : "", to);
+        fputs(in_constants && d->kind != CONSTANT ? "\n" : "", t->file);
         in_constants = d->kind == CONSTANT;
         if (!in_constants || d->name == d->begin + 2)
-            put_comment_before(&w, d);
-        if (d->kind == FUNCTION)
-            put_function(&w, d);
-        else if (d->kind == STRUCT)
-            put_struct(&w, d);
-        else if (d->kind == ARRAY)
-            put_array(&w, d);
-        else
-            put_form(&w, t->to->constant, NULL, NULL, d, d->value);
-        fputs(t->to->indents && !in_constants ? "\n\n" : "\n", to);
+            put_comment_before(t, d);
+        if (d->kind == FUNCTION) {
+            put_function(t, d);
+        } else if (d->kind == STRUCT) {
+            put_struct(t, d);
+        } else if (d->kind == ARRAY) {
+            put_form(t, "ARRAY", d, 0, d->name);
+            put_words(t, d->inner + 1, t->word[d->inner].other);
+            put_form(t, "ARRAY_END", d, 0, 0);
+        } else {
+            put_form(t, "CONSTANT", d, 0, d->name);
+        }
+        fputs(in_constants ? "\n" : "\n\n", t->file);
     }
 }

@@ -9,19 +9,14 @@
 #define TOOLS_MEASURED_BRDF_H
 
 #include "measured/data.h"
+#include "render/vector.h"
 #include "vndf.h"
 
-typedef struct direction {
-    double x, y, z;
-} direction;
-
 /* At theta from z and phi from x, radians. */
-direction direction_at(double theta, double phi);
-
-double direction_dot(direction a, direction b);
+vec3 direction_at(double theta, double phi);
 
 /* w mirrored at m. */
-direction direction_mirrored(direction w, direction m);
+vec3 direction_mirrored(vec3 w, vec3 m);
 
 /* R; 0 where wo is below the horizon. */
 double model_masked(double area_i, double cos_i, double area_o, double cos_o);

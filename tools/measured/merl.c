@@ -8,24 +8,8 @@ enum { HALVES = 90, DIFFERENCES = 90, HALF_TURN = 180, HEAD = 12, STEPS = 60 };
 /* Every n-th bin is compared with the model. */
 enum { STEP_D = 3, STEP_PHI = 30, PROBES = HALVES * (DIFFERENCES / STEP_D) * (HALF_TURN / STEP_PHI) };
 
-static const double pi = 3.14159265358979323846;
-static const double scale[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
-static const double luminance[3] = {0.2126, 0.7152, 0.0722};
-
-/* wi and wo, on both sides of h at (theta_h, 0). */
-static void directions_of(double theta_h, double theta_d, double phi_d, direction *wi, direction *wo)
-{
-    direction d = direction_at(theta_d, phi_d);
-    double c = cos(theta_h), s = sin(theta_h);
-    *wi = (direction){c * d.x + s * d.z, d.y, c * d.z - s * d.x};
-    *wo = direction_mirrored(*wi, (direction){s, 0, c});
-}
-
-/* f where F is 1. */
-static double masked_ndf(double ndf, double area_i, double cos_i, double area_o, double cos_o)
-{
-    return ndf / (4 * (area_i * cos_o + area_o * cos_i - cos_i * cos_o));
-}
+static const double unit_of[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+static const double of_luminance[3] = {0.2126, 0.7152, 0.0722};
 
 /* ---- the file ------------------------------------------------------------------------------------ */
 
@@ -40,7 +24,9 @@ typedef struct search {
     reflectance fitted;
     size_t count; /* of places that are compared */
     probe probes[PROBES];
-    double found[PROBES], theta_h[PROBES], cos_i[PROBES], cos_o[PROBES], rise[PROBES];
+    struct place {
+        double found, theta_h, cos_i, cos_o, rise;
+    } places[PROBES];
 } search;
 
 /* -1 where there is no number. */
@@ -52,10 +38,10 @@ static double value_at(const search *s, int half, int difference, int azimuth)
     for (int i = 0; i < 3; i++) {
         if (s->channel != MERL_LUMINANCE && s->channel != (merl_channel)i)
             continue;
-        double value = little_double(s->numbers + 8 * (at + (size_t)i * plane)) * scale[i];
+        double value = little_double(s->numbers + 8 * (at + (size_t)i * plane)) * unit_of[i];
         if (!(value >= 0) || !(value < 1e30))
             return -1;
-        sum += (s->channel == MERL_LUMINANCE ? luminance[i] : 1) * value;
+        sum += (s->channel == MERL_LUMINANCE ? of_luminance[i] : 1) * value;
     }
     return sum;
 }
@@ -77,27 +63,23 @@ static void read_back(search *s)
     }
 }
 
-/* Where both directions are within 80 degrees of z; the weight is the light's, cos_i cos_o over both directions. */
+/* Where wi and wo, on both sides of h at (theta_h, 0), are within 80 degrees of z; the weight is the light's, cos_i
+ * cos_o over both directions. */
 static void read_probes(search *s)
 {
     static const double least = 0.17364817766693; /* cos 80 degrees */
-    int step = STEP_PHI * s->azimuths / HALF_TURN;
-    s->count = 0;
+    const int step = STEP_PHI * s->azimuths / HALF_TURN;
     for (int half = 0; half < HALVES; half++)
         for (int difference = 1; difference < DIFFERENCES; difference += STEP_D)
             for (int azimuth = step / 2; azimuth < s->azimuths; azimuth += step) {
-                double theta_d = (difference + 0.5) / DIFFERENCES * pi / 2;
-                double found = value_at(s, half, difference, azimuth);
-                direction wi, wo;
-                directions_of(s->law.theta[half], theta_d, (azimuth + 0.5) / s->azimuths * pi, &wi, &wo);
-                if (!(wi.z > least && wo.z > least) || !(found >= 0))
+                const double theta_d = (difference + 0.5) / DIFFERENCES * PI / 2, theta_h = s->law.theta[half];
+                const double middle = cos(theta_h) * cos(theta_d), found = value_at(s, half, difference, azimuth);
+                const double away = sin(theta_h) * sin(theta_d) * cos((azimuth + 0.5) / s->azimuths * PI);
+                const double cos_i = middle - away, cos_o = middle + away;
+                if (!(cos_i > least && cos_o > least) || !(found >= 0))
                     continue;
-                s->probes[s->count].light = wi.z * wo.z * s->law.share[half] * sin(theta_d) * cos(theta_d);
-                s->theta_h[s->count] = s->law.theta[half];
-                s->cos_i[s->count] = wi.z;
-                s->cos_o[s->count] = wo.z;
-                s->rise[s->count] = model_schlick(cos(theta_d));
-                s->found[s->count++] = found;
+                s->probes[s->count].light = cos_i * cos_o * s->law.share[half] * sin(theta_d) * cos(theta_d);
+                s->places[s->count++] = (struct place){found, theta_h, cos_i, cos_o, model_schlick(cos(theta_d))};
             }
 }
 
@@ -137,15 +119,14 @@ static double try_diffuse(search *s, double diffuse)
         return 1;
     double found = 0, left = 0; /* light without the diffuse part, and all of it */
     for (size_t i = 0; i < s->count; i++) {
-        probe *p = &s->probes[i];
-        double area_i = law_area(&s->law, acos(s->cos_i[i])), area_o = law_area(&s->law, acos(s->cos_o[i]));
-        double shape = masked_ndf(law_ndf(&s->law, s->theta_h[i]), area_i, s->cos_i[i], area_o, s->cos_o[i]);
-        p->found = s->found[i] - diffuse;
-        p->low = shape * (1 - s->rise[i]);
-        p->high = shape * s->rise[i];
-        p->weight = p->light / (shape * s->f0 + diffuse + 1e-30);
-        found += p->light * p->found;
-        left += p->light * s->found[i];
+        const struct place *at = &s->places[i];
+        const double area_i = law_area(&s->law, acos(at->cos_i)), area_o = law_area(&s->law, acos(at->cos_o));
+        const double masked = area_i * at->cos_o + area_o * at->cos_i - at->cos_i * at->cos_o;
+        const double shape = law_ndf(&s->law, at->theta_h) / (4 * masked), light = s->probes[i].light;
+        s->probes[i] = (probe){at->found - diffuse, shape * (1 - at->rise), shape * at->rise, light,
+                               light / (shape * s->f0 + diffuse + 1e-30)};
+        found += light * (at->found - diffuse);
+        left += light * at->found;
     }
     if (!model_reflectance(s->probes, s->count, &s->fitted))
         return 1;
@@ -158,7 +139,7 @@ static double try_diffuse(search *s, double diffuse)
 static double find_diffuse(search *s)
 {
     double most = INFINITY, best = 0, none = try_diffuse(s, 0), least = none;
-    for (int i = 0; i < HALVES && s->law.theta[i] < 70 * pi / 180; i++)
+    for (int i = 0; i < HALVES && s->law.theta[i] < 70 * PI / 180; i++)
         most = s->back[i] < 0 ? most : fmin(most, s->back[i]);
     most = isfinite(most) ? most : 0;
     for (double step = most / 8; step > 1e-4 * most; step /= 8) {
@@ -176,20 +157,6 @@ static double find_diffuse(search *s)
     return none <= 1.01 * least + 1e-5 ? 0 : best;
 }
 
-static int search_file(data_file *file, search *s)
-{
-    read_back(s);
-    read_probes(s);
-    if (s->count == 0)
-        return refuse(file, "no direction within 80 degrees has a value");
-    double diffuse = find_diffuse(s);
-    if (try_diffuse(s, diffuse) >= 1 || !(s->f0 > 0))
-        return refuse(file, "no light comes back to where it came from, or D explains nothing of the file");
-    note(file, "angles_without_light %d\ndiffuse %.4g\nf0 %.4g\nf90 %.4g\nresidual_reflectance %.3g", s->missing,
-         diffuse * pi, s->fitted.f0, s->fitted.f90, s->fitted.residual);
-    return 1;
-}
-
 /* The number of azimuths, or 0 and the reason. */
 static int open_file(data_file *file)
 {
@@ -201,35 +168,48 @@ static int open_file(data_file *file)
     if (side[0] != HALVES || side[1] != DIFFERENCES || (side[2] != HALF_TURN && side[2] != 2 * HALF_TURN))
         return refuse(file, "this is no MERL file: it begins with %lu %lu %lu in the place of 90 90 180", side[0],
                       side[1], side[2]);
-    size_t want = HEAD + (size_t)HALVES * DIFFERENCES * (size_t)side[2] * 3 * 8;
+    const size_t want = HEAD + (size_t)HALVES * DIFFERENCES * (size_t)side[2] * 3 * 8;
     return file->size == want ? (int)side[2]
                               : refuse(file, "a MERL file of 90 x 90 x %lu has %zu bytes, and there are %zu",
                                        side[2], want, file->size);
 }
 
+static int search_file(data_file *file, search *s, profile *rows)
+{
+    static const char *const names[3] = {"red", "green", "blue"};
+    read_back(s);
+    read_probes(s);
+    if (s->count == 0)
+        return refuse(file, "no direction within 80 degrees has a value");
+    const double diffuse = find_diffuse(s);
+    if (try_diffuse(s, diffuse) >= 1 || !(s->f0 > 0))
+        return refuse(file, "no light comes back to where it came from, or D explains nothing of the file");
+    note(file, "angles_without_light %d\ndiffuse %.4g\nf0 %.4g\nf90 %.4g\nresidual_reflectance %.3g", s->missing,
+         diffuse * PI, s->fitted.f0, s->fitted.f90, s->fitted.residual);
+    if (!profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, HALVES, file))
+        return 0;
+    memcpy(rows->x, s->law.theta, HALVES * sizeof *rows->x);
+    memcpy(rows->value, s->law.ndf, HALVES * sizeof *rows->value);
+    for (int i = 0; i < 3; i++) { /* F0 of each channel by itself, with its own D; diffuse light counts in */
+        s->channel = (merl_channel)i;
+        read_back(s);
+        if (merl_iterate(&s->law, s->back, &s->f0))
+            note(file, "f0_%s %.4g", names[i], s->f0);
+    }
+    return 1;
+}
+
 int merl_read(data_file *file, merl_channel channel, profile *rows)
 {
     *rows = (profile){0};
-    int azimuths = open_file(file);
+    const int azimuths = open_file(file);
     search *s = azimuths ? calloc(1, sizeof *s) : NULL;
     if (!s)
         return azimuths ? refuse(file, "there is no memory") : 0;
     s->numbers = file->bytes + HEAD;
     s->azimuths = azimuths;
     s->channel = channel;
-    int good = search_file(file, s) && profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, HALVES, file);
-    if (good) {
-        memcpy(rows->x, s->law.theta, HALVES * sizeof *rows->x);
-        memcpy(rows->value, s->law.ndf, HALVES * sizeof *rows->value);
-    }
-    for (int i = 0; i < 3 && good;
-         i++) { /* F0 of each channel by itself, with its own D; diffuse light counts in */
-        static const char *const names[3] = {"red", "green", "blue"};
-        s->channel = (merl_channel)i;
-        read_back(s);
-        if (merl_iterate(&s->law, s->back, &s->f0))
-            note(file, "f0_%s %.4g", names[i], s->f0);
-    }
+    const int good = search_file(file, s, rows);
     free(s);
     return good;
 }

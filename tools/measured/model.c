@@ -3,22 +3,14 @@
 #include <math.h>
 #include <string.h>
 
-static const double pi = 3.14159265358979323846;
-
-direction direction_at(double theta, double phi)
+vec3 direction_at(double theta, double phi)
 {
-    return (direction){sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
+    return vec(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta));
 }
 
-double direction_dot(direction a, direction b)
+vec3 direction_mirrored(vec3 w, vec3 m)
 {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-direction direction_mirrored(direction w, direction m)
-{
-    double twice = 2 * direction_dot(w, m);
-    return (direction){twice * m.x - w.x, twice * m.y - w.y, twice * m.z - w.z};
+    return along(scale(w, -1), 2 * dot(w, m), m);
 }
 
 double model_masked(double area_i, double cos_i, double area_o, double cos_o)
@@ -28,7 +20,7 @@ double model_masked(double area_i, double cos_i, double area_o, double cos_o)
 
 double model_schlick(double cosine)
 {
-    double away = 1 - cosine, square = away * away;
+    const double away = 1 - cosine, square = away * away;
     return square * square * away;
 }
 
@@ -47,7 +39,7 @@ double model_area(const vndf_surface *surface, double theta)
 /* The integral over phi of |a + b cos(phi)|, b >= 0. */
 static double around(double a, double b)
 {
-    return fabs(a) >= b ? 2 * pi * fabs(a) : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
+    return fabs(a) >= b ? 2 * PI * fabs(a) : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
 }
 
 void law_even(law *made, int count)
@@ -55,11 +47,11 @@ void law_even(law *made, int count)
     memset(made, 0, sizeof *made);
     made->count = count;
     for (int i = 0; i < count; i++) {
-        double at = (i + 0.5) / count, from = (double)i / count, to = (i + 1.0) / count, bin = pi / 2 * at * at;
+        double at = (i + 0.5) / count, from = (double)i / count, to = (i + 1.0) / count, bin = PI / 2 * at * at;
         made->theta[i] = bin;
-        made->share[i] = cos(pi / 2 * from * from) - cos(pi / 2 * to * to);
+        made->share[i] = cos(PI / 2 * from * from) - cos(PI / 2 * to * to);
         for (int k = 0; k < LAW_AREAS; k++) {
-            double theta = pi / 2 * k / (LAW_AREAS - 1);
+            double theta = PI / 2 * k / (LAW_AREAS - 1);
             made->both_sides[k][i] = made->share[i] * around(cos(theta) * cos(bin), sin(theta) * sin(bin));
         }
     }
@@ -69,14 +61,14 @@ double law_normalise(law *l)
 {
     double whole = 0;
     for (int i = 0; i < l->count; i++)
-        whole += 2 * pi * l->share[i] * cos(l->theta[i]) * l->ndf[i];
+        whole += 2 * PI * l->share[i] * cos(l->theta[i]) * l->ndf[i];
     for (int i = 0; i < l->count && whole > 0; i++)
         l->ndf[i] /= whole;
     for (int k = 0; k < LAW_AREAS; k++) {
         double both = 0;
         for (int i = 0; i < l->count; i++)
             both += l->both_sides[k][i] * l->ndf[i];
-        l->area[k] = (both + cos(pi / 2 * k / (LAW_AREAS - 1))) / 2;
+        l->area[k] = (both + cos(PI / 2 * k / (LAW_AREAS - 1))) / 2;
     }
     return whole;
 }
@@ -91,7 +83,7 @@ double law_of_source(law *made, const vndf_source *source)
 
 double law_ndf(const law *of, double theta)
 {
-    double place = fmin(fmax(sqrt(theta / (pi / 2)) * of->count - 0.5, 0), of->count - 1);
+    double place = fmin(fmax(sqrt(theta / (PI / 2)) * of->count - 0.5, 0), of->count - 1);
     int at = place < of->count - 2 ? (int)place : of->count - 2;
     double low = of->ndf[at], high = of->ndf[at + 1], part = place - at;
     return low > 0 && high > 0 ? exp((1 - part) * log(low) + part * log(high)) : (1 - part) * low + part * high;
@@ -99,7 +91,7 @@ double law_ndf(const law *of, double theta)
 
 double law_area(const law *of, double theta)
 {
-    double place = fmin(theta / (pi / 2), 1) * (LAW_AREAS - 1);
+    double place = fmin(theta / (PI / 2), 1) * (LAW_AREAS - 1);
     int at = place < LAW_AREAS - 2 ? (int)place : LAW_AREAS - 2;
     return of->area[at] + (place - at) * (of->area[at + 1] - of->area[at]);
 }

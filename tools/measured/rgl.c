@@ -17,68 +17,42 @@ enum { ANGLES_LEAST = 8, ANGLES_MOST = 65536, GRID_MOST = 4096, PROBES = 24 };  
 enum { NORMALS = 2048, FINE = 8, THETAS = NORMALS / FINE + 1, PHIS = 65, INCIDENTS = 48, AREAS = 257 }; /* out */
 enum { SIDE = 32, POINTS = 4, FINE_SIDE = (SIDE - 1) * POINTS, STEPS = 8 };
 
-static const double pi = 3.14159265358979323846;
-
 /* Where u = part/whole lies. */
 static double angle_at(double part, double whole)
 {
-    double u = part / whole;
-    return pi / 2 * u * u;
-}
-
-/* What wi at theta_i sees at (u, v) of the vndf: its normal and wo. */
-static void directions_at(double theta_i, double u, double v, direction *wi, direction *m, direction *wo)
-{
-    *wi = direction_at(theta_i, 0);
-    *m = direction_at(angle_at(u, 1), (2 * v - 1) * pi);
-    *wo = direction_mirrored(*wi, *m);
+    const double u = part / whole;
+    return PI / 2 * u * u;
 }
 
 /* ---- in: D --------------------------------------------------------------------------------------- */
 
-/* Azimuths begin and end at the same place. */
-static double weight_of(size_t row, size_t rows)
-{
-    return rows > 2 && (row == 0 || row + 1 == rows) ? 0.5 : 1;
-}
-
-/* The mean over azimuths; *off: the mean difference from it. */
-static double mean_at(const tensor *field, size_t column, double *off)
-{
-    size_t rows = field->shape[0], columns = field->shape[1];
-    double sum = 0, whole = 0;
-    for (size_t i = 0; i < rows; i++) {
-        sum += weight_of(i, rows) * tensor_at(field, i * columns + column);
-        whole += weight_of(i, rows);
-    }
-    *off = 0;
-    for (size_t i = 0; i < rows; i++)
-        *off += weight_of(i, rows) / whole * fabs(tensor_at(field, i * columns + column) - sum / whole);
-    return sum / whole;
-}
-
-/* The means of the field `ndf`, unless D is too anisotropic. */
+/* The means of the field `ndf` over azimuths, which begin and end at the same place, unless D is too anisotropic. */
 static int read_ndf(data_file *file, profile *rows)
 {
     tensor ndf;
-    double off = 0, whole = 0, here;
+    double off = 0, whole = 0;
     if (!tensor_find(file, "ndf", TENSOR_F32, 2, &ndf))
         return 0;
-    if (ndf.shape[0] < 1 || ndf.shape[1] < ANGLES_LEAST || ndf.shape[1] > ANGLES_MOST)
-        return refuse(file, "field 'ndf' is %zu x %zu; it needs from %d to %d angles", ndf.shape[0], ndf.shape[1],
+    const size_t azimuths = ndf.shape[0], angles = ndf.shape[1];
+    if (azimuths < 1 || angles < ANGLES_LEAST || angles > ANGLES_MOST)
+        return refuse(file, "field 'ndf' is %zu x %zu; it needs from %d to %d angles", azimuths, angles,
                       ANGLES_LEAST, ANGLES_MOST);
-    for (size_t i = 0; i < tensor_count(&ndf); i++)
+    for (size_t i = 0; i < azimuths * angles; i++)
         if (!(tensor_at(&ndf, i) >= 0) || isinf(tensor_at(&ndf, i)))
             return refuse(file, "number %zu of field 'ndf' is %.6g; it must be finite and not negative", i,
                           tensor_at(&ndf, i));
-    note(file, "ndf %zu x %zu", ndf.shape[0], ndf.shape[1]);
-    if (!profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, ndf.shape[1], file))
+    note(file, "ndf %zu x %zu", azimuths, angles);
+    if (!profile_make(rows, VNDF_ROWS_OVER_THETA, VNDF_ROWS_OF_NDF, angles, file))
         return 0;
-    for (size_t j = 0; j < rows->count; j++) {
-        double theta = rows->x[j] = angle_at((double)j, (double)(rows->count - 1));
-        double area = fmax(cos(theta), 0) * sin(theta) * (double)j;
-        rows->value[j] = mean_at(&ndf, j, &here);
-        off += here * area;
+    const double ends = azimuths > 2 ? 0.5 : 1, all = (double)azimuths - (azimuths > 2);
+    for (size_t j = 0; j < angles; j++) {
+        const double theta = rows->x[j] = angle_at((double)j, (double)(angles - 1));
+        const double area = fmax(cos(theta), 0) * sin(theta) * (double)j;
+        for (size_t i = 0; i < azimuths; i++)
+            rows->value[j] += (i == 0 || i + 1 == azimuths ? ends : 1) / all * tensor_at(&ndf, i * angles + j);
+        for (size_t i = 0; i < azimuths; i++)
+            off += (i == 0 || i + 1 == azimuths ? ends : 1) / all * area *
+                   fabs(tensor_at(&ndf, i * angles + j) - rows->value[j]);
         whole += rows->value[j] * area;
     }
     off = whole > 0 ? off / 2 / whole : 0;
@@ -90,71 +64,68 @@ static int read_ndf(data_file *file, profile *rows)
                   off, RGL_ANISOTROPY_MOST);
 }
 
+/* ---- model --------------------------------------------------------------------------------------- */
+
+/* What wi at theta_i sees at (u, v) of the vndf: R of the model, given areas at an angle from z, and (1 - wi.m)^5. 0
+ * if wo is below the horizon. */
+static int model_at(double area(const void *of, double theta), const void *of, double theta_i, double u, double v,
+                    double *left, double *rise)
+{
+    const vec3 wi = direction_at(theta_i, 0), m = direction_at(angle_at(u, 1), (2 * v - 1) * PI);
+    const vec3 wo = direction_mirrored(wi, m);
+    *rise = model_schlick(fmax(dot(wi, m), 0));
+    *left = wo.z > 0 ? model_masked(area(of, theta_i), fmax(wi.z, 0), area(of, acos(fmin(wo.z, 1))), wo.z) : 0;
+    return wo.z > 0;
+}
+
 /* ---- in: how well D explains the light ----------------------------------------------------------- */
 
-typedef struct measured_light {
-    tensor theta_i, vndf, values; /* values: rgb or spectra */
-    const law *law;
-    probe *probes; /* owned */
-    size_t count;
-} measured_light;
-
 /* The fields that are needed, of lengths that fit each other. */
-static int find_light(data_file *file, measured_light *light)
+static int find_light(data_file *file, tensor *theta_i, tensor *vndf, tensor *values)
 {
     tensor flag;
-    if (!tensor_find(file, "theta_i", TENSOR_F32, 1, &light->theta_i) ||
-        !tensor_find(file, "vndf", TENSOR_F32, 4, &light->vndf) ||
-        !(tensor_find(file, "rgb", TENSOR_F32, 5, &light->values) ||
-          tensor_find(file, "spectra", TENSOR_F32, 5, &light->values)) ||
+    if (!tensor_find(file, "theta_i", TENSOR_F32, 1, theta_i) || !tensor_find(file, "vndf", TENSOR_F32, 4, vndf) ||
+        !(tensor_find(file, "rgb", TENSOR_F32, 5, values) ||
+          tensor_find(file, "spectra", TENSOR_F32, 5, values)) ||
         !tensor_find(file, "jacobian", TENSOR_U8, 1, &flag) || flag.shape[0] != 1 ||
         *(const unsigned char *)flag.data != 1)
         return 0;
-    const size_t *v = light->vndf.shape, *s = light->values.shape;
-    for (size_t i = 0; i < tensor_count(&light->vndf); i++)
-        if (!(tensor_at(&light->vndf, i) >= 0))
-            return 0;
-    return v[0] > 0 && s[0] > 0 && v[1] == light->theta_i.shape[0] && s[1] == v[1] && v[2] >= 2 && v[3] >= 2 &&
-           s[2] > 0 && s[3] >= 2 && s[4] >= 2 && v[2] <= GRID_MOST && v[3] <= GRID_MOST && s[3] <= GRID_MOST &&
-           s[4] <= GRID_MOST;
+    const size_t *v = vndf->shape, *s = values->shape, sides[4] = {v[2], v[3], s[3], s[4]};
+    int good = v[0] > 0 && s[0] > 0 && v[1] == theta_i->shape[0] && s[1] == v[1] && s[2] > 0;
+    for (int i = 0; i < 4; i++)
+        good = good && sides[i] >= 2 && sides[i] <= GRID_MOST;
+    for (size_t i = 0; i < tensor_count(vndf) && good; i++)
+        good = tensor_at(vndf, i) >= 0;
+    return good;
 }
 
-/* At a point of the grid of one incident direction: the mean of the channels, of which negative ones are noise, and R
- * of the model. */
-static void probe_at(measured_light *light, const warp *to, size_t incident, size_t row, size_t column)
+static double area_of_law(const void *of, double theta)
 {
-    const size_t *s = light->values.shape;
-    double u, v, found = 0, theta_i = tensor_at(&light->theta_i, incident);
-    direction wi, m, wo;
-    for (size_t channel = 0; channel < s[2]; channel++) {
-        double value = tensor_at(&light->values, ((incident * s[2] + channel) * s[3] + row) * s[4] + column);
-        found += isfinite(value) ? fmax(value, 0) / (double)s[2] : 0;
+    return law_area(of, theta);
+}
+
+/* Up to PROBES x PROBES places of the grid of one incident direction: the mean of the channels, of which negative ones
+ * are noise, and R of the model; returns how many. */
+static size_t probe_incident(const tensor *values, size_t incident, double theta_i, const warp *to, const law *of,
+                             probe *probes)
+{
+    const size_t *s = values->shape;
+    size_t count = 0;
+    for (size_t i = 0; i < PROBES * PROBES; i++) {
+        const size_t row = s[3] <= PROBES ? i / PROBES : (2 * (i / PROBES) + 1) * s[3] / (2 * PROBES);
+        const size_t column = s[4] <= PROBES ? i % PROBES : (2 * (i % PROBES) + 1) * s[4] / (2 * PROBES);
+        double u, v, left, rise, found = 0;
+        if (row >= s[3] || column >= s[4])
+            continue;
+        for (size_t channel = 0; channel < s[2]; channel++) {
+            const double value = tensor_at(values, ((incident * s[2] + channel) * s[3] + row) * s[4] + column);
+            found += isfinite(value) ? fmax(value, 0) / (double)s[2] : 0;
+        }
+        warp_sample(to, (double)column / (double)(s[4] - 1), (double)row / (double)(s[3] - 1), &u, &v);
+        if (model_at(area_of_law, of, theta_i, u, v, &left, &rise))
+            probes[count++] = (probe){found, left * (1 - rise), left * rise, 1, 1};
     }
-    warp_sample(to, (double)column / (double)(s[4] - 1), (double)row / (double)(s[3] - 1), &u, &v);
-    directions_at(theta_i, u, v, &wi, &m, &wo);
-    if (!(wo.z > 0))
-        return;
-    double area_o = law_area(light->law, acos(fmin(wo.z, 1)));
-    double left = model_masked(law_area(light->law, theta_i), wi.z, area_o, wo.z);
-    double rise = model_schlick(fmax(direction_dot(wi, m), 0));
-    light->probes[light->count++] = (probe){found, left * (1 - rise), left * rise, 1, 1};
-}
-
-/* Of up to PROBES x PROBES places for one incident direction. */
-static void probe_incident(measured_light *light, size_t incident, double *density)
-{
-    const size_t *s = light->values.shape, *v = light->vndf.shape;
-    double theta_i = tensor_at(&light->theta_i, incident);
-    warp to;
-    for (size_t i = 0; i < v[2] * v[3]; i++)
-        density[i] = tensor_at(&light->vndf, incident * v[2] * v[3] + i);
-    if (!(theta_i >= 0 && theta_i < 85 * pi / 180) || !warp_make(&to, density, (int)v[3], (int)v[2]))
-        return;
-    for (size_t i = 0; i < PROBES && i < s[3]; i++)
-        for (size_t j = 0; j < PROBES && j < s[4]; j++)
-            probe_at(light, &to, incident, s[3] <= PROBES ? i : (2 * i + 1) * s[3] / (2 * PROBES),
-                     s[4] <= PROBES ? j : (2 * j + 1) * s[4] / (2 * PROBES));
-    warp_free(&to);
+    return count;
 }
 
 /* Fields that are not there, or not right, are no reason to refuse D. */
@@ -162,17 +133,28 @@ static int note_light(data_file *file, const profile *rows)
 {
     vndf_source *source = profile_source(rows, file);
     law *found = source ? malloc(sizeof *found) : NULL;
-    measured_light light = {.law = found};
+    tensor theta, vndf, values;
     reflectance fitted;
-    int good = found || (source && refuse(file, "there is no memory"));
-    if (good && law_of_source(found, source) > 0 && find_light(file, &light)) {
-        double *density = malloc(light.vndf.shape[2] * light.vndf.shape[3] * sizeof *density);
-        light.probes = malloc((light.theta_i.shape[0] * PROBES * PROBES + 1) * sizeof *light.probes);
-        for (size_t i = 0; i < light.theta_i.shape[0] && density && light.probes; i++)
-            probe_incident(&light, i, density);
-        if (model_reflectance(light.probes, light.count, &fitted))
+    warp to;
+    const int good = found || (source && refuse(file, "there is no memory"));
+    if (found && law_of_source(found, source) > 0 && find_light(file, &theta, &vndf, &values)) {
+        const size_t incidents = theta.shape[0], cells = vndf.shape[2] * vndf.shape[3];
+        double *density = malloc(cells * sizeof *density);
+        probe *probes = malloc((incidents * PROBES * PROBES + 1) * sizeof *probes);
+        size_t count = 0;
+        for (size_t i = 0; i < incidents && density && probes; i++) {
+            const double theta_i = tensor_at(&theta, i);
+            for (size_t k = 0; k < cells; k++)
+                density[k] = tensor_at(&vndf, i * cells + k);
+            if (!(theta_i >= 0 && theta_i < 85 * PI / 180) ||
+                !warp_make(&to, density, (int)vndf.shape[3], (int)vndf.shape[2]))
+                continue;
+            count += probe_incident(&values, i, theta_i, &to, found, probes + count);
+            warp_free(&to);
+        }
+        if (model_reflectance(probes, count, &fitted))
             note(file, "f0 %.4g\nf90 %.4g\nresidual_reflectance %.3g", fitted.f0, fitted.f90, fitted.residual);
-        free(light.probes);
+        free(probes);
         free(density);
     }
     if (good)
@@ -195,7 +177,6 @@ int rgl_read(data_file *file, profile *rows)
 
 typedef struct rgl_arrays {
     const vndf_surface *surface;
-    const rgl_form *form;
     float theta_i[INCIDENTS], phi_i[1];
     float ndf[2][NORMALS + 1], sigma[2][AREAS];
     float vndf[INCIDENTS][PHIS][THETAS];
@@ -232,57 +213,41 @@ static void fill_ndf(rgl_arrays *a)
     }
 }
 
-/* The visible normals of one incident direction: the mean over the cells on both sides of each point, weighed by a
- * hat. */
-static void fill_density(rgl_arrays *a, int incident)
+static double area_of_surface(const void *of, double theta)
 {
-    double theta_i = (double)a->theta_i[incident];
-    for (int row = 0; row < PHIS; row++)
-        for (int column = 0; column < THETAS; column++) {
-            double sum = 0, whole = 0, across = sin(theta_i) * cos((2.0 * row / (PHIS - 1) - 1) * pi);
-            for (int i = column * FINE - FINE + 1; i < column * FINE + FINE; i++) {
-                double weight = FINE - abs(i - column * FINE);
-                if (i < 0 || i > NORMALS)
-                    continue;
-                sum += weight * fmax(cos(theta_i) * a->along[i] + across * a->across[i], 0);
-                whole += weight;
-            }
-            a->density[row][column] = sum / whole;
-            a->vndf[incident][row][column] = (float)a->density[row][column];
-        }
+    return model_area(of, theta);
 }
 
-static void look_up(rgl_arrays *a, const warp *to, double theta_i, double f0)
+/* The visible normals of one incident direction, the mean over the cells on both sides of each point, weighed by a
+ * hat; and what is reflected from there. Luminance, by which hosts may draw, is not 0 where a neighbour is not. */
+static int fill_incident(rgl_arrays *a, int incident, const rgl_form *form)
 {
-    double area_i = model_area(a->surface, theta_i), u, v;
-    direction wi, m, wo;
+    static const double of_channel[3] = {0.2126, 0.7152, 0.0722};
+    const double theta_i = (double)a->theta_i[incident];
+    double f0 = 0, u, v, left, rise;
+    warp to;
+    for (int i = 0; i < PHIS * THETAS; i++) {
+        const int row = i / THETAS, middle = i % THETAS * FINE;
+        double sum = 0, whole = 0, across = sin(theta_i) * cos((2.0 * row / (PHIS - 1) - 1) * PI);
+        for (int k = middle - FINE + 1; k < middle + FINE; k++) {
+            const double weight = k < 0 || k > NORMALS ? 0 : FINE - abs(k - middle);
+            sum += weight > 0 ? weight * fmax(cos(theta_i) * a->along[k] + across * a->across[k], 0) : 0;
+            whole += weight;
+        }
+        a->density[row][i % THETAS] = sum / whole;
+        a->vndf[incident][row][i % THETAS] = (float)(sum / whole);
+    }
+    if (!warp_make(&to, &a->density[0][0], THETAS, PHIS))
+        return 0;
+    for (int k = 0; k < form->channels; k++)
+        f0 += form->f0[k] * (form->is_spectral ? 1.0 / form->channels : of_channel[k]);
     for (int i = 0; i < FINE_SIDE * FINE_SIDE; i++) {
-        warp_sample(to, (i % FINE_SIDE + 0.5) / FINE_SIDE, ((double)(i / FINE_SIDE) + 0.5) / FINE_SIDE, &u, &v);
-        directions_at(theta_i, u, v, &wi, &m, &wo);
-        double rise = model_schlick(fmax(direction_dot(wi, m), 0)), area_o = 0;
-        if (wo.z > 0)
-            area_o = model_area(a->surface, acos(fmin(wo.z, 1)));
-        double left = model_masked(area_i, fmax(wi.z, 0), area_o, wo.z);
+        warp_sample(&to, (i % FINE_SIDE + 0.5) / FINE_SIDE, ((double)(i / FINE_SIDE) + 0.5) / FINE_SIDE, &u, &v);
+        a->is_seen[i] = model_at(area_of_surface, a->surface, theta_i, u, v, &left, &rise) ? 1.0f : 0.0f;
         a->low[i] = (float)(left * (1 - rise));
         a->high[i] = (float)(left * rise);
         a->light[i] = (float)(left * (f0 * (1 - rise) + rise));
-        a->is_seen[i] = wo.z > 0;
     }
-}
-
-/* What is reflected from one incident direction. Luminance, by which hosts may draw, is not 0 where a neighbour is
- * not. */
-static int fill_reflected(rgl_arrays *a, int incident)
-{
-    const rgl_form *form = a->form;
-    double f0 = 0.2126 * form->f0[0] + 0.7152 * form->f0[1] + 0.0722 * form->f0[2];
-    warp to;
-    for (int i = 0; i < form->channels && form->is_spectral; i++)
-        f0 = (i ? f0 : 0) + form->f0[i] / form->channels;
-    fill_density(a, incident);
-    if (!warp_make(&to, &a->density[0][0], THETAS, PHIS))
-        return 0;
-    look_up(a, &to, (double)a->theta_i[incident], f0);
     warp_free(&to);
     grid_fit(a->low, a->is_seen, SIDE, POINTS, STEPS, a->low_grid);
     grid_fit(a->high, a->is_seen, SIDE, POINTS, STEPS, a->high_grid);
@@ -322,13 +287,12 @@ int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form 
     int good = a != NULL;
     if (good) {
         a->surface = &surface;
-        a->form = form;
         fill_ndf(a);
     }
     for (int i = 0; i < INCIDENTS && good; i++) { /* closest to grazing incidence, where most changes */
         double left = 1 - (double)i / (INCIDENTS - 1);
-        a->theta_i[i] = (float)(pi / 2 * (1 - left * left));
-        good = fill_reflected(a, i);
+        a->theta_i[i] = (float)(PI / 2 * (1 - left * left));
+        good = fill_incident(a, i, form);
     }
     good = good && write_arrays(file, a, form);
     free(a);

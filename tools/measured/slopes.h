@@ -19,10 +19,14 @@
 enum { SLOPE_PARTS = 64, SLOPES_LEAST = 1000 };
 
 /* Slopes of points of a surface, and the part of it, 0 to SLOPE_PARTS - 1, where each lies. */
+typedef struct slope {
+    float x, y;
+    int part;
+} slope;
+
 typedef struct slope_set {
-    float *x, *y;        /* owned */
-    unsigned char *part; /* owned */
-    size_t count, room;
+    slope *at; /* owned; room for as many as were asked for */
+    size_t count;
     double quantum; /* the least difference that slopes can have, 0 of floats: no bin is narrower than two */
 } slope_set;
 

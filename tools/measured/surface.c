@@ -8,7 +8,7 @@
 
 static int heights_fit(const height_field *made, data_file *file)
 {
-    int width = made->width, height = made->height;
+    const int width = made->width, height = made->height;
     if (width < 3 || height < 3 || width > SURFACE_SIDE_MAX || height > SURFACE_SIDE_MAX)
         return refuse(file, "%d x %d heights; both sides must be from 3 to %d", width, height, SURFACE_SIDE_MAX);
     return (size_t)width * (size_t)height <= SURFACE_MAX ||
@@ -34,14 +34,22 @@ void heights_free(height_field *freed)
 
 enum { WORD_MAX = 64 };
 
-/* The next word of a line, which ends before `stop` or with a comment; 0 where there is none. It is cut after
- * WORD_MAX - 1 letters; what is no ASCII becomes '?'. */
-static int next_word(const unsigned char **at, const unsigned char *stop, char word[WORD_MAX])
+static int is_blank(unsigned char c)
+{
+    return c == ' ' || (c >= '\t' && c <= '\r');
+}
+
+/* The next word before `end`, with a 0 behind its first letters, of which those that are no ASCII become '?'; 0 where
+ * there is none. *lines: how many ends of lines stand before it. # begins a comment. */
+static int next_word(const unsigned char **at, const unsigned char *end, size_t *lines, char word[WORD_MAX])
 {
     size_t letters = 0;
-    while (*at < stop && (**at == ' ' || (**at >= '\t' && **at <= '\r')))
-        ++*at;
-    for (; *at < stop && **at != ' ' && !(**at >= '\t' && **at <= '\r') && (letters || **at != '#'); ++*at)
+    int is_comment = 0;
+    for (*lines = 0; *at < end && (is_comment || is_blank(**at) || **at == '#'); ++*at) {
+        is_comment = **at == '#' || (is_comment && **at != '\n');
+        *lines += **at == '\n';
+    }
+    for (; *at < end && !is_blank(**at); ++*at)
         if (letters < WORD_MAX - 1)
             word[letters++] = **at > ' ' && **at <= '~' ? (char)**at : '?';
     word[letters] = '\0';
@@ -53,82 +61,71 @@ static int read_rows(data_file *file, height_field *made)
 {
     const unsigned char *at = file->bytes, *end = at + file->size;
     char word[WORD_MAX], *behind;
-    size_t count = 0, room = 0;
-    int width = 0, height = 0;
+    size_t count = 0, room = 0, line = 1, lines;
+    int width = 0, here = 0; /* numbers in the first row, and in this one so far */
     if (file->size >= 3 && memcmp(at, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8, from spreadsheets */
         at += 3;
-    for (size_t line = 1; at < end; line++) {
-        const unsigned char *stop = memchr(at, '\n', (size_t)(end - at));
-        int here = 0;
-        for (stop = stop ? stop : end; next_word(&at, stop, word); here++, count++) {
-            double z = strtod(word, &behind);
-            if (*behind || fabs(z) > 1e30)
-                return refuse(file,
-                              "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there "
-                              "is none",
-                              line, word);
-            if (count == SURFACE_MAX)
-                return refuse(file, "line %zu: more than %d heights", line, SURFACE_MAX);
-            if (count == room) {
-                room = 2 * room + 4096;
-                float *larger = realloc(made->z, room * sizeof *larger);
-                if (!larger)
-                    return refuse(file, "there is no memory for %zu heights", room);
-                made->z = larger;
-            }
-            made->z[count] = (float)z;
+    for (int is_word = 1; is_word; count += (size_t)is_word) {
+        is_word = next_word(&at, end, &lines, word);
+        if ((lines || !is_word) && here > 0) {
+            if (made->height++ > 0 && here != width)
+                return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many",
+                              line, here, width);
+            width = here;
+            here = 0;
         }
-        if (here > 0 && height++ > 0 && here != width)
-            return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many", line,
-                          here, width);
-        width = here > 0 ? here : width;
-        at = stop < end ? stop + 1 : end;
+        line += lines;
+        const double z = strtod(word, &behind);
+        if (*behind || fabs(z) > 1e30)
+            return refuse(
+                file, "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there is none",
+                line, word);
+        if (count == room) {
+            room = 2 * room + 4096;
+            float *larger = room <= 2 * SURFACE_MAX ? realloc(made->z, room * sizeof *larger) : NULL;
+            if (!larger)
+                return refuse(file, "line %zu: there is no memory for more than %zu heights", line, count);
+            made->z = larger;
+        }
+        made->z[count] = (float)z;
+        here += is_word;
     }
-    *made = (height_field){width, height, 1, 1, 0, made->z};
+    *made = (height_field){width, made->height, 1, 1, 0, made->z};
     return heights_fit(made, file);
 }
 
 static int read_image(data_file *file, image *made)
 {
-    image_error error = {""};
-    if (image_read_bytes(made, file->name, file->bytes, file->size, &error))
-        return 1;
-    memcpy(file->refused, error.message, sizeof file->refused);
-    return 0;
-}
-
-static int read_heights_image(data_file *file, height_field *made)
-{
-    image from;
-    if (!read_image(file, &from))
-        return 0;
-    int good = from.channels == 1 || from.quantum == 0 || refuse(file, "a PPM has colours; heights are a PGM, P5");
-    good = good && heights_make(made, from.width, from.height, file);
-    for (size_t i = 0; good && i < (size_t)from.width * (size_t)from.height; i++)
-        made->z[i] = fabsf(from.rgb[3 * i]) <= 1e30f ? from.rgb[3 * i] : NAN;
-    made->quantum = from.quantum;
-    image_free(&from);
+    vndf_error error = {VNDF_OK, ""};
+    const int good = image_read_bytes(made, file->name, file->bytes, file->size, &error);
+    if (!good)
+        memcpy(file->refused, error.message, sizeof file->refused);
     return good;
 }
 
 int heights_read(data_file *file, height_field *made)
 {
-    const unsigned char *b = file->bytes;
+    image from = {.rgb = NULL};
+    int good;
     *made = (height_field){0};
-    if (file->size >= 2 && b[0] == 'P' ? read_heights_image(file, made) : read_rows(file, made))
-        return 1;
-    heights_free(made);
-    return 0;
+    if (file->size < 2 || file->bytes[0] != 'P')
+        good = read_rows(file, made);
+    else {
+        good = read_image(file, &from);
+        if (good && from.channels == 3 && from.quantum > 0)
+            good = refuse(file, "a PPM has colours; heights are a PGM, P5");
+        good = good && heights_make(made, from.width, from.height, file);
+        for (size_t i = 0; good && i < (size_t)from.width * (size_t)from.height; i++)
+            made->z[i] = fabsf(from.rgb[3 * i]) <= 1e30f ? from.rgb[3 * i] : NAN;
+        made->quantum = from.quantum;
+        image_free(&from);
+    }
+    if (!good)
+        heights_free(made);
+    return good;
 }
 
 /* ---- normals ------------------------------------------------------------------------------------- */
-
-/* A map of bytes cannot hold 0: 127 and 128 are both half a step away. What is nearer to flat than that is flat. */
-static int is_usable(const double n[3])
-{
-    double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-    return length >= 0.5 && length <= 1.5 && n[2] > 0.01;
-}
 
 /* One of 8 x 8 equal parts of a grid. */
 static int part_of(int width, int height, int x, int y)
@@ -138,7 +135,7 @@ static int part_of(int width, int height, int x, int y)
 
 static int add_normals(data_file *file, const image *map, slope_set *made)
 {
-    size_t count = (size_t)map->width * (size_t)map->height, left_out = 0;
+    const size_t count = (size_t)map->width * (size_t)map->height;
     int is_signed = 0;
     for (size_t i = 0; i < 3 * count && map->quantum == 0; i++)
         is_signed |= map->rgb[i] < 0;
@@ -146,18 +143,19 @@ static int add_normals(data_file *file, const image *map, slope_set *made)
         return 0;
     made->quantum = 2 * map->quantum;
     for (size_t i = 0; i < count; i++) {
-        double n[3];
-        for (size_t k = 0; k < 3; k++)
+        double n[3], square = 0;
+        for (size_t k = 0; k < 3; k++) {
             n[k] = is_signed ? (double)map->rgb[3 * i + k] : 2 * (double)map->rgb[3 * i + k] - 1;
-        int x = (int)(i % (size_t)map->width), y = (int)(i / (size_t)map->width);
-        if (is_usable(n))
+            square += n[k] * n[k];
+        }
+        /* a map of bytes cannot hold 0: 127 and 128 are half a step away, and what is nearer to flat is flat */
+        const int x = (int)(i % (size_t)map->width), y = (int)(i / (size_t)map->width);
+        if (square >= 0.25 && square <= 2.25 && n[2] > 0.01)
             slopes_add(made, -n[0] / n[2], -n[1] / n[2], part_of(map->width, map->height, x, y));
-        else
-            left_out++;
     }
-    note(file, "normals %d x %d, %s, %s", map->width, map->height, is_signed ? "n" : "n/2 + 1/2",
-         map->quantum > 0 ? "whole numbers" : "floats");
-    note(file, "left_out %zu", left_out);
+    const size_t left_out = count - made->count;
+    note(file, "normals %d x %d, %s, %s\nleft_out %zu", map->width, map->height, is_signed ? "n" : "n/2 + 1/2",
+         map->quantum > 0 ? "whole numbers" : "floats", left_out);
     if (left_out <= count / 2)
         return 1;
     slopes_free(made);
@@ -186,7 +184,7 @@ static void smooth_line(float *line, size_t stride, int count, const double *ker
     for (int at = 0; at < count; at++) {
         double sum = 0, whole = 0;
         for (int i = at - reach < 0 ? 0 : at - reach; i <= at + reach && i < count; i++) {
-            double z = (double)line[(size_t)i * stride], weight = kernel[i < at ? at - i : i - at];
+            const double z = (double)line[(size_t)i * stride], weight = kernel[i < at ? at - i : i - at];
             sum += isnan(z) ? 0 : weight * z;
             whole += isnan(z) ? 0 : weight;
         }
@@ -200,8 +198,8 @@ static void smooth_line(float *line, size_t stride, int count, const double *ker
 int heights_smooth(height_field *changed, int cutoff)
 {
     const double pi = 3.14159265358979323846, a2 = log(2) / pi;
+    const size_t width = (size_t)changed->width;
     double kernel[CUTOFF_MAX + 1];
-    size_t width = (size_t)changed->width;
     float *room = malloc((changed->width > changed->height ? width : (size_t)changed->height) * sizeof *room);
     if (!room)
         return 0;
@@ -216,15 +214,10 @@ int heights_smooth(height_field *changed, int cutoff)
     return 1;
 }
 
-static double difference(const float *z, size_t stride)
-{
-    return (double)z[stride] - (double)*(z - stride);
-}
-
 int heights_slopes(const height_field *of, int margin, slope_set *made, data_file *file)
 {
-    size_t width = (size_t)of->width;
-    int rim = margin > 0 ? margin : 1;
+    const size_t width = (size_t)of->width;
+    const int rim = margin > 0 ? margin : 1;
     *made = (slope_set){0};
     if (2 * rim >= of->width || 2 * rim >= of->height)
         return refuse(file, "%d x %d heights: nothing is left inside a rim of %d, half the cut-off", of->width,
@@ -235,7 +228,8 @@ int heights_slopes(const height_field *of, int margin, slope_set *made, data_fil
     for (int y = rim; y < of->height - rim; y++)
         for (int x = rim; x < of->width - rim; x++) {
             const float *z = of->z + (size_t)y * width + (size_t)x;
-            double sx = difference(z, 1) / (2 * of->step_x), sy = difference(z, width) / (2 * of->step_y);
+            const double sx = ((double)z[1] - (double)*(z - 1)) / (2 * of->step_x);
+            const double sy = ((double)z[width] - (double)*(z - width)) / (2 * of->step_y);
             if (fabs(sx) <= 1e30 && fabs(sy) <= 1e30) /* false for NaN */
                 slopes_add(made, sx, sy, part_of(of->width, of->height, x, y));
         }

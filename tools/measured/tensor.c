@@ -5,10 +5,10 @@
 #include <string.h>
 
 static const unsigned char head[14] = "tensor_file\0\1\0";
-enum { HEAD = sizeof head + 4, TYPES = 12 };
+enum { HEAD = sizeof head + 4 };
 
-/* Bytes of a number of each type: u8 i8 u16 i16 u32 i32 u64 i64 f16 f32 f64. */
-static const unsigned char sizes[TYPES] = {0, 1, 1, 2, 2, 4, 4, 8, 8, 2, 4, 8};
+/* Bytes of a number. */
+static const unsigned char sizes[] = {[TENSOR_U8] = 1, [TENSOR_F32] = 4};
 
 size_t tensor_count(const tensor *of)
 {
@@ -25,29 +25,12 @@ double tensor_at(const tensor *of, size_t i)
     return little_float((const unsigned char *)of->data + 4 * i);
 }
 
-/* The number of fields, or -1 and the reason. */
-static long read_head(data_file *file)
+/* The numbers of a field whose dimensions begin at byte `at`: 0 and the reason if they do not fit the file. */
+static int find_numbers(data_file *file, size_t at, uint64_t begin, tensor *found)
 {
-    const unsigned char *b = file->bytes;
-    if (file->size == 0 || memcmp(b, head, file->size < 12 ? file->size : 12) != 0)
-        return refuse(file, "this is no tensor file; it would begin with tensor_file") - 1;
-    if (file->size < HEAD)
-        return refuse(file, "this tensor file ends too early: it has %zu bytes, and its head takes %d", file->size,
-                      HEAD) -
-               1;
-    if (memcmp(b, head, sizeof head) != 0)
-        return refuse(file, "a tensor file of version %d.%d; 1.0 is read", b[12], b[13]) - 1;
-    return (long)little_whole(b + sizeof head, 4);
-}
-
-/* What stands behind the name of a field, from byte `at`: 0 and the reason if it does not fit the file. */
-static int read_field(data_file *file, size_t at, int dimensions, tensor *found)
-{
-    const unsigned char *b = file->bytes + at;
-    uint64_t begin = little_whole(b + 3, 8), count = 1;
-    *found = (tensor){.name = found->name, .type = (tensor_type)b[2], .dimensions = dimensions};
-    for (int i = 0; i < dimensions; i++) {
-        uint64_t length = little_whole(b + 11 + 8 * i, 8);
+    uint64_t count = 1;
+    for (int i = 0; i < found->dimensions; i++) {
+        const uint64_t length = little_whole(file->bytes + at + 8 * (size_t)i, 8);
         if (length > file->size / (count ? count : 1))
             return refuse(file, "field '%s' is larger than the file", found->name);
         found->shape[i] = (size_t)length;
@@ -61,42 +44,45 @@ static int read_field(data_file *file, size_t at, int dimensions, tensor *found)
 
 int tensor_find(data_file *file, const char *name, tensor_type type, int dimensions, tensor *found)
 {
+    const unsigned char *b = file->bytes;
+    *found = (tensor){.name = name, .type = type, .dimensions = dimensions};
+    if (file->size == 0 || memcmp(b, head, file->size < 12 ? file->size : 12) != 0)
+        return refuse(file, "this is no tensor file; it would begin with tensor_file");
+    if (file->size < HEAD)
+        return refuse(file, "this tensor file ends too early: it has %zu bytes, and its head takes %d", file->size,
+                      HEAD);
+    if (memcmp(b, head, sizeof head) != 0)
+        return refuse(file, "a tensor file of version %d.%d; 1.0 is read", b[12], b[13]);
+    const unsigned long count = (unsigned long)little_whole(b + sizeof head, 4);
     size_t at = HEAD;
-    long count = read_head(file);
-    found->name = name;
-    for (long i = 0; i < count; i++) {
-        size_t left = file->size - at, length = left >= 2 ? (size_t)little_whole(file->bytes + at, 2) : 0;
-        const unsigned char *text = file->bytes + at + 2;
-        size_t fixed = 2 + length + 11; /* up to the lengths of dimensions */
-        size_t sides = left >= fixed ? (size_t)little_whole(text + length, 2) : 0;
+    for (unsigned long i = 0; i < count; i++) {
+        const size_t left = file->size - at, length = left >= 2 ? (size_t)little_whole(b + at, 2) : 0;
+        const unsigned char *text = b + at + 2, *behind = text + length;
+        const size_t fixed = 2 + length + 11; /* up to the lengths of dimensions */
+        const size_t sides = left >= fixed ? (size_t)little_whole(behind, 2) : 0;
         if (left < fixed || left - fixed < 8 * sides)
-            return refuse(file, "the list of fields is cut off at field %ld of %ld", i + 1, count);
+            return refuse(file, "the list of fields is cut off at field %lu of %lu", i + 1, count);
         at += fixed + 8 * sides;
         if (length != strlen(name) || memcmp(text, name, length) != 0)
             continue;
-        int is_type = text[length + 2];
-        if (sides != (size_t)dimensions || is_type != (int)type)
+        if (sides != (size_t)dimensions || behind[2] != (int)type)
             return refuse(file, "field '%s' has the type %d and %zu dimensions; the type %d and %d are needed",
-                          name, is_type, sides, (int)type, dimensions);
-        return read_field(file, at - 8 * sides - 11, dimensions, found);
+                          name, behind[2], sides, (int)type, dimensions);
+        return find_numbers(file, at - 8 * sides, little_whole(behind + 3, 8), found);
     }
-    return count < 0 ? 0 : refuse(file, "it has no field '%s'", name);
+    return refuse(file, "it has no field '%s'", name);
 }
 
 /* ---- out ----------------------------------------------------------------------------------------- */
 
-/* Where the next numbers may begin: floats at multiples of 8, for hosts that map files. */
-static uint64_t aligned(uint64_t at)
-{
-    return (at + 7) / 8 * 8;
-}
-
+/* Numbers begin at multiples of 8, for hosts that map files. */
 int tensor_write(FILE *file, const tensor *fields, size_t count)
 {
-    uint64_t listed = HEAD;
+    uint64_t at = HEAD;
     for (size_t i = 0; i < count; i++)
-        listed += 2 + strlen(fields[i].name) + 2 + 1 + 8 + 8 * (uint64_t)fields[i].dimensions;
-    uint64_t begin = aligned(listed);
+        at += 2 + strlen(fields[i].name) + 2 + 1 + 8 + 8 * (uint64_t)fields[i].dimensions;
+    const size_t gap = (size_t)((8 - at % 8) % 8);
+    at += gap;
     fwrite(head, 1, sizeof head, file);
     put_little(file, count, 4);
     for (size_t i = 0; i < count; i++) {
@@ -104,23 +90,23 @@ int tensor_write(FILE *file, const tensor *fields, size_t count)
         fputs(fields[i].name, file);
         put_little(file, (uint64_t)fields[i].dimensions, 2);
         put_little(file, (uint64_t)fields[i].type, 1);
-        put_little(file, begin, 8);
+        put_little(file, at, 8);
         for (int d = 0; d < fields[i].dimensions; d++)
             put_little(file, fields[i].shape[d], 8);
-        begin = aligned(begin + tensor_count(&fields[i]) * sizes[fields[i].type]);
+        at += (tensor_count(&fields[i]) * sizes[fields[i].type] + 7) / 8 * 8;
     }
-    uint64_t at = listed;
+    put_little(file, 0, gap);
     for (size_t i = 0; i < count; i++) {
-        size_t numbers = tensor_count(&fields[i]);
-        put_little(file, 0, (size_t)(aligned(at) - at));
-        at = aligned(at) + numbers * sizes[fields[i].type];
-        if (fields[i].type == TENSOR_U8)
-            fwrite(fields[i].data, 1, numbers, file);
-        for (size_t k = 0; k < numbers && fields[i].type == TENSOR_F32; k++) {
-            uint32_t bits;
-            memcpy(&bits, (const float *)fields[i].data + k, sizeof bits);
-            put_little(file, bits, 4);
+        const size_t numbers = tensor_count(&fields[i]), size = sizes[fields[i].type];
+        for (size_t k = 0; k < numbers; k++) {
+            uint32_t bits = 0;
+            if (fields[i].type == TENSOR_F32)
+                memcpy(&bits, (const float *)fields[i].data + k, sizeof bits);
+            else
+                bits = ((const unsigned char *)fields[i].data)[k];
+            put_little(file, bits, size);
         }
+        put_little(file, 0, (8 - numbers * size % 8) % 8);
     }
     return fflush(file) == 0 && !ferror(file);
 }

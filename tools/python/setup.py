@@ -1,10 +1,11 @@
-"""Puts the C library into the package, and its kernel in Python, which vndf.mitsuba runs: those that the environment
-variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder. pyproject.toml has
-everything else."""
+"""Puts into the package the C library, its headers, and its kernel in Python, which vndf.mitsuba runs: the files that
+the environment variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder.
+pyproject.toml has everything else."""
 from __future__ import annotations
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -19,24 +20,19 @@ except ImportError:  # setuptools before 70
     from wheel.bdist_wheel import bdist_wheel
 
 HERE = pathlib.Path(__file__).resolve().parent
+SOURCE = pathlib.Path(os.environ.get("VNDF_SOURCE", HERE.parents[1]))
 NAME = {"win32": "vndf.dll", "darwin": "libvndf.dylib"}.get(sys.platform, "libvndf.so")
+if not (SOURCE / "include" / "vndf.h").exists():
+    raise SystemExit(f"{SOURCE} is not the checkout of vndf; name it in VNDF_SOURCE")
 
 
 def build(folder: pathlib.Path) -> tuple[pathlib.Path, pathlib.Path]:
     """Library and kernel, in a folder outside the checkout: what CMake leaves would be sources under tools/."""
-    source = HERE.parent.parent
-    if not (source / "include" / "vndf.h").exists():
-        raise SystemExit(f"{source} is not the checkout of vndf; name a library in VNDF_LIBRARY")
     options = ["-DCMAKE_BUILD_TYPE=Release", "-DVNDF_BUILD_TESTS=OFF"]
-    subprocess.run(["cmake", "-S", source, "-B", folder, *options], check=True)
-    subprocess.run(
-        ["cmake", "--build", folder, "--config", "Release", "--parallel", str(os.cpu_count()),
-         "--target", "vndf", "vndf_write_kernel"],
-        check=True,
-    )  # fmt: skip
-    program = next(path for path in folder.rglob("vndf_write_kernel*") if path.is_file() and os.access(path, os.X_OK))
-    subprocess.run([program, folder / "_kernel.py"], check=True)
-    return next(folder.rglob(NAME)), folder / "_kernel.py"
+    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, *options], check=True)
+    target = ["--config", "Release", "--parallel", str(os.cpu_count()), "--target", "vndf", "vndf_kernel"]
+    subprocess.run(["cmake", "--build", folder, *target], check=True)
+    return next(folder.rglob(NAME)), folder / "exported" / "_kernel.py"
 
 
 class BuildWithLibrary(build_py):
@@ -45,10 +41,11 @@ class BuildWithLibrary(build_py):
         package = HERE / "vndf" if self.editable_mode else pathlib.Path(self.build_lib) / "vndf"
         given = os.environ.get("VNDF_LIBRARY"), os.environ.get("VNDF_KERNEL")
         with tempfile.TemporaryDirectory() as folder:
-            library, kernel = given if given[0] else build(pathlib.Path(folder))
+            library, kernel = given if all(given) else build(pathlib.Path(folder))
             shutil.copyfile(library, package / NAME)
-            if kernel:
-                shutil.copyfile(kernel, package / "_kernel.py")
+            shutil.copyfile(kernel, package / "_kernel.py")
+        if not self.editable_mode:  # they are found in the checkout
+            shutil.copytree(SOURCE / "include", package / "include", dirs_exist_ok=True)
 
 
 class PlatformWheel(bdist_wheel):
@@ -63,4 +60,5 @@ class WithLibrary(Distribution):
         return True
 
 
-setup(distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})
+version = re.search(r'VNDF_VERSION "(.*)"', (SOURCE / "include" / "vndf.h").read_text())[1]
+setup(version=version, distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})

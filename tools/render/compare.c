@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "cli/sort.h"
+
 enum { TURNS = 16, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,
@@ -22,31 +24,25 @@ static int tell(double done, void *user)
     return c->run.progress ? c->run.progress(c->count == 1 ? done : whole, c->run.user) : 0;
 }
 
-static int render_some(comparison *c, way *one, uint64_t samples)
-{
-    film_run run = c->run;
-    run.samples = samples;
-    run.seed += (uint64_t)(one - c->way) * 0x9E3779B97F4A7C15u;
-    run.progress = tell;
-    run.user = c;
-    return film_render(&one->film, one->plan, &run);
-}
-
 int comparison_run(comparison *c)
 {
-    way *first = &c->way[0];
+    const film *first = &c->way[0].film;
     const uint64_t all = c->run.samples, part = c->count == 1 ? all : all < TURNS ? 1 : all / TURNS;
-    while (first->film.samples < all) {
-        const uint64_t left = all - first->film.samples, step = part < left ? part : left;
-        if (!render_some(c, first, step))
-            return 0;
-        for (size_t i = 1; i < c->count; i++) {
-            const film *f = &c->way[i].film;
-            while (c->has_equal_time ? f->processor < first->film.processor : f->samples < first->film.samples)
-                if (!render_some(c, &c->way[i], c->has_equal_time ? film_pass_samples(f) : step))
+    film_run run = c->run;
+    run.progress = tell;
+    run.user = c;
+    while (first->samples < all)
+        for (size_t i = 0; i < c->count; i++) {
+            film *f = &c->way[i].film;
+            run.seed = c->run.seed + i * 0x9E3779B97F4A7C15u;
+            run.samples = part < all - f->samples ? part : all - f->samples;
+            const uint64_t until = i ? first->samples : f->samples + run.samples;
+            const int by_time = i && c->has_equal_time;
+            run.samples = by_time ? film_pass_samples(f) : run.samples;
+            while (by_time ? f->processor < first->processor : f->samples < until)
+                if (!film_render(f, c->way[i].plan, &run))
                     return 0;
         }
-    }
     return 1;
 }
 
@@ -65,28 +61,21 @@ static double light_of_others(const comparison *c, const film *f, size_t pixel)
 {
     const int column = (int)(pixel % (size_t)f->width), row = (int)(pixel / (size_t)f->width);
     double sum = 0, samples = 0;
-    for (size_t i = 0; i < c->count; i++) {
-        const film *other = &c->way[i].film;
-        for (int y = row > 0 ? row - 1 : row; y <= row + 1 && y < f->height; y++)
-            for (int x = column > 0 ? column - 1 : column; x <= column + 1 && x < f->width; x++)
-                if (other != f || c->count == 1) {
-                    sum += film_light(other, (size_t)y * (size_t)f->width + (size_t)x) * (double)other->samples;
-                    samples += (double)other->samples;
-                }
-    }
+    for (int y = row > 0 ? row - 1 : row; y <= row + 1 && y < f->height; y++)
+        for (int x = column > 0 ? column - 1 : column; x <= column + 1 && x < f->width; x++)
+            for (size_t i = 0; i < c->count; i++) {
+                const film *other = &c->way[i].film;
+                const double weight = other != f || c->count == 1 ? (double)other->samples : 0;
+                sum += weight * film_light(other, (size_t)y * (size_t)f->width + (size_t)x);
+                samples += weight;
+            }
     return sum / samples;
-}
-
-static int descending(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x < y) - (x > y);
 }
 
 /* 0 if there is no memory. */
 static int noise_of(const comparison *c, const film *f, measured *made)
 {
-    const size_t count = film_pixels(f), fireflies = count / 1000;
+    const size_t count = film_pixels(f), firefly = count - count / 1000;
     const double n = (double)count, least = 0.05 * mean_light(f);
     double sum = 0, square = 0, *part = malloc(count * sizeof *part);
     *made = (measured){(double)NAN, (double)NAN, (double)NAN};
@@ -95,11 +84,11 @@ static int noise_of(const comparison *c, const film *f, measured *made)
         part[i] = film_variance(f, i) / (here * here + least * least);
     }
     if (part && f->samples > 1) {
-        qsort(part, count, sizeof *part, descending);
-        for (size_t i = count; i-- > 0;) { /* the smallest first */
+        sort_numbers(part, count);
+        for (size_t i = 0; i < count; i++) {
             sum += part[i];
             square += part[i] * part[i];
-            made->trimmed = i == fireflies ? sum / (double)(count - fireflies) : made->trimmed;
+            made->trimmed = i + 1 == firefly ? sum / (double)firefly : made->trimmed;
         }
         made->value = sum / n;
         made->spread = sqrt(fmax(square / n - sum * sum / (n * n), 0) / n);
@@ -118,48 +107,38 @@ static measured ratio_of(const measured *a, const measured *b, double factor)
 
 /* ---- verdict ---- */
 
-typedef struct difference {
-    double off, variance, light;
-} difference;
-
-static difference block_of(const film *a, const film *b, int left, int top)
-{
-    difference d = {0, 0, 0};
-    for (int y = top; y < top + BLOCK && y < a->height; y++)
-        for (int x = left; x < left + BLOCK && x < a->width; x++) {
-            const size_t pixel = (size_t)y * (size_t)a->width + (size_t)x;
-            d.off += film_light(a, pixel) - film_light(b, pixel);
-            d.variance += film_variance(a, pixel) + film_variance(b, pixel);
-            d.light += fabs(film_light(b, pixel));
-        }
-    return d;
-}
-
 /* In standard deviations; of 1e-5 of the light at least, which nobody sees. */
-static double deviations(const difference *d)
+static double deviations(double off, double variance, double light)
 {
-    const double least = 1e-5 * d->light;
-    return d->off == 0 ? 0 : d->off / sqrt(d->variance + least * least);
+    return off == 0 ? 0 : off / sqrt(variance + 1e-10 * light * light);
 }
 
 static void judge(const film *a, const film *b, finding *made)
 {
-    difference all = {0, 0, 0};
-    double blocks = 0, squares = 0;
+    double off = 0, variance = 0, light = 0, blocks = 0, squares = 0;
     for (int top = 0; top < a->height; top += BLOCK)
         for (int left = 0; left < a->width; left += BLOCK, blocks++) {
-            const difference block = block_of(a, b, left, top);
-            const double off = deviations(&block);
-            all = (difference){all.off + block.off, all.variance + block.variance, all.light + block.light};
-            squares += off * off;
-            if (!(fabs(off) <= fabs(made->worst))) {
-                made->worst = off;
+            double here = 0, here_variance = 0, here_light = 0;
+            for (int y = top; y < top + BLOCK && y < a->height; y++)
+                for (int x = left; x < left + BLOCK && x < a->width; x++) {
+                    const size_t pixel = (size_t)y * (size_t)a->width + (size_t)x;
+                    here += film_light(a, pixel) - film_light(b, pixel);
+                    here_variance += film_variance(a, pixel) + film_variance(b, pixel);
+                    here_light += fabs(film_light(b, pixel));
+                }
+            const double block = deviations(here, here_variance, here_light);
+            off += here;
+            variance += here_variance;
+            light += here_light;
+            squares += block * block;
+            if (!(fabs(block) <= fabs(made->worst))) {
+                made->worst = block;
                 made->x = left;
                 made->y = top;
             }
         }
     made->ratio = mean_light(a) / mean_light(b);
-    made->whole = deviations(&all);
+    made->whole = deviations(off, variance, light);
     made->mean_square = squares / blocks;
     if (fabs(made->whole) > whole_most || fabs(made->worst) > block_most ||
         made->mean_square > mean_square_most + 5 * sqrt(2 / blocks))
@@ -188,31 +167,26 @@ int comparison_find(const comparison *c, finding found[SAMPLERS])
 
 /* ---- a picture ---- */
 
-static void put_film(image *made, int left, const film *f, float exposure)
-{
-    const double least = 0.05 * mean_light(f);
-    for (int y = 0; y < f->height; y++)
-        for (int x = 0; x < f->width; x++) {
-            const size_t at = (size_t)y * (size_t)f->width + (size_t)x;
-            const double error = sqrt(film_variance(f, at)) / (fabs(film_light(f, at)) + least);
-            const double grey = 0.5 * log10(fmax(100 * error, 1)); /* of one sample NaN, and black */
-            float *above = image_pixel(made, left + x, y);
-            float *below = image_pixel(made, left + x, f->height + GAP + y);
-            for (size_t i = 0; i < 3; i++) {
-                above[i] = exposure * (float)(f->sum[3 * at + i] / (double)f->samples);
-                below[i] = (float)fmin(grey * grey, 1); /* even steps for the eye */
-            }
-        }
-}
-
 int comparison_image(const comparison *c, float exposure, image *made)
 {
-    const film *f = &c->way[0].film;
-    if (!image_make(made, (f->width + GAP) * (int)c->count - GAP, 2 * f->height + GAP))
+    const film *of = &c->way[0].film;
+    if (!image_make(made, (of->width + GAP) * (int)c->count - GAP, 2 * of->height + GAP))
         return 0;
     for (size_t i = 0; i < 3 * (size_t)made->width * (size_t)made->height; i++)
         made->rgb[i] = 1.0f; /* the gaps */
-    for (size_t i = 0; i < c->count; i++)
-        put_film(made, (int)i * (f->width + GAP), &c->way[i].film, exposure);
+    for (size_t i = 0; i < c->count; i++) {
+        const film *f = &c->way[i].film;
+        const double least = 0.05 * mean_light(f);
+        for (size_t at = 0; at < film_pixels(f); at++) {
+            const int x = (int)(at % (size_t)f->width) + (int)i * (f->width + GAP),
+                      y = (int)(at / (size_t)f->width);
+            const double error = sqrt(film_variance(f, at)) / (fabs(film_light(f, at)) + least);
+            const double grey = 0.5 * log10(fmax(100 * error, 1)); /* of one sample NaN, and black */
+            for (size_t k = 0; k < 3; k++) {
+                image_pixel(made, x, y)[k] = exposure * (float)(f->sum[3 * at + k] / (double)f->samples);
+                image_pixel(made, x, f->height + GAP + y)[k] = (float)fmin(grey * grey, 1); /* even to the eye */
+            }
+        }
+    }
     return 1;
 }

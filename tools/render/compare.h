@@ -29,10 +29,10 @@ typedef struct measured {
     double trimmed;
 } measured;
 
+/* Of films of fewer than VERDICT_SAMPLES nothing is known: fireflies that they do not have are missing in their
+ * variance. */
 typedef enum verdict { VERDICT_SAME, VERDICT_DIFFERS, VERDICT_UNKNOWN } verdict;
 extern const char *const verdict_names[3];
-
-/* Films of fewer samples have no variance to judge by: fireflies that they do not have are missing in it. */
 enum { VERDICT_SAMPLES = 16 };
 
 /* What a way is beside the first. NaN is what is not known.

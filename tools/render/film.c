@@ -1,30 +1,27 @@
-/* Renders a film in passes over all pixels: threads take rows, and a complete pass is added to the film. The
- * random numbers of a sample depend on its pixel and index alone, and samples are summed in order, so the sums are
- * the same to the bit for any number of threads. Small films take several samples in a pass, so that starting
- * threads does not dominate the time. */
+/* Renders a film in passes over all pixels, whose rows threads take. The random numbers of a sample depend on its
+ * pixel and index alone, and samples are summed in order, so the sums are the same to the bit for any number of
+ * threads. Small films take several samples in a pass, so that starting threads does not dominate the time. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 #ifdef VNDF_TOOLS_PTHREADS
 #  include <pthread.h>
 #endif
 
-#include "cli/clock.h"
+#include "cli/progress.h"
 
 enum { THREADS_MAX = 256, PASS_PATHS = 32768 };
 
 /* ---- one pass ---- */
 
 typedef struct pass {
+    film *film;
     const path_plan *plan;
     const film_run *run;
-    int width, height;
-    double *sum, *square;         /* of this pass */
-    uint64_t first, samples;      /* a pixel */
+    uint64_t samples;             /* a pixel */
     double done, part;            /* of the run: before this pass, and this pass */
     atomic_int next_row, stopped; /* shared by the threads */
 } pass;
@@ -38,119 +35,87 @@ typedef struct worker {
 #endif
 } worker;
 
-static void render_pixel(const pass *p, int x, int y, path_counts *counts)
-{
-    size_t at = (size_t)y * (size_t)p->width + (size_t)x;
-    double sum[3] = {0, 0, 0}, square = 0;
-    for (uint64_t i = 0; i < p->samples; i++) {
-        float rgb[3];
-        path_trace(p->plan, x, y, p->first + i, p->run->seed, counts, rgb);
-        square += luminance(rgb) * luminance(rgb);
-        for (int k = 0; k < 3; k++)
-            sum[k] += (double)rgb[k];
-    }
-    memcpy(p->sum + 3 * at, sum, sizeof sum);
-    p->square[at] = square;
-}
-
 static void *render_rows(void *user)
 {
     worker *w = user;
     pass *p = w->of;
-    for (int row; !p->stopped && (row = atomic_fetch_add(&p->next_row, 1)) < p->height;) {
-        for (int x = 0; x < p->width; x++)
-            render_pixel(p, x, row, &w->counts);
-        if (w->tells && p->run->progress)
-            p->stopped = p->run->progress(p->done + p->part * (row + 1) / p->height, p->run->user) != 0;
+    film *f = p->film;
+    for (int row; (row = atomic_fetch_add(&p->next_row, 1)) < f->height;) {
+        for (int x = 0; x < f->width; x++) {
+            const size_t at = (size_t)row * (size_t)f->width + (size_t)x;
+            for (uint64_t i = 0; i < p->samples; i++) {
+                float rgb[3];
+                path_trace(p->plan, x, row, f->samples + i, p->run->seed, &w->counts, rgb);
+                f->square[at] += luminance(rgb) * luminance(rgb);
+                for (size_t k = 0; k < 3; k++)
+                    f->sum[3 * at + k] += (double)rgb[k];
+            }
+        }
+        if (w->tells && p->run->progress &&
+            p->run->progress(p->done + p->part * (row + 1) / f->height, p->run->user))
+            p->stopped = 1;
     }
     return NULL;
 }
 
-static void add_counts(path_counts *to, const path_counts *more)
-{
-    to->rays += more->rays;
-    to->lost += more->lost;
-}
-
 /* Goes on with fewer threads if the system gives no more. */
-static path_counts render_pass(pass *p)
+static void render_pass(pass *p)
 {
     worker workers[THREADS_MAX] = {{.of = p, .tells = 1}};
+    unsigned count = 1;
 #ifdef VNDF_TOOLS_PTHREADS
-    unsigned count = 1, wanted = p->run->threads < THREADS_MAX ? p->run->threads : THREADS_MAX;
-    for (; count < wanted; count++) {
+    for (; count < p->run->threads && count < THREADS_MAX; count++) {
         workers[count].of = p;
         if (pthread_create(&workers[count].thread, NULL, render_rows, &workers[count]) != 0)
             break;
     }
-    render_rows(&workers[0]);
-    while (--count) {
-        pthread_join(workers[count].thread, NULL);
-        add_counts(&workers[0].counts, &workers[count].counts);
-    }
-#else
-    render_rows(&workers[0]);
 #endif
-    return workers[0].counts;
+    render_rows(&workers[0]);
+    for (unsigned i = 0; i < count; i++) {
+#ifdef VNDF_TOOLS_PTHREADS
+        if (i > 0)
+            pthread_join(workers[i].thread, NULL);
+#endif
+        p->film->counts.rays += workers[i].counts.rays;
+        p->film->counts.lost += workers[i].counts.lost;
+    }
 }
 
-/* ---- passes ---- */
+/* ---- the film ---- */
 
 uint64_t film_pass_samples(const film *f)
 {
-    uint64_t samples = PASS_PATHS / film_pixels(f);
+    const uint64_t samples = PASS_PATHS / film_pixels(f);
     return samples > 1 ? samples : 1;
-}
-
-static int render_passes(film *f, pass *p)
-{
-    const film_run *run = p->run;
-    const uint64_t start = f->samples, end = start + run->samples, most = film_pass_samples(f);
-    const double begun = f->seconds - clock_seconds(), processor = f->processor - clock_processor_seconds();
-    while (f->samples < end) {
-        p->first = f->samples;
-        p->samples = most < end - f->samples ? most : end - f->samples;
-        p->done = (double)(f->samples - start) / (double)run->samples;
-        p->part = (double)p->samples / (double)run->samples;
-        p->next_row = 0;
-        const path_counts counts = render_pass(p);
-        if (p->stopped)
-            return 0;
-        for (size_t i = 0; i < 3 * film_pixels(f); i++)
-            f->sum[i] += p->sum[i];
-        for (size_t i = 0; i < film_pixels(f); i++)
-            f->square[i] += p->square[i];
-        f->samples += p->samples;
-        add_counts(&f->counts, &counts);
-        f->seconds = begun + clock_seconds();
-        f->processor = processor + clock_processor_seconds();
-    }
-    return 1;
 }
 
 unsigned film_processors(void)
 {
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
     return count < 1 ? 1 : count > THREADS_MAX ? THREADS_MAX : (unsigned)count;
 }
 
 int film_render(film *f, const path_plan *plan, const film_run *run)
 {
-    size_t count = film_pixels(f);
-    pass p = {.plan = plan, .run = run, .width = f->width, .height = f->height};
-    p.sum = malloc(3 * count * sizeof *p.sum);
-    p.square = malloc(count * sizeof *p.square);
-    int good = p.sum && p.square && render_passes(f, &p);
-    free(p.sum);
-    free(p.square);
-    return good;
+    const uint64_t start = f->samples, end = start + run->samples, most = film_pass_samples(f);
+    const double begun = f->seconds - clock_seconds(), processor = f->processor - clock_processor_seconds();
+    pass p = {.film = f, .plan = plan, .run = run};
+    while (f->samples < end && !p.stopped) {
+        p.samples = most < end - f->samples ? most : end - f->samples;
+        p.done = (double)(f->samples - start) / (double)run->samples;
+        p.part = (double)p.samples / (double)run->samples;
+        p.next_row = 0;
+        render_pass(&p);
+        f->samples += p.samples;
+        f->seconds = begun + clock_seconds();
+        f->processor = processor + clock_processor_seconds();
+    }
+    return f->samples == end;
 }
-
-/* ---- the film ---- */
 
 int film_make(film *f, int width, int height)
 {
-    size_t count = (size_t)width * (size_t)height;
+    const size_t count = (size_t)width * (size_t)height;
     *f = (film){.width = width, .height = height};
     f->sum = calloc(3 * count, sizeof *f->sum);
     f->square = calloc(count, sizeof *f->square);
@@ -175,7 +140,7 @@ double film_light(const film *f, size_t pixel)
 
 double film_variance(const film *f, size_t pixel)
 {
-    double n = (double)f->samples, mean = film_light(f, pixel);
+    const double n = (double)f->samples, mean = film_light(f, pixel);
     return f->samples < 2 ? (double)NAN : fmax(f->square[pixel] / n - mean * mean, 0) / (n - 1);
 }
 

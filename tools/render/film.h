@@ -28,7 +28,7 @@ typedef struct film_run {
     uint64_t samples; /* a pixel, to add */
     unsigned threads;
     uint64_t seed;
-    int (*progress)(double done, void *user); /* a result other than 0 stops between rows; may be NULL */
+    int (*progress)(double done, void *user); /* a result other than 0 stops after the pass; may be NULL */
     void *user;
 } film_run;
 

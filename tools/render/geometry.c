@@ -25,66 +25,44 @@ struct bvh_node {
 
 /* ---- one shape ---- */
 
-/* The nearest so far. */
-typedef struct meeting {
-    const shape *shape;
-    double distance, a, b; /* a and b: along edge_u and edge_v */
-} meeting;
-
-static int closer(meeting *m, const shape *s, double distance, double a, double b)
-{
-    if (!(distance > 0 && distance < m->distance))
-        return 0;
-    *m = (meeting){s, distance, a, b};
-    return 1;
-}
-
-static int sphere_meets(const shape *s, const ray *r, meeting *m)
-{
-    const vec3 from_centre = subtract(r->origin, s->corner);
-    const double b = dot(from_centre, r->direction);
-    const vec3 across = along(from_centre, -b, r->direction);
-    const double rest = s->radius * s->radius - dot(across, across);
-    if (!(rest >= 0))
-        return 0;
-    const double q = -b - copysign(sqrt(rest), b), c = dot(from_centre, from_centre) - s->radius * s->radius;
-    const double other = q != 0 ? c / q : q, near = fmin(q, other);
-    return closer(m, s, near > 0 ? near : fmax(q, other), 0, 0);
-}
-
-static int flat_meets(const shape *s, const ray *r, meeting *m)
+/* Notes the shape, the distance and the place along its edges, if that is nearer than h->distance. */
+static int meets(const shape *s, const ray *r, hit *h)
 {
     const double low = -1e-13, high = 1 - low;
-    const vec3 p = cross(r->direction, s->edge_v), from_corner = subtract(r->origin, s->corner);
-    const double determinant = dot(s->edge_u, p), a = dot(from_corner, p) / determinant;
-    if (!(a >= low && a <= high)) /* NaN: the ray lies in the plane */
+    const vec3 from = subtract(r->origin, s->corner);
+    double distance, a = 0, b = 0;
+    if (s->kind == SHAPE_SPHERE) {
+        const double middle = -dot(from, r->direction), square = s->radius * s->radius;
+        const vec3 across = along(from, middle, r->direction);
+        const double rest = square - dot(across, across);
+        if (!(rest >= 0))
+            return 0;
+        const double one = middle + copysign(sqrt(rest), middle);
+        const double other = one != 0 ? (dot(from, from) - square) / one : one;
+        distance = fmin(one, other) > 0 ? fmin(one, other) : fmax(one, other);
+    } else {
+        const vec3 p = cross(r->direction, s->edge_v), q = cross(from, s->edge_u);
+        const double determinant = dot(s->edge_u, p);
+        a = dot(from, p) / determinant;
+        b = dot(r->direction, q) / determinant;
+        if (!(a >= low && a <= high && b >= low)) /* NaN: the ray lies in the plane */
+            return 0;
+        if (!((s->kind == SHAPE_RECTANGLE ? b : a + b) <= high))
+            return 0;
+        distance = dot(s->edge_v, q) / determinant;
+    }
+    if (!(distance > 0 && distance < h->distance))
         return 0;
-    const vec3 q = cross(from_corner, s->edge_u);
-    const double b = dot(r->direction, q) / determinant;
-    if (!(b >= low && (s->kind == SHAPE_RECTANGLE ? b : a + b) <= high))
-        return 0;
-    return closer(m, s, dot(s->edge_v, q) / determinant, fmin(fmax(a, 0), 1), fmin(fmax(b, 0), 1));
-}
-
-static int meets(const shape *s, const ray *r, meeting *m)
-{
-    return s->kind == SHAPE_SPHERE ? sphere_meets(s, r, m) : flat_meets(s, r, m);
+    *h = (hit){.shape = s, .distance = distance, .u = fmin(fmax(a, 0), 1), .v = fmin(fmax(b, 0), 1)};
+    return 1;
 }
 
 /* ---- boxes ---- */
 
 static const box no_box = {{FLT_MAX, FLT_MAX, FLT_MAX}, {-FLT_MAX, -FLT_MAX, -FLT_MAX}};
 
-static void enclose(box *to, const box *by)
-{
-    for (int i = 0; i < 3; i++) {
-        to->low[i] = fminf(to->low[i], by->low[i]);
-        to->high[i] = fmaxf(to->high[i], by->high[i]);
-    }
-}
-
 /* Rounded outwards, by more than the overlap of edges. */
-static void enclose_point(box *to, vec3 p, double margin)
+static void enclose(box *to, vec3 p, double margin)
 {
     const double at[3] = {p.x, p.y, p.z};
     for (int i = 0; i < 3; i++) {
@@ -93,49 +71,41 @@ static void enclose_point(box *to, vec3 p, double margin)
     }
 }
 
-static box box_of(const shape *s)
+static void enclose_shape(box *to, const shape *s)
 {
-    box b = no_box;
-    enclose_point(&b, s->corner, s->kind == SHAPE_SPHERE ? s->radius : 0);
+    const vec3 opposite = add(s->corner, s->edge_u);
+    enclose(to, s->corner, s->radius);
     if (s->kind == SHAPE_SPHERE)
-        return b;
-    enclose_point(&b, add(s->corner, s->edge_u), 0);
-    enclose_point(&b, add(s->corner, s->edge_v), 0);
+        return;
+    enclose(to, opposite, 0);
+    enclose(to, add(s->corner, s->edge_v), 0);
     if (s->kind == SHAPE_RECTANGLE)
-        enclose_point(&b, add(add(s->corner, s->edge_u), s->edge_v), 0);
-    return b;
+        enclose(to, add(opposite, s->edge_v), 0);
 }
 
 /* ---- building ---- */
 
 enum { LEAF_MAX = 3, DEPTH_MAX = 96, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds them all */ };
 
-static void centre_of(const shape *s, float centre[3])
+static vec3 middle_of(const shape *s)
 {
-    const box b = box_of(s);
-    for (int k = 0; k < 3; k++)
-        centre[k] = 0.5f * b.low[k] + 0.5f * b.high[k];
+    return along(s->corner, 0.5, add(s->edge_u, s->edge_v));
 }
 
-/* Moves the shapes before the middle of the longest side of all centres to the front; how many they are. */
+/* Moves the shapes before the middle of the longest side of all their middles to the front; how many they are. */
 static uint32_t split(shape *shapes, uint32_t count, int depth)
 {
-    float low[3] = {FLT_MAX, FLT_MAX, FLT_MAX}, high[3] = {-FLT_MAX, -FLT_MAX, -FLT_MAX}, centre[3];
+    box b = no_box;
     uint32_t left = 0;
     int axis = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        centre_of(&shapes[i], centre);
-        for (int k = 0; k < 3; k++) {
-            low[k] = fminf(low[k], centre[k]);
-            high[k] = fmaxf(high[k], centre[k]);
-        }
-    }
+    for (uint32_t i = 0; i < count; i++)
+        enclose(&b, middle_of(&shapes[i]), 0);
     for (int k = 1; k < 3; k++)
-        axis = high[k] - low[k] > high[axis] - low[axis] ? k : axis;
-    const float middle = 0.5f * low[axis] + 0.5f * high[axis];
+        axis = b.high[k] - b.low[k] > b.high[axis] - b.low[axis] ? k : axis;
+    const double half = 0.5 * (double)b.low[axis] + 0.5 * (double)b.high[axis];
     for (uint32_t i = 0; i < count && depth < MIDDLES_DEPTH; i++) {
-        centre_of(&shapes[i], centre);
-        if (centre[axis] < middle) {
+        const vec3 at = middle_of(&shapes[i]);
+        if ((axis == 0 ? at.x : axis == 1 ? at.y : at.z) < half) {
             const shape moved = shapes[i];
             shapes[i] = shapes[left];
             shapes[left++] = moved;
@@ -149,10 +119,8 @@ static void build(geometry *g, uint32_t first, uint32_t count, int depth)
 {
     bvh_node *node = &g->nodes[g->node_count++];
     *node = (bvh_node){no_box, first, count};
-    for (uint32_t i = first; i < first + count; i++) {
-        const box b = box_of(&g->shapes[i]);
-        enclose(&node->box, &b);
-    }
+    for (uint32_t i = first; i < first + count; i++)
+        enclose_shape(&node->box, &g->shapes[i]);
     if (count <= LEAF_MAX)
         return;
     const uint32_t left = split(g->shapes + first, count, depth);
@@ -187,6 +155,18 @@ int geometry_add(geometry *g, const shape *s)
     return 1;
 }
 
+void geometry_place(geometry *g, size_t first, double size, double radians, vec3 move)
+{
+    const frame turned = {{cos(radians), 0, -sin(radians)}, {0, 1, 0}, {sin(radians), 0, cos(radians)}};
+    for (shape *s = g->shapes + first; s < g->shapes + g->count; s++) {
+        s->corner = along(move, size, out_of(&turned, s->corner));
+        s->edge_u = scale(out_of(&turned, s->edge_u), size);
+        s->edge_v = scale(out_of(&turned, s->edge_v), size);
+        for (int i = 0; i < 3; i++)
+            s->normal[i] = narrow(out_of(&turned, widen(s->normal[i])));
+    }
+}
+
 void geometry_free(geometry *g)
 {
     free(g->shapes);
@@ -216,7 +196,7 @@ static inline double entry(const box *b, const slabs *s, double limit)
 }
 
 /* The nearest meeting, or any meeting if that is enough. */
-static int walk(const geometry *g, const ray *r, int any, meeting *m)
+static int walk(const geometry *g, const ray *r, int any, hit *h)
 {
     const slabs s = {{r->origin.x, r->origin.y, r->origin.z},
                      {1 / r->direction.x, 1 / r->direction.y, 1 / r->direction.z}};
@@ -225,62 +205,47 @@ static int walk(const geometry *g, const ray *r, int any, meeting *m)
         double near;
     } stack[DEPTH_MAX];
     int height = 0, is_met = 0;
-    *m = (meeting){NULL, r->to, 0, 0};
+    h->distance = r->to;
     if (!g->nodes)
         return 0;
-    stack[height].near = entry(&g->nodes[0].box, &s, m->distance);
+    stack[height].near = entry(&g->nodes[0].box, &s, r->to);
     stack[height++].node = 0;
-    while (height) {
+    while (height && !(is_met && any)) {
         uint32_t at = stack[--height].node;
         double near = stack[height].near;
-        while (near < m->distance && !g->nodes[at].count) { /* goes down to a leaf, the nearer child first */
-            uint32_t one = at + 1, other = g->nodes[at].at;
-            double to_one = entry(&g->nodes[one].box, &s, m->distance);
-            double to_other = entry(&g->nodes[other].box, &s, m->distance);
+        while (near < h->distance && !g->nodes[at].count) { /* goes down to a leaf, the nearer child first */
+            const uint32_t one = at + 1, other = g->nodes[at].at;
+            const double to_one = entry(&g->nodes[one].box, &s, h->distance);
+            const double to_other = entry(&g->nodes[other].box, &s, h->distance);
             at = to_one <= to_other ? one : other;
             near = fmin(to_one, to_other);
             stack[height].node = to_one <= to_other ? other : one;
             stack[height].near = fmax(to_one, to_other);
             height += stack[height].near < HUGE_VAL;
         }
-        for (uint32_t i = 0; near < m->distance && i < g->nodes[at].count; i++)
-            is_met |= meets(&g->shapes[g->nodes[at].at + i], r, m);
-        if (is_met && any)
-            return 1;
+        for (uint32_t i = 0; near < h->distance && i < g->nodes[at].count; i++)
+            is_met |= meets(&g->shapes[g->nodes[at].at + i], r, h);
     }
     return is_met;
 }
 
 int geometry_blocked(const geometry *g, const ray *r)
 {
-    meeting m;
-    return walk(g, r, 1, &m);
+    hit h;
+    return walk(g, r, 1, &h);
 }
 
 /* ---- what was met ---- */
 
-static void describe_sphere(const ray *r, const meeting *m, hit *h)
-{
-    const shape *s = m->shape;
-    const vec3 n = unit(subtract(along(r->origin, m->distance, r->direction), s->corner));
-    const double longitude = atan2(n.x, n.z) / (2 * PI);
-    h->normal = n;
-    h->place = along(s->corner, s->radius, n);
-    h->shading = frame_about(n, vec(n.z, 0, -n.x));
-    h->u = longitude < 0 ? longitude + 1 : longitude;
-    h->v = atan2(hypot(n.x, n.z), n.y) / PI;
-}
-
 /* With texture coordinates (u, v) at its corners, edge_u = du1 dp/du + dv1 dp/dv, and edge_v likewise; hence dp/du
  * ~ dv2 edge_u - dv1 edge_v, with the sign of the determinant. */
-static void describe_mesh(const meeting *m, hit *h)
+static void describe_mesh(const shape *s, hit *h)
 {
-    const shape *s = m->shape;
-    const double weight[3] = {1 - m->a - m->b, m->a, m->b};
+    const double weight[3] = {1 - h->u - h->v, h->u, h->v};
     vec3 n = {0, 0, 0};
     h->u = h->v = 0;
     for (int i = 0; i < 3; i++) {
-        n = along(n, weight[i], vec((double)s->normal[i].x, (double)s->normal[i].y, (double)s->normal[i].z));
+        n = along(n, weight[i], widen(s->normal[i]));
         h->u += weight[i] * (double)s->u[i];
         h->v += weight[i] * (double)s->v[i];
     }
@@ -293,25 +258,27 @@ static void describe_mesh(const meeting *m, hit *h)
 
 int geometry_hit(const geometry *g, const ray *r, hit *h)
 {
-    meeting m;
-    if (!walk(g, r, 0, &m))
+    if (!walk(g, r, 0, h))
         return 0;
-    const shape *s = m.shape;
-    h->shape = s;
-    h->distance = m.distance;
+    const shape *s = h->shape;
     if (s->kind == SHAPE_SPHERE) {
-        describe_sphere(r, &m, h);
+        const vec3 n = h->normal = unit(subtract(along(r->origin, h->distance, r->direction), s->corner));
+        const double longitude = atan2(n.x, n.z) / (2 * PI);
+        h->place = along(s->corner, s->radius, n);
+        h->shading = frame_about(n, vec(n.z, 0, -n.x));
+        h->u = longitude < 0 ? longitude + 1 : longitude;
+        h->v = atan2(hypot(n.x, n.z), n.y) / PI;
         return 1;
     }
     h->normal = unit(cross(s->edge_u, s->edge_v));
-    h->place = along(along(s->corner, m.a, s->edge_u), m.b, s->edge_v);
+    h->place = along(along(s->corner, h->u, s->edge_u), h->v, s->edge_v);
     if (s->kind == SHAPE_TRIANGLE) {
-        describe_mesh(&m, h);
+        describe_mesh(s, h);
         return 1;
     }
     h->shading = frame_about(h->normal, s->edge_u);
-    h->u = fmin(m.a, 1 - DBL_EPSILON); /* at 1 the image would begin again */
-    h->v = fmin(1 - m.b, 1 - DBL_EPSILON);
+    h->u = fmin(h->u, 1 - DBL_EPSILON); /* at 1 the image would begin again */
+    h->v = fmin(1 - h->v, 1 - DBL_EPSILON);
     return 1;
 }
 
@@ -323,6 +290,5 @@ ray ray_from(const hit *h, vec3 direction)
     const double extent = fabs(s->corner.x) + fabs(s->corner.y) + fabs(s->corner.z) + s->radius +
                           length(s->edge_u) + length(s->edge_v) + length(h->place);
     const double side = dot(h->normal, direction) < 0 ? -1 : 1;
-    const ray r = {along(h->place, side * 1e-12 * extent, h->normal), direction, HUGE_VAL};
-    return r;
+    return (ray){along(h->place, side * 1e-12 * extent, h->normal), direction, HUGE_VAL};
 }

@@ -45,29 +45,15 @@ void geometry_free(geometry *g);
 
 /* ---- meshes ---- */
 
-/* Scales, then turns about y by `turn` degrees (z towards x), then moves. */
-typedef struct placement {
-    double scale, turn; /* scale > 0 */
-    vec3 move;
-} placement;
+/* Add triangles of a material: of a torus knot that stands within [-0.85, 1.03] x [-0.45, 0.45] x [-0.98, 0.98] (0 if
+ * there is no memory); of an OBJ file, or its `length` bytes with a 0 behind them, which messages call `name` (0 and
+ * "NAME:LINE: what is wrong", and then none is added). Files that are not trusted are safe. */
+int knot_add(geometry *g, int material);
+int obj_read(geometry *g, const char *path, int material, vndf_error *error);
+int obj_read_text(geometry *g, const char *name, const char *text, size_t length, int material, vndf_error *error);
 
-static inline vec3 placement_turn(const placement *where, vec3 p)
-{
-    const double angle = where->turn * (PI / 180), c = cos(angle), s = sin(angle);
-    return vec(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
-}
-
-/* Adds a torus knot that stands within [-0.85, 1.03] x [-0.45, 0.45] x [-0.98, 0.98] before it is placed. 0 if there
- * is no memory. */
-int knot_add(geometry *g, const placement *where, int material);
-
-/* Adds the triangles of a file. Returns 1; or 0 and "NAME:LINE: what is wrong", and then adds nothing. Files that
- * are not trusted are safe. */
-int obj_read(geometry *g, const char *path, const placement *where, int material, char *message, size_t size);
-
-/* The same from `length` bytes with a 0 behind them; messages call them `name`. */
-int obj_read_text(geometry *g, const char *name, const char *text, size_t length, const placement *where,
-                  int material, char *message, size_t size);
+/* Scales the shapes from `first` on, turns them about y (z towards x), then moves them. */
+void geometry_place(geometry *g, size_t first, double size, double radians, vec3 move);
 
 /* ---- rays ---- */
 

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "cli/files.h"
 #include "draw/png.h"
 
@@ -40,7 +39,7 @@ void image_free(image *freed)
 /* The pixel whose centre is before u of a row that repeats, the one after it, and the way between them. */
 static double pair_of(double u, int count, int *one, int *other)
 {
-    double place = (u - floor(u)) * count - 0.5, before = floor(place);
+    const double place = (u - floor(u)) * count - 0.5, before = floor(place);
     *one = before < 0 ? count - 1 : (int)before;
     *other = *one + 1 < count ? *one + 1 : 0;
     return place - before;
@@ -60,6 +59,25 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 
 /* ---- reading ---- */
 
+int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
+              ...)
+{
+    char *text = error->message;
+    const size_t size = sizeof error->message;
+    size_t used = (size_t)snprintf(text, size, "%.360s:", name);
+    va_list list;
+    used += line ? (size_t)snprintf(text + used, size - used, "%llu:", line) : 0;
+    used += column ? (size_t)snprintf(text + used, size - used, "%u:", column) : 0;
+    text[used++] = ' ';
+    va_start(list, format);
+    vsnprintf(text + used, size - used, format, list);
+    va_end(list);
+    for (; *text; text++)
+        *text = *text >= ' ' && *text < 127 ? *text : '?';
+    error->status = VNDF_ERROR_SYNTAX;
+    return 0;
+}
+
 enum { HEAD_MAX = 1024 }; /* bytes of the head, with its comments */
 
 typedef struct image_head {
@@ -69,16 +87,6 @@ typedef struct image_head {
     double most;   /* of whole numbers */
     size_t size;
 } image_head;
-
-PRINTF_LIKE(3, 4) static int refuse(image_error *error, const char *name, const char *format, ...)
-{
-    int head = snprintf(error->message, sizeof error->message, "%.400s: ", name);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(error->message + head, sizeof error->message - (size_t)head, format, list);
-    va_end(list);
-    return 0;
-}
 
 /* Four words and the blank behind them; 0 if they are not there. */
 static int read_words(const char *bytes, size_t size, image_head *head)
@@ -105,33 +113,33 @@ static int read_side(const char *word, int most)
     return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
 }
 
-static int read_head(const char *bytes, size_t size, image_head *head, const char *name, image_error *error)
+static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
 {
-    int is_whole = read_words(bytes, size, head);
+    const int is_whole = read_words(bytes, size, head);
     const char *kind = head->word[0], *number = head->word[3];
     char *end;
     if (kind[0] != 'P' || !strchr("Ff56", kind[1]) || kind[1] == '\0' || kind[2] != '\0')
-        return refuse(error, name, "this is no PFM, PGM or PPM image: it would begin with PF, Pf, P5 or P6");
+        return refuse_at(error, name, 0, 0,
+                         "this is no PFM, PGM or PPM image: it would begin with PF, Pf, P5 or P6");
     head->is_float = kind[1] == 'F' || kind[1] == 'f';
     head->channels = kind[1] == 'F' || kind[1] == '6' ? 3 : 1;
     if (!is_whole)
-        return refuse(error, name,
-                      "the head of the image is not whole: after %s come width, height, %s and a blank", kind,
-                      head->is_float ? "a scale" : "the largest value");
+        return refuse_at(error, name, 0, 0,
+                         "the head of the image is not whole: after %s come width, height, %s and a blank", kind,
+                         head->is_float ? "a scale" : "the largest value");
     head->width = read_side(head->word[1], IMAGE_SIDE_MAX);
     head->height = read_side(head->word[2], IMAGE_SIDE_MAX);
-    if (!head->width || !head->height)
-        return refuse(error, name, "width %s and height %s: both must be whole numbers from 1 to %d",
-                      head->word[1], head->word[2], IMAGE_SIDE_MAX);
-    if ((int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
-        return refuse(error, name, "%d x %d pixels are more than %d", head->width, head->height, IMAGE_PIXELS_MAX);
-    double order = strtod(number, &end);
+    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
+        return refuse_at(error, name, 0, 0,
+                         "%s x %s pixels: sides are whole numbers from 1 to %d, and there are %d pixels at most",
+                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+    const double order = strtod(number, &end);
     head->most = read_side(number, 65535);
     if (head->is_float && (*end || !(fabs(order) > 0.0)))
-        return refuse(error, name, "'%s' must be a number other than 0; negative: the least byte comes first",
-                      number);
+        return refuse_at(error, name, 0, 0,
+                         "'%s' must be a number other than 0; negative: the least byte comes first", number);
     if (!head->is_float && !(head->most > 0))
-        return refuse(error, name, "the largest value is '%s'; it must be from 1 to 65535", number);
+        return refuse_at(error, name, 0, 0, "the largest value is '%s'; it must be from 1 to 65535", number);
     head->is_little = head->is_float && order < 0.0;
     head->each = head->is_float ? 4 : head->most > 255 ? 2 : 1;
     return 1;
@@ -147,50 +155,50 @@ static float number_at(const unsigned char *b, const image_head *head)
     return head->is_float ? value : (float)(bits / head->most);
 }
 
-int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error)
+int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, vndf_error *error)
 {
     image_head head = {.is_float = 0};
     *made = (image){0};
     if (!read_head(bytes, size, &head, name, error))
         return 0;
-    size_t pixel = (size_t)head.channels * head.each, want = (size_t)head.width * (size_t)head.height * pixel;
+    const size_t pixel = (size_t)head.channels * head.each,
+                 want = (size_t)head.width * (size_t)head.height * pixel;
     if (size - head.size != want)
-        return refuse(error, name, "%d x %d pixels take %zu bytes after the head, and there are %zu", head.width,
-                      head.height, want, size - head.size);
+        return refuse_at(error, name, 0, 0, "%d x %d pixels take %zu bytes after the head, and there are %zu",
+                         head.width, head.height, want, size - head.size);
     if (!image_make(made, head.width, head.height))
-        return refuse(error, name, "there is no memory for %d x %d pixels", head.width, head.height);
+        return refuse_at(error, name, 0, 0, "there is no memory for %d x %d pixels", head.width, head.height);
     made->channels = head.channels;
     made->quantum = head.is_float ? 0 : 1 / head.most;
     const unsigned char *at = (const unsigned char *)bytes + head.size;
     for (int row = 0; row < made->height; row++)
         for (int x = 0; x < made->width; x++, at += pixel)
             for (unsigned i = 0; i < 3; i++) {
-                int y = head.is_float ? made->height - 1 - row : row;
-                float value = number_at(at + (head.channels == 3 ? i * head.each : 0), &head);
+                const int y = head.is_float ? made->height - 1 - row : row;
+                const float value = number_at(at + (head.channels == 3 ? i * head.each : 0), &head);
                 image_pixel(made, x, y)[i] = value;
                 if (isfinite(value))
                     continue;
                 image_free(made);
-                return refuse(error, name, "the pixel in column %d of row %d (from the top, from 0) is not finite",
-                              x, y);
+                return refuse_at(error, name, 0, 0,
+                                 "the pixel in column %d of row %d (from the top, from 0) is not finite", x, y);
             }
     return 1;
 }
 
-int image_read_pfm(image *made, const char *path, image_error *error)
+int image_read_pfm(image *made, const char *path, vndf_error *error)
 {
     char reason[128];
     size_t size;
     *made = (image){0};
     char *bytes = files_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, reason, sizeof reason);
-    if (!bytes)
-        return refuse(error, path, "%s", reason);
-    int good = image_read_bytes(made, path, bytes, size, error);
+    int good =
+        bytes ? image_read_bytes(made, path, bytes, size, error) : refuse_at(error, path, 0, 0, "%s", reason);
     free(bytes);
     if (!good || made->quantum == 0)
         return good;
     image_free(made);
-    return refuse(error, path, "these are whole numbers, which are no linear light; a PFM is needed");
+    return refuse_at(error, path, 0, 0, "these are whole numbers, which are no linear light; a PFM is needed");
 }
 
 /* ---- writing ---- */

@@ -6,6 +6,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/arguments.h"
+#include "vndf.h"
+
 typedef struct image {
     int width, height;
     float *rgb;     /* width * height * 3, owned */
@@ -14,11 +17,6 @@ typedef struct image {
 } image;
 
 enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
-
-/* What is wrong with a file or a pattern, and where. */
-typedef struct image_error {
-    char message[512];
-} image_error;
 
 /* A black image. 0 if there is no memory, or a side is not within 1 to IMAGE_SIDE_MAX. */
 int image_make(image *made, int width, int height);
@@ -35,14 +33,19 @@ void image_bilinear(const image *of, double u, double v, float rgb[3]);
 /* Reads an image: PFM of either byte order, whose numbers must be finite; binary PGM and PPM of 8 or 16 bits, 0 to 1.
  * A grey pixel has three equal numbers. Returns 1, or 0 and an error; bytes that are not trusted are safe. Errors
  * call the file `name`. image_read_pfm takes a PFM alone: light is linear, and whole numbers are not. */
-int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, image_error *error);
-int image_read_pfm(image *made, const char *path, image_error *error);
+int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, vndf_error *error);
+int image_read_pfm(image *made, const char *path, vndf_error *error);
 
 /* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
-int image_make_pattern(image *made, const char *name, int width, int height, image_error *error);
+int image_make_pattern(image *made, const char *name, int width, int height, vndf_error *error);
 
 /* Writes to an open file; 0 if that fails. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image, float exposure);
+
+/* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Bytes that
+ * cannot be printed become '?'. Returns 0. */
+int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
+              ...) PRINTF_LIKE(5, 6);
 
 #endif

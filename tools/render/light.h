@@ -21,9 +21,8 @@ int lights_any(const scene *s);
 /* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or the environment. */
+/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment. */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
-double environment_density(const scene *s, vec3 place, vec3 direction);
 
 /* The light that comes from far away. */
 void environment_radiance(const environment *e, vec3 direction, float rgb[3]);

@@ -10,61 +10,34 @@
  * the normals of a triangle contradict the order of its corners, the normals win. */
 #include "render/geometry.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "cli/files.h"
+#include "render/image.h"
 
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
 enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
 
+/* What lines begin with, and how large their numbers may be: beyond 1e6 float has no digits for the place in a
+ * texture. */
 enum { V, VT, VN, TABLES };
-static const char *const table_names[TABLES] = {"corners (v)", "texture coordinates (vt)", "normals (vn)"};
-
-/* How large their numbers may be: beyond 1e6 float has no digits for the place in a texture. */
+static const char *const table_names[TABLES] = {"v", "vt", "vn"};
 static const double reach[TABLES] = {1e7, 1e6, 1e30};
-
-typedef struct table {
-    vec3 *row;
-    size_t count, room;
-} table;
 
 typedef struct reader {
     const char *name, *at; /* at: the rest of the text */
     unsigned long long line;
     const char *word; /* the last one, of so many letters */
     size_t letters;
-    table of[TABLES];
-    size_t triangles;
-    const placement *where;
+    struct {
+        vec3 *row;
+        size_t count, room;
+    } of[TABLES];
     geometry *g;
     int material;
-    char *message;
-    size_t size;
+    vndf_error *error;
 } reader;
-
-/* Returns 0. Bytes that cannot be printed become '?'. */
-PRINTF_LIKE(2, 3) static int complain_at(reader *r, const char *format, ...)
-{
-    const int head = snprintf(r->message, r->size, "%s:%llu: ", r->name, r->line);
-    va_list values;
-    va_start(values, format);
-    if (head >= 0 && (size_t)head < r->size)
-        vsnprintf(r->message + head, r->size - (size_t)head, format, values);
-    va_end(values);
-    for (char *c = r->message; *c; c++)
-        *c = *c >= ' ' && *c < 127 ? *c : '?';
-    return 0;
-}
-
-/* The same of the last word, whose first letters go before the text. */
-static int complain_of(reader *r, const char *what)
-{
-    return complain_at(r, "'%.*s'%s", (int)(r->letters < 40 ? r->letters : 40), r->word, what);
-}
 
 /* Reads the next word of the line; 0 where the line has no more. */
 static int next_word(reader *r)
@@ -76,12 +49,16 @@ static int next_word(reader *r)
     return r->letters > 0;
 }
 
-/* ---- items ---- */
+/* A word whose first letters go before what is wrong with it. */
+static int complain_of(reader *r, const char *what)
+{
+    return refuse_at(r->error, r->name, r->line, 0, "'%.*s'%s", (int)(r->letters < 40 ? r->letters : 40), r->word,
+                     what);
+}
 
 /* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
 static int read_item(reader *r, int which)
 {
-    table *t = &r->of[which];
     double p[3] = {0, 0, 0};
     int count = 0, least = which == VT ? 1 : 3;
     for (; next_word(r); count++) {
@@ -92,89 +69,79 @@ static int read_item(reader *r, int which)
         p[count < 3 ? count : 2] = count < 3 ? value : p[2];
     }
     if (count < least)
-        return complain_at(r, "there are %d numbers of %d in this line", count, least);
-    vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : placement_turn(r->where, vec(p[0], p[1], p[2]));
-    if (which == V)
-        at = along(r->where->move, r->where->scale, at);
+        return refuse_at(r->error, r->name, r->line, 0, "there are %d numbers of %d in this line", count, least);
+    vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : vec(p[0], p[1], p[2]);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
     if (!(largest <= reach[which]))
-        return complain_at(r, "%s lie within %g of 0, and these do not", table_names[which], reach[which]);
+        return refuse_at(r->error, r->name, r->line, 0, "numbers of '%s' lie within %g of 0, and these do not",
+                         table_names[which], reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
-    if (t->count == t->room && t->room < ITEMS_MAX) {
-        const size_t room = t->room ? 2 * t->room : 64;
-        vec3 *larger = realloc(t->row, room * sizeof *larger);
-        t->row = larger ? larger : t->row;
-        t->room = larger ? room : t->room;
+    if (r->of[which].count == r->of[which].room) {
+        const size_t room = 64 + 2 * r->of[which].room;
+        vec3 *larger = room <= ITEMS_MAX ? realloc(r->of[which].row, room * sizeof *larger) : NULL;
+        if (!larger)
+            return refuse_at(r->error, r->name, r->line, 0, "there is no memory for more '%s'",
+                             table_names[which]);
+        r->of[which].row = larger;
+        r->of[which].room = room;
     }
-    if (t->count == t->room)
-        return complain_at(r, "there is no memory for more than %zu %s", t->count, table_names[which]);
-    t->row[t->count++] = at;
+    r->of[which].row[r->of[which].count++] = at;
     return 1;
 }
 
 /* ---- faces ---- */
 
-/* Numbers of its items, from 1; 0: not there. */
+/* Of a corner; NULL: not there. */
 typedef struct corner {
-    size_t of[TABLES];
+    const vec3 *of[TABLES];
 } corner;
 
 static int read_corner(reader *r, corner *c)
 {
     const char *at = r->word, *end = at + r->letters;
-    *c = (corner){{0, 0, 0}};
-    for (int i = 0; i < TABLES; i++) {
+    *c = (corner){{NULL, NULL, NULL}};
+    for (int i = 0; i < TABLES && (i == V || *at == '/'); i++) {
         char *behind;
-        if (i > 0 && *at != '/')
-            break;
-        if (i > 0 && *++at == '/' && i == VT) /* v//vn */
+        if (i > V && *++at == '/' && i == VT) /* v//vn */
             continue;
         const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
         const long long count = (long long)r->of[i].count;
         if (behind == at || behind > end)
             return complain_of(r, " should be v, v/vt, v//vn or v/vt/vn, in numbers");
         if (given == 0 || given > count || given < -count)
-            return complain_at(r, "number %lld is none of %lld %s so far, which are counted from 1", given, count,
-                               table_names[i]);
-        c->of[i] = (size_t)(given > 0 ? given : count + 1 + given);
+            return refuse_at(r->error, r->name, r->line, 0,
+                             "%lld is none of the %lld lines '%s' before this, which are counted from 1", given,
+                             count, table_names[i]);
+        c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
         at = behind;
     }
     return at == end || complain_of(r, " should be v, v/vt, v//vn or v/vt/vn, and end there");
-}
-
-static vec3 item_of(const reader *r, const corner *c, int which)
-{
-    return r->of[which].row[c->of[which] - 1];
 }
 
 /* Normals of a mesh win over the order of its corners. */
 static int add_triangle(reader *r, const corner *a, const corner *b, const corner *c)
 {
     const corner *at[3] = {a, b, c};
-    shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = item_of(r, a, V)};
-    t.edge_u = subtract(item_of(r, b, V), t.corner);
-    t.edge_v = subtract(item_of(r, c, V), t.corner);
+    const int has_normals = a->of[VN] && b->of[VN] && c->of[VN], has_places = a->of[VT] && b->of[VT] && c->of[VT];
+    shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = *a->of[V]};
+    t.edge_u = subtract(*b->of[V], t.corner);
+    t.edge_v = subtract(*c->of[V], t.corner);
     const vec3 across = cross(t.edge_u, t.edge_v);
     double agreement = 0;
     if (!(length(across) > 1e-15 * (dot(t.edge_u, t.edge_u) + dot(t.edge_v, t.edge_v)))) /* no area but rounding */
         return 1;
     for (int i = 0; i < 3; i++) {
-        if (a->of[VN] && b->of[VN] && c->of[VN]) {
-            const vec3 n = item_of(r, at[i], VN);
-            t.normal[i] = (vndf_vec3){(float)n.x, (float)n.y, (float)n.z};
-            agreement += dot(across, n);
-        }
-        if (a->of[VT] && b->of[VT] && c->of[VT]) {
-            t.u[i] = (float)item_of(r, at[i], VT).x;
-            t.v[i] = (float)item_of(r, at[i], VT).y;
-        }
+        t.normal[i] = has_normals ? narrow(*at[i]->of[VN]) : t.normal[i];
+        agreement += has_normals ? dot(across, *at[i]->of[VN]) : 0;
+        t.u[i] = has_places ? (float)at[i]->of[VT]->x : 0.0f;
+        t.v[i] = has_places ? (float)at[i]->of[VT]->y : 0.0f;
     }
     if (agreement < 0)
         return add_triangle(r, a, c, b);
-    if (r->triangles++ == ITEMS_MAX)
-        return complain_at(r, "there are more than %d triangles", ITEMS_MAX);
-    return geometry_add(r->g, &t) || complain_at(r, "no memory for its triangles");
+    if (r->g->count == ITEMS_MAX)
+        return refuse_at(r->error, r->name, r->line, 0, "there are more than %d triangles", ITEMS_MAX);
+    return geometry_add(r->g, &t) || refuse_at(r->error, r->name, r->line, 0, "no memory for its triangles");
 }
 
 static int read_face(reader *r)
@@ -187,67 +154,50 @@ static int read_face(reader *r)
         if (count >= 2)
             c[1] = c[2];
     }
-    return count >= 3 || complain_at(r, "a face has 3 corners or more, this one has %d", count);
+    return count >= 3 ||
+           refuse_at(r->error, r->name, r->line, 0, "a face has 3 corners or more, this one has %d", count);
 }
 
 /* ---- files ---- */
 
-/* Other lines are ignored. */
+/* Lines that begin with something else are ignored. */
 static int read_line(reader *r)
 {
-    static const char *const names[TABLES] = {"v", "vt", "vn"};
     if (!next_word(r))
         return 1;
     if (r->letters == 1 && *r->word == 'f')
         return read_face(r);
     for (int i = 0; i < TABLES; i++)
-        if (r->letters == strlen(names[i]) && memcmp(r->word, names[i], r->letters) == 0)
+        if (r->letters == strlen(table_names[i]) && memcmp(r->word, table_names[i], r->letters) == 0)
             return read_item(r, i);
     return 1;
 }
 
-static int read_all(reader *r, size_t length)
-{
-    if (memchr(r->at, '\0', length))
-        return complain_at(r, "the file has a byte 0: it is no text");
-    for (; read_line(r); r->at++, r->line++) {
-        r->at += strcspn(r->at, "\n");
-        if (!*r->at || !r->at[1])
-            return r->triangles > 0 || complain_at(r, "the file ends here without a triangle that has an area");
-    }
-    return 0;
-}
-
-int obj_read_text(geometry *g, const char *name, const char *text, size_t length, const placement *where,
-                  int material, char *message, size_t size)
+int obj_read_text(geometry *g, const char *name, const char *text, size_t length, int material, vndf_error *error)
 {
     const size_t before = g->count;
-    reader r = {.name = name,
-                .at = text,
-                .line = 1,
-                .where = where,
-                .g = g,
-                .material = material,
-                .message = message,
-                .size = size};
-    const int is_read = read_all(&r, length);
-    if (!is_read)
+    reader r = {.name = name, .at = text, .line = 1, .g = g, .material = material, .error = error};
+    int good = !memchr(text, '\0', length) || refuse_at(error, name, 1, 0, "the file has a byte 0: it is no text");
+    while (good && (good = read_line(&r)) && *(r.at += strcspn(r.at, "\n")) && r.at[1]) {
+        r.at++;
+        r.line++;
+    }
+    if (good && g->count == before)
+        good = refuse_at(error, name, r.line, 0, "the file ends here without a triangle that has an area");
+    if (!good)
         g->count = before;
     for (int i = 0; i < TABLES; i++)
         free(r.of[i].row);
-    return is_read;
+    return good;
 }
 
-int obj_read(geometry *g, const char *path, const placement *where, int material, char *message, size_t size)
+int obj_read(geometry *g, const char *path, int material, vndf_error *error)
 {
     char reason[128];
-    size_t length;
-    char *text = files_read(path, BYTES_MAX, &length, reason, sizeof reason);
-    if (!text) {
-        snprintf(message, size, "%s: %s", path, reason);
-        return 0;
-    }
-    const int is_read = obj_read_text(g, path, text, length, where, material, message, size);
+    size_t size;
+    char *text = files_read(path, BYTES_MAX, &size, reason, sizeof reason);
+    const int good =
+        text ? obj_read_text(g, path, text, size, material, error) : refuse_at(error, path, 0, 0, "%s", reason);
     free(text);
-    return is_read;
+    return good;
 }

@@ -11,7 +11,6 @@
 #include "render/path.h"
 
 #include <float.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 #include "cli/random.h"
@@ -46,50 +45,43 @@ typedef struct bounce {
     double carried;  /* the factor of refraction in the weight: 1 or 1/eta^2 */
 } bounce;
 
-/* The product of a number and a map at the hit. */
-static void multiply(float *number, int count, const image *map, const hit *h)
+static vndf_vec3 into_frame(const frame *f, vec3 w)
 {
-    float rgb[3];
-    if (!map)
-        return;
-    image_bilinear(map, h->u, h->v, rgb);
-    for (int i = 0; i < count; i++)
-        number[i] *= rgb[i];
+    return narrow(unit(vec(dot(f->x, w), dot(f->y, w), dot(f->z, w))));
 }
 
 /* 0: the material scatters nothing. */
 static int begin(surface *s, const path_plan *plan, const hit *h, vec3 direction)
 {
     const vec3 wi = scale(direction, -1);
+    const material *is = &plan->scene->materials[h->shape->material];
+    float map[3] = {1.0f, 1.0f, 1.0f};
     s->plan = plan;
-    s->is = &plan->scene->materials[h->shape->material];
+    s->is = is;
     s->frame = h->shading;
     if (!(dot(wi, h->shading.z) * dot(wi, h->normal) > 0))
         s->frame = frame_about(h->normal, h->shading.x);
-    s->wi = to_frame(&s->frame, wi);
+    s->wi = into_frame(&s->frame, wi);
+    if (is->colour_map)
+        image_bilinear(is->colour_map, h->u, h->v, map);
     for (int i = 0; i < 3; i++)
-        s->colour[i] = s->is->colour[i];
-    multiply(s->colour, 3, s->is->colour_map, h);
-    if (s->is->kind != MATERIAL_ROUGH)
+        s->colour[i] = is->colour[i] * map[i];
+    if (is->kind != MATERIAL_ROUGH)
         return s->wi.z > 0.0f;
-    vndf_roughness r = {s->is->is.alpha_x, s->is->is.alpha_y, 1.0f, 0.0f};
-    float factor = 1.0f;
-    multiply(&factor, 1, s->is->alpha_map, h);
-    r.alpha_x *= factor;
-    r.alpha_y *= factor;
-    return vndf_bsdf_rough(&s->bsdf, &plan->materials[h->shape->material], s->is->alpha_map ? &r : NULL, s->wi);
+    if (is->alpha_map)
+        image_bilinear(is->alpha_map, h->u, h->v, map);
+    const vndf_roughness r = {is->is.alpha_x * map[0], is->is.alpha_y * map[0], 1.0f, 0.0f};
+    return vndf_bsdf_rough(&s->bsdf, &plan->materials[h->shape->material], is->alpha_map ? &r : NULL, s->wi);
 }
 
 /* f |cos| without the colour; returns the density with which the material draws wo. Perfect sampling of an albedo
  * near 1 has the density f |cos|; random walks know f by chance only, which no weight may depend on. */
 static double evaluate(const surface *s, vndf_vec3 wo, uint64_t seed, float value[3])
 {
-    if (s->is->kind == MATERIAL_MATTE) {
-        const float cosine = fmaxf(wo.z, 0.0f) / (float)PI;
-        value[0] = value[1] = value[2] = cosine;
-        return (double)cosine;
-    }
-    float pdf;
+    float pdf = fmaxf(wo.z, 0.0f) / (float)PI;
+    value[0] = value[1] = value[2] = pdf;
+    if (s->is->kind == MATERIAL_MATTE)
+        return (double)pdf;
     vndf_bsdf_eval_pdf(&s->bsdf, wo, seed, value, &pdf);
     for (int i = 0; i < 3; i++)
         value[i] *= fabsf(wo.z);
@@ -97,30 +89,26 @@ static double evaluate(const surface *s, vndf_vec3 wo, uint64_t seed, float valu
     return s->plan->sampler == SAMPLER_PERFECT && !is_walk ? fmax(luminance(value), DBL_MIN) : (double)pdf;
 }
 
-static int sample_matte(random_stream *random, bounce *b)
-{
-    const float u = random_float(random), turn = 2.0f * (float)PI * random_float(random), radius = sqrtf(u);
-    *b = (bounce){{radius * cosf(turn), radius * sinf(turn), sqrtf(1.0f - u)}, {1.0f, 1.0f, 1.0f}, 0, 1};
-    b->density = (double)b->wo.z / PI;
-    return b->wo.z > 0.0f;
-}
-
-/* A sample of the library: 0 if it is lost. */
+/* A sample of a matte surface, or of the library: 0 if it is lost. */
 static int sample_normals(const surface *s, random_stream *random, bounce *b)
 {
     float u[3];
-    vndf_scattered drawn;
     for (int i = 0; i < 3; i++)
         u[i] = random_float(random);
+    if (s->is->kind == MATERIAL_MATTE) {
+        const float turn = 2.0f * (float)PI * u[1], radius = sqrtf(u[0]), height = sqrtf(1.0f - u[0]);
+        *b = (bounce){
+            {radius * cosf(turn), radius * sinf(turn), height}, {1.0f, 1.0f, 1.0f}, (double)height / PI, 1};
+        return height > 0.0f;
+    }
+    vndf_scattered drawn;
     vndf_bsdf_sample(&s->bsdf, u, &drawn);
-    if (drawn.lobe == VNDF_LOBE_NONE)
-        return 0;
     const double eta = (double)s->is->is.eta, square = s->wi.z > 0.0f ? eta * eta : 1 / (eta * eta);
     *b = (bounce){drawn.wo,
                   {drawn.weight[0], drawn.weight[1], drawn.weight[2]},
                   drawn.lobe == VNDF_LOBE_STRAIGHT ? 0 : (double)drawn.density,
                   drawn.lobe == VNDF_LOBE_TRANSMISSION ? 1 / square : 1};
-    return 1;
+    return drawn.lobe != VNDF_LOBE_NONE;
 }
 
 /* Keeps one of the candidates with the probability of its weight, seen one after the other. */
@@ -137,23 +125,11 @@ static int sample_perfect(const surface *s, random_stream *random, bounce *b)
             kept = worth;
         }
     }
-    if (!(kept > 0))
-        return 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3 && kept > 0; i++)
         b->weight[i] *= (float)(sum / (CANDIDATES * kept));
-    if (b->density > 0 && s->is->is.effects.scattering == VNDF_SCATTERING_SINGLE)
+    if (kept > 0 && b->density > 0 && s->is->is.effects.scattering == VNDF_SCATTERING_SINGLE)
         b->density = evaluate(s, b->wo, 0, value);
-    return 1;
-}
-
-static int sample(const surface *s, random_stream *random, bounce *b)
-{
-    int good = s->is->kind == MATERIAL_MATTE         ? sample_matte(random, b)
-               : s->plan->sampler == SAMPLER_PERFECT ? sample_perfect(s, random, b)
-                                                     : sample_normals(s, random, b);
-    for (int i = 0; i < 3 && good; i++)
-        b->weight[i] *= s->colour[i];
-    return good;
+    return kept > 0;
 }
 
 /* ---- the path ---- */
@@ -182,20 +158,17 @@ static double share(double mine, double other)
     return 1 / (1 + ratio * ratio);
 }
 
-static void meet_environment(walk *w)
-{
-    const scene *s = w->plan->scene;
-    float rgb[3];
-    environment_radiance(&s->environment, w->ray.direction, rgb);
-    gain(w, rgb, w->density > 0 ? share(w->density, environment_density(s, w->place, w->ray.direction)) : 1);
-}
-
+/* Light that the ray has met, on a shape or (NULL) from far away. */
 static void meet_light(walk *w, const hit *h)
 {
     const scene *s = w->plan->scene;
-    if (dot(w->ray.direction, h->normal) < 0)
-        gain(w, s->materials[h->shape->material].colour,
-             w->density > 0 ? share(w->density, lights_density(s, w->place, w->ray.direction, h)) : 1);
+    float far[3];
+    if (!h)
+        environment_radiance(&s->environment, w->ray.direction, far);
+    else if (!(dot(w->ray.direction, h->normal) < 0))
+        return;
+    const double other = w->density > 0 ? lights_density(s, w->place, w->ray.direction, h) : 0;
+    gain(w, h ? s->materials[h->shape->material].colour : far, w->density > 0 ? share(w->density, other) : 1);
 }
 
 /* Draws a light; the cheap tests come first. */
@@ -209,7 +182,7 @@ static void reach_light(walk *w, const surface *p, const hit *h)
         u[i] = random_double(&w->random);
     if (!lights_draw(s, h->place, u, &l) || !(dot(l.direction, h->normal) > 0))
         return;
-    const vndf_vec3 wo = to_frame(&p->frame, l.direction);
+    const vndf_vec3 wo = into_frame(&p->frame, l.direction);
     if (!(wo.z > 0.0f))
         return;
     const double density = evaluate(p, wo, random_bits(&w->random), value);
@@ -229,14 +202,15 @@ static void reach_light(walk *w, const surface *p, const hit *h)
 static int go_on(walk *w, const surface *p, const hit *h)
 {
     bounce b;
-    if (!sample(p, &w->random, &b))
+    const int is_perfect = p->plan->sampler == SAMPLER_PERFECT && p->is->kind == MATERIAL_ROUGH;
+    if (!(is_perfect ? sample_perfect(p, &w->random, &b) : sample_normals(p, &w->random, &b)))
         return 0;
-    const vec3 direction = from_frame(&p->frame, b.wo);
+    const vec3 direction = unit(out_of(&p->frame, widen(b.wo)));
     const double side = dot(direction, h->normal);
     if (!(side * (double)b.wo.z > 0)) /* the shading normal and the geometric one disagree */
         return 0;
     for (int i = 0; i < 3; i++)
-        w->throughput[i] *= (double)b.weight[i];
+        w->throughput[i] *= (double)b.weight[i] * (double)p->colour[i];
     w->carried *= b.carried;
     w->density = side > 0 && lights_any(w->plan->scene) ? b.density : 0;
     w->place = h->place;
@@ -265,12 +239,9 @@ static void trace(walk *w)
     hit h;
     for (unsigned count = 1;; count++) {
         w->counts->rays++;
-        if (!geometry_hit(&s->geometry, &w->ray, &h)) {
-            meet_environment(w);
-            return;
-        }
-        if (s->materials[h.shape->material].kind == MATERIAL_LIGHT) {
-            meet_light(w, &h);
+        const int is_met = geometry_hit(&s->geometry, &w->ray, &h);
+        if (!is_met || s->materials[h.shape->material].kind == MATERIAL_LIGHT) {
+            meet_light(w, is_met ? &h : NULL);
             return;
         }
         if (count > s->depth || !begin(&p, w->plan, &h, w->ray.direction))
@@ -283,18 +254,12 @@ static void trace(walk *w)
 }
 
 /* The random numbers of a path are a stream of their own: a hash of seed, pixel and index. */
-static random_stream stream_of(uint64_t seed, uint64_t pixel, uint64_t index)
-{
-    const uint64_t of_pixel = random_from(random_from(seed).start ^ pixel).start;
-    return random_from(of_pixel ^ index);
-}
-
 void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
                 float rgb[3])
 {
     const uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
     walk w = {.plan = plan, .counts = counts, .throughput = {1, 1, 1}, .carried = 1};
-    w.random = stream_of(seed, pixel, index);
+    w.random = random_from(random_from(random_from(seed).start ^ pixel).start ^ index);
     const double dx = random_double(&w.random), dy = random_double(&w.random);
     w.ray = (ray){plan->scene->from, unit(along(along(plan->corner, x + dx, plan->right), y + dy, plan->down)),
                   HUGE_VAL};
@@ -307,22 +272,22 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
 
 /* ---- preparing ---- */
 
-path_plan *path_prepare(const scene *s, path_sampler sampler, char *message, size_t size)
+path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error)
 {
     path_plan *plan = calloc(1, sizeof *plan);
     vndf_material *materials = calloc(s->material_count + 1, sizeof *materials);
     int good = plan && materials;
     if (!good)
-        snprintf(message, size, "no memory for %zu materials", s->material_count);
+        refuse_at(error, "materials", 0, 0, "there is no memory for %zu", s->material_count);
     for (size_t i = 0; i < s->material_count && good; i++) {
         const material *m = &s->materials[i];
         vndf_description is = m->is;
-        vndf_error error = {VNDF_OK, ""};
+        vndf_error why = {VNDF_OK, ""};
         is.effects.normals = sampler == SAMPLER_ALL ? VNDF_NORMALS_ALL : VNDF_NORMALS_VISIBLE;
-        good = m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &materials[i], &error) == VNDF_OK;
+        good = m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &materials[i], &why) == VNDF_OK;
         if (!good)
-            snprintf(message, size, "material '%s' cannot have the sampler '%s': %s", m->name,
-                     path_sampler_names[sampler], error.message);
+            snprintf(error->message, sizeof error->message, "material '%s' cannot have the sampler '%s': %.300s",
+                     m->name, path_sampler_names[sampler], why.message);
     }
     if (!good) {
         free(materials);

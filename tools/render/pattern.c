@@ -89,7 +89,7 @@ enum { PATTERNS = 3 };
 static const pattern patterns[PATTERNS] = {{"tiles", shade_tiles}, {"grid", shade_grid}, {"studio", shade_studio}};
 
 /* A pixel is the mean of SIDE x SIDE points. */
-int image_make_pattern(image *made, const char *name, int width, int height, image_error *error)
+int image_make_pattern(image *made, const char *name, int width, int height, vndf_error *error)
 {
     enum { SIDE = 3 };
     const pattern *p = patterns;
@@ -97,12 +97,11 @@ int image_make_pattern(image *made, const char *name, int width, int height, ima
     while (p < patterns + PATTERNS && strcmp(name, p->name) != 0)
         p++;
     if (p == patterns + PATTERNS)
-        snprintf(error->message, sizeof error->message, "there is no pattern '%.64s', but tiles, grid and studio",
-                 name);
-    else if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
-        snprintf(error->message, sizeof error->message, "there is no memory for %d x %d pixels", width, height);
-    for (int y = 0; y < made->height; y++)
-        for (int x = 0; x < made->width; x++)
+        return refuse_at(error, name, 0, 0, "there is no such pattern, but tiles, grid and studio");
+    if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
+        return refuse_at(error, name, 0, 0, "there is no memory for %d x %d pixels", width, height);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
             for (int i = 0; i < SIDE * SIDE; i++) {
                 float *rgb = image_pixel(made, x, y), one[3];
                 p->shade(((float)x + ((float)(i % SIDE) + 0.5f) / SIDE) / (float)width,
@@ -110,7 +109,7 @@ int image_make_pattern(image *made, const char *name, int width, int height, ima
                 for (int channel = 0; channel < 3; channel++)
                     rgb[channel] += one[channel] / (SIDE * SIDE);
             }
-    return made->rgb != NULL;
+    return 1;
 }
 
 /* ---- a torus knot (2, 3) ----
@@ -139,7 +138,7 @@ static void corner_at(int ring, int side, vec3 *place, vec3 *normal)
 }
 
 /* Two triangles for each quarter of a ring, counter-clockwise seen from outside. */
-int knot_add(geometry *g, const placement *where, int material)
+int knot_add(geometry *g, int material)
 {
     static const int steps[2][3][2] = {{{0, 0}, {0, 1}, {1, 1}}, {{0, 0}, {1, 1}, {1, 0}}}; /* along, around */
     for (int i = 0; i < 2 * RINGS * SIDES; i++) {
@@ -148,9 +147,7 @@ int knot_add(geometry *g, const placement *where, int material)
         for (int k = 0; k < 3; k++) {
             const int *step = steps[i % 2][k];
             corner_at(i / 2 / SIDES + step[0], i / 2 % SIDES + step[1], &place[k], &normal);
-            place[k] = along(where->move, where->scale, placement_turn(where, place[k]));
-            normal = placement_turn(where, normal);
-            s.normal[k] = (vndf_vec3){(float)normal.x, (float)normal.y, (float)normal.z};
+            s.normal[k] = narrow(normal);
         }
         s.corner = place[0];
         s.edge_u = subtract(place[1], place[0]);

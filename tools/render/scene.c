@@ -1,4 +1,4 @@
-/* Reads a scene: the words of the file, statement after statement by the table of keys, then a look at the whole.
+/* Reads a scene: statement after statement, its clauses by the table of keys, then a look at the whole.
  *
  * Blanks, tabs and ends of lines separate the words; # outside quotes begins a comment; "quotes" hold blanks. A word
  * in the first column of a line begins a statement; a line that begins with a blank continues it. Everything that
@@ -18,6 +18,7 @@
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
+    STATEMENT_MAX = 64, /* words */
     MATERIALS_MAX = 4096,
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
@@ -26,8 +27,8 @@ static const double least_size = 1e-6;
 
 typedef struct word {
     char *text;            /* without its quotes; into the text of the file */
-    unsigned line, column; /* from 1 */
-    int is_quoted, begins; /* begins: a statement */
+    unsigned line, column; /* from 1; in the first column begins a statement */
+    int is_quoted;
 } word;
 
 typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
@@ -106,17 +107,15 @@ static const key keys[] = {
 
 typedef struct reader {
     const char *name; /* of the file */
-    char *message;    /* room of `size` for a refusal */
-    size_t size;
-    word *words; /* owned */
-    size_t word_count, room;
+    vndf_error *error;
     scene *made;
-    const word *list; /* the statement at hand; list[0] names it */
+    char *at, *start, *end; /* the rest of the text, its first line, and where it ends */
+    unsigned line;
+    word list[STATEMENT_MAX]; /* the statement at hand; list[0] names it */
     size_t count;
     clause clause[CLAUSES_MAX]; /* of all its keys */
     size_t clauses;
-    size_t folder; /* the length of the folder in the name of the file, with its slash */
-    unsigned seen; /* a bit for each statement */
+    unsigned seen;                                                   /* a bit for each statement */
     const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
     size_t pixels;                                                   /* of all images so far */
     struct made_table {
@@ -129,13 +128,12 @@ typedef struct reader {
 /* "NAME:LINE:COLUMN: ..."; returns 0. */
 PRINTF_LIKE(3, 4) static int refuse(reader *r, const word *at, const char *format, ...)
 {
-    int head = snprintf(r->message, r->size, "%s:%u:%u: ", r->name, at->line, at->column);
+    char text[sizeof r->error->message];
     va_list list;
     va_start(list, format);
-    if (head >= 0 && (size_t)head < r->size)
-        vsnprintf(r->message + head, r->size - (size_t)head, format, list);
+    vsnprintf(text, sizeof text, format, list);
     va_end(list);
-    return 0;
+    return refuse_at(r->error, r->name, at->line, at->column, "%s", text);
 }
 
 /* Which of the names a word is; a refusal offers the nearest one, or all of them. `what`: "pattern". */
@@ -157,54 +155,40 @@ static int read_choice(reader *r, const word *at, const char *what, const char *
 
 /* ---- words ---- */
 
-static int add_word(reader *r, const word *added)
+/* The next word, without text where there is no more. The 0 behind the word before is put only now, since its place
+ * may be the end of a line. */
+static int next_word(reader *r, word *w)
 {
-    if (r->word_count == r->room) {
-        const size_t room = 256 + 2 * r->room;
-        word *larger = realloc(r->words, room * sizeof *larger);
-        if (!larger)
-            return refuse(r, added, "there is no memory for the words of this file");
-        r->words = larger;
-        r->room = room;
+    char *behind = r->at;
+    for (; *r->at && strchr(" \t\r\n#", *r->at); r->at++) {
+        r->at += *r->at == '#' ? strcspn(r->at, "\n") : 0;
+        if (*r->at == '\n') {
+            r->line++;
+            r->start = r->at + 1;
+        } else if (!*r->at)
+            break;
     }
-    r->words[r->word_count++] = *added;
-    return r->words[0].begins ||
-           refuse(r, added,
-                  "a statement begins in the first column; lines that begin with a blank go on with the one "
-                  "before");
-}
-
-/* Splits the text, which has a 0 behind its bytes and is changed, into words. The list is to be freed in any case. */
-static int split_words(reader *r, char *text, size_t length)
-{
-    unsigned line = 1;
-    for (char *at = text, *start = text; at < text + length;) { /* start: of the line */
-        const word w = {at + (*at == '"'), line, (unsigned)(at - start) + 1, *at == '"', at == start};
-        if (strchr(" \t\r\n#", *at) && *at) {
-            line += *at == '\n';
-            start = *at == '\n' ? at + 1 : start;
-            at += *at == '#' ? strcspn(at, "\n") : 1;
-            continue;
-        }
-        char *end = w.text;
-        while (w.is_quoted ? *end && *end != '"' && *end != '\n'
-                           : (unsigned char)*end > ' ' && *end != '"' && *end != '#' && *end != 127)
-            end++;
-        const word behind = {end + w.is_quoted, line, (unsigned)(end + w.is_quoted - start) + 1, 0, 0};
-        if (w.is_quoted && *end != '"')
-            return refuse(r, &w, "the quote that begins here does not end on its line");
-        if (end == w.text && !w.is_quoted)
-            return refuse(r, &w, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
-        if (*behind.text && !strchr(" \t\r\n#", *behind.text))
-            return refuse(r, &behind, "a blank is missing before this");
-        if (!add_word(r, &w))
-            return 0;
-        at = behind.text; /* read what ends the word before the 0 that takes its place */
-        line += *at == '\n';
-        start = *at == '\n' ? at + 1 : start;
-        at += *at == '#' ? strcspn(at, "\n") : *at != '\0';
+    const int is_quoted = *r->at == '"';
+    char *text = r->at + is_quoted, *end = text;
+    *w = (word){text, r->line, (unsigned)(r->at - r->start) + 1, is_quoted};
+    if (r->at > behind)
+        *behind = '\0';
+    if (r->at == r->end) {
+        w->text = NULL;
+        return 1;
+    }
+    while (is_quoted ? *end && !strchr("\"\n", *end) : (unsigned char)*end > ' ' && !strchr("\"#\177", *end))
+        end++;
+    if (is_quoted && *end != '"')
+        return refuse(r, w, "the quote that begins here does not end on its line");
+    if (end == text && !is_quoted)
+        return refuse(r, w, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
+    r->at = end + is_quoted;
+    if (*r->at && !strchr(" \t\r\n#", *r->at))
+        return refuse(r, &(word){NULL, r->line, (unsigned)(r->at - r->start) + 1, 0},
+                      "a blank is missing before this");
+    if (is_quoted)
         *end = '\0';
-    }
     return 1;
 }
 
@@ -218,11 +202,6 @@ static const clause *clause_of(const reader *r, const char *name)
         if (strcmp(r->clause[i].is->name, name) == 0)
             return &r->clause[i];
     return &none;
-}
-
-static int is_keyword(const reader *r, const word *at)
-{
-    return !at->is_quoted && clause_of(r, at->text)->is;
 }
 
 /* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
@@ -244,21 +223,22 @@ static int read_clause(reader *r, size_t *at)
 {
     const char *names[CLAUSES_MAX];
     size_t chosen;
+    const word *w = &r->list[*at];
     for (size_t i = 0; i < r->clauses; i++)
         names[i] = r->clause[i].is->name;
-    if (r->list[*at].is_quoted)
-        return refuse(r, &r->list[*at], "'%.64s' is no clause here, since it has quotes", r->list[*at].text);
-    if (!read_choice(r, &r->list[*at], "clause here", names, r->clauses, &chosen))
+    if (w->is_quoted)
+        return refuse(r, w, "'%.64s' is no clause here, since it has quotes", w->text);
+    if (!read_choice(r, w, "clause here", names, r->clauses, &chosen))
         return 0;
     clause *c = &r->clause[chosen];
     if (c->at)
-        return refuse(r, &r->list[*at], "'%s' stands in this statement twice", c->is->name);
-    c->at = &r->list[(*at)++];
-    c->value = r->list + *at;
+        return refuse(r, w, "'%s' stands in this statement twice", c->is->name);
+    c->at = w;
+    c->value = w + 1;
     /* required values are taken as they are, since a name may look like a keyword */
-    for (; *at < r->count && c->count < c->is->most; ++*at, c->count++) {
+    for (++*at; *at < r->count && c->count < c->is->most; ++*at, c->count++) {
         const word *value = &r->list[*at];
-        if (c->count >= c->is->least && is_keyword(r, value))
+        if (c->count >= c->is->least && !value->is_quoted && clause_of(r, value->text)->is)
             break;
         if (c->is->kind != WORDS && !read_number(r, c->is, value, &c->number[c->count]))
             return 0;
@@ -277,17 +257,16 @@ static int read_clauses(reader *r, size_t from, const char *of, const char *also
     for (size_t at = from; at < r->count;)
         if (!read_clause(r, &at))
             return 0;
-    for (size_t i = 0; i < r->clauses; i++) {
-        const key *k = r->clause[i].is;
-        const word *at = r->clause[i].at;
+    for (const clause *c = r->clause; c < r->clause + r->clauses; c++) {
+        const key *k = c->is;
         const clause *other = k->other ? clause_of(r, k->other) : NULL;
-        if (k->rule == NEEDED && !at)
+        if (k->rule == NEEDED && !c->at)
             return refuse(r, &r->list[from - 1], "'%s' needs '%s %s'", of, k->name, k->takes);
-        if (k->rule == OR && !at == !other->at)
+        if (k->rule == OR && !c->at == !other->at)
             return refuse(r, &r->list[from - 1], "'%s' needs one of '%s %s' and '%s %s'", of, k->name, k->takes,
                           k->other, other->is->takes);
-        if (k->rule == BESIDE && at && !other->at)
-            return refuse(r, at, "'%s' stands beside '%s' only", k->name, k->other);
+        if (k->rule == BESIDE && c->at && !other->at)
+            return refuse(r, c->at, "'%s' stands beside '%s' only", k->name, k->other);
     }
     return 1;
 }
@@ -313,21 +292,17 @@ static void set_three(const reader *r, const char *name, float to[3])
         to[i] = (float)c->number[i];
 }
 
-/* The path relative to the working folder, noted as an input; to be freed. NULL after a refusal. */
+/* The path relative to the working folder, to be freed. NULL after a refusal. */
 static char *path_of(reader *r, const word *at)
 {
-    size_t folder = at->text[0] == '/' ? 0 : r->folder, letters = strlen(at->text);
+    const char *slash = strrchr(r->name, '/');
+    const size_t folder = at->text[0] == '/' || !slash ? 0 : (size_t)(slash - r->name) + 1,
+                 letters = strlen(at->text);
     char *path = letters ? malloc(folder + letters + 1) : NULL;
     if (!path)
         return refuse(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
     memcpy(path, r->name, folder);
-    memcpy(path + folder, at->text, letters + 1);
-    const char *role = files_note(path, 0);
-    if (!role)
-        return path;
-    refuse(r, at, "this file is %s as well", role);
-    free(path);
-    return NULL;
+    return memcpy(path + folder, at->text, letters + 1), path;
 }
 
 /* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
@@ -362,11 +337,9 @@ static int find_image(reader *r, const char *name, const char *what, int channel
         return 0;
     const image *map = *found = &r->made->images[chosen];
     for (int i = 0; i < map->width * map->height * 3; i++) {
-        double value = (double)map->rgb[i];
+        const double value = (double)map->rgb[i];
         if (i % 3 < channels && !(value >= low && value <= high))
-            return refuse(r, c->value,
-                          "as %s the image must be from %g to %g; it is %g in column %d of row %d (from the top, "
-                          "from 0)",
+            return refuse(r, c->value, "as %s the image must be from %g to %g; it is %g in column %d of row %d",
                           what, low, high, value, i / 3 % map->width, i / 3 / map->width);
     }
     return 1;
@@ -424,14 +397,14 @@ static int read_image(reader *r)
         !read_clauses(r, 2, "image", ""))
         return 0;
     const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
+    const int width = (int)number_of(r, "width", 512), height = (int)number_of(r, "height", 512);
     image *made = &s->images[s->image_count++];
-    image_error error;
+    vndf_error error = {VNDF_OK, ""};
     char *path = file ? path_of(r, file) : NULL;
     if (file && !path)
         return 0;
-    int good = path ? image_read_pfm(made, path, &error)
-                    : image_make_pattern(made, pattern->text, (int)number_of(r, "width", 512),
-                                         (int)number_of(r, "height", 512), &error);
+    const int good =
+        path ? image_read_pfm(made, path, &error) : image_make_pattern(made, pattern->text, width, height, &error);
     free(path);
     if (!good)
         return refuse(r, file ? file : pattern, "%s", error.message);
@@ -442,64 +415,65 @@ static int read_image(reader *r)
 
 /* ---- distributions ---- */
 
-enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS_OF_DISTRIBUTION };
+enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 
-static vndf_distribution *make_table(reader *r, size_t form, const word *text, unsigned bytes, vndf_error *error)
+static vndf_distribution *make_table(reader *r, size_t form, const word *of, unsigned bytes, vndf_error *error)
 {
     const vndf_build_options options = {.max_bytes = bytes};
     if (form == TABLE) {
-        char *path = path_of(r, text);
-        vndf_distribution *loaded = path ? vndf_load(path, error) : NULL;
+        char *path = path_of(r, of);
+        const char *role = path ? files_note(path, 0) : NULL;
+        vndf_distribution *loaded = path && !role ? vndf_load(path, error) : NULL;
+        if (role)
+            refuse_at(error, path, 0, 0, "this file is %s as well", role);
         free(path);
         return loaded;
     }
-    vndf_source *source = form == FAMILY  ? vndf_source_family(text->text, error)
-                          : form == SLOPE ? vndf_source_slope_expression(text->text, NULL, 0, error)
-                                          : vndf_source_ndf_expression(text->text, NULL, 0, error);
+    vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
+                          : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
+                                          : vndf_source_ndf_expression(of->text, NULL, 0, error);
     vndf_distribution *built = source ? vndf_build(source, &options, NULL, error) : NULL;
     vndf_source_free(source);
     return built;
 }
 
-/* Materials with the same form, text and size share a table. */
-static int find_table(reader *r, size_t form, const word *text, unsigned bytes, const vndf_distribution **found)
-{
-    scene *s = r->made;
-    vndf_error error = {VNDF_OK, ""};
-    size_t i = 0;
-    while (i < s->table_count && (r->tables[i].form != form || r->tables[i].bytes != bytes ||
-                                  strcmp(r->tables[i].text, text->text) != 0))
-        i++;
-    if (i == SCENE_TABLES_MAX)
-        return refuse(r, text, "these are more than %d tables", SCENE_TABLES_MAX);
-    if (i == s->table_count) {
-        if (!(s->tables[i] = make_table(r, form, text, bytes, &error))) /* else path_of has refused */
-            return error.message[0] ? refuse(r, text, "%s", error.message) : 0;
-        r->tables[s->table_count++] = (struct made_table){form, bytes, text->text};
-    }
-    *found = s->tables[i];
-    return 1;
-}
-
 static int read_distribution(reader *r, const vndf_distribution **found)
 {
-    static const char *const names[FORMS_OF_DISTRIBUTION] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
-    static const char *const takes[FORMS_OF_DISTRIBUTION] = {
+    static const char *const names[FORMS] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
+    static const char *const takes[FORMS] = {
         "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
     const clause *c = clause_of(r, "distribution"), *bytes = clause_of(r, "bytes");
-    size_t form;
-    if (!read_choice(r, c->value, "distribution", names, FORMS_OF_DISTRIBUTION, &form))
+    const word *of = &c->value[1];
+    scene *s = r->made;
+    vndf_error error = {VNDF_OK, ""};
+    size_t form, i = 0;
+    if (!read_choice(r, c->value, "distribution", names, FORMS, &form))
         return 0;
     if (bytes->at && form <= TABLE)
         return refuse(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
-    if (form > BECKMANN)
-        return c->count > 1 ? find_table(r, form, &c->value[1], (unsigned)number_of(r, "bytes", 4096), found)
-                            : refuse(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
-    if (c->count > 1)
-        return refuse(r, &c->value[1], "'distribution %s' takes nothing more", names[form]);
-    *found = form == GGX ? vndf_ggx() : vndf_beckmann();
-    return clause_of(r, "alpha")->at ||
-           refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
+    if (c->count > 1 && form <= BECKMANN)
+        return refuse(r, of, "'distribution %s' takes nothing more", names[form]);
+    if (c->count < 2 && form > BECKMANN)
+        return refuse(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
+    if (form <= BECKMANN) {
+        *found = form == GGX ? vndf_ggx() : vndf_beckmann();
+        return clause_of(r, "alpha")->at ||
+               refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
+    }
+    /* materials with the same form, text and size share a table */
+    const struct made_table is = {form, (unsigned)number_of(r, "bytes", 4096), of->text};
+    while (i < s->table_count && (r->tables[i].form != form || r->tables[i].bytes != is.bytes ||
+                                  strcmp(r->tables[i].text, is.text) != 0))
+        i++;
+    if (i == SCENE_TABLES_MAX)
+        return refuse(r, of, "these are more than %d tables", SCENE_TABLES_MAX);
+    if (i == s->table_count) {
+        if (!(s->tables[i] = make_table(r, form, of, is.bytes, &error))) /* else path_of has refused */
+            return error.message[0] ? refuse(r, of, "%s", error.message) : 0;
+        r->tables[s->table_count++] = is;
+    }
+    *found = s->tables[i];
+    return 1;
 }
 
 /* ---- materials ---- */
@@ -572,37 +546,23 @@ static int read_material(reader *r)
 
 /* ---- shapes ---- */
 
-/* Every shape has a material; a mesh does not emit. */
-static int find_material(reader *r, int *found)
+static int add_shape(reader *r, shape made, int of)
 {
-    const clause *c = clause_of(r, "material");
-    size_t chosen;
-    if (!read_choice(r, c->value, "material that is defined before this", r->materials, r->made->material_count,
-                     &chosen))
-        return 0;
-    *found = (int)chosen;
-    return r->made->materials[chosen].kind != MATERIAL_LIGHT || strcmp(r->list[0].text, "mesh") != 0 ||
-           refuse(r, c->value, "a light is a sphere or a rectangle, not a mesh");
+    made.material = of;
+    return geometry_add(&r->made->geometry, &made) || refuse(r, &r->list[0], "there is no memory for this shape");
 }
 
-static int no_memory_for_shape(reader *r)
+static int read_sphere(reader *r, int of)
 {
-    return refuse(r, &r->list[0], "there is no memory for this shape");
-}
-
-static int read_sphere(reader *r)
-{
-    shape made = {.kind = SHAPE_SPHERE, .corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)};
-    return find_material(r, &made.material) && (geometry_add(&r->made->geometry, &made) || no_memory_for_shape(r));
+    return add_shape(r, (shape){.corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)}, of);
 }
 
 /* The text has few digits, so that edges that are meant to be at right angles may be a little off: the second one
  * is corrected. */
-static int read_rectangle(reader *r)
+static int read_rectangle(reader *r, int of)
 {
-    const vec3 u = vector_of(r, "edge-u"), v = vector_of(r, "edge-v");
+    const vec3 corner = vector_of(r, "corner"), u = vector_of(r, "edge-u"), v = vector_of(r, "edge-v");
     const double cosine = dot(u, v) / (length(u) * length(v));
-    shape made = {.kind = SHAPE_RECTANGLE, .corner = vector_of(r, "corner"), .edge_u = u};
     for (int i = 0; i < 2; i++)
         if (!(length(i ? v : u) >= least_size))
             return refuse(r, clause_of(r, i ? "edge-v" : "edge-u")->at, "this edge has no length");
@@ -610,60 +570,94 @@ static int read_rectangle(reader *r)
         return refuse(r, clause_of(r, "edge-v")->at,
                       "the edges of a rectangle must be at right angles; these are at %.4g degrees",
                       acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
-    made.edge_v = along(v, -dot(u, v) / dot(u, u), u);
-    return find_material(r, &made.material) && (geometry_add(&r->made->geometry, &made) || no_memory_for_shape(r));
+    return add_shape(r, (shape){SHAPE_RECTANGLE, 0, corner, u, along(v, -dot(u, v) / dot(u, u), u), .radius = 0},
+                     of);
 }
 
-/* A file, or the knot. */
-static int read_mesh(reader *r)
+/* A file, or the knot; it does not emit. */
+static int read_mesh(reader *r, int of)
 {
     static const char *const patterns[] = {"knot"};
     const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
-    const placement where = {number_of(r, "scale", 1), number_of(r, "turn", 0), vector_of(r, "move")};
-    char why[512];
+    geometry *g = &r->made->geometry;
+    const size_t first = g->count;
+    vndf_error error = {VNDF_OK, ""};
     size_t which;
-    int of;
-    if (!find_material(r, &of))
+    if (r->made->materials[of].kind == MATERIAL_LIGHT)
+        return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
+    if (pattern && !read_choice(r, pattern, "pattern of a mesh", patterns, 1, &which))
         return 0;
-    if (pattern)
-        return read_choice(r, pattern, "pattern of a mesh", patterns, 1, &which) &&
-               (knot_add(&r->made->geometry, &where, of) || no_memory_for_shape(r));
-    char *path = path_of(r, file);
-    int good =
-        path && (obj_read(&r->made->geometry, path, &where, of, why, sizeof why) || refuse(r, file, "%s", why));
-    free(path);
-    return good;
+    if (pattern && !knot_add(g, of))
+        return refuse(r, &r->list[0], "there is no memory for this shape");
+    if (file) {
+        char *path = path_of(r, file);
+        const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
+        free(path);
+        if (!good)
+            return 0;
+    }
+    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
+    return 1;
 }
 
 /* ---- all of it ---- */
 
-enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
-
 /* Those before ONCE may be there once; those from there to NAMED have a name, and read their clauses themselves;
- * those after it are shapes. */
+ * those after it are shapes, which have a material. */
+enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
                                               "material", "sphere", "rectangle",  "mesh"};
-static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_camera,    read_integrator,
-                                                      read_environment, read_image,     read_material,
-                                                      read_sphere,      read_rectangle, read_mesh};
+static int (*const readers[NAMED])(reader *r) = {read_film,        read_camera, read_integrator,
+                                                 read_environment, read_image,  read_material};
+static int (*const shape_readers[])(reader *r, int of) = {read_sphere, read_rectangle, read_mesh};
 
 static int read_statement(reader *r)
 {
     const word *w = &r->list[0];
-    size_t i;
+    size_t i, of;
     if (!read_choice(r, w, "statement", names, STATEMENTS, &i))
         return 0;
     if (i < ONCE && r->seen >> i & 1u)
         return refuse(r, w, "'%s' stands in this scene twice", w->text);
     r->seen |= 1u << i;
-    return ((i >= ONCE && i < NAMED) || read_clauses(r, 1, names[i], i >= NAMED ? "body" : "")) && readers[i](r);
+    if ((i < ONCE || i >= NAMED) && !read_clauses(r, 1, names[i], i >= NAMED ? "body" : ""))
+        return 0;
+    if (i < NAMED)
+        return readers[i](r);
+    return read_choice(r, clause_of(r, "material")->value, "material that is defined before this", r->materials,
+                       r->made->material_count, &of) &&
+           shape_readers[i - NAMED](r, (int)of);
+}
+
+static int read_statements(reader *r)
+{
+    word next;
+    if (!next_word(r, &next))
+        return 0;
+    while (next.text) {
+        if (next.column > 1)
+            return refuse(
+                r, &next,
+                "a statement begins in the first column; lines that begin with a blank go on with the one "
+                "before");
+        for (r->count = 0; next.text && (r->count == 0 || next.column > 1);) {
+            if (r->count == STATEMENT_MAX)
+                return refuse(r, &next, "a statement has more than %d words", STATEMENT_MAX);
+            r->list[r->count++] = next;
+            if (!next_word(r, &next))
+                return 0;
+        }
+        if (!read_statement(r))
+            return 0;
+    }
+    return 1;
 }
 
 /* Without light a scene is black, which nobody means. */
 static int finish(reader *r)
 {
     scene *s = r->made;
-    const word first = {NULL, 1, 1, 0, 0}, *end = r->word_count ? &r->words[r->word_count - 1] : &first;
+    const word first = {NULL, 1, 1, 0}, *end = r->count ? &r->list[r->count - 1] : &first;
     if (!(r->seen >> CAMERA & 1u))
         return refuse(r, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
     if (!geometry_build(&s->geometry))
@@ -675,32 +669,14 @@ static int finish(reader *r)
            refuse(r, end, "the scene ends without light: an environment, or a shape of a light");
 }
 
-static int read_statements(reader *r, char *text, size_t length)
+scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
 {
-    if (!split_words(r, text, length))
-        return 0;
-    for (size_t at = 0; at < r->word_count; at += r->count) {
-        r->list = r->words + at;
-        for (r->count = 1; at + r->count < r->word_count && !r->list[r->count].begins;)
-            r->count++;
-        if (!read_statement(r))
-            return 0;
-    }
-    return finish(r);
-}
-
-scene *scene_read_text(const char *name, char *text, size_t length, char *message, size_t size)
-{
-    const char *slash = strrchr(name, '/');
     scene *s = malloc(sizeof *s);
     material *materials = calloc(MATERIALS_MAX, sizeof *materials);
-    reader r = {.name = name,
-                .message = message,
-                .size = size,
-                .made = s,
-                .folder = slash ? (size_t)(slash - name) + 1 : 0};
+    reader r = {
+        .name = name, .error = error, .made = s, .at = text, .start = text, .end = text + length, .line = 1};
     if (!s || !materials) {
-        snprintf(message, size, "%s: there is no memory", name);
+        refuse_at(error, name, 0, 0, "there is no memory");
         free(materials);
         free(s);
         return NULL;
@@ -713,24 +689,20 @@ scene *scene_read_text(const char *name, char *text, size_t length, char *messag
                  .exposure = 1.0f,
                  .environment = {.scale = 1.0f},
                  .materials = materials};
-    int good = read_statements(&r, text, length);
-    free(r.words);
-    if (good)
+    if (read_statements(&r) && finish(&r))
         return s;
     scene_free(s);
     return NULL;
 }
 
-scene *scene_read(const char *path, char *message, size_t size)
+scene *scene_read(const char *path, vndf_error *error)
 {
     char reason[128];
     size_t length;
     char *text = files_read(path, BYTES_MAX, &length, reason, sizeof reason);
-    if (!text) {
-        snprintf(message, size, "%s: %s", path, reason);
-        return NULL;
-    }
-    scene *s = scene_read_text(path, text, length, message, size);
+    if (!text)
+        refuse_at(error, path, 0, 0, "%s", reason);
+    scene *s = text ? scene_read_text(path, text, length, error) : NULL;
     free(text);
     return s;
 }
@@ -750,14 +722,12 @@ void scene_free(scene *s)
     free(s);
 }
 
-int scene_resize(scene *s, int width, char *message, size_t size)
+int scene_resize(scene *s, int width, vndf_error *error)
 {
     const double height = floor((double)width * s->height / s->width + 0.5);
-    if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX)) {
-        snprintf(message, size, "%d x %.0f pixels: a film has 1 to %d rows and at most %d pixels", width, height,
-                 IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
-        return 0;
-    }
+    if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX))
+        return refuse_at(error, "--width", 0, 0, "%d x %.0f pixels: a film has 1 to %d rows and at most %d pixels",
+                         width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
     s->width = width;
     s->height = (int)height;
     return 1;

@@ -22,13 +22,10 @@ typedef struct material {
     const image *colour_map, *alpha_map; /* multiply colour and alpha, by their red; NULL: none */
 } material;
 
-/* A shape that emits, from its front: a sphere or a rectangle. */
+/* A shape that emits from its front, a sphere or a rectangle, and how likely it is drawn. */
 typedef struct emitter {
-    uint32_t shape; /* index in the geometry */
-    float radiance[3];
-    vec3 centre;
-    double radius, area,
-        power; /* radius: of a sphere about it; power: radiance times the area seen from far away */
+    const shape *shape;
+    double part;
 } emitter;
 
 /* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
@@ -38,8 +35,9 @@ typedef struct environment {
     float constant[3];
     const image *map; /* NULL: the constant */
     float scale;
-    double turn; /* a part of a full turn */
-    float *rows, *cells;
+    double turn;         /* a part of a full turn */
+    float *rows, *cells; /* rows NULL: it is not drawn */
+    double part;         /* how likely it is */
 } environment;
 
 typedef struct scene {
@@ -62,14 +60,14 @@ typedef struct scene {
 
 /* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE:COLUMN: what is wrong, and what
  * would be right". Files that are not trusted are safe. */
-scene *scene_read(const char *path, char *message, size_t size);
+scene *scene_read(const char *path, vndf_error *error);
 void scene_free(scene *s);
 
 /* The same from `length` bytes with a 0 behind them, which it changes; messages call them `name`. */
-scene *scene_read_text(const char *name, char *text, size_t length, char *message, size_t size);
+scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error);
 
-/* Sets the pixels across; the height follows. 0 and a message if no row is left, or they are too many. */
-int scene_resize(scene *s, int width, char *message, size_t size);
+/* Sets the pixels across; the height follows. 0 and why if no row is left, or they are too many. */
+int scene_resize(scene *s, int width, vndf_error *error);
 
 extern const char scene_grammar[];
 

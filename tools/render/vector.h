@@ -15,8 +15,7 @@ typedef struct vec3 {
 
 static inline vec3 vec(double x, double y, double z)
 {
-    const vec3 v = {x, y, z};
-    return v;
+    return (vec3){x, y, z};
 }
 
 static inline vec3 add(vec3 a, vec3 b)
@@ -78,21 +77,23 @@ static inline frame frame_about(vec3 z, vec3 to)
     if (!(dot(x, x) > 1e-12 * dot(to, to)))
         x = fabs(z.x) < 0.6 ? vec(z.y * z.y + z.z * z.z, -z.x * z.y, -z.x * z.z) : vec(-z.y, z.x, 0);
     x = unit(x);
-    const frame f = {x, cross(z, x), z};
-    return f;
+    return (frame){x, cross(z, x), z};
 }
 
-/* A unit vector, in float and unit again. */
-static inline vndf_vec3 to_frame(const frame *f, vec3 w)
+/* A vector of the frame, in the frame of the scene. */
+static inline vec3 out_of(const frame *f, vec3 w)
 {
-    const vec3 l = unit(vec(dot(f->x, w), dot(f->y, w), dot(f->z, w)));
-    const vndf_vec3 v = {(float)l.x, (float)l.y, (float)l.z};
-    return v;
+    return along(along(scale(f->z, w.z), w.y, f->y), w.x, f->x);
 }
 
-static inline vec3 from_frame(const frame *f, vndf_vec3 w)
+static inline vec3 widen(vndf_vec3 w)
 {
-    return unit(along(along(scale(f->z, (double)w.z), (double)w.y, f->y), (double)w.x, f->x));
+    return vec((double)w.x, (double)w.y, (double)w.z);
+}
+
+static inline vndf_vec3 narrow(vec3 w)
+{
+    return (vndf_vec3){(float)w.x, (float)w.y, (float)w.z};
 }
 
 #endif

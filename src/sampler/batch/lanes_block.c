@@ -498,7 +498,7 @@ HERE void put_sample(const block *b, const frames *at, int g, drawn n, real weig
 {
     frame f = at->f[g];
     f.m = map_at(b, g);
-    sampled s = frame_sampled(f, n);
+    sampled_normal s = frame_sampled(f, n);
     mask valid = b->valid[g];
     real zero = set(0.0f);
     store(to[0] + g * LANES, pick(valid, s.x, zero));

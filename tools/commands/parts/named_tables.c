@@ -14,7 +14,10 @@ int named_tables_open(const char *command, const words *files, int families, exp
             return 0;
         if (!chosen.owned && !chosen.family)
             return complain(command, "'%s' is a closed form: every kernel has it", file), 0;
-        if (!document_add(document, input_name(file), chosen.owned, chosen.family))
+        const int added = document_add(document, input_name(file), chosen.owned, chosen.family);
+        if (added < 0)
+            return complain(command, "no memory"), 0;
+        if (!added)
             return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
                             document->as.upper, document->table[i].name),
                    0;
@@ -23,7 +26,7 @@ int named_tables_open(const char *command, const words *files, int families, exp
                             file),
                    0;
     }
-    return document_fill(document) || (complain(command, "no memory"), 0);
+    return 1;
 }
 
 void named_tables_close(export_document *document)

@@ -9,7 +9,7 @@
 
 #include "evidence/methods/vector.h"
 
-enum { CELLS = 1024, FINE = 1 << 15 };
+enum { CELLS = 1024 };
 
 typedef struct radial_cdf {
     float y[CELLS + 1]; /* sin^2(theta_m) at masses j/CELLS */
@@ -33,63 +33,31 @@ static void each(const method *m, block *b, size_t first, size_t count)
     method_loop(draw, m, b, first, count);
 }
 
-static double ndf_at(const method_reference *reference, double y)
+/* sin^2(theta_m) of the normal that a part `mass` of D cos(theta_m) lies within. From straight above all normals are
+ * visible, and u2 is that part; but of Beckmann it moves one of two slopes. */
+static double sine2_at(const method_reference *reference, double mass)
 {
-    vndf_vec3 wm = {(float)sqrt(y), 0, (float)sqrt(1 - y)};
-    return (double)vndf_ndf(&reference->canonical, wm);
-}
-
-/* Edges for the midpoint rule in v with y = v^2 (3 - 2 v): finer at both ends, where peaks and tails are. */
-static double edge_of(int i)
-{
-    double v = (double)i / FINE;
-    return v * v * (3 - 2 * v);
-}
-
-/* Fills mass[i], the mass up to edge i. Returns the first edge with all of the mass: where D ends or vanishes,
- * or the horizon. */
-static int accumulate(const method_reference *reference, double *mass)
-{
-    int top = FINE;
-    mass[0] = 0;
-    for (int i = 0; i < FINE; i++) {
-        double low = edge_of(i), high = edge_of(i + 1);
-        mass[i + 1] = mass[i] + ndf_at(reference, 0.5 * (low + high)) * (high - low);
-    }
-    while (mass[top - 1] >= mass[FINE])
-        top--;
-    return top;
-}
-
-static void fill_cdf(radial_cdf *t, const double *mass, int top)
-{
-    int cell = 1;
-    for (int i = 0; i < top; i++)
-        for (; cell < CELLS && mass[i + 1] * CELLS >= mass[FINE] * cell; cell++) {
-            double part = (mass[FINE] * cell / CELLS - mass[i]) / (mass[i + 1] - mass[i]);
-            t->y[cell] = (float)(edge_of(i) + part * (edge_of(i + 1) - edge_of(i)));
-        }
-    t->y[0] = 0;
-    for (; cell <= CELLS; cell++)
-        t->y[cell] = (float)edge_of(top);
+    const vndf_surface *surface = &reference->canonical;
+    if (surface->distribution == vndf_beckmann())
+        return 1 / (1 + 1 / (-log1p(-mass) * (double)surface->alpha_x * (double)surface->alpha_x));
+    vndf_view view = vndf_view_from(surface, (vndf_vec3){0, 0, 1});
+    vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)mass, NULL);
+    return (double)wm.x * (double)wm.x + (double)wm.y * (double)wm.y;
 }
 
 method method_all_normals(const method_reference *reference)
 {
     radial_cdf *t = malloc(sizeof *t);
-    double *mass = t ? malloc((FINE + 1) * sizeof *mass) : NULL;
-    method m = {.name = "all normals (2007)",
-                .instructions = "scalar",
-                .kind = ROW_PUBLISHED,
-                .memory = sizeof *t,
-                .state = t,
-                .release = free,
-                .turned = 1};
-    if (mass) {
+    for (int j = 0; t && j <= CELLS; j++)
+        t->y[j] = (float)sine2_at(reference, (double)j / CELLS);
+    if (t)
         t->scale = reference->scale;
-        fill_cdf(t, mass, accumulate(reference, mass));
-        m.each = each;
-    }
-    free(mass);
-    return m;
+    return (method){.name = "all normals (2007)",
+                    .instructions = "scalar",
+                    .kind = ROW_PUBLISHED,
+                    .memory = sizeof *t,
+                    .state = t,
+                    .release = free,
+                    .each = t ? each : NULL,
+                    .turned = 1};
 }

@@ -6,14 +6,11 @@
 
 /* ---- one by one ---------------------------------------------------------------------------------- */
 
-static inline vndf_surface surface_of(const method *m, const method_input *in)
-{
-    return (vndf_surface){m->state, in->alpha, in->alpha};
-}
+static const float core = 0.7f, haze = 0.3f; /* of two lobes */
 
 static inline vndf_view view_of(const method *m, const method_input *in)
 {
-    vndf_surface surface = surface_of(m, in);
+    const vndf_surface surface = {m->state, in->alpha, in->alpha};
     return vndf_view_from(&surface, in->wi);
 }
 
@@ -39,27 +36,50 @@ static void shared(const method *m, block *b, size_t first, size_t count)
     method_shared_loop(draw, &view, b, first, count);
 }
 
+/* Turned, sheared, and with a mean slope. */
+static inline vndf_affine oblique(const method *m, float alpha)
+{
+    return (vndf_affine){m->state, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
+}
+
+/* The other calls, and the surfaces: a core and a haze three times as rough are the two lobes. */
+static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
+{
+    const vndf_surface surface = {m->state, in->alpha, in->alpha};
+    const float a = in->alpha, b = 3 * a;
+    vndf_vec3 wm = {0, 0, 0};
+    vndf_view view;
+    if (m->call == METHOD_NDF || m->call == METHOD_LAMBDA) {
+        *pdf = m->call == METHOD_NDF ? vndf_ndf(&surface, in->given) : vndf_lambda(&surface, in->wi);
+        return wm;
+    }
+    if (m->call == METHOD_TWO_LOBES) {
+        vndf_mixture mixture = {2, {{{m->state, a, 0, 0, a, 0, 0}, core}, {{m->state, b, 0, 0, b, 0, 0}, haze}}};
+        vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, in->wi);
+        return vndf_mixture_sample(&lobes, in->u[0], in->u[1], pdf, NULL);
+    }
+    if (m->call == METHOD_AFFINE) {
+        vndf_affine affine = oblique(m, a);
+        view = vndf_affine_view_from(&affine, in->wi);
+        return vndf_sample(&view, in->u[0], in->u[1], pdf);
+    }
+    view = vndf_view_from(&surface, in->wi);
+    *pdf = 0;
+    if (m->call == METHOD_PDF)
+        *pdf = vndf_pdf(&view, in->given);
+    else if (m->call == METHOD_INVERT)
+        vndf_invert(&view, in->given, &wm.x, &wm.y);
+    else {
+        float weight;
+        wm = vndf_sample_weight(&view, in->u[0], in->u[1], pdf, &weight);
+        *pdf *= weight;
+    }
+    return wm;
+}
+
 static void each_call(const method *m, block *b, size_t first, size_t count)
 {
-    for (size_t i = first; i < first + count; i++) {
-        const method_input *in = &b->in[i];
-        const vndf_surface surface = surface_of(m, in);
-        if (m->call == METHOD_NDF)
-            b->pdf[i] = vndf_ndf(&surface, in->given);
-        else if (m->call == METHOD_LAMBDA)
-            b->pdf[i] = vndf_lambda(&surface, in->wi);
-        if (m->call == METHOD_NDF || m->call == METHOD_LAMBDA)
-            continue;
-        vndf_view view = vndf_view_from(&surface, in->wi);
-        if (m->call == METHOD_PDF)
-            b->pdf[i] = vndf_pdf(&view, in->given);
-        else if (m->call == METHOD_INVERT)
-            vndf_invert(&view, in->given, &b->x[i], &b->y[i]);
-        else {
-            vndf_vec3 wm = vndf_sample_weight(&view, in->u[0], in->u[1], &b->pdf[i], &b->value[0][i]);
-            method_put(b, i, wm, b->pdf[i] * b->value[0][i]);
-        }
-    }
+    method_loop(one_call, m, b, first, count);
 }
 
 /* ---- batches of them ----------------------------------------------------------------------------- */
@@ -81,48 +101,6 @@ static void batch_each(const method *m, block *b, size_t first, size_t count)
     vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
 }
 
-static void batch_call(const method *m, block *b, size_t first, size_t count)
-{
-    const vndf_batch batch = batch_of(m, b, first, count);
-    const vndf_normals normals = {b->given[0] + first, b->given[1] + first, b->given[2] + first};
-    float *pdf = b->pdf + first;
-    switch (m->call) {
-    case METHOD_PDF: vndf_pdf_n(&batch, normals, pdf); break;
-    case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x + first, b->y + first); break;
-    case METHOD_NDF: vndf_ndf_n(&batch, normals, pdf); break;
-    case METHOD_LAMBDA: vndf_lambda_n(&batch, pdf); break;
-    default:
-        vndf_sample_weight_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), pdf, b->value[0] + first);
-        for (size_t i = first; i < first + count; i++)
-            b->pdf[i] *= b->value[0][i];
-    }
-}
-
-/* ---- affine surfaces ----------------------------------------------------------------------------- */
-
-static inline vndf_affine straight(const method *m, float alpha)
-{
-    return (vndf_affine){m->state, alpha, 0, 0, alpha, 0, 0};
-}
-
-/* Turned, sheared, and with a mean slope. */
-static inline vndf_affine oblique(const method *m, float alpha)
-{
-    return (vndf_affine){m->state, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
-}
-
-static inline vndf_vec3 one_affine(const method *m, const method_input *in, float *pdf)
-{
-    vndf_affine surface = oblique(m, in->alpha);
-    vndf_view view = vndf_affine_view_from(&surface, in->wi);
-    return vndf_sample(&view, in->u[0], in->u[1], pdf);
-}
-
-static void each_affine(const method *m, block *b, size_t first, size_t count)
-{
-    method_loop(one_affine, m, b, first, count);
-}
-
 /* Matrices are formed as the calls of one form theirs. */
 static void batch_affine(const method *m, block *b, size_t first, size_t count)
 {
@@ -133,28 +111,15 @@ static void batch_affine(const method *m, block *b, size_t first, size_t count)
         for (int k = 0; k < 6; k++)
             of[k][i] = number[k];
     }
-    const float *const wi[3] = {b->wi[0] + first, b->wi[1] + first, b->wi[2] + first};
-    vndf_affine_batch batch = {m->state, count, 0,     m->limit, of[0], of[1], of[2],
-                               of[3],    of[4], of[5], wi[0],    wi[1], wi[2]};
+    vndf_affine_batch batch = {
+        m->state,         count,           0, m->limit, of[0], of[1], of[2], of[3], of[4], of[5], b->wi[0] + first,
+        b->wi[1] + first, b->wi[2] + first};
     vndf_affine_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
-}
-
-/* A core and a haze three times as rough. */
-static inline vndf_vec3 one_lobes(const method *m, const method_input *in, float *pdf)
-{
-    vndf_mixture mixture = {2, {{straight(m, in->alpha), 0.7f}, {straight(m, 3 * in->alpha), 0.3f}}};
-    vndf_mixture_view view = vndf_mixture_view_from(&mixture, in->wi);
-    return vndf_mixture_sample(&view, in->u[0], in->u[1], pdf, NULL);
-}
-
-static void each_lobes(const method *m, block *b, size_t first, size_t count)
-{
-    method_loop(one_lobes, m, b, first, count);
 }
 
 static void batch_lobes(const method *m, block *b, size_t first, size_t count)
 {
-    float rough[BLOCK], core = 0.7f, haze = 0.3f;
+    float rough[BLOCK];
     const float *alpha = b->alpha + first;
     for (size_t i = 0; i < count; i++)
         rough[i] = 3 * alpha[i];
@@ -164,26 +129,37 @@ static void batch_lobes(const method *m, block *b, size_t first, size_t count)
                                 .lobes = 2,
                                 .wi_x = b->wi[0] + first,
                                 .wi_y = b->wi[1] + first,
-                                .wi_z = b->wi[2] + first};
-    batch.lobe[0] = (vndf_lobe_batch){m->state, alpha, NULL, NULL, alpha, NULL, NULL, &core};
-    batch.lobe[1] = (vndf_lobe_batch){m->state, rough, NULL, NULL, rough, NULL, NULL, &haze};
+                                .wi_z = b->wi[2] + first,
+                                .lobe = {{m->state, alpha, NULL, NULL, alpha, NULL, NULL, &core},
+                                         {m->state, rough, NULL, NULL, rough, NULL, NULL, &haze}}};
     vndf_mixture_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first, NULL);
+}
+
+static void batch_call(const method *m, block *b, size_t first, size_t count)
+{
+    const vndf_batch batch = batch_of(m, b, first, count);
+    const vndf_normals normals = {b->given[0] + first, b->given[1] + first, b->given[2] + first};
+    float *pdf = b->pdf + first;
+    switch (m->call) {
+    case METHOD_PDF: vndf_pdf_n(&batch, normals, pdf); break;
+    case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x + first, b->y + first); break;
+    case METHOD_NDF: vndf_ndf_n(&batch, normals, pdf); break;
+    case METHOD_LAMBDA: vndf_lambda_n(&batch, pdf); break;
+    case METHOD_AFFINE: batch_affine(m, b, first, count); break;
+    case METHOD_TWO_LOBES: batch_lobes(m, b, first, count); break;
+    default:
+        vndf_sample_weight_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), pdf, b->value[0] + first);
+        for (size_t i = first; i < first + count; i++)
+            b->pdf[i] *= b->value[0][i];
+    }
 }
 
 /* ---- methods ------------------------------------------------------------------------------------- */
 
-static const struct {
-    const char *name;
-    method_run *each, *shared, *batch;
-} calls[METHOD_CALLS] = {
-    [METHOD_SAMPLE] = {"", each, shared, batch_each},
-    [METHOD_WEIGHT] = {": weight", each_call, NULL, batch_call},
-    [METHOD_PDF] = {": pdf", each_call, NULL, batch_call},
-    [METHOD_INVERT] = {": invert", each_call, NULL, batch_call},
-    [METHOD_NDF] = {": ndf", each_call, NULL, batch_call},
-    [METHOD_LAMBDA] = {": lambda", each_call, NULL, batch_call},
-    [METHOD_AFFINE] = {": affine", each_affine, NULL, batch_affine},
-    [METHOD_TWO_LOBES] = {": mixture", each_lobes, NULL, batch_lobes},
+static const char *const calls[METHOD_CALLS] = {
+    [METHOD_SAMPLE] = "",         [METHOD_WEIGHT] = ": weight",     [METHOD_PDF] = ": pdf",
+    [METHOD_INVERT] = ": invert", [METHOD_NDF] = ": ndf",           [METHOD_LAMBDA] = ": lambda",
+    [METHOD_AFFINE] = ": affine", [METHOD_TWO_LOBES] = ": mixture",
 };
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
@@ -199,13 +175,14 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
                 .state = d,
                 .call = call,
                 .limit = limit};
-    snprintf(m.name, sizeof m.name, "%s%s%s", name, calls[call].name, limit ? ", batch" : "");
+    snprintf(m.name, sizeof m.name, "%s%s%s", name, calls[call], limit ? ", batch" : "");
+    method_run *one_by_one = call == METHOD_SAMPLE ? each : each_call;
     if (limit == VNDF_INSTRUCTIONS_BEST) {
-        m.each = calls[call].each;
-        m.shared = calls[call].shared;
+        m.each = one_by_one;
+        m.shared = call == METHOD_SAMPLE ? shared : NULL;
     } else if (vndf_instructions_used(limit) == limit) {
-        m.each = calls[call].batch;
-        m.same_bits = calls[call].each;
+        m.each = call == METHOD_SAMPLE ? batch_each : batch_call;
+        m.same_bits = one_by_one;
     }
     return m;
 }

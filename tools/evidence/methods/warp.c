@@ -29,18 +29,9 @@ typedef struct warp {
 
 static double density_at(const vndf_view *view, double p, double q)
 {
-    const double pi = acos(-1.0);
-    double theta = p * p * pi / 2, phi = (2 * q - 1) * pi;
+    const double pi = acos(-1.0), theta = p * p * pi / 2, phi = (2 * q - 1) * pi;
     vndf_vec3 wm = {(float)(sin(theta) * cos(phi)), (float)(sin(theta) * sin(phi)), (float)fmax(cos(theta), 0)};
     return (double)vndf_visible(view, wm) * 2 * pi * pi * p * sin(theta);
-}
-
-/* On the horizon a density may be infinite though integrable, so it is at most twice the density half a cell
- * inside. */
-static double node_at(const vndf_view *view, double p, double q, double cell)
-{
-    double density = density_at(view, p, q);
-    return p + 0.5 * cell < 1 ? density : fmin(density, 2 * density_at(view, p - 0.5 * cell, q));
 }
 
 /* Integrals of a row's interpolant, with nodes 1/(SIDE - 1) apart. */
@@ -54,21 +45,27 @@ static void accumulate(const float value[SIDE], float sum[SIDE])
     }
 }
 
+/* On the horizon a density may be infinite though integrable, so it is at most twice the density half a cell
+ * inside. */
 static void fill_slice(warp *w, const method_reference *reference, size_t slice)
 {
     const double theta = acos(-1.0) / 2 * (double)slice / (SLICES - 1), cell = 1.0 / (SIDE - 1);
     float *density = w->density[slice], *conditional = w->conditional[slice], *marginal = w->marginal[slice];
     float rows[SIDE];
-    vndf_vec3 wi = {(float)sin(theta), 0, slice == SLICES - 1 ? 0 : (float)cos(theta)};
-    vndf_view view = vndf_view_from(&reference->canonical, wi);
+    const vndf_vec3 wi = {(float)sin(theta), 0, slice == SLICES - 1 ? 0 : (float)cos(theta)};
+    const vndf_view view = vndf_view_from(&reference->canonical, wi);
     for (size_t i = 0; i < SIDE; i++) {
-        for (size_t j = 0; j < SIDE; j++)
-            density[i * SIDE + j] = (float)node_at(&view, (double)i * cell, (double)j * cell, cell);
+        for (size_t j = 0; j < SIDE; j++) {
+            double at = density_at(&view, (double)i * cell, (double)j * cell), most = INFINITY;
+            if (i == SIDE - 1)
+                most = 2 * density_at(&view, 1 - 0.5 * cell, (double)j * cell);
+            density[i * SIDE + j] = (float)fmin(at, most);
+        }
         accumulate(density + i * SIDE, conditional + i * SIDE);
         rows[i] = conditional[i * SIDE + SIDE - 1];
     }
     accumulate(rows, marginal);
-    float per_total = 1.0f / marginal[SIDE - 1];
+    const float per_total = 1.0f / marginal[SIDE - 1];
     for (size_t i = 0; i < SIDE * SIDE; i++) {
         density[i] *= per_total;
         conditional[i] *= per_total;

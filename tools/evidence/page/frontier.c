@@ -78,7 +78,7 @@ static void fill(plot *p, const report *r)
         for (int moments = 2; moments <= 4; moments++)
             add_rows(p, r, ROW_TABLE, moments, is_batch);
     }
-    begin_series(p, 6, CHART_RING, CHART_NO_LINE);
+    begin_series(p, 3, CHART_RING, CHART_NO_LINE);
     add_point(p, s->ns[s->chosen], tv, "advised");
     add_point(p, s->batch[s->chosen], tv, "advised");
 }
@@ -93,10 +93,10 @@ int report_frontier(html_page *page, const report *r)
     fill(&p, r);
     snprintf(title, sizeof title, "Tables of %s beside other methods", r->subject[0].of.name);
     snprintf(batch, sizeof batch, "in a batch, %s", r->batch);
-    const chart_key key[] = {{.text = "tables of vndf", .colour = 7, .mark = CHART_DOT},
-                             {.text = "its closed forms", .colour = 7, .mark = CHART_SQUARE},
-                             {.text = "published methods", .colour = 7, .mark = CHART_TRIANGLE},
-                             {.text = "advised", .colour = 6, .mark = CHART_RING},
+    const chart_key key[] = {{.text = "tables of vndf", .colour = 4, .mark = CHART_DOT},
+                             {.text = "its closed forms", .colour = 4, .mark = CHART_SQUARE},
+                             {.text = "published methods", .colour = 4, .mark = CHART_TRIANGLE},
+                             {.text = "advised", .colour = 3, .mark = CHART_RING},
                              {.text = "one by one", .colour = 0},
                              {.text = batch, .colour = 1}};
     chart c = {.title = title,

@@ -9,6 +9,7 @@ const HEAD = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+precision highp samplerCube;
 uniform sampler2D numbers;
 #define VNDF_FETCH(i) texelFetch(numbers, ivec2((i) & ${COLUMNS - 1}, (i) >> 10), 0).r
 `;
@@ -27,20 +28,26 @@ function openGl() {
 function makeTexture(format, width, height, values) {
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
-  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+  for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER])
+    gl.texParameteri(gl.TEXTURE_2D, name, format === gl.RGBA16F ? gl.LINEAR : gl.NEAREST);
   for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
   gl.texImage2D(gl.TEXTURE_2D, 0, format, width, height, 0, format === gl.R32F ? gl.RED : gl.RGBA, gl.FLOAT, values);
   return texture;
 }
 
-// The tables' numbers: little-endian floats in base64.
+// Little-endian floats in base64.
+function floatsOf(id) {
+  const bytes = Uint8Array.from(atob(textOf(id).replace(/\s+/g, "")), (c) => c.charCodeAt(0));
+  const view = new DataView(bytes.buffer);
+  return Float32Array.from({length: bytes.length / 4}, (_, i) => view.getFloat32(4 * i, true));
+}
+
 function tableTexture() {
-  const bytes = Uint8Array.from(atob(textOf("numbers").replace(/\s+/g, "")), (c) => c.charCodeAt(0));
-  const view = new DataView(bytes.buffer), rows = Math.ceil(bytes.length / 4 / COLUMNS);
+  const given = floatsOf("numbers"), rows = Math.ceil(given.length / COLUMNS);
   if (rows > gl.getParameter(gl.MAX_TEXTURE_SIZE))
     throw new Trouble("These tables are too large for a texture of this browser: make the page with fewer of them.");
-  const numbers = Float32Array.from({length: COLUMNS * rows}, (_, i) =>
-    4 * i < bytes.length ? view.getFloat32(4 * i, true) : 0);
+  const numbers = new Float32Array(COLUMNS * rows);
+  numbers.set(given);
   return makeTexture(gl.R32F, COLUMNS, rows, numbers);
 }
 
@@ -73,9 +80,9 @@ function use({program, kinds}, values) {
   for (const [name, value] of Object.entries(values)) {
     if (!kinds.has(name)) continue;
     const [place, kind] = kinds.get(name);
-    if (kind === gl.SAMPLER_2D) {
+    if (kind === gl.SAMPLER_2D || kind === gl.SAMPLER_CUBE) {
       gl.activeTexture(gl.TEXTURE0 + value[0]);
-      gl.bindTexture(gl.TEXTURE_2D, value[1]);
+      gl.bindTexture(kind === gl.SAMPLER_2D ? gl.TEXTURE_2D : gl.TEXTURE_CUBE_MAP, value[1]);
       gl.uniform1i(place, value[0]);
     } else if (kind === gl.INT || kind === gl.BOOL) gl.uniform1i(place, value);
     else if (kind === gl.FLOAT) gl.uniform1f(place, value);

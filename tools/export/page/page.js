@@ -1,7 +1,8 @@
 // ---- the page -------------------------------------------------------------------------------------
 
 let tables, programs, targets;
-const spheres = ["a", "b"].map((name) => ({name, canvas: byId(`sphere-${name}`), targets: [], drawn: 0, size: 0}));
+const spheres = ["a", "b"].map((name) => ({name, canvas: byId(`sphere-${name}`), targets: [], drawn: 0, size: 0,
+  program: "sphere", tells: {}}));
 let says = {}; // what was measured
 let stale = true;
 
@@ -13,10 +14,15 @@ function makePage() {
   openGl();
   const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"];
   programs = {show: makeProgram(screen, ["show.glsl"]),
-              sphere: makeProgram(screen, [...sampling, "sphere.glsl"]),
+              sphere: makeProgram(screen, [...sampling, "light.glsl", "sphere.glsl"]),
               dots: makeProgram([...sampling, "dots.vert.glsl"], ["dots.glsl"])};
   for (const name of ["heat", "samples", "integral", "curve"])
     programs[name] = makeProgram(screen, [...sampling, `${name}.glsl`]);
+  if (scenes.length > 0) {
+    programs.engines = makeProgram(screen, [...sampling, "light.glsl", "engines.glsl"]);
+    programs.cube = makeProgram(screen, ["kernel", "surface.glsl", "light.glsl", "cube.glsl"]);
+    programs.difference = makeProgram(screen, ["difference.glsl"]);
+  }
   targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1), curve: makeTarget(POINTS, 1, 1)};
   tables = tableTexture();
 }
@@ -66,6 +72,7 @@ function tell() {
                   kept: samples.kept, light: mean, spread, light_faults: faults};
     for (const [what, value] of Object.entries(told)) all[`${sphere.name}_${what}`] = value;
   }
+  for (const {name, pictures} of scenes) all[`${name}_error`] = pictures.error;
   document.documentElement.dataset.measured = JSON.stringify(all);
 }
 
@@ -95,13 +102,14 @@ function run() {
   const changed = (anew) => {
     stale = true;
     settings.frames = 0;
-    if (anew) for (const sphere of spheres) sphere.drawn = 0;
+    if (anew) for (const picture of [...spheres, ...scenes.flatMap(({pictures}) => pictures)]) picture.drawn = 0;
     writeAddress();
   };
   const frame = () => attempt(() => {
     if (gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
     if (stale) drawStill();
     drawSpheres();
+    drawEngines(1);
     requestAnimationFrame(frame);
   });
   listen(changed);
@@ -116,6 +124,7 @@ function run() {
   if (settings.frames > 0) {
     drawStill();
     drawSpheres();
+    drawEngines(settings.frames);
     tell();
   }
   requestAnimationFrame(frame);

@@ -4,7 +4,7 @@ const LIGHTS = ["sky", "studio", "lamp", "white"], MATERIALS = ["gold", "copper"
 const LEAST_ALPHA = 0.02;
 
 const settings = {a: 0, b: -1, alpha: [0.2, 0.2], turn: 0, theta: 60, material: "gold", light: "sky", around: 0,
-                  whole: false, dots: true, tied: true, median: false, frames: 0};
+                  whole: false, dots: true, tied: true, median: false, engine: "own", frames: 0};
 
 // A slider goes over equal ratios of alpha.
 const alphaAt = (place) => LEAST_ALPHA * Math.pow(1 / LEAST_ALPHA, place);
@@ -27,6 +27,7 @@ function readAddress() {
     if ("ab".includes(name) && choices.has(text.toLowerCase())) settings[name] = choices.get(text.toLowerCase());
     if (["median", "whole", "dots"].includes(name)) settings[name] = name === "dots" ? text !== "0" : text === "1";
     if ({material: MATERIALS, light: LIGHTS}[name]?.includes(text)) settings[name] = text;
+    if (name === "engine") settings.engine = text === "ggx" ? "-1" : "own";
     if (name === "alpha") {
       const [x, y = x] = text.split(",");
       settings.alpha = [x, y].map((text, i) => number(text, LEAST_ALPHA, 1, settings.alpha[i]));
@@ -36,9 +37,10 @@ function readAddress() {
 }
 
 function writeAddress() {
-  const {a, b, alpha, turn, theta, around, material, light, median, whole, dots} = settings;
+  const {a, b, alpha, turn, theta, around, material, light, median, whole, dots, engine} = settings;
   const words = {a: nameOf(a), b: nameOf(b), alpha: alpha.join(","), turn, theta, around: Math.round(around), material,
-                 light, median: Number(median), whole: Number(whole), dots: Number(dots)};
+                 light, median: Number(median), whole: Number(whole), dots: Number(dots),
+                 engine: engine === "own" ? engine : "ggx"};
   const text = Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
   try {
     history.replaceState(null, "", "#" + text.replace(/%2C/g, ","));
@@ -57,6 +59,7 @@ function showSettings() {
     byId(`${name}-says`).textContent = `${settings[name]}°`;
   }
   for (const name of ["material", "light"]) byId(name).value = settings[name];
+  if (byId("baked-for")) byId("baked-for").value = settings.engine;
   for (const name of ["tied", "median", "whole", "dots"]) byId(name).checked = settings[name];
   for (const name of ["a", "b"]) byId(`choice-${name}`).value = settings[name];
 }
@@ -76,6 +79,7 @@ function listen(changed) {
   for (const name of ["tied", "median", "whole", "dots"])
     on(name, name === "tied" || name === "median", ({checked}) => { settings[name] = checked; });
   for (const name of ["turn", "theta"]) on(name, name === "turn", ({value}) => { settings[name] = Number(value); });
+  if (byId("baked-for")) on("baked-for", true, ({value}) => { settings.engine = value; });
   for (const name of ["material", "light"]) on(name, true, ({value}) => { settings[name] = value; });
 }
 

@@ -32,12 +32,12 @@ function fitSphere(sphere, size) {
   sphere.drawn = 0;
 }
 
-// One more sample of each pixel.
+// One more sample of each pixel of a sphere, or of what an engine makes of one.
 function refineSphere(sphere, surface) {
   const {size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
   const steps = Object.fromEntries(Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]));
   const from = sphere.targets[n % 2], to = sphere.targets[1 - n % 2];
-  use(programs.sphere, {...surface, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
+  use(programs[sphere.program], {...surface, ...sphere.tells, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
     around: settings.around * Math.PI / 180, before: [1, from.textures[0]], first: n === 0, size: [size, size],
     ...steps});
   fill(to);

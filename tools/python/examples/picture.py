@@ -19,7 +19,7 @@ samples = int(sys.argv[3]) if len(sys.argv) > 3 else 64
 slope = np.linspace(0.0, 6.0, 200)
 table = vndf.build(vndf.Source.rows(slope=slope, p22=np.exp(-3 * slope) * (1 + 0.8 * np.cos(6 * slope))))
 print(table, "total variation", table.certificate.tv)
-gold = vndf.Material(table, 0.3, fresnel="conductor", eta=(0.14, 0.37, 1.44), k=(3.98, 2.39, 1.60))
+gold = vndf.Material(vndf.Surface(table, 0.3), fresnel="conductor", eta=(0.14, 0.37, 1.44), k=(3.98, 2.39, 1.60))
 
 
 def sky(w):

@@ -6,17 +6,17 @@ contiguous array: directions have shape (3, ...). What follows broadcasts.
 from __future__ import annotations
 
 import math
-from typing import Any, Callable, Optional, Union
+from typing import Any, Callable
 
 import numpy as np
 import numpy.typing as npt
+
+from ._library import constant
 
 #: what results are
 Floats = npt.NDArray[np.float32]
 #: what arguments may be: numbers, sequences, arrays
 Numbers = npt.ArrayLike
-Generator = Union[None, int, np.random.Generator]  # a number is the seed of one
-Size = Union[None, int, tuple[int, ...]]
 
 
 def stacked(values: Any) -> Floats:
@@ -38,14 +38,10 @@ def components(values: Any, count: int, name: str) -> Floats:
     return array
 
 
-def uniform(u: Any, count: int, rng: Generator, size: Size, shape: Callable[[], Any]) -> Floats:
-    """`count` uniform numbers for each element: those of u, in [0, 1], or drawn from `rng` for an array of this size
-    (a number or a tuple; None: of `shape()`)."""
-    if (u is None) == (rng is None) or (u is not None and size is not None):
-        raise TypeError("a sample takes u, or rng=numpy.random.default_rng() and size=")
-    if rng is not None:
-        axes = shape() if size is None else tuple(np.atleast_1d(size))
-        return np.random.default_rng(rng).random((count, *axes), dtype=np.float32)
+def uniform(u: Any, count: int, shape: Callable[[], Any]) -> Floats:
+    """`count` uniform numbers for each element: those of u, in [0, 1], or of shape() where u is a generator."""
+    if isinstance(u, np.random.Generator):
+        return u.random((count, *shape()), dtype=np.float32)
     numbers = components(u, count, "u")
     few = numbers.ravel().tolist() if numbers.size < 10 else [numbers.min(), numbers.max()]  # quick for one element
     if not all(0 <= number <= 1 for number in few):  # false for NaN, which min() keeps
@@ -72,6 +68,11 @@ class Batch:
         """One number for each component serves all elements."""
         array = self.groups[name]
         return bool(array.size == len(array))
+
+    def shared(self) -> int:
+        """The same of all groups, as C takes it."""
+        bits = {"shape": "VNDF_SHARED_ALPHA", "wi": "VNDF_SHARED_WI", "weight": "VNDF_SHARED_WEIGHT"}
+        return sum(constant(bit) for name, bit in bits.items() if name in self.groups and self.is_shared(name))
 
     def whole(self, name: str) -> Floats:
         """A group of the whole shape."""

@@ -1,34 +1,24 @@
-"""The C library: its structs, its functions and its errors. The rest of the package knows no ctypes type but these.
-
-The structs repeat vndf.h, vndf_build.h and vndf_bsdf.h; tests/python/layout.py has a C compiler compare
-size and members. Pointers are plain addresses (c_void_p), which is the quickest way to hand over an array of numpy.
-"""
+"""The C library: its structs, functions and words, as its headers declare them; and its errors. The rest of the package
+knows no types of C. Pointers are plain addresses, the quickest way to hand over an array of numpy."""
 from __future__ import annotations
 
+import collections
 import ctypes
 import enum
+import functools
 import os
 import pathlib
+import re
 import sys
 from ctypes import byref
-from typing import TYPE_CHECKING, Any
-
-from ._version import __version__
+from typing import TYPE_CHECKING, Any, Callable
 
 if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-class Status(enum.IntEnum):
-    """Why a call failed (vndf_status)."""
-
-    ARGUMENT = 1  #: an argument is outside its stated range, or the call was interrupted
-    MEMORY = 2  #: no memory
-    IO = 3  #: a file cannot be opened, read or written
-    TABLE = 4  #: the bytes are not a table that this version reads
-    SYNTAX = 5  #: an expression, CSV or family name cannot be read
-    DISTRIBUTION = 6  #: the input cannot be the normals of a microsurface
-    TARGET = 7  #: no table meets the accuracy or size asked for
+#: Why a call failed (vndf_status).
+Status = enum.IntEnum("Status", "ARGUMENT MEMORY IO TABLE SYNTAX DISTRIBUTION TARGET")
 
 
 class Error(Exception):
@@ -42,168 +32,121 @@ class Error(Exception):
         return Error, (str(self), self.status)
 
 
-# ---- structs and functions --------------------------------------------------------------------------------------
+# ---- the headers ------------------------------------------------------------------------------------------------
 
-_TYPES: dict[str, Any] = {
-    "none": None, "pointer": ctypes.c_void_p, "text": ctypes.c_char_p, "size": ctypes.c_size_t, "int": ctypes.c_int,
-    "unsigned": ctypes.c_uint, "float": ctypes.c_float, "double": ctypes.c_double,
+_HERE = pathlib.Path(__file__).resolve().parent
+_PLAIN = {
+    "void": None, "char": ctypes.c_char, "int": ctypes.c_int, "unsigned": ctypes.c_uint, "float": ctypes.c_float,
+    "double": ctypes.c_double, "size_t": ctypes.c_size_t,
 }  # fmt: skip
 
 
-def _struct(name: str, members: str) -> Any:
-    """A ctypes structure, called `name` in C. `members` is "type name name[count] ...; type name ..."."""
-    fields: list[Any] = []
-    for line in members.split(";"):
-        kind, *names = line.split()
-        for member in names:
-            plain, _, count = member.rstrip("]").partition("[")
-            fields.append((plain, _TYPES[kind] * int(count) if count else _TYPES[kind]))
-    _TYPES[name] = type(name, (ctypes.Structure,), {"_fields_": fields})
-    return _TYPES[name]
+def _declarations() -> str:
+    """The headers without comments: those of the installed package, or of the checkout around this folder."""
+    folder = next((f for f in (_HERE / "include", _HERE.parents[2] / "include") if f.is_dir()), _HERE)
+    names = ("vndf.h", "vndf_build.h", "vndf_bsdf.h")
+    return re.sub(r"/\*.*?\*/", " ", "".join((folder / name).read_text() for name in names), flags=re.S)
 
 
-MIXTURE_LOBES = 8
-WAVELENGTHS = 4
-SHARED_ALPHA, SHARED_WI, SHARED_WEIGHT = 1, 2, 4
+_text = _declarations()
+VERSION: str = re.findall(r'define VNDF_VERSION "(.*)"', _text)[0]
 
-progress_function = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_char_p, ctypes.c_void_p)
-density_function = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double, ctypes.c_void_p)
-_TYPES.update(progress=progress_function, density=density_function, char=ctypes.c_char)
 
-vndf_error = _struct("vndf_error", "int status; char message[512]")
-vndf_certificate = _struct(
-    "vndf_certificate",
-    "float tv tv_theta tv_above tv_above_theta max_weight weight_bounded area_error consistency ndf_error hidden finest "
-    "horizon_power",
-)
-vndf_info = _struct(
-    "vndf_info",
-    "text source tool; size bytes memory cells; int moments; double normalization scale; vndf_certificate certificate",
-)
-vndf_normals = _struct("vndf_normals", "pointer x y z")
-vndf_batch = _struct(
-    "vndf_batch", "pointer distribution; size count; unsigned shared; int limit; pointer alpha_x alpha_y wi_x wi_y wi_z"
-)
-vndf_affine_batch = _struct(
-    "vndf_affine_batch",
-    "pointer distribution; size count; unsigned shared; int limit; "
-    "pointer xx xy yx yy mean_x mean_y wi_x wi_y wi_z",
-)
-vndf_lobe_batch = _struct("vndf_lobe_batch", "pointer distribution xx xy yx yy mean_x mean_y weight")
-vndf_mixture_batch = _struct(
-    "vndf_mixture_batch",
-    "size count; unsigned shared; int limit; pointer wi_x wi_y wi_z; int lobes; vndf_lobe_batch lobe[8]",
-)
-vndf_affine = _struct("vndf_affine", "pointer distribution; float xx xy yx yy mean_x mean_y")
-vndf_mixture_lobe = _struct("vndf_mixture_lobe", "vndf_affine surface; float weight")
-vndf_mixture = _struct("vndf_mixture", "int count; vndf_mixture_lobe lobe[8]")
-vndf_family_facts = _struct(
-    "vndf_family_facts",
-    "text source tool; size bytes memory count; float low high; int reciprocal; float distance grazing",
-)
-vndf_parameter = _struct("vndf_parameter", "text name; double value")
-vndf_build_options = _struct(
-    "vndf_build_options",
-    "size max_bytes; double max_tv; progress progress; pointer progress_user breaks; size break_count; double finest; "
-    "int moments",
-)
-vndf_family_options = _struct(
-    "vndf_family_options",
-    "double max_distance; size knots max_bytes; int moments; progress progress; pointer progress_user",
-)
-vndf_effects = _struct("vndf_effects", "int lobes fresnel masking normals scattering transport shape reflection")
-vndf_description = _struct(
-    "vndf_description",
-    "pointer distribution; vndf_effects effects; float alpha_x alpha_y rotation; vndf_affine affine; pointer mixture; "
-    "int wavelengths; pointer albedo; float eta f0[4] conductor_eta[4] conductor_k[4]; unsigned order_limit",
-)
-vndf_material = _struct("vndf_material", "vndf_description is; double own[14]")  # own: private
-vndf_bsdf_batch = _struct(
-    "vndf_bsdf_batch",
-    "pointer material; size count; unsigned shared; int limit; "
-    "pointer alpha_x alpha_y cos_rotation sin_rotation affine mixture wi_x wi_y wi_z",
-)
-vndf_scattered_n = _struct(
-    "vndf_scattered_n", "vndf_normals wo; pointer weight[4] density lobe; vndf_normals wm"
-)
+@functools.lru_cache(None)
+def constant(name: str) -> int:
+    """A number of an enum."""
+    return int(re.findall(rf"\b{name} = (\d+)", _text)[0])
 
-#: names in C without "vndf_", by their types: the result, then arguments; an error comes last
-_FUNCTIONS = {
-    "pointer": "ggx beckmann",
-    "text": "version family_help",
-    "none pointer": "free family_free source_free albedo_free",
-    "vndf_info pointer": "distribution_info",
-    "vndf_family_facts pointer": "family_info",
-    "text pointer": "source_description",
-    "text size": "family_material",
-    "float pointer size": "family_parameter",
-    "pointer pointer size": "family_distribution",
-    "float pointer float float": "albedo_directional",
-    "float pointer float int": "albedo_average",
-    "double pointer double": "source_p22",
-    "size pointer pointer size": "numbers",
-    "int pointer float pointer pointer": "family_at",
-    "pointer text error": "load family_load source_csv_file source_family",
-    "pointer pointer size error": "load_memory family_load_memory",
-    "pointer pointer pointer size error": "family_of",
-    "pointer pointer error": "source_of",
-    "pointer pointer float error": "albedo_build",
-    "pointer text pointer size error": "source_ndf_expression source_slope_expression",
-    "pointer density pointer text error": "source_ndf_callback source_slope_callback",
-    "pointer int int pointer pointer size text error": "source_rows",
-    "pointer pointer pointer pointer error": "build",
-    "pointer text double double pointer error": "build_family",
-    "int pointer pointer error": "material_resolve",
-    "int pointer pointer pointer error": "certify",
-    "int pointer text error": "save family_save",
-    "int pointer pointer size error": "save_memory family_save_memory",
-    "none pointer pointer": "{}projected_area_n {}lambda_n {}g1_n",
-    "none pointer vndf_normals pointer": "{}pdf_n {}visible_n {}ndf_n bsdf_pdf_n",
-    "none pointer pointer pointer vndf_normals pointer": "sample_n affine_sample_n",
-    "none pointer pointer pointer vndf_normals pointer pointer": "sample_weight_n affine_sample_weight_n mixture_sample_n",
-    "none pointer vndf_normals pointer pointer": "invert_n affine_invert_n bsdf_eval_n",
-    "none pointer vndf_normals pointer pointer pointer": "bsdf_eval_pdf_n",
-    "none pointer vndf_normals pointer pointer pointer pointer": "mixture_invert_n",
-    "none pointer pointer vndf_scattered_n": "bsdf_sample_n",
-}
-_TYPES["error"] = ctypes.POINTER(vndf_error)
+
+def words(name: str) -> list[str]:
+    """Those of an enum, without what all of them begin with: "v-cavities" of VNDF_MASKING_V_CAVITIES."""
+    body = re.findall(rf"typedef enum {name} {{([^}}]*)}}", _text)[0]
+    return [word.split("_", 2)[2].lower().replace("_", "-") for word in re.findall(r"\w+", body)]
+
+
+def _declared(text: str, argument: bool = False) -> list[tuple[str, Any]]:
+    """Name and type of each of `const float *x, *y` or `float weight[4]`; as an argument an array is an address."""
+    inner = re.fullmatch(r"\s*struct {(.*)} (\w+)\s*", text, re.S)
+    if inner:
+        return [(inner[2], _structure(inner[2], inner[1]))]
+    base, rest = re.findall(r"^\s*(?:const |struct )*(\w+)(.*)", text, re.S)[0]
+    found = []
+    for one in rest.replace("const", "").split(","):
+        stars, name, count = re.findall(r"([\s*]*)(\w*)(?:\[(\w+)\])?", one)[0]
+        kind = pointer(base) if "*" in stars or (argument and count) else struct(base)
+        if count and not argument:
+            kind = kind * (int(count) if count.isdigit() else constant(count))
+        found.append((name, kind))
+    return found
+
+
+def _arguments(text: str) -> list[Any]:
+    return [] if text == "void" else [_declared(one, argument=True)[0][1] for one in text.split(",")]
+
+
+def _structure(name: str, body: str) -> Any:
+    parts = re.findall(r"((?:struct {.*?}|[^;{])+);", body, re.S)
+    return type(name, (ctypes.Structure,), {"_fields_": [one for part in parts for one in _declared(part)]})
+
+
+def pointer(base: str) -> Any:
+    """The type of what points to a text, to a function that C calls, or to anything else: a plain address."""
+    called = re.findall(rf"typedef (\w+) {base}\((.*?)\);", _text, re.S)
+    if called:
+        return ctypes.CFUNCTYPE(struct(called[0][0]), *_arguments(called[0][1]))
+    return ctypes.c_char_p if base == "char" else ctypes.c_void_p
+
+
+@functools.lru_cache(None)
+def struct(name: str) -> Any:
+    """The type of a number, an enum, or a struct, which members by name or in their order fill."""
+    if name in _PLAIN:
+        return _PLAIN[name]
+    if f"typedef enum {name} " in _text:
+        return ctypes.c_int
+    return _structure(name, re.findall(rf"typedef struct {name} {{(.*?)}} {name};", _text, re.S)[0])
+
+
+def record(name: str, called: str) -> Any:
+    """A class of tuples that have the members of a struct; :func:`values` fills them."""
+    return collections.namedtuple(called, [member for member, _ in struct(name)._fields_], module="vndf")
+
+
+def values(filled: Any) -> list[Any]:
+    """The members of a struct as Python values."""
+    members = [getattr(filled, member) for member, _ in filled._fields_]
+    return [member.decode() if isinstance(member, bytes) else member for member in members]
+
+
+# ---- the library ------------------------------------------------------------------------------------------------
 
 
 def _path() -> str:
     """VNDF_LIBRARY, or the library that was installed with the package."""
+    path = _HERE / {"win32": "vndf.dll", "darwin": "libvndf.dylib"}.get(sys.platform, "libvndf.so")
     named = os.environ.get("VNDF_LIBRARY")
-    if named:
-        return named
-    name = {"win32": "vndf.dll", "darwin": "libvndf.dylib"}.get(sys.platform, "libvndf.so")
-    path = pathlib.Path(__file__).with_name(name)
-    if not path.exists():
-        raise ImportError(
-            f"{path} is not there: install the package with pip, which builds the C library, "
-            "or name a library in the environment variable VNDF_LIBRARY"
-        )
-    return str(path)
+    if not named and not path.exists():
+        raise ImportError(f"{path} is not there: install the package with pip, or name a library in VNDF_LIBRARY")
+    return named or str(path)
 
 
 class _Library:
     """The functions by their names in C, without "vndf_"."""
 
     def __init__(self) -> None:
-        path = _path()
-        dll = ctypes.CDLL(path)
-        dll.vndf_version.restype = ctypes.c_char_p
-        version = dll.vndf_version().decode()
-        if version != __version__:
-            raise ImportError(f"{path} is version {version}, but this package is for version {__version__}")
-        for types, names in _FUNCTIONS.items():
-            result, *arguments = (_TYPES[kind] for kind in types.split())
-            of_all = {name.format(prefix) for name in names.split() for prefix in ("", "affine_", "mixture_")}
-            for name in of_all:
-                function = dll["vndf_" + name]
-                function.restype, function.argtypes = result, arguments
-                setattr(self, name, function)
+        self._dll = ctypes.CDLL(_path())
+        is_version = self.version().decode()
+        if is_version != VERSION:
+            raise ImportError(f"{_path()} is version {is_version}, but this package is for version {VERSION}")
 
-    def __getattr__(self, name: str) -> Any:  # for type checkers: all functions are set above
-        raise AttributeError(name)
+    def __getattr__(self, name: str) -> Any:  # once for each
+        declared = re.findall(rf"VNDF_API ([^;(]*?)\bvndf_{name}\(([^;]*)\);", _text)
+        if not declared:
+            raise AttributeError(name)
+        function = self._dll["vndf_" + name]
+        function.restype, function.argtypes = _declared(declared[0][0])[0][1], _arguments(declared[0][1])
+        setattr(self, name, function)
+        return function
 
 
 library = _Library()
@@ -211,53 +154,30 @@ library = _Library()
 
 def checked(name: str, *arguments: Any) -> Any:
     """Calls vndf_NAME with these arguments and an error; raises what it says."""
-    error = vndf_error()
+    error = struct("vndf_error")()
     result = getattr(library, name)(*arguments, byref(error))
     if error.status:
         raise Error(error.message.decode(errors="replace"), Status(error.status))
     return result
 
 
-def path_bytes(path: Any) -> bytes:
-    """A path as the C library takes it."""
-    return _without_zero(os.fsencode(path))
-
-
-def text_bytes(text: str) -> bytes:
-    """A text as the C library takes it."""
-    if not isinstance(text, str):
-        raise TypeError(f"a text is wanted, not {text!r}")
-    return _without_zero(text.encode())
-
-
-def _without_zero(data: bytes) -> bytes:
+def text_bytes(text: Any) -> bytes:
+    """A text, or a path, as the C library takes it."""
+    data = os.fsencode(text)
     if b"\0" in data:
         raise ValueError(f"{data!r} holds a zero byte, which would end it")
     return data
 
 
-def want(value: Any, kind: Any) -> None:
-    """Refuses what is not of this class, or of one of these."""
-    if not isinstance(value, kind):
-        names = " or a ".join(f"vndf.{k.__name__}" for k in (kind if isinstance(kind, tuple) else (kind,)))
-        raise TypeError(f"a {names} is wanted, not {value!r}")
+def want(value: Any, *kinds: type) -> None:
+    """Refuses what is not of one of these classes."""
+    if not isinstance(value, kinds):
+        raise TypeError(f"a {' or a '.join(f'vndf.{kind.__name__}' for kind in kinds)} is wanted, not {value!r}")
 
 
-class Immutable:
-    """What stands for memory of C: a copy is the object itself, and only some classes can be pickled."""
-
-    def __copy__(self) -> Immutable:
-        return self
-
-    def __deepcopy__(self, memo: Any) -> Immutable:
-        return self
-
-    def __reduce__(self) -> Any:
-        raise TypeError(f"a vndf.{type(self).__name__} cannot be pickled: save it to a file, or make it again")
-
-
-class Owner(Immutable):
-    """Owns a pointer, and frees it by the C call named `_free`. `_makers`: the calls that make one."""
+class Owner:
+    """Owns a pointer, and frees it by the C call named `_free`. `_makers`: the calls that make one. A copy is the
+    object itself, and what has no bytes cannot be pickled."""
 
     _free = ""
     _makers = ""
@@ -278,8 +198,40 @@ class Owner(Immutable):
             getattr(library, self._free)(self._pointer)
             self._pointer = 0
 
+    def __copy__(self) -> Self:
+        return self
 
-def members(struct: Any) -> dict[str, Any]:
-    """The members of a struct as Python values."""
-    values = {name: getattr(struct, name) for name, *_ in struct._fields_}
-    return {name: value.decode() if isinstance(value, bytes) else value for name, value in values.items()}
+    def __deepcopy__(self, memo: Any) -> Self:
+        return self
+
+    def __reduce__(self) -> Any:
+        raise TypeError(f"a vndf.{type(self).__name__} cannot be pickled: save it to a file, or make it again")
+
+
+class Stored(Owner):
+    """What has a file; its bytes are what pickles."""
+
+    _kind = ""  # of the C calls
+    info: Any
+
+    @classmethod
+    def load(cls, path: Any) -> Self:
+        """Reads a file. Raises :class:`vndf.Error` if it cannot be read, or is not whole and consistent."""
+        return cls._of(checked(f"{cls._kind}load", text_bytes(path)))
+
+    @classmethod
+    def from_bytes(cls, data: bytes) -> Self:
+        """The same from the bytes of a file, which are copied."""
+        return cls._of(checked(f"{cls._kind}load_memory", bytes(data), len(data)))
+
+    def save(self, path: Any) -> None:
+        """Writes the file, which appears whole or not at all."""
+        checked(f"{self._kind}save", self._pointer, text_bytes(path))
+
+    def __bytes__(self) -> bytes:
+        data = ctypes.create_string_buffer(self.info.bytes)
+        checked(f"{self._kind}save_memory", self._pointer, data, len(data))
+        return data.raw
+
+    def __reduce__(self) -> Any:
+        return type(self).from_bytes, (bytes(self),)

@@ -3,14 +3,13 @@ from __future__ import annotations
 
 import threading
 from ctypes import byref
-from typing import Any, Callable, Iterable, Optional, Sequence, TypeVar
+from typing import Any, Callable, Iterable, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
-from . import _library
 from ._arrays import Numbers
-from ._library import Owner, checked, library, path_bytes, text_bytes, want
-from .distribution import Certificate, Distribution, Path, certificate_of
+from ._library import Owner, checked, library, pointer, struct, text_bytes, want
+from .distribution import Distribution, Path
 
 _T = TypeVar("_T")
 
@@ -19,22 +18,23 @@ Progress = Callable[[float, str], Any]
 
 
 class Source(Owner):
-    """A distribution of normals as it is given, at any scale, normalised or not: a formula, a name, a file, arrays, a
-    function, or what a table was built from."""
+    """A distribution of normals as it is given, at any scale, normalised or not."""
 
     _free = "source_free"
-    _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows, .slope_function, .ndf_function or .of"
-    _function: Optional[_Function] = None  # what C calls back
+    _makers = "vndf.Source.slope, .ndf, .family, .csv or .rows"
+    _called: Any = None  # what C calls back
 
     @staticmethod
-    def slope(formula: str, **parameters: float) -> Source:
-        """P22 as a formula in r = tan(theta), with named numbers. vndf_build.h lists operators and functions."""
-        return _expression("source_slope_expression", formula, parameters)
+    def slope(p22: Union[str, Callable[[float], float]], **parameters: float) -> Source:
+        """P22 as a formula in r = tan(theta), with named numbers (vndf_build.h lists operators and functions), or as a
+        Python function of r. A function can only be sampled: narrow features may hide (`finest`, `breaks` of build)."""
+        return _formula("slope", p22, parameters)
 
     @staticmethod
-    def ndf(formula: str, **parameters: float) -> Source:
-        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta)."""
-        return _expression("source_ndf_expression", formula, parameters)
+    def ndf(ndf: Union[str, Callable[[float], float]], **parameters: float) -> Source:
+        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta), or as a Python function of c; one of
+        slopes is better for narrow distributions, as 1 - c loses digits."""
+        return _formula("ndf", ndf, parameters)
 
     @staticmethod
     def family(specification: str) -> Source:
@@ -44,17 +44,13 @@ class Source(Owner):
     @staticmethod
     def csv(path: Path) -> Source:
         """A CSV file with a header line that names its columns."""
-        return Source._of(checked("source_csv_file", path_bytes(path)))
+        return Source._of(checked("source_csv_file", text_bytes(path)))
 
     @staticmethod
     def rows(
-        *,
-        theta: Optional[Numbers] = None,
-        slope: Optional[Numbers] = None,
-        ndf: Optional[Numbers] = None,
-        p22: Optional[Numbers] = None,
-        name: str = "rows",
-    ) -> Source:
+        *, theta: Optional[Numbers] = None, slope: Optional[Numbers] = None, ndf: Optional[Numbers] = None,
+        p22: Optional[Numbers] = None, name: str = "rows",
+    ) -> Source:  # fmt: skip
         """Arrays of shape (n,): ascending angles `theta` (radians) or slopes, and D (`ndf`) or P22 there, >= 0.
         Shape-preserving interpolation joins the rows; beyond the last one P22 falls on as vndf_build.h says: end with 0
         where the support ends. `name` stands in the table as its origin."""
@@ -67,150 +63,87 @@ class Source(Owner):
         addresses = at.ctypes.data, value.ctypes.data
         return Source._of(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
 
-    @staticmethod
-    def slope_function(function: Callable[[float], float], name: str = "Python function") -> Source:
-        """P22(r) as a function. It can only be sampled: narrow features may hide (`finest`, `breaks` of build)."""
-        return _function("source_slope_callback", function, name)
-
-    @staticmethod
-    def ndf_function(function: Callable[[float], float], name: str = "Python function") -> Source:
-        """D(cos(theta)) as a function. slope_function is better for narrow distributions: 1 - cos loses digits."""
-        return _function("source_ndf_callback", function, name)
-
-    @staticmethod
-    def of(distribution: Distribution) -> Source:
-        """What a table was built from, for formulas and families; anything else raises :class:`vndf.Error`."""
-        want(distribution, Distribution)
-        return Source._of(checked("source_of", distribution._pointer))
-
     def p22(self, r: float) -> float:
         """P22 at the slope length r >= 0, as it was given."""
-        value = float(library.source_p22(self._pointer, r))
-        self._raise_what_failed()
-        return value
-
-    def _raise_what_failed(self) -> None:
-        if self._function is not None:
-            self._function.raise_what_failed()
+        return _Call().run(lambda: float(library.source_p22(self._pointer, r)))
 
     def __repr__(self) -> str:
         return f"<vndf.Source {library.source_description(self._pointer).decode()}>"
 
 
-def _expression(name: str, formula: str, parameters: dict[str, float]) -> Source:
-    array = (_library.vndf_parameter * max(len(parameters), 1))()
+def _formula(kind: str, given: Any, parameters: dict[str, float]) -> Source:
+    if callable(given):
+        if parameters:
+            raise TypeError("parameters are for formulas")
+        called = pointer("vndf_density_function")(lambda x, user: _here.call.guard(0.0, _number, given, x))
+        name = text_bytes(getattr(given, "__name__", "Python function"))
+        return Source._of(checked(f"source_{kind}_callback", called, None, name), _called=called)
+    array = (struct("vndf_parameter") * max(len(parameters), 1))()
     for slot, (key, value) in zip(array, parameters.items()):
         slot.name, slot.value = text_bytes(key), value
-    return Source._of(checked(name, text_bytes(formula), array, len(parameters)))
+    return Source._of(checked(f"source_{kind}_expression", text_bytes(given), array, len(parameters)))
 
 
-class _Failure:
-    """What a Python function raised while C called it: kept, and raised again when C has returned."""
-
-    def __init__(self) -> None:
-        self._raised: Optional[BaseException] = None
-
-    def keep(self, raised: BaseException) -> None:
-        self._raised = self._raised or raised
-
-    def failed(self) -> bool:
-        return self._raised is not None
-
-    def raise_what_failed(self) -> None:
-        raised, self._raised = self._raised, None
-        if raised is not None:
-            raise raised
-
-
-def _number(value: Any) -> float:
+def _number(function: Callable[[float], float], x: float) -> float:
+    value: Any = function(x)
     if isinstance(value, str):
         raise TypeError(f"a function returned {value!r}, which is no number")
     return float(value)
 
 
-class _Function(_Failure):
-    def __init__(self, function: Callable[[float], float]) -> None:
-        super().__init__()
+class _Call:
+    """A long call of C, in a thread, and what the Python functions that it calls have raised. Python delivers signals
+    to the main thread alone, so Control-C arrives where this waits, never inside C, where it would be lost."""
 
-        def call(x: float, user: Any) -> float:
-            try:
-                return 0.0 if self.failed() else _number(function(x))
-            except BaseException as raised:
-                self.keep(raised)
-                return 0.0
+    raised: Optional[BaseException] = None
 
-        self.pointer = _library.density_function(call)
+    def guard(self, otherwise: _T, function: Callable[..., _T], *arguments: Any) -> _T:
+        """What a function returns to C; `otherwise`, at once, after one has raised."""
+        try:
+            if self.raised is None:
+                return function(*arguments)
+        except BaseException as raised:
+            self.raised = self.raised or raised
+        return otherwise
 
+    def progress(self, told: Optional[Progress]) -> Any:
+        """C asks it whether to stop."""
+        def asked(done: float, what: bytes, user: Any) -> int:
+            return self.guard(1, lambda: int(told is not None and bool(told(done, what.decode()))))
 
-def _function(name: str, function: Callable[[float], float], origin: str) -> Source:
-    if not callable(function):
-        raise TypeError(f"a function is wanted, not {function!r}")
-    called = _Function(function)
-    return Source._of(checked(name, called.pointer, None, text_bytes(origin)), _function=called)
-
-
-class Reporter(_Failure):
-    """Runs a long call of C in a thread, with a progress function. Python delivers signals to the main thread alone, so
-    Control-C arrives where this waits, never inside C, where it would be lost; the next report of progress then ends
-    the call, and the function of the source returns at once."""
-
-    def __init__(self, progress: Optional[Progress], source: Optional[Source] = None) -> None:
-        super().__init__()
-        self._stop = False
-        self._function = function = source._function if source is not None else None
-
-        def call(done: float, what: bytes, user: Any) -> int:
-            if self._stop or (function is not None and function.failed()):
-                return 1
-            try:
-                return int(progress is not None and bool(progress(done, what.decode())))
-            except BaseException as raised:
-                self.keep(raised)
-                return 1
-
-        self.pointer = _library.progress_function(call)
+        return pointer("vndf_progress")(asked)
 
     def run(self, call: Callable[[], _T]) -> _T:
-        """The result of `call`. What the progress function raised comes before the error that it has caused."""
+        """The result of `call`. What a Python function raised comes before the error that it has caused."""
         results: list[_T] = []
-        errors: list[BaseException] = []
 
         def work() -> None:
-            try:
-                results.append(call())
-            except BaseException as raised:
-                errors.append(raised)
+            _here.call = self
+            self.guard(None, lambda: results.append(call()))
 
         thread = threading.Thread(target=work)
         thread.start()
         try:
             thread.join()
         except BaseException as raised:
-            self._stop = True
-            if self._function is not None:
-                self._function.keep(raised)
+            self.raised = raised  # the next report of progress ends the call
             thread.join()
-            raise
-        self.raise_what_failed()
-        if errors:
-            raise errors[0]
+        if self.raised is not None:
+            raise self.raised
         return results[0]
 
 
+_here = threading.local()  # .call: the _Call that this thread works for
+
+
 def build(
-    source: Source,
-    *,
-    max_bytes: int = 0,
-    max_tv: float = 0.0,
-    moments: int = 0,
-    breaks: Iterable[float] = (),
-    finest: float = 0.0,
-    progress: Optional[Progress] = None,
-) -> Distribution:
+    source: Source, *, max_bytes: int = 0, max_tv: float = 0.0, moments: int = 0, breaks: Iterable[float] = (),
+    finest: float = 0.0, progress: Optional[Progress] = None,
+) -> Distribution:  # fmt: skip
     """Builds a table.
 
-    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, up to 8192.
-    max_tv: build the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
+    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, to 8192.
+    max_tv: the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     breaks: slopes where a feature begins, ends or has its peak.
     finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.
@@ -221,28 +154,13 @@ def build(
     want(source, Source)
     if max_bytes < 0:
         raise ValueError(f"max_bytes is {max_bytes}; it must not be negative")
-    reporter = Reporter(progress, source)
+    call = _Call()
     marks = np.ascontiguousarray(list(breaks), np.float64)
-    options = _library.vndf_build_options(
-        max_bytes=max_bytes, max_tv=max_tv, progress=reporter.pointer, breaks=marks.ctypes.data,
+    options = struct("vndf_build_options")(
+        max_bytes=max_bytes, max_tv=max_tv, progress=call.progress(progress), breaks=marks.ctypes.data,
         break_count=marks.size, finest=finest, moments=moments,
     )  # fmt: skip
-    try:
-        return reporter.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
-    finally:
-        source._raise_what_failed()
-
-
-def certify(distribution: Distribution, source: Source) -> Certificate:
-    """Measures the certificate of a table against a source."""
-    want(distribution, Distribution)
-    want(source, Source)
-    struct = _library.vndf_certificate()
-    try:
-        Reporter(None, source).run(lambda: checked("certify", distribution._pointer, source._pointer, byref(struct)))
-    finally:
-        source._raise_what_failed()
-    return certificate_of(struct)
+    return call.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
 
 
 def family_help() -> str:

@@ -1,57 +1,23 @@
 """Distributions of normals: tables and closed forms."""
 from __future__ import annotations
 
-import dataclasses
 import os
 from typing import Any, Union
 
 import numpy as np
 
 from ._arrays import Floats
-from ._library import Owner, checked, library, members, path_bytes
+from ._library import Stored, library, record, values
 
 Path = Union[str, "os.PathLike[str]"]
 
-
-@dataclasses.dataclass(frozen=True)
-class Certificate:
-    """What the builder measured: the table against quadrature of the given D (vndf.h says over what)."""
-
-    tv: float  #: largest total variation distance between sampled and true visible normals, all directions
-    tv_theta: float  #: the incident angle where it was found, degrees
-    tv_above: float  #: the same over directions from 0 to 90 degrees
-    tv_above_theta: float
-    max_weight: float  #: largest true over sampled density, over all but 1e-6 of the mass
-    weight_bounded: bool  #: that quotient is bounded on the whole hemisphere
-    area_error: float  #: largest relative error of the projected area, hence of Lambda and G1
-    consistency: float  #: largest |integral of the pdf - 1|
-    ndf_error: float  #: largest relative error of ndf, over all but 1e-6 of the mass
-    hidden: float  #: the part of the mass that may have escaped the builder, 0 to 1
-    finest: float  #: relative width in slope of features that may have escaped; 0 if none
-    horizon_power: float  #: p < 0 if D grows as cos(theta)^p towards the horizon; else 0
+#: What the builder measured; vndf.h says of each member over what (vndf_certificate).
+Certificate = record("vndf_certificate", "Certificate")
+#: What a distribution is (vndf_info).
+Info = record("vndf_info", "Info")
 
 
-@dataclasses.dataclass(frozen=True)
-class Info:
-    """What a distribution is."""
-
-    source: str  #: how it was made, as arguments of ``vndf build``
-    tool: str  #: the version that made it
-    bytes: int  #: size of the file; 0 for closed forms
-    memory: int  #: bytes in memory; 0 for closed forms
-    cells: int  #: intervals of the slope length before the tail; 0 for closed forms
-    moments: int  #: 2, 3 or 4 (:func:`vndf.build`); 0 for closed forms
-    normalization: float  #: the given D was multiplied by this
-    scale: float  #: median slope under D cos(theta) at alpha = 1
-
-
-def certificate_of(struct: Any) -> Certificate:
-    values = members(struct)
-    values.update(weight_bounded=bool(struct.weight_bounded))
-    return Certificate(**values)
-
-
-class Distribution(Owner):
+class Distribution(Stored):
     """A distribution of normals, immutable: threads may share it. From :func:`vndf.load`, :func:`vndf.build`,
     :func:`vndf.ggx` or :func:`vndf.beckmann`; pickles as the bytes of its table."""
 
@@ -64,30 +30,18 @@ class Distribution(Owner):
             super().__del__()
 
     @property
-    def info(self) -> Info:
-        """Where it comes from and how large it is."""
-        values = members(library.distribution_info(self._pointer))
-        del values["certificate"]
-        return Info(**values)
+    def info(self) -> Any:
+        """source, tool, bytes, memory, cells, moments, normalization, scale, certificate (vndf_info)."""
+        return Info(*values(library.distribution_info(self._pointer))[:-1], self.certificate)
 
     @property
-    def certificate(self) -> Certificate:
-        """What the builder measured; zeros for closed forms."""
-        return certificate_of(library.distribution_info(self._pointer).certificate)
-
-    def save(self, path: Path) -> None:
-        """Writes the table to a file, which appears whole or not at all."""
-        checked("save", self._pointer, path_bytes(path))
-
-    def __bytes__(self) -> bytes:
-        """The file as bytes, for :func:`vndf.from_bytes`."""
-        data = np.empty(self.info.bytes, np.uint8)
-        checked("save_memory", self._pointer, data.ctypes.data, data.size)
-        return data.tobytes()
+    def certificate(self) -> Any:
+        """What the builder measured: tv, tv_above, max_weight and so on; zeros for closed forms."""
+        return Certificate(*values(library.distribution_info(self._pointer).certificate))
 
     def __reduce__(self) -> Any:
         closed = {_ggx._pointer: ggx, _beckmann._pointer: beckmann}.get(self._pointer)
-        return (closed, ()) if closed else (from_bytes, (bytes(self),))
+        return (closed, ()) if closed else super().__reduce__()
 
     def numbers(self) -> Floats:
         """The numbers that kernels of ``vndf export`` read of this table, shape (n,); empty for closed forms."""
@@ -96,21 +50,11 @@ class Distribution(Owner):
         return numbers
 
     def __repr__(self) -> str:
-        info = self.info
-        return f"<vndf.Distribution {info.source}, {info.bytes} bytes>"
+        return f"<vndf.Distribution {self.info.source}, {self.info.bytes} bytes>"
 
 
-def load(path: Path) -> Distribution:
-    """Reads a table file. Raises :class:`vndf.Error` if it cannot be read or is not a whole, consistent table."""
-    return Distribution._of(checked("load", path_bytes(path)))
-
-
-def from_bytes(data: bytes) -> Distribution:
-    """The same from the bytes of a file, which are copied."""
-    array = np.frombuffer(data, np.uint8)
-    return Distribution._of(checked("load_memory", array.ctypes.data, array.size))
-
-
+load = Distribution.load
+from_bytes = Distribution.from_bytes
 _ggx = Distribution._of(library.ggx(), _owner=library)
 _beckmann = Distribution._of(library.beckmann(), _owner=library)
 

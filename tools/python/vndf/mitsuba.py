@@ -6,15 +6,13 @@
     vndf.mitsuba.register()                                     # after each mi.set_variant
     mi.load_dict({"type": "vndf_conductor", "distribution": "rings.vndf", "alpha": 0.3, "material": "Au"})
 
-Parameters of both:
+Parameters of both; those with a number (the default is in parentheses) take a texture as well:
 
 distribution    a table file, "ggx" or "beckmann", or a file of a family of tables, which needs `parameter`
-parameter       of the family: a number or a texture; every hit is a mixture of two neighbours. LLVM and CUDA variants
-                evaluate all tables of the family at each hit
-alpha           roughness, a number or a texture (0.1); or alpha_u and alpha_v, along the two tangents; what is below
-                1e-4 counts as that
-rotation        the angle from the first tangent to the axis of alpha_u, radians, a number or a texture
-weight          of this lobe where there are several: a number or a texture (1); below 0 it counts as 0
+parameter       number; every hit is a mixture of two neighbours. LLVM and CUDA variants evaluate all tables at each hit
+alpha           number (0.1), at least 1e-4: roughness; or alpha_u and alpha_v, along the two tangents
+rotation        number (0): the angle from the first tangent to the axis of alpha_u, radians
+weight          number (1), at least 0: of this lobe where there are several
 distribution_2, alpha_2 (alpha_u_2, alpha_v_2), weight_2, and so on up to _8: more lobes of one surface
 masking         "height-correlated" (default), or "separable", which Mitsuba's own plugins use: set it to compare with
                 them. The default is brighter, by 2.6% at alpha 1
@@ -23,9 +21,8 @@ vndf_conductor: material, or eta and k; specular_reflectance: those of Mitsuba's
 vndf_dielectric: int_ior, ext_ior; specular_reflectance, specular_transmittance.
 
 Samples are weighted with the true D over the density that the table has drawn with, so estimates are exact for a table
-of any size. Everything is differentiable with respect to roughness, weights, rotation and optics. Polarised variants
-are refused. Tested with Mitsuba 3.9, scalar and LLVM variants; CUDA runs the same code. Scalar variants run Python for
-every sample, a hundred times slower than Mitsuba's own plugins, of which `register` warns: take llvm_ad_rgb.
+of any size, and differentiable in roughness, weights, rotation and optics. Polarised variants are refused. Scalar
+variants run Python for every sample, a hundred times slower than Mitsuba's own plugins: take llvm_ad_rgb.
 """
 from __future__ import annotations
 
@@ -33,124 +30,76 @@ import functools
 import math
 import operator
 import warnings
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple
 
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import Law, Table, law_of
-from .distribution import Distribution
+from ._drjit import MicrofacetDistribution, law_of
+from ._library import constant
 from .surface import Family
-
-_MOST_LOBES = 8
-_LEAST_ALPHA = 1e-4
-
-
-class MicrofacetDistribution:
-    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
-    are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann"."""
-
-    def __init__(self, distribution: Union[Distribution, str], alpha_u: Any, alpha_v: Any = None) -> None:
-        self._law = law_of(distribution)
-        self._alphas = [mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)]
-
-    def eval(self, m: Any) -> Any:
-        """D(m)."""
-        return self._law.ndf(*self._alphas, m)
-
-    def pdf(self, wi: Any, m: Any) -> Any:
-        """The density with which `sample` draws m."""
-        return self._law.pdf(self._law.view(*self._alphas, wi), m)
-
-    def sample(self, wi: Any, sample: Any) -> tuple[Any, Any]:
-        """A visible normal and its density."""
-        return self._law.sample(self._law.view(*self._alphas, wi), sample.x, sample.y)
-
-    def smith_g1(self, v: Any, m: Any) -> Any:
-        """Smith's masking, 0 where v sees the back of m."""
-        up = abs(v.z)
-        g1 = up / self._law.view(*self._alphas, mi.Vector3f(v.x, v.y, up)).area
-        return dr.select(dr.dot(v, m) * v.z > 0.0, g1, 0.0)
-
-    def G(self, wi: Any, wo: Any, m: Any) -> Any:
-        """The product of both ways, which Mitsuba's plugins use."""
-        return self.smith_g1(wi, m) * self.smith_g1(wo, m)
-
-    def alpha_u(self) -> Any:
-        return self._alphas[0]
-
-    def alpha_v(self) -> Any:
-        return self._alphas[1]
-
-
-class _Tails:
-    """A family's tables, and the texture of its parameter."""
-
-    def __init__(self, path: str, parameter: Any) -> None:
-        family = Family.load(path)
-        self.laws: list[Law] = [Table(distribution) for distribution in family.distributions]
-        self.knots, self._reciprocal = family.axis
-        self._ends = [float(end) for end in family.parameters[[0, -1]]]
-        self._parameter = parameter
-
-    def shares(self, si: Any, active: Any) -> list[Any]:
-        """Of each table; all but two are 0."""
-        p = dr.clip(self._parameter.eval_1(si, active), *self._ends)
-        x, k = -1.0 / p if self._reciprocal else p, self.knots.tolist()
-        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
-        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
-        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
 
 
 class _Lobe:
-    """One distribution or family, and the textures of its roughness and weight."""
+    """One distribution or family, and the textures of its roughness, weight and parameter."""
 
     def __init__(self, props: Any, suffix: str) -> None:
-        name = str(props["distribution" + suffix])
-        self.name = name
-        path, parameter = str(mi.file_resolver().resolve(name)), "parameter" + suffix
-        self.parameter = {parameter: props.get_texture(parameter, 1.0)} if parameter in props else {}
-        self.tails = _Tails(path, self.parameter[parameter]) if self.parameter else None
-        self.laws = self.tails.laws if self.tails else [law_of(name if name in ("ggx", "beckmann") else path)]
-        both, along, across = ("alpha" + suffix, "alpha_u" + suffix, "alpha_v" + suffix)
+        self.name = str(props["distribution" + suffix])
+        path = str(mi.file_resolver().resolve(self.name))
+        both, along, across, weight, parameter = (
+            name + suffix for name in ("alpha", "alpha_u", "alpha_v", "weight", "parameter")
+        )
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
         if (along in props) != (across in props):
             raise ValueError(f"{along} needs {across}, and the other way round")
-        self.alphas = {n: props.get_texture(n, 0.1) for n in ([along, across] if along in props else [both])}
-        self.weight = {"weight" + suffix: props.get_texture("weight" + suffix, 1.0)}
+        self.alphas = {name: props.get_texture(name, 0.1) for name in ([along, across] if along in props else [both])}
+        self.weight = props.get_texture(weight, 1.0)
+        self.textures = {**self.alphas, weight: self.weight}
+        self.family = Family.load(path) if parameter in props else None
+        if self.family:
+            self.laws = [law_of(distribution) for distribution in self.family.distributions]
+            self.parameter = self.textures[parameter] = props.get_texture(parameter, 1.0)
+        else:
+            self.laws = [law_of(self.name if self.name in ("ggx", "beckmann") else path)]
+
+    def _shares(self, si: Any, active: Any) -> list[Any]:
+        """Of each law; of a family all but two are 0."""
+        if self.family is None:
+            return [1.0]
+        p = dr.clip(self.parameter.eval_1(si, active), *self.family.parameters[[0, -1]].tolist())
+        knots, is_reciprocal = self.family.axis
+        x, k = -1.0 / p if is_reciprocal else p, knots.tolist()
+        up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
+        down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
+        return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
 
     def at(self, si: Any, active: Any) -> list[Any]:
-        """Of a hit each law, with alpha_u, alpha_v and its weight."""
-        alphas = [dr.maximum(texture.eval_1(si, active), _LEAST_ALPHA) for texture in self.alphas.values()]
-        weight = dr.maximum(next(iter(self.weight.values())).eval_1(si, active), 0.0)
-        shares = self.tails.shares(si, active) if self.tails else [1.0]
-        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, shares)]
-        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
+        """Of a hit each distribution and its weight."""
+        alphas = [dr.maximum(texture.eval_1(si, active), 1e-4) for texture in self.alphas.values()]
+        weight = dr.maximum(self.weight.eval_1(si, active), 0.0)
+        parts = [(MicrofacetDistribution(law, alphas[0], alphas[-1]), weight * share)
+                 for law, share in zip(self.laws, self._shares(si, active))]  # fmt: skip
+        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[1] > 0.0] or parts[:1]
 
 
 class _Microsurface:
     """The lobes of a surface."""
 
     def __init__(self, props: Any) -> None:
-        self.lobes = [_Lobe(props, "")]
-        for i in range(2, _MOST_LOBES + 1):
-            if f"distribution_{i}" not in props:
-                continue
-            if len(self.lobes) != i - 1:
-                raise ValueError(f"distribution_{i} without distribution_{i - 1}: lobes are numbered without a gap")
-            self.lobes.append(_Lobe(props, f"_{i}"))
+        numbers = [i for i in range(2, constant("VNDF_MIXTURE_LOBES") + 1) if f"distribution_{i}" in props]
+        for i, number in enumerate(numbers):
+            if number != i + 2:
+                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes have no gaps")
+        self.lobes = [_Lobe(props, suffix) for suffix in ("", *(f"_{number}" for number in numbers))]
+        self.textures = {name: texture for lobe in self.lobes for name, texture in lobe.textures.items()}
         self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
+        if self.rotation is not None:
+            self.textures["rotation"] = self.rotation
         masking = str(props.get("masking", "height-correlated"))
         if masking not in ("height-correlated", "separable"):
             raise ValueError(f'masking is "height-correlated" or "separable", not "{masking}"')
         self.is_separable = masking == "separable"
-
-    def textures(self) -> dict[str, Any]:
-        named = {} if self.rotation is None else {"rotation": self.rotation}
-        for lobe in self.lobes:
-            named.update({**lobe.alphas, **lobe.weight, **lobe.parameter})
-        return named
 
 
 class _Hit:
@@ -159,10 +108,9 @@ class _Hit:
     def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
         self._separable = surface.is_separable
         parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
-        self._laws, self._shapes = [part[0] for part in parts], [part[1:] for part in parts]
-        total = sum(weight for _, _, weight in self._shapes)
-        self._weights = [dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)
-                         for _, _, weight in self._shapes]  # fmt: skip
+        total = sum(weight for _, weight in parts)
+        self._lobes = [(normals, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0))
+                       for normals, weight in parts]  # fmt: skip
         self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
 
     def turned(self, w: Any, sign: float = 1.0) -> Any:
@@ -173,36 +121,34 @@ class _Hit:
         return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
 
     def seen_from(self, w: Any) -> tuple[list[Any], Any]:
-        """The lobes' views, and the projected area of all."""
-        views = [law.view(x, y, w) for law, (x, y, _) in zip(self._laws, self._shapes)]
-        return views, sum(weight * view.area for weight, view in zip(self._weights, views))
+        """Of each lobe its normals, its view and its share of what is drawn; the projected area of all."""
+        views = [(normals, normals.view(w), weight) for normals, weight in self._lobes]
+        drawn = sum(weight * view.drawn for _, view, weight in views)
+        seen = [(normals, view, dr.select(drawn > 0.0, weight * view.drawn / drawn, 0.0))
+                for normals, view, weight in views]  # fmt: skip
+        return seen, sum(weight * view.area for _, view, weight in views)
 
-    def _shares(self, views: list[Any]) -> list[Any]:
-        parts = [weight * view.drawn for weight, view in zip(self._weights, views)]
-        total = sum(parts)
-        return [dr.select(total > 0.0, part / total, 0.0) for part in parts]
-
-    def sample(self, views: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
+    @staticmethod
+    def sample(seen: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal, and the density of all lobes together."""
-        if len(views) == 1:
-            return self._laws[0].sample(views[0], u1, u2)
+        if len(seen) == 1:
+            return seen[0][0].sample_from(seen[0][1], u1, u2)
         before: Any = 0.0
         wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (law, view, share) in enumerate(zip(self._laws, views, self._shares(views))):
-            last = i + 1 == len(views)
+        for i, (normals, view, share) in enumerate(seen):
+            last = i + 1 == len(seen)
             here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
             u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
-            wm = dr.select(here, law.sample(view, u, u2)[0], wm)
+            wm = dr.select(here, normals.sample_from(view, u, u2)[0], wm)
             before = before + share
-        return wm, self.pdf(views, wm)
+        return wm, _Hit.pdf(seen, wm)
 
-    def pdf(self, views: list[Any], wm: Any) -> Any:
-        parts = zip(self._laws, views, self._shares(views))
-        return sum(share * law.pdf(view, wm) for law, view, share in parts)
+    @staticmethod
+    def pdf(seen: list[Any], wm: Any) -> Any:
+        return sum(share * normals.pdf_from(view, wm) for normals, view, share in seen)
 
     def ndf(self, wm: Any) -> Any:
-        parts = zip(self._laws, self._shapes, self._weights)
-        return sum(weight * law.ndf(x, y, wm) for law, (x, y, _), weight in parts)
+        return sum(weight * normals.eval(wm) for normals, weight in self._lobes)
 
     def g2(self, area_i: Any, cos_i: Any, area_o: Any, cos_o: Any, reflects: Any) -> Any:
         """Masking and shadowing of directions with these projected areas and cosines, both > 0."""
@@ -253,14 +199,17 @@ def register() -> None:
             self.m_components = [flag | mi.BSDFFlags.Anisotropic for flag in flags]
             self.m_flags = functools.reduce(operator.or_, self.m_components)
 
-        def _lobes(self, ctx: Any) -> tuple[bool, bool]:
+        def _lobes(self, ctx: Any) -> list[bool]:
             """Whether reflection and transmission are there and asked for."""
             lobes = (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.GlossyTransmission)
-            both = [i < len(self.m_components) and ctx.is_enabled(lobe, i) for i, lobe in enumerate(lobes)]
-            return both[0], both[1]
+            return [i < len(self.m_components) and ctx.is_enabled(lobe, i) for i, lobe in enumerate(lobes)]
 
         def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
             raise NotImplementedError
+
+        def _eta_from(self, wi: Any) -> Any:
+            """The index on the side of -wi over that on the side of wi."""
+            return mi.Float(1.0)
 
         def _seen(self, si: Any) -> Any:
             """Whether there is anything from the side of wi."""
@@ -308,7 +257,7 @@ def register() -> None:
             value = dr.select(reflects, value, optics.transmitted * (facing * bend * scale * common))
             return value, dr.select(reflects, per_wm, (1.0 - optics.chance) * bend)
 
-        def _look(self, ctx: Any, si: Any, wo: Any, active: Any) -> tuple[Any, Any]:
+        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
             reflects = si.wi.z * wo.z > 0.0
             can_reflect, can_transmit = self._lobes(ctx)
             active = mi.Bool(active) & self._seen(si) & (wo.z != 0.0)
@@ -328,20 +277,14 @@ def register() -> None:
             value, per_wm = self._shape(ctx, hit, wi, wo, wm, self._optics(ctx, si, facing, active), area, reflects)
             return value & active, dr.select(active, hit.pdf(views, _up(wm)) * per_wm, 0.0)
 
-        def _eta_from(self, wi: Any) -> Any:
-            return mi.Float(1.0)
-
         def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[0]
+            return self.eval_pdf(ctx, si, wo, active)[0]
 
         def pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
-            return self._look(ctx, si, wo, active)[1]
-
-        def eval_pdf(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> tuple[Any, Any]:
-            return self._look(ctx, si, wo, active)
+            return self.eval_pdf(ctx, si, wo, active)[1]
 
         def traverse(self, callback: Any) -> None:
-            for name, texture in self._surface.textures().items():
+            for name, texture in self._surface.textures.items():
                 callback.put(name, texture, mi.ParamFlags.Differentiable | mi.ParamFlags.Discontinuous)
 
         def to_string(self) -> str:
@@ -352,8 +295,7 @@ def register() -> None:
             super().__init__(props, mi.BSDFFlags.GlossyReflection | mi.BSDFFlags.FrontSide)
             optics: dict[str, Any] = {"type": "conductor"}
             optics.update({name: props.get_unbounded_texture(name) for name in ("eta", "k") if name in props})
-            if "material" in props:
-                optics["material"] = props["material"]
+            optics.update({name: props[name] for name in ("material",) if name in props})
             if "specular_reflectance" in props:
                 optics["specular_reflectance"] = props.get_texture("specular_reflectance", 1.0)
             self._smooth = mi.load_dict(optics)
@@ -376,26 +318,24 @@ def register() -> None:
             self._eta = mi.lookup_ior(props, "int_ior", "bk7") / mi.lookup_ior(props, "ext_ior", "air")
             if not self._eta > 0.0 or self._eta == 1.0:
                 raise ValueError(f"int_ior over ext_ior is {self._eta}; it must be positive, and not 1")
-            self._colours = {name: props.get_texture(name, 1.0) if name in props else None
-                             for name in ("specular_reflectance", "specular_transmittance")}  # fmt: skip
+            names = ("specular_reflectance", "specular_transmittance")
+            self._colours = {name: props.get_texture(name, 1.0) for name in names}
 
         def _eta_from(self, wi: Any) -> Any:
             return dr.select(wi.z > 0.0, self._eta, 1.0 / self._eta)
 
         def _optics(self, ctx: Any, si: Any, facing: Any, active: Any) -> _Optics:
             fresnel, refracted, eta, eta_back = mi.fresnel(facing, self._eta_from(si.wi))
-            one = mi.Spectrum(1.0)
-            colours = [one if texture is None else texture.eval(si, active) for texture in self._colours.values()]
-            can_reflect, can_transmit = self._lobes(ctx)
-            chance = fresnel if can_reflect and can_transmit else mi.Float(1.0 if can_reflect else 0.0)
-            parts = colours[0] * fresnel, colours[1] * (1.0 - fresnel)
+            reflected, transmitted = (texture.eval(si, active) for texture in self._colours.values())
+            lobes = self._lobes(ctx)
+            chance = fresnel if all(lobes) else mi.Float(1.0 if lobes[0] else 0.0)
+            parts = reflected * fresnel, transmitted * (1.0 - fresnel)
             return _Optics(*parts, chance, fresnel, refracted, eta, eta_back)
 
         def traverse(self, callback: Any) -> None:
             super().traverse(callback)
             for name, texture in self._colours.items():
-                if texture is not None:
-                    callback.put(name, texture, +mi.ParamFlags.Differentiable)
+                callback.put(name, texture, +mi.ParamFlags.Differentiable)
 
     for kind in (vndf_conductor, vndf_dielectric):
         mi.register_bsdf(kind.__name__, kind)

@@ -1,145 +1,94 @@
 """Rough surfaces: samples of visible normals, densities, masking.
 
-Arguments are numbers or arrays; they broadcast, and are taken as float32 (arrays that are that, contiguous and of the
-whole shape are not copied). Directions have shape (3, ...), pairs of numbers (2, ...), matrices (2, 2, ...): each
-component along the first axis; transpose an array of shape (n, 3). Directions are unit and point away from the
-surface; z is the geometric normal, x the axis of alpha_x. wi may be anywhere on the sphere. Results are float32, of
-the shape that the arguments broadcast to; element i has the bits of the C call for it. The interpreter's lock is free
-while C works, so threads may share the work.
+Arguments are numbers or arrays; they broadcast, and are taken as float32. Directions have shape (3, ...), pairs of
+numbers (2, ...), matrices (2, 2, ...). Directions are unit and point away from the surface; z is the geometric normal,
+x the axis of alpha; wi may be anywhere on the sphere. Element i of a result has the bits of the C call for it.
 """
 from __future__ import annotations
 
 import functools
+from collections import namedtuple
 from ctypes import byref
-from typing import Any, NamedTuple, Optional, Sequence, Union
+from typing import Any, Optional, Sequence
 
 import numpy as np
 
-from . import _library
-from ._arrays import Batch, Floats, Generator, Numbers, Size, addresses_of, components, stacked, uniform
-from ._library import Owner, checked, library, members, path_bytes, text_bytes, want
-from .build import Progress, Reporter
-from .distribution import Distribution, Path
+from ._arrays import Batch, Floats, Numbers, addresses_of, components, stacked, uniform
+from ._library import Stored, checked, constant, library, record, struct, text_bytes, values, want
+from .build import Progress, _Call
+from .distribution import Distribution
 
 
-class Sample(NamedTuple):
-    """Visible normals and how they were drawn."""
-
-    wm: Floats  #: unit normals, shape (3, ...)
-    pdf: Floats  #: density per steradian with which wm was drawn, shape (...)
-
-
-class WeightedSample(NamedTuple):
-    """The same with the weight that makes an estimator exact."""
-
-    wm: Floats
-    pdf: Floats
-    weight: Floats  #: visible(wi, wm)/pdf(wi, wm), shape (...)
+#: Visible normals, unit, shape (3, ...), and the density per steradian with which they were drawn, shape (...).
+Sample = namedtuple("Sample", ["wm", "pdf"])
+#: The same with the weight visible(wi, wm)/pdf(wi, wm), which makes an estimator exact.
+WeightedSample = namedtuple("WeightedSample", ["wm", "pdf", "weight"])
+#: The same with the index of the lobe that was drawn, int32; -1 of what is invalid.
+MixtureSample = namedtuple("MixtureSample", ["wm", "pdf", "lobe"])
 
 
-class MixtureSample(NamedTuple):
-    """The same with the lobe that was drawn."""
-
-    wm: Floats
-    pdf: Floats
-    lobe: np.ndarray[Any, np.dtype[np.int32]]  #: its index, -1 of what is invalid, shape (...)
-
-
-def roughness(alpha: Any, alpha_y: Any) -> Floats:
-    """alpha along x and y. A single number that is no roughness is refused; in arrays it scatters nothing."""
-    both = stacked((alpha, alpha if alpha_y is None else alpha_y))
-    if both.size == 2:
-        for a in both.ravel().tolist():
-            if not 0 < a < np.inf:
-                raise ValueError(f"alpha is {a}; it must be above 0")
-    return both
-
-
-def stretched(matrix: Any, mean: Any) -> Floats:
-    """A matrix of slopes and a mean slope. Single numbers that are no surface are refused; in arrays they scatter
-    nothing."""
-    rows = stacked(matrix)
-    if rows.shape[:2] != (2, 2):
-        raise ValueError(f"matrix: its shape is {rows.shape}, it must be (2, 2, ...)")
-    shape = stacked([*rows.reshape(4, *rows.shape[2:]), *components(mean, 2, "mean")])
-    if shape.size == 6:
-        xx, xy, yx, yy, *moved = shape.ravel().tolist()
-        if not (xx * yy != xy * yx and np.isfinite([xx, xy, yx, yy]).all()):
-            raise ValueError(f"matrix is (({xx}, {xy}), ({yx}, {yy})); it must be finite and not singular")
-        if not np.isfinite(moved).all():
-            raise ValueError(f"mean is {tuple(moved)}; it must be finite")
-    return shape
-
-
-class _Rough:
+class Rough:
     """What all surfaces answer."""
 
-    _prefix = ""  # of the C calls
+    _prefix = "mixture_"  # of the C calls
     _groups: dict[str, Floats]  # "shape", and "weight" of mixtures
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
         """The C struct of a batch."""
         raise NotImplementedError
 
-    def _shared(self, batch: Batch) -> int:
-        bits = {"shape": _library.SHARED_ALPHA, "wi": _library.SHARED_WI, "weight": _library.SHARED_WEIGHT}
-        return sum(bit for name, bit in bits.items() if name in batch.groups and batch.is_shared(name))
-
-    def _ask(self, name: str, rows: int, *, lobe: bool = False, **given: Floats) -> Floats:
-        """What C answers: `rows` numbers for each element, and the bits of the lobe's index after them."""
+    def _ask(self, name: str, rows: int, **given: Floats) -> Floats:
+        """What C answers: `rows` numbers for each element; of drawn lobes the bits of their index are the last."""
         batch = Batch(**self._groups, **given)
-        struct = self._struct(batch, batch.addresses("wi", share=True) if "wi" in given else [None] * 3)
-        result = batch.result(rows + lobe)
+        filled = self._struct(batch, batch.addresses("wi", share=True) if "wi" in given else [None] * 3)
+        result = batch.result(rows)
         to: list[Any] = addresses_of(result)
         if "u" in given:
-            to = [*batch.addresses("u"), _library.vndf_normals(*to[:3]), *to[3:]]
+            to = [*batch.addresses("u"), struct("vndf_normals")(*to[:3]), *to[3:]]
         elif "wm" in given:
-            to = [_library.vndf_normals(*batch.addresses("wm")), *([None] if lobe else []), *to]
-        getattr(library, f"{self._prefix}{name}_n")(byref(struct), *to)
+            to = [struct("vndf_normals")(*batch.addresses("wm")), *to]
+        if self._prefix == "mixture_" and name == "invert":
+            to = [to[0], None, *to[1:], None]  # of any lobe, which is not told
+        getattr(library, f"{self._prefix}{name}_n")(byref(filled), *to)
         return result
 
-    def _draw(self, name: str, rows: int, wi: Any, u: Any, rng: Generator, size: Size, lobe: bool = False) -> list[Any]:
-        """Normals, then what else was asked for."""
+    def _draw(self, name: str, rows: int, wi: Any, u: Any) -> Floats:
         w = components(wi, 3, "wi")
-        numbers = uniform(u, 2, rng, size, lambda: Batch(**self._groups, wi=w).shape)
-        result = self._ask(name, rows, lobe=lobe, wi=w, u=numbers)
-        return [result[:3], *result[3:rows], *(result[rows:].view(np.int32))]
+        numbers = uniform(u, 2, lambda: Batch(**self._groups, wi=w).shape)
+        return self._ask(name, rows, wi=w, u=numbers)
 
-    def _of_normal(self, name: str, wi: Any, wm: Any) -> Floats:
-        return self._ask(name, 1, wi=components(wi, 3, "wi"), wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
-
-    def _of_direction(self, name: str, w: Any) -> Floats:
-        return self._ask(name, 1, wi=components(w, 3, "wi"))[0]  # type: ignore[no-any-return]
+    def _look(self, name: str, **given: Any) -> Floats:
+        number: Floats = self._ask(name, 1, **{key: components(w, 3, key) for key, w in given.items()})[0]
+        return number
 
     def pdf(self, wi: Any, wm: Any) -> Floats:
         """Density per steradian with which ``sample`` draws wm (3, ...), a unit normal."""
-        return self._of_normal("pdf", wi, wm)
+        return self._look("pdf", wi=wi, wm=wm)
 
     def visible(self, wi: Any, wm: Any) -> Floats:
         """The true density of visible normals, max(0, wi.wm) D(wm)/A(wi), per steradian."""
-        return self._of_normal("visible", wi, wm)
+        return self._look("visible", wi=wi, wm=wm)
 
     def invert(self, wi: Any, wm: Any) -> Floats:
         """The numbers u, shape (2, ...), that ``sample`` turns into wm; of a mixture from the lobe that draws it most
         often."""
-        lobe = self._prefix == "mixture_"
-        return self._ask("invert", 2, lobe=lobe, wi=components(wi, 3, "wi"), wm=components(wm, 3, "wm"))[:2]
+        return self._ask("invert", 2, wi=components(wi, 3, "wi"), wm=components(wm, 3, "wm"))
 
     def ndf(self, wm: Any) -> Floats:
         """D(wm), per steradian; integral of D cos(theta) is 1."""
-        return self._ask("ndf", 1, wm=components(wm, 3, "wm"))[0]  # type: ignore[no-any-return]
+        return self._look("ndf", wm=wm)
 
-    def projected_area(self, w: Any) -> Floats:
-        """A(w) = integral max(0, w.wm) D(wm) dwm, any w on the sphere."""
-        return self._of_direction("projected_area", w)
+    def projected_area(self, wi: Any) -> Floats:
+        """A(wi) = integral max(0, wi.wm) D(wm) dwm, any wi on the sphere."""
+        return self._look("projected_area", wi=wi)
 
-    def lambda_(self, w: Any) -> Floats:
-        """Smith's Lambda(w) = A(w)/cos(theta) - 1."""
-        return self._of_direction("lambda", w)
+    def lambda_(self, wi: Any) -> Floats:
+        """Smith's Lambda(wi) = A(wi)/cos(theta) - 1."""
+        return self._look("lambda", wi=wi)
 
-    def g1(self, w: Any) -> Floats:
-        """Smith's masking, 0 to 1; 0 below the horizon. The factor for w.wm <= 0 is the caller's."""
-        return self._of_direction("g1", w)
+    def g1(self, wi: Any) -> Floats:
+        """Smith's masking, 0 to 1; 0 below the horizon. The factor for wi.wm <= 0 is the caller's."""
+        return self._look("g1", wi=wi)
 
     def g2(self, wi: Any, wo: Any, model: str = "height-correlated") -> Floats:
         """Masking and shadowing of two directions, 0 to 1; 0 if one is below the horizon. "height-correlated" or
@@ -152,115 +101,122 @@ class _Rough:
         return stacked(np.divide(product, under, out=np.zeros_like(product), where=product > 0))[()]
 
 
-class _OneLobe(_Rough):
-    """Surfaces of one distribution."""
+class Surface(Rough):
+    """A distribution, stretched: by ``alpha`` along x and ``alpha_y`` along y (None: the same), > 0, and turned by
+    ``rotation``, the angle from x to the axis of alpha, radians; or by any ``matrix``, shape (2, 2, ...), and moved by
+    a ``mean`` slope, shape (2, ...), as filtered normal maps have them: slopes are M u + mean. alpha = 1 is the
+    distribution as it was built. Single numbers that are no surface are refused; in arrays they scatter nothing."""
 
-    _batch: Any  # the C struct
+    _prefix = "affine_"
 
-    def __init__(self, distribution: Distribution, shape: Floats) -> None:
+    def __init__(
+        self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
+        rotation: Optional[Numbers] = None, matrix: Any = None, mean: Any = None,
+    ) -> None:  # fmt: skip
         want(distribution, Distribution)
         self.distribution = distribution
+        if matrix is None:
+            if mean is not None:
+                raise TypeError("a mean slope needs a matrix")
+            shape = stacked((alpha, alpha if alpha_y is None else alpha_y))
+            if shape.ndim == 1 and not all(0 < a < np.inf for a in shape.tolist()):
+                raise ValueError(f"alpha is {shape.tolist()}; it must be above 0")
+            if not (shape > 0).all():
+                shape = np.where(shape > 0, shape, np.float32(np.nan))
+            if rotation is not None:
+                x, y, c, s = *shape, np.cos(rotation), np.sin(rotation)
+                shape = stacked((c * x, -s * y, s * x, c * y, 0.0, 0.0))
+        else:
+            rows = stacked(matrix)
+            if rows.shape[:2] != (2, 2):
+                raise ValueError(f"matrix: its shape is {rows.shape}, it must be (2, 2, ...)")
+            moved = components((0.0, 0.0) if mean is None else mean, 2, "mean")
+            shape = stacked([*rows.reshape(4, *rows.shape[2:]), *moved])
+            if shape.ndim == 1 and not (np.isfinite(shape).all() and shape[0] * shape[3] != shape[1] * shape[2]):
+                raise ValueError(f"matrix and mean are {shape.tolist()}; they must be finite, and not singular")
+        self._is_moved = mean is not None
         self._groups = {"shape": shape}
 
+    @property
+    def _six(self) -> Any:
+        """The matrix and the mean slope, row by row."""
+        shape = self._groups["shape"]
+        return shape if len(shape) == 6 else (shape[0], 0.0, 0.0, shape[1], 0.0, 0.0)
+
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
-        shape = batch.addresses("shape", share=True)
-        return self._batch(self.distribution._pointer, batch.count, self._shared(batch), 0, *shape, *wi)
+        shape: list[Any] = batch.addresses("shape", share=True)
+        if len(shape) == 2:
+            shape = [shape[0], None, None, shape[1], None, None]
+        return struct("vndf_affine_batch")(self.distribution._pointer, batch.count, batch.shared(), 0, *shape, *wi)
 
-    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> Sample:
-        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1]; in place of u an `rng`
-        (``numpy.random.default_rng()``) draws them, of shape (2, *size), by default one sample an element. An invalid
-        direction or roughness gives the normal (0, 0, 1) and density 0."""
-        return Sample(*self._draw("sample", 4, wi, u, rng, size))
+    def sample(self, wi: Any, u: Any) -> Sample:
+        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1], or a `numpy.random.default_rng()`
+        that draws them, one sample an element. An invalid direction or roughness gives (0, 0, 1) and density 0."""
+        result = self._draw("sample", 4, wi, u)
+        return Sample(result[:3], result[3])
 
-    def sample_weight(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> WeightedSample:
+    def sample_weight(self, wi: Any, u: Any) -> WeightedSample:
         """:meth:`sample` with the weight visible/pdf, for less than two calls cost."""
-        return WeightedSample(*self._draw("sample_weight", 5, wi, u, rng, size))
+        result = self._draw("sample_weight", 5, wi, u)
+        return WeightedSample(result[:3], result[3], result[4])
 
     def __repr__(self) -> str:
         shape = self._groups["shape"]
         numbers = [f"{row.item():.4g}" if row.size == 1 else f"array{row.shape}" for row in shape]
         what = "alpha" if len(shape) == 2 else "matrix and mean"
-        return f"<vndf.{type(self).__name__} of {self.distribution!r}, {what} {', '.join(numbers)}>"
+        return f"<vndf.Surface of {self.distribution!r}, {what} {', '.join(numbers)}>"
 
 
-class Surface(_OneLobe):
-    """A distribution stretched by roughness: ``alpha`` along x, ``alpha_y`` along y (None: the same), > 0, numbers or
-    arrays. alpha = 1 is the distribution as it was built."""
+class Mixture(Rough):
+    """Up to 8 lobes on one surface, D = sum of w_i D_i: pairs of a :class:`Surface` and a weight >= 0, which counts
+    over the sum of all, and may be an array."""
 
-    _batch = _library.vndf_batch
-
-    def __init__(self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> None:
-        super().__init__(distribution, roughness(alpha, alpha_y))
-
-
-class Affine(_OneLobe):
-    """A distribution whose slopes are stretched, turned and sheared by ``matrix``, shape (2, 2, ...), and moved by
-    ``mean``, shape (2, ...): slopes s = M u + mean, as filtered normal maps have them (vndf.h)."""
-
-    _prefix = "affine_"
-    _batch = _library.vndf_affine_batch
-
-    def __init__(self, distribution: Distribution, matrix: Any, mean: Any = (0.0, 0.0)) -> None:
-        super().__init__(distribution, stretched(matrix, mean))
-
-    @staticmethod
-    def rotated(distribution: Distribution, alpha: Numbers, alpha_y: Numbers, angle: Numbers) -> Affine:
-        """Roughness `alpha` along the direction at `angle` (radians) from x, `alpha_y` across it."""
-        c, s = np.cos(angle), np.sin(angle)
-        along, across = np.asarray(alpha), np.asarray(alpha_y)
-        return Affine(distribution, ((c * along, -s * across), (s * along, c * across)))
-
-
-def _as_affine(surface: Union[Surface, Affine]) -> Affine:
-    want(surface, (Surface, Affine))
-    if isinstance(surface, Affine):
-        return surface
-    x, y = surface._groups["shape"]
-    return Affine(surface.distribution, ((x, 0.0), (0.0, y)))
-
-
-class Mixture(_Rough):
-    """Up to 8 lobes on one surface, D = sum of w_i D_i: pairs of a :class:`Surface` or :class:`Affine` and a weight
-    >= 0. Weights, matrices and mean slopes may be arrays; weights count over their sum."""
-
-    _prefix = "mixture_"
-
-    def __init__(self, *lobes: tuple[Union[Surface, Affine], Numbers]) -> None:
-        if not 1 <= len(lobes) <= _library.MIXTURE_LOBES:
-            raise ValueError(f"a mixture has 1 to {_library.MIXTURE_LOBES} lobes, not {len(lobes)}")
+    def __init__(self, *lobes: tuple[Surface, Numbers]) -> None:
+        most = constant("VNDF_MIXTURE_LOBES")
+        if not 1 <= len(lobes) <= most:
+            raise ValueError(f"a mixture has 1 to {most} lobes, not {len(lobes)}")
         if not all(isinstance(lobe, tuple) and len(lobe) == 2 for lobe in lobes):
             raise TypeError("the lobes of a mixture are pairs (surface, weight), one argument each")
-        self.lobes = [_as_affine(surface) for surface, _ in lobes]
+        for surface, _ in lobes:
+            want(surface, Surface)
+        self.lobes = [surface for surface, _ in lobes]
         self.weights = stacked([weight for _, weight in lobes])
-        shapes = stacked([part for lobe in self.lobes for part in lobe._groups["shape"]])
-        self._groups = {"shape": shapes, "weight": self.weights}
-        single = self.weights.ravel().tolist() if self.weights.size == len(lobes) else []
-        if single and not (all(0 <= weight < np.inf for weight in single) and any(single)):
-            raise ValueError(f"weights are {single}; they must be 0 or above, and not all 0")
+        if self.weights.ndim == 1 and not (all(0 <= w < np.inf for w in self.weights) and any(self.weights)):
+            raise ValueError(f"weights are {self.weights.tolist()}; they must be 0 or above, and not all 0")
+        self._groups = {"shape": stacked([row for lobe in self.lobes for row in lobe._six]), "weight": self.weights}
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
         shapes, weights = batch.addresses("shape", share=True), batch.addresses("weight", share=True)
-        struct = _library.vndf_mixture_batch(batch.count, self._shared(batch), 0, *wi, len(self.lobes))
+        filled = struct("vndf_mixture_batch")(batch.count, batch.shared(), 0, *wi, len(self.lobes))
         for i, lobe in enumerate(self.lobes):
-            parts = shapes[6 * i : 6 * i + 6]
-            struct.lobe[i] = _library.vndf_lobe_batch(lobe.distribution._pointer, *parts, weights[i])
-        return struct
+            six = shapes[6 * i : 6 * i + 6]
+            filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *six, weights[i])
+        return filled
 
-    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
-        """As of other surfaces; u[0] chooses the lobe too, which is told."""
-        return MixtureSample(*self._draw("sample", 4, wi, u, rng, size, lobe=True))
+    def _lobes_of_hits(self, groups: dict[str, Floats]) -> list[tuple[Any, Any, Any]]:
+        """Of each lobe its distribution, for all hits or for each; its matrix and mean slope; its weight."""
+        rows, weights = groups["shape"], groups["weight"]
+        return [(lobe.distribution._pointer, rows[6 * i : 6 * i + 6], weights[i]) for i, lobe in enumerate(self.lobes)]
+
+    def sample(self, wi: Any, u: Any) -> MixtureSample:
+        """As of one surface; u[0] chooses the lobe too, which is told."""
+        result = self._draw("sample", 5, wi, u)
+        return MixtureSample(result[:3], result[3], result[4:].view(np.int32)[0])
 
     def __repr__(self) -> str:
         return f"<vndf.Mixture of {', '.join(repr(lobe) for lobe in self.lobes)}>"
 
 
-class Family(Owner):
-    """Distributions along one parameter, a mixture of two neighbours between them. From ``Family.build``,
-    ``Family.load`` or ``Family.of``."""
+#: What a family is (vndf_family_facts).
+FamilyInfo = record("vndf_family_facts", "FamilyInfo")
+
+
+class Family(Stored):
+    """Distributions along one parameter, a mixture of two neighbours between them."""
 
     _free = "family_free"
-    _makers = "vndf.Family.build, vndf.Family.load or vndf.Family.of"
-    _given: Sequence[Distribution] = ()  # what `of` was given
+    _kind = "family_"
+    _makers = "vndf.Family.build or vndf.Family.load"
 
     @staticmethod
     def build(
@@ -269,70 +225,34 @@ class Family(Owner):
     ) -> Family:  # fmt: skip
         """Tables of a family of :meth:`Source.family` along the number written {p}, from low to high: as few as reach
         `max_distance` (total variation of slopes; 0: 1e-3), or `knots` of them."""
-        reporter = Reporter(progress)
-        options = _library.vndf_family_options(max_distance, knots, max_bytes, moments, reporter.pointer, None)
-        name = text_bytes(specification)
-        return reporter.run(lambda: Family._of(checked("build_family", name, low, high, byref(options))))
-
-    @staticmethod
-    def load(path: Path) -> Family:
-        """Reads a file of ``vndf build --parameter``."""
-        return Family._of(checked("family_load", path_bytes(path)))
-
-    @staticmethod
-    def of(distributions: Sequence[Distribution], parameters: Sequence[float]) -> Family:
-        """Distributions of any kind at ascending parameters."""
-        if len(distributions) != len(parameters):
-            raise ValueError(f"{len(distributions)} distributions at {len(parameters)} parameters")
-        for distribution in distributions:
-            want(distribution, Distribution)
-        pointers = np.array([d._pointer for d in distributions], np.uintp)
-        at = np.array(parameters, np.float32)
-        pointer = checked("family_of", pointers.ctypes.data, at.ctypes.data, len(pointers))
-        return Family._of(pointer, _given=list(distributions))
-
-    @staticmethod
-    def from_bytes(data: bytes) -> Family:
-        """A family from the bytes of its file, ``bytes(family)``."""
-        array = np.frombuffer(data, np.uint8)
-        return Family._of(checked("family_load_memory", array.ctypes.data, array.size))
-
-    def __bytes__(self) -> bytes:
-        data = np.empty(self.info["bytes"], np.uint8)
-        checked("family_save_memory", self._pointer, data.ctypes.data, data.size)
-        return data.tobytes()
-
-    def __reduce__(self) -> Any:
-        return (Family.of, (self._given, self.parameters)) if self._given else (Family.from_bytes, (bytes(self),))
+        call, name = _Call(), text_bytes(specification)
+        options = struct("vndf_family_options")(max_distance, knots, max_bytes, moments, call.progress(progress), None)
+        return call.run(lambda: Family._of(checked("build_family", name, low, high, byref(options))))
 
     def __repr__(self) -> str:
-        facts = self.info
-        return f"<vndf.Family {facts['source']}, {facts['count']} distributions from {facts['low']} to {facts['high']}>"
-
-    def save(self, path: Path) -> None:
-        """Writes the family to a file."""
-        checked("family_save", self._pointer, path_bytes(path))
+        info = self.info
+        return f"<vndf.Family {info.source}, {info.count} distributions from {info.low} to {info.high}>"
 
     @property
-    def info(self) -> dict[str, Any]:
+    def info(self) -> Any:
         """source, tool, bytes, memory, count, low, high, reciprocal, distance, grazing (vndf_family_facts)."""
-        return members(library.family_info(self._pointer))
+        return FamilyInfo(*values(library.family_info(self._pointer)))
 
     @functools.cached_property
     def parameters(self) -> Floats:
         """Where its distributions stand, shape (count,)."""
-        return stacked([library.family_parameter(self._pointer, i) for i in range(self.info["count"])])
+        return stacked([library.family_parameter(self._pointer, i) for i in range(self.info.count)])
 
     @functools.cached_property
     def distributions(self) -> list[Distribution]:
         """Those at :attr:`parameters`."""
-        pointers = [library.family_distribution(self._pointer, i) for i in range(self.info["count"])]
+        pointers = [library.family_distribution(self._pointer, i) for i in range(self.info.count)]
         return [Distribution._of(pointer, _owner=self) for pointer in pointers]
 
     @functools.cached_property
     def axis(self) -> tuple[Any, bool]:
         """Knots where shares of neighbours are linear, ascending, and whether those are of 1/parameter."""
-        reciprocal = bool(self.info["reciprocal"])
+        reciprocal = bool(self.info.reciprocal)
         return (-1.0 / np.float64(self.parameters) if reciprocal else np.float64(self.parameters)), reciprocal
 
     def places(self, parameter: Numbers) -> tuple[Any, Any]:
@@ -340,53 +260,48 @@ class Family(Owner):
         knots, reciprocal = self.axis
         p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
         x = -1.0 / p if reciprocal else p
-        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
-        beyond = np.minimum(index + 1, len(knots) - 1)
-        width = knots[beyond] - knots[index]
-        return index, np.where(width > 0, (x - knots[index]) / np.where(width > 0, width, 1), 0 * x)
+        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+        return index, (x - knots[index]) / (knots[index + 1] - knots[index])
 
-    def at(self, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None) -> Union[Mixture, Blend]:
-        """The family at a parameter, which is clamped to its range, with this roughness; at an array of them, as a
-        texture has, a :class:`Blend`."""
-        if np.ndim(parameter):
-            return Blend(self, parameter, alpha, alpha_y)
-        index, share = self.places(parameter)
-        if np.isnan(share):
-            raise ValueError(f"a family has no distribution at {parameter!r}")
-        pair = self.distributions[index : index + 2]
-        return Mixture(*((Surface(d, alpha, alpha_y), w) for d, w in zip(pair, (1 - share, share)) if w > 0))
+    def at(self, parameter: Numbers, *shape: Any, **stretched: Any) -> Blend:
+        """The family at a parameter or at an array of them, as a texture has, clamped to its range; stretched as a
+        :class:`Surface` is: ``family.at(p, alpha, alpha_y, rotation=0.3)``."""
+        return Blend(self, parameter, Surface(self.distributions[0], *shape, **stretched))
 
 
-class Blend(_Rough):
-    """A family at an array of parameters: each element is a mixture of two neighbours. From :meth:`Family.at`. There is
-    one call of C for each pair of neighbours that elements lie between."""
+class Blend(Rough):
+    """A family at parameters: each element is a mixture of two neighbours, the lobes 0 and 1. From :meth:`Family.at`.
+    There is one call of C for each pair of neighbours that elements lie between."""
 
-    _prefix = "mixture_"
-
-    def __init__(
-        self, family: Family, parameter: Numbers, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None
-    ) -> None:  # fmt: skip
-        want(family, Family)
+    def __init__(self, family: Family, parameter: Numbers, surface: Surface) -> None:
         self.family = family
-        self._groups = {"shape": stacked([parameter, *roughness(alpha, alpha_y)])}
+        self._groups = {"shape": stacked([parameter, *surface._six])}
+        if np.ndim(parameter) == 0 and np.isnan(self._groups["shape"][0]).any():
+            raise ValueError(f"a family has no distribution at {parameter!r}")
 
-    def _ask(self, name: str, rows: int, *, lobe: bool = False, **given: Floats) -> Floats:
+    def _ask(self, name: str, rows: int, **given: Floats) -> Floats:
         batch = Batch(**self._groups, **given)
         flat = {group: batch.whole(group).reshape(len(array), -1) for group, array in batch.groups.items()}
-        parameter, x, y = flat.pop("shape")
+        parameter, *six = flat.pop("shape")
         index, share = self.family.places(parameter)
-        result = batch.result(rows + lobe)
+        result = batch.result(rows)
         for i in np.unique(index):
             here = np.flatnonzero(index == i)
-            pair = zip(self.family.distributions[i : i + 2], (1 - share[here], share[here]))
-            mixture = Mixture(*((Surface(d, x[here], y[here]), weight) for d, weight in pair))
-            part = mixture._ask(name, rows, lobe=lobe, **{group: array[:, here] for group, array in flat.items()})
-            result.reshape(rows + lobe, -1)[:, here] = part
+            *matrix, x, y = (row[here] for row in six)
+            pair = [Surface(distribution, matrix=np.reshape(matrix, (2, 2, -1)), mean=(x, y))
+                    for distribution in self.family.distributions[i : i + 2]]  # fmt: skip
+            mixture = Mixture(*zip(pair, (1 - share[here], share[here])))
+            part = mixture._ask(name, rows, **{group: array[:, here] for group, array in flat.items()})
+            result.reshape(rows, -1)[:, here] = part
         return result
 
-    def sample(self, wi: Any, u: Any = None, *, rng: Generator = None, size: Size = None) -> MixtureSample:
-        """As of other surfaces; the lobe is 0 or 1, the neighbour below or above."""
-        return MixtureSample(*self._draw("sample", 4, wi, u, rng, size, lobe=True))
+    def _lobes_of_hits(self, groups: dict[str, Floats]) -> list[tuple[Any, Any, Any]]:
+        parameter, *six = groups["shape"]
+        index, share = self.family.places(parameter)
+        pointers = np.array([d._pointer for d in self.family.distributions], np.uintp)
+        return [(pointers[index], six, 1 - share), (pointers[index + 1], six, share)]
+
+    sample = Mixture.sample
 
     def __repr__(self) -> str:
         return f"<vndf.Blend of {self.family!r} at parameters of shape {self._groups['shape'].shape[1:]}>"

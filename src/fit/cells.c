@@ -2,15 +2,11 @@
 
 #include <math.h>
 
-#include "math/ascending.h"
-#include "table/file.h"
-
 static const double PI = 3.14159265358979323846;
 
 /* ---- one cell ---- */
 
-/* Where it lies. */
-static vndf_cell cell_between(double r, double end, unsigned squarings)
+vndf_cell vndf_cell_between(double r, double end, unsigned squarings)
 {
     double z = 1 / (1 + r), power = end < HUGE_VAL ? 0 : (double)(1u << squarings);
     double h = power > 0 ? power * z : (end - r) * z / (1 + end);
@@ -41,7 +37,7 @@ vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *stri
     const double mass_least = 1e-30, least = 1e-36, cube_most = 1e30;
     const double near_end = 4e-2; /* 1 - xi where the limit of a tail is read */
     double to = strips->at[end].edge;
-    vndf_cell c = cell_between(strips->at[first].edge, to, squarings);
+    vndf_cell c = vndf_cell_between(strips->at[first].edge, to, squarings);
     for (size_t i = first; i < end; i++) {
         const vndf_strip *s = &strips->at[i];
         double d = strips->at[i].edge - c.r;
@@ -109,7 +105,7 @@ vndf_drawn vndf_drawn_below(const vndf_cell *c, double rho, double b0, double b1
 
 vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
 {
-    vndf_cell c = cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
+    vndf_cell c = vndf_cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
     c.g0 = t->g0[i];
     c.g1 = t->g1[i];
     c.m0 = t->m0[i];
@@ -117,85 +113,4 @@ vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
     c.m2 = t->m2[i];
     c.cube = t->cubes && i > 0 ? t->cubes[i] : 0;
     return c;
-}
-
-unsigned vndf_draft_cell(const vndf_draft *draft, double r)
-{
-    return (unsigned)vndf_last_before(&draft->cell->r, sizeof *draft->cell, draft->table.cells + 1, r);
-}
-
-/* ---- directions ---- */
-
-/* The part of rho by which the run time finds the switch (table.h). */
-static int part_of(double rho)
-{
-    int exponent;
-    double part = frexp(rho, &exponent), eighth = 8 * (exponent - 1 + 13) + floor(16 * part) - 8;
-    return (int)fmin(fmax(eighth, 0), VNDF_RHO_PARTS - 1);
-}
-
-vndf_law vndf_law_of(const vndf_draft *draft, double rho, int below)
-{
-    /* k~(y) = a1 y + a0 + aq/y + a4/y^4 for 2, 3 and 4 moments */
-    static const double term[3][4] = {{.934604, 2.206989, 0, 0},
-                                      {1.00473604, 1.48847826, 0.64837836, 0},
-                                      {0.99928177, 1.58441365, 0.47441838, 0.08347885}};
-    const vndf_table_draft *d = &draft->table;
-    const double *k = term[d->moments - 2];
-    double s = 1 / (1 + rho), c = rho * s;
-    unsigned i = vndf_draft_cell(draft, rho), next = i < d->cells ? i + 1 : i;
-    vndf_law law = {.draft = draft, .rho = rho, .s = s, .c = c, .below = below, .first = i};
-    if (below) {
-        law.xi = vndf_cell_place(&draft->cell[i], rho);
-        law.b0 = d->b0[i] + law.xi * ((double)d->b0[next] - d->b0[i]);
-        law.b1 = d->b1[i] + law.xi * ((double)d->b1[next] - d->b1[i]);
-        return law;
-    }
-    int part = part_of(rho);
-    double rounded = vndf_rounded_rho(part);
-    i = vndf_draft_cell(draft, rounded);
-    law.first = i < d->cells && vndf_table_turn(d, i + 1) <= rounded ? i + 1 : i;
-    law.near = (vndf_weight){0, c, 0, 0};
-    law.far = (vndf_weight){s * k[0] / PI, c * k[1] / PI, c * rho * k[2] / PI,
-                            rho < 1e-3 ? 0 : c * pow(rho, 4) * k[3] / PI};
-    law.end = (vndf_weight){law.far.w1, c, 0, 0};
-    if (law.first == d->cells || part == VNDF_RHO_PARTS - 1)
-        law.far = law.end;
-    return law;
-}
-
-/* The mass of the cell that rho lies in is estimated: W vanishes at rho and grows about evenly. The estimate is scaled
- * so that it is exact where rho is the left knot. */
-static vndf_drawn partial_cell(const vndf_law *law)
-{
-    const vndf_cell *c = &law->draft->cell[law->first];
-    double all = vndf_drawn_below(c, c->r, law->b0, law->b1).mass, here = c->g0 + law->xi * (c->g1 - c->g0);
-    double near = below_flat(c, c->r, law->b0, law->b1) * (c->g1 / 3 + c->g0 / 6);
-    double end = (1 - law->xi) * below_flat(c, law->rho, law->b0, law->b1);
-    double mass = fmin(all / near, 1e3) * (end * (c->g1 / 3 + here / 6));
-    return (vndf_drawn){mass, 0, fmin(end * c->g1, 1e4 * mass)};
-}
-
-vndf_drawn vndf_law_cell(const vndf_law *law, unsigned i)
-{
-    const vndf_cell *c = &law->draft->cell[i];
-    if (!law->below)
-        return vndf_drawn_by(c, i < law->first ? &law->near : i == 0 ? &law->end : &law->far);
-    vndf_drawn drawn = i == law->first ? partial_cell(law) : vndf_drawn_below(c, law->rho, law->b0, law->b1);
-    double by = law->s / PI;
-    return (vndf_drawn){by * drawn.mass, by * drawn.d0, by * drawn.d1};
-}
-
-double vndf_law_public_area(const vndf_law *law, double drawn)
-{
-    const vndf_table_draft *d = &law->draft->table;
-    unsigned i = vndf_draft_cell(law->draft, law->rho);
-    const vndf_cell *c = &law->draft->cell[i];
-    int last = i == d->cells;
-    double width = last ? c->z : c->h, t = last ? 1 - law->s / c->z : vndf_cell_place(c, law->rho), u = 1 - t;
-    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1];
-    double d0 = d->slope[i] * width, d1 = (last ? 1 : d->slope[i + 1]) * width;
-    double above = u * u * ((1 + 2 * t) * a0 + t * d0) + t * t * ((1 + 2 * u) * a1 - u * d1);
-    double part = fmin(fmax((drawn / above - 4e-4) / 1.6e-3, 0), 1);
-    return law->below ? drawn + part * (above - law->c - drawn) : above;
 }

@@ -1,0 +1,50 @@
+/* No bytes crash the readers of measured files - reflectances (.bsdf and MERL), heights, normal maps: they are refused
+ * with a message that names the file and hold no memory then, or D is a curve over ascending angles and slopes are
+ * finite; and no slopes crash what looks for their law: its rows are a curve, or it says why not. */
+#include "fuzz/fuzz.h"
+#include "measured/brdf.h"
+#include "measured/surface.h"
+
+static void judge(int good, profile *rows, const data_file *file)
+{
+    fuzz_require(good || (strncmp(file->refused, "fuzz: ", 6) == 0 && rows->x == NULL),
+                 "a refusal has a reason alone");
+    for (size_t i = 0; good && i < rows->count; i++)
+        fuzz_require(isfinite(rows->value[i]) && rows->value[i] >= 0 && (i == 0 || rows->x[i] > rows->x[i - 1]),
+                     "rows are a curve");
+    fuzz_require(strstr(file->notes, "nan") == NULL && strstr(file->notes, "inf") == NULL,
+                 "what is said is finite");
+    if (good)
+        profile_free(rows);
+}
+
+static void judge_slopes(slope_set *slopes, int good, data_file *file)
+{
+    profile rows = {0};
+    fuzz_require(good || slopes->at == NULL, "what is refused holds no memory");
+    for (size_t i = 0; i < slopes->count; i++)
+        fuzz_require(isfinite(slopes->at[i].x) && isfinite(slopes->at[i].y), "slopes are finite");
+    judge(good && slopes_law(slopes, file, &rows), &rows, file);
+    slopes_free(slopes);
+}
+
+static void fuzz_one(const uint8_t *data, size_t size, char *text)
+{
+    const data_file file = {.name = "fuzz", .bytes = size ? data : (uint8_t *)text, .size = size};
+    data_file bsdf = file, merl = file, heights = file, normals = file;
+    profile rows = {0};
+    height_field field;
+    slope_set slopes = {0};
+    int good = rgl_read(&bsdf, &rows);
+    judge(good, &rows, &bsdf);
+    good = merl_read(&merl, MERL_GREEN, &rows);
+    judge(good, &rows, &merl);
+    good = heights_read(&heights, &field);
+    fuzz_require(good || field.z == NULL, "refused heights hold no memory");
+    fuzz_require(!good || (size_t)field.width * (size_t)field.height <= size, "a height takes a byte at least");
+    good = good && heights_slopes(&field, 1, &slopes, &heights);
+    heights_free(&field);
+    judge_slopes(&slopes, good, &heights);
+    good = normals_slopes(&normals, &slopes);
+    judge_slopes(&slopes, good, &normals);
+}
