@@ -45,7 +45,8 @@ class BuildWithLibrary(build_py):
             shutil.copyfile(library, package / NAME)
             shutil.copyfile(kernel, package / "_kernel.py")
         if not self.editable_mode:  # they are found in the checkout
-            shutil.copytree(SOURCE / "include", package / "include", dirs_exist_ok=True)
+            headers = shutil.ignore_patterns(".*", "*.hpp")
+            shutil.copytree(SOURCE / "include", package / "include", ignore=headers, dirs_exist_ok=True)
 
 
 class PlatformWheel(bdist_wheel):
