@@ -74,7 +74,8 @@ static void test_files(void)
     for (int i = 0; TEST(raw && size == 1600) && i < 4; i++) {
         unsigned bits;
         memcpy(&bits, &first[i], sizeof bits);
-        TEST((raw[4 * i] | raw[4 * i + 1] << 8 | raw[4 * i + 2] << 16 | (unsigned)raw[4 * i + 3] << 24) == bits);
+        const unsigned char *b = raw + 4 * i;
+        TEST(((unsigned)b[0] | (unsigned)b[1] << 8 | (unsigned)b[2] << 16 | (unsigned)b[3] << 24) == bits);
     }
     free(raw);
     test_same(samples(text, "ggx" ROUGH), samples(other, "ggx --theta 60 --phi 30 --matrix 0.1,0,0,0.3"));
