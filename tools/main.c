@@ -144,6 +144,7 @@ static int print(const char *text)
 static int dispatch(int argc, char **argv)
 {
     static char help[HELP_MAX];
+    static arguments given;
     int used = 0;
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
@@ -170,8 +171,7 @@ static int dispatch(int argc, char **argv)
         is_help |= asks(argv[i], "--help", "-h");
     if (is_help)
         return print(help);
-    arguments given = {.command = c->name, .help = help};
-    if (!arguments_read(&given, argc - used, argv + used))
+    if (!arguments_read(&given, c->name, help, argc - used, argv + used))
         return STATUS_USE;
     if (given.positional.count < c->least)
         return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);

@@ -35,15 +35,15 @@ static double excess_of(const vndf_certificate *c, double tv)
 }
 
 /* The table of a draft as it is read back from its file, measured. */
-static vndf_distribution *measured(const builder *b, vndf_draft *draft)
+static vndf_distribution *measured(const builder *b, vndf_table_draft *draft)
 {
     vndf_writer file = {NULL, 0, 0, 0};
     vndf_error inner = {VNDF_ERROR_MEMORY, ""};
-    draft->table.tool = TOOL;
-    vndf_table_write(&draft->table, &file);
+    draft->tool = TOOL;
+    vndf_table_write(draft, &file);
     vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
     free(file.bytes);
-    if (table && vndf_certificate_measure(&table->certificate, table, draft, b->profile))
+    if (table && vndf_certificate_measure(&table->certificate, table, b->profile))
         return table;
     if (table || inner.status == VNDF_ERROR_MEMORY)
         vndf_guard_starve(b->profile->guard);
@@ -57,14 +57,14 @@ static vndf_distribution *measured(const builder *b, vndf_draft *draft)
 /* Makes the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
 static double try_knots(builder *b, unsigned knots)
 {
-    vndf_draft draft;
+    vndf_table_draft draft;
     vndf_free(b->table);
     vndf_knots_place(&b->knots, knots);
     int good = vndf_draft_from(&draft, &b->knots, b->moments);
     if (!good)
         vndf_guard_starve(b->profile->guard);
     b->table = good && !vndf_guard_stopped(b->profile->guard) ? measured(b, &draft) : NULL;
-    vndf_draft_free(&draft);
+    free(draft.knot);
     return b->table ? excess_of(&b->table->certificate, b->max_tv) : 0;
 }
 
@@ -203,16 +203,13 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_guard_status(&guard, error);
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
-    vndf_draft draft = {.first = NULL};
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))
         vndf_fail(vndf_guard_why(&guard), VNDF_ERROR_DISTRIBUTION,
                   "the table is of another distribution: scale %.9g and normalization %.9g, "
                   "the source has %.9g and %.9g",
                   distribution->scale, distribution->normalization, profile->scale, profile->normalization);
-    else if (!vndf_draft_of(&draft, distribution, profile) ||
-             !vndf_certificate_measure(certificate, distribution, &draft, profile))
+    else if (!vndf_certificate_measure(certificate, distribution, profile))
         vndf_guard_starve(&guard);
-    vndf_draft_free(&draft);
     vndf_profile_free(profile);
     return vndf_guard_status(&guard, error);
 }

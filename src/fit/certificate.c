@@ -5,9 +5,11 @@
 
 #include "fit/draft.h"
 #include "kernel/wide.h"
+#include "math/ascending.h"
 
+/* The text for the types of that page: first what reads a table, */
 #include "kernel/rows.h"
-
+/* then the law. */
 #include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;
@@ -26,12 +28,11 @@ typedef struct direction {
 
 typedef struct survey {
     table table;
-    const vndf_draft *draft;
     const vndf_profile *profile;
-    direction *at;       /* of each edge */
-    double *xi, *kernel; /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
-    double
-        rarely[RATIOS]; /* of the direction at hand: what is seen, by the ratio in which it is drawn too rarely */
+    vndf_strips strips;
+    direction *at;         /* of each edge */
+    double *xi, *kernel;   /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
+    double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
 } survey;
 
 /* ---- one direction ---- */
@@ -47,35 +48,33 @@ static double largest_weight(const survey *s, double least)
 }
 
 /* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
-static vndf_drawn drawn_in(table t, seen v, unsigned cell, int below)
+static vndf_drawn drawn_in(table t, seen v, int i, int below)
 {
     const weights near = {0, v.c, 0, 0};
-    int i = (int)cell;
     piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
 }
 
 /* Compares what is drawn with what is seen, strip by strip. */
-static void compare(survey *s, seen v, int below, size_t edge, double seen_area, double taken_area, double *figure)
+static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
 {
-    const vndf_draft *d = s->draft;
-    double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * seen_area);
+    const size_t *strip = s->strips.first;
+    double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
     memset(s->rarely, 0, sizeof s->rarely);
-    for (unsigned first = below ? (unsigned)v.first : 0, i = first; i <= d->table.cells; i++) {
+    for (int first = below ? v.first : 0, i = first; i <= s->table.cells; i++) {
         vndf_drawn cell = drawn_in(s->table, v, i, below);
         int partial = below && i == first;
         double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
-        for (size_t n = partial ? edge : d->first[i]; n < d->first[i + 1]; n++) {
-            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
-            double taken = (next - before) / taken_area;
-            double visible = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * d->strips.at[n].f);
+        for (size_t n = partial ? edge : strip[i]; n < strip[i + 1]; n++) {
+            double next = vndf_drawn_before(&cell, n + 1 < strip[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
+            double is = (next - before) / area_drawn;
+            double right = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f);
             before = next;
-            miss += fabs(visible - taken);
-            if (visible > LEFT_OUT && visible > weight * taken)
-                weight = taken > 0 ? visible / taken : HUGE_VAL;
-            else if (visible > weight * taken)
-                s->rarely[taken * 0x1p31 > visible ? (int)(PER_OCTAVE * log2(visible / taken)) : RATIOS - 1] +=
-                    visible;
+            miss += fabs(right - is);
+            if (right > LEFT_OUT && right > weight * is)
+                weight = is > 0 ? right / is : HUGE_VAL;
+            else if (right > weight * is)
+                s->rarely[is * 0x1p31 > right ? (int)(PER_OCTAVE * log2(right / is)) : RATIOS - 1] += right;
         }
     }
     figure[TV] = fmin(miss / 2, 1);
@@ -85,28 +84,27 @@ static void compare(survey *s, seen v, int below, size_t edge, double seen_area,
 /* One side. */
 static void look_at_side(survey *s, size_t edge, int below, double *figure)
 {
-    const vndf_draft *d = s->draft;
-    double rho = d->strips.at[edge].edge, sine = 1 / (1 + rho), area = below ? 0 : PI * rho, beyond = 0, taken = 0;
-    unsigned cell = (unsigned)find_knot(s->table, rho * rho, 1);
-    seen v = below ? law_see_below(s->table, sine, rho * sine, rho, (int)cell)
-                   : law_see_above(s->table, sine, rho * sine, rho);
-    for (unsigned i = d->table.cells + 1; i-- > (below ? cell : 0);)
-        taken += drawn_in(s->table, v, i, below).mass;
-    for (size_t i = 2 * edge; i < 2 * d->strips.count; i++)
+    table t = s->table;
+    double rho = s->strips.at[edge].edge, sine = 1 / (1 + rho), beyond = 0, all = 0;
+    int cell = find_knot(t, rho * rho, 1);
+    seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
+    for (size_t i = 2 * edge; i < 2 * s->strips.count; i++)
         beyond += s->kernel[i];
-    area = (area + beyond) * sine / PI;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
         return;
-    figure[CONSISTENCY] = fabs((double)(float)v.total / taken - 1);
-    if (cell == d->table.cells || d->cell[cell + 1].r - d->cell[cell].r > VNDF_GRAIN * rho)
-        figure[AREA_ERROR] = fabs(law_area_in(s->table, v, (int)cell, below) / area - 1);
-    compare(s, v, below, edge, area, taken, figure);
+    for (int i = t.cells; i >= (below ? cell : 0); i--)
+        all += drawn_in(t, v, i, below).mass;
+    double area = (beyond + (below ? 0 : PI * rho)) * sine / PI, knot = look(t, VNDF_KNOT, cell).a;
+    figure[CONSISTENCY] = fabs((double)(float)v.total / all - 1);
+    if (cell == t.cells || look(t, VNDF_KNOT, cell + 1).a - knot > VNDF_GRAIN * rho)
+        figure[AREA_ERROR] = fabs(law_area_in(t, v, cell, below) / area - 1);
+    compare(s, v, below, edge, area, all, figure);
 }
 
 /* Looks from rho at an edge, above and below the horizon. */
 static void look_from(survey *s, size_t edge)
 {
-    const vndf_strips *strips = &s->draft->strips;
+    const vndf_strips *strips = &s->strips;
     double rho = strips->at[edge].edge;
     direction *at = &s->at[edge];
     if (at->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
@@ -126,7 +124,7 @@ static void look_from(survey *s, size_t edge)
 /* Looks from the edges beside the one with the largest figure, the nearer the later. */
 static void look_near_worst(survey *s, int side, int figure, size_t apart)
 {
-    size_t best = 0, edges = s->draft->strips.count;
+    size_t best = 0, edges = s->strips.count;
     for (; apart > 0; apart /= 2) {
         for (size_t i = 0; i < edges; i++)
             best = s->at[i].known && s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
@@ -140,11 +138,12 @@ static void look_near_worst(survey *s, int side, int figure, size_t apart)
 static void look_around(survey *s)
 {
     static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
-    const vndf_draft *d = s->draft;
+    const vndf_strip *at = s->strips.at;
     for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
-        look_from(s, vndf_strips_edge(&d->strips, 1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
-    for (unsigned i = 0; i <= d->table.cells; i += d->table.cells / CELLS_MOST + 1) {
-        size_t from = d->first[i], strips = d->first[i + 1] - from;
+        look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count,
+                                      1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
+    for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
+        size_t from = s->strips.first[i], strips = s->strips.first[i + 1] - from;
         look_from(s, from);
         look_from(s, from + strips / 3);
         if (i > 0)
@@ -178,48 +177,52 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
  * were, over the strips that hold all but LEFT_OUT of the mass on either side. */
 static double ndf_error(const survey *s)
 {
-    const vndf_draft *d = s->draft;
+    const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
-    for (unsigned i = 0; i <= d->table.cells; i++) {
-        int tail = i == d->table.cells;
-        piece all = law_cell_all(s->table, (int)i);
+    for (int i = 0; i <= s->table.cells; i++) {
+        int tail = i == s->table.cells;
+        piece all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0;
-        for (size_t n = d->first[i]; n < d->first[i + 1]; n++) {
-            const vndf_strip *strip = &d->strips.at[n];
-            double next = vndf_drawn_before(&cell, n + 1 < d->first[i + 1] ? s->xi[n + 1] : 1);
+        for (size_t n = first[i]; n < first[i + 1]; n++) {
+            const vndf_strip *strip = &s->strips.at[n];
+            double next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? s->xi[n + 1] : 1);
             double error = fabs((next - before) / (tail ? strip->along : strip->f) - 1);
             before = next;
             sum += strip->f;
             if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                strip->f > LEFT_OUT * log(d->strips.at[n + 1].edge / d->strips.at[n].edge))
+                strip->f > LEFT_OUT * log(strip[1].edge / strip->edge))
                 worst = fmax(worst, error);
         }
     }
     return worst;
 }
 
-int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_draft *draft,
-                             const vndf_profile *profile)
+int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_profile *profile)
 {
-    size_t n = draft->strips.count;
-    survey s = {.table = table_of(d),
-                .draft = draft,
-                .profile = profile,
-                .at = calloc(n + 1, sizeof *s.at),
-                .xi = malloc((n + 1) * sizeof *s.xi),
-                .kernel = malloc(2 * n * sizeof *s.kernel)};
-    int good = s.at && s.xi && s.kernel;
+    const unsigned cells = (unsigned)d->cells;
+    survey s = {.table = table_of(d), .profile = profile};
+    float *knot = malloc((cells + 1) * sizeof *knot);
+    for (unsigned i = 0; knot && i <= cells; i++)
+        knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
+    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
+    size_t n = good ? s.strips.count : 0;
+    s.at = calloc(n + 1, sizeof *s.at);
+    s.xi = malloc((n + 1) * sizeof *s.xi);
+    s.kernel = malloc((2 * n + 1) * sizeof *s.kernel);
+    good = good && s.at && s.xi && s.kernel;
     if (good) {
-        for (unsigned i = 0; i <= draft->table.cells; i++)
-            for (size_t k = draft->first[i]; k < draft->first[i + 1]; k++)
-                s.xi[k] = vndf_cell_place(&draft->cell[i], draft->strips.at[k].edge);
+        for (unsigned i = 0; i <= cells; i++) {
+            vndf_cell cell =
+                vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)d->squarings);
+            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++)
+                s.xi[k] = vndf_cell_place(&cell, s.strips.at[k].edge);
+        }
         look_around(&s);
-        memset(c, 0, sizeof *c);
-        c->max_weight = 1;
+        *c = (vndf_certificate){.max_weight = 1};
         for (size_t i = 0; i < 2 * n; i++)
             if (s.at[i / 2].known)
-                take(c, s.at[i / 2].side[i % 2], draft->strips.at[i / 2].edge, i % 2, profile->scale);
+                take(c, s.at[i / 2].side[i % 2], s.strips.at[i / 2].edge, i % 2, profile->scale);
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;
@@ -230,6 +233,8 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
         c->hidden = (float)profile->hidden;
         c->finest = (float)profile->finest;
     }
+    vndf_strips_free(&s.strips);
+    free(knot);
     free(s.at);
     free(s.xi);
     free(s.kernel);

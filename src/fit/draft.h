@@ -32,16 +32,14 @@ typedef struct vndf_strip {
 typedef struct vndf_strips {
     size_t count;
     vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
+    size_t *first;  /* those of knots, and behind them the count */
 } vndf_strips;
 
-/* About as many as a table of so many cells needs; some end at knots, which ascend from 0. 0 if there is no memory;
- * free them either way. */
+/* About as many as a table of so many cells needs; some end at these knots, which ascend from 0. 0 if there is no
+ * memory; free them either way. */
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
                      size_t cells);
 void vndf_strips_free(vndf_strips *strips);
-
-/* The last edge at or before a slope. */
-size_t vndf_strips_edge(const vndf_strips *strips, double r);
 
 /* ---- cells ---- */
 
@@ -57,23 +55,20 @@ typedef struct vndf_cell {
 vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
                             unsigned squarings);
 
-/* That of a table. */
+/* Where the cell of a table is, and all of it. */
+vndf_cell vndf_cell_between(double from, double to, unsigned squarings);
 vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
 
 /* xi of a slope in the cell. */
 double vndf_cell_place(const vndf_cell *cell, double r);
-
-/* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
-typedef struct vndf_weight {
-    double w1, w0, wq, w4;
-} vndf_weight;
 
 /* What is drawn in a cell: its mass, and the densities per unit of xi at its ends. */
 typedef struct vndf_drawn {
     double mass, d0, d1;
 } vndf_drawn;
 
-vndf_drawn vndf_drawn_by(const vndf_cell *cell, const vndf_weight *weight);
+/* For W = w1 R^2 + w0 R. */
+vndf_drawn vndf_drawn_by(const vndf_cell *cell, double w1, double w0);
 
 /* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
 vndf_drawn vndf_drawn_below(const vndf_cell *cell, double rho, double b0, double b1);
@@ -84,15 +79,6 @@ static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
     double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
     return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
 }
-
-/* A table, its cells with the tail cell, and the profile in strips that end at its knots: those of cell i from
- * first[i] to first[i + 1]. */
-typedef struct vndf_draft {
-    vndf_table_draft table;
-    vndf_cell *cell;
-    vndf_strips strips;
-    size_t *first;
-} vndf_draft;
 
 /* ---- knots ----
  *
@@ -132,16 +118,12 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 /* ---- tables ---- */
 
-/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free it either way. */
-int vndf_draft_from(vndf_draft *draft, vndf_knots *knots, unsigned moments);
+/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free table->knot
+ * either way. */
+int vndf_draft_from(vndf_table_draft *table, vndf_knots *knots, unsigned moments);
 
-/* The same of a table that was loaded, beside a profile. */
-int vndf_draft_of(vndf_draft *draft, const vndf_distribution *table, const vndf_profile *profile);
-
-void vndf_draft_free(vndf_draft *draft);
-
-/* How good the table of a draft is (certificate.c); 0 if there is no memory. */
+/* How good a table is (certificate.c); 0 if there is no memory. */
 int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
-                             const vndf_draft *draft, const vndf_profile *profile);
+                             const vndf_profile *profile);
 
 #endif

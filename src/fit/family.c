@@ -117,34 +117,36 @@ static void tabulate(builder *b, double p, shares *to)
     vndf_source_free(source);
 }
 
-/* The largest distance at the probes between two knots, which are tabulated. */
-static void measure_between(builder *b, double low, double high, double *slopes, double *grazing)
+/* Adds the distance at p between two knots, which are tabulated. */
+static void measure_at(builder *b, double low, double high, double p, double *slopes, double *grazing)
 {
-    *slopes = 0;
-    for (int k = 1; k <= PROBES && !vndf_guard_stopped(&b->guard); k++) {
-        double sum = 0, along = 0, part = (double)k / (PROBES + 1); /* the weight of the upper knot */
-        double p = b->reciprocal ? low * high / (high - part * (high - low)) : low + part * (high - low);
-        double t = vndf_family_weight(low, high, p, b->reciprocal);
-        tabulate(b, p, &b->own);
-        double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
-        for (size_t i = 0; i < SLOPES; i++) {
-            double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
-            sum += fabs(mixed - own);
-            along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
-        }
-        *slopes = fmax(*slopes, sum / 2);
-        *grazing = fmax(*grazing, along / 2);
+    double sum = 0, along = 0, t = vndf_family_weight(low, high, p, b->reciprocal);
+    double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
+    tabulate(b, p, &b->own);
+    for (size_t i = 0; i < SLOPES; i++) {
+        double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
+        sum += fabs(mixed - own);
+        along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
     }
+    *slopes = fmax(*slopes, sum / 2);
+    *grazing = fmax(*grazing, along / 2);
 }
 
+/* At the probes between all knots. */
 static void measure(builder *b, spread *s)
 {
     tabulate(b, s->knot[0], &b->right);
     s->worst = s->grazing = 0;
     for (size_t i = 0; i + 1 < b->count && !vndf_guard_stopped(&b->guard); i++) {
+        double low = s->knot[i], high = s->knot[i + 1];
         b->left = b->right;
-        tabulate(b, s->knot[i + 1], &b->right);
-        measure_between(b, s->knot[i], s->knot[i + 1], &s->distance[i], &s->grazing);
+        tabulate(b, high, &b->right);
+        s->distance[i] = 0;
+        for (int k = 1; k <= PROBES && !vndf_guard_stopped(&b->guard); k++) {
+            double part = (double)k / (PROBES + 1); /* the weight of the upper knot */
+            double p = b->reciprocal ? low * high / (high - part * (high - low)) : low + part * (high - low);
+            measure_at(b, low, high, p, &s->distance[i], &s->grazing);
+        }
         vndf_guard_stage(&b->guard, b->begin, b->stage);
         s->worst = fmax(s->worst, s->distance[i]);
     }
@@ -201,34 +203,21 @@ static int spread_knots(builder *b)
     return !vndf_guard_stopped(&b->guard);
 }
 
-/* As few knots as reach the distance, which falls as the square of their number: an estimate from below, then one by
- * one downwards. */
+/* About as few knots as reach the distance, which falls as the square of their number: an estimate from below, then one
+ * by one. */
 static void reach_distance(builder *b)
 {
     double target = b->options.max_distance;
-    size_t few = 1, enough = 0;
-    spread reached = {.worst = 0};
-    for (b->count = 2; enough != few + 1;) {
-        if (!spread_knots(b))
-            return;
-        if (b->spread.worst <= target) {
-            reached = b->spread;
-            enough = b->count;
-            b->count--;
-            continue;
-        }
-        few = b->count;
-        if (few == KNOTS_MOST) {
+    for (b->count = 2; spread_knots(b) && b->spread.worst > target;) {
+        double more = 1 + floor((double)(b->count - 1) * sqrt(b->spread.worst / target));
+        if (b->count == KNOTS_MOST) {
             vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
-                      "a distance of %g between family and mixture cannot be met: %lu knots reach %.3g", target,
-                      (unsigned long)few, b->spread.worst);
+                      "a distance of %g between family and mixture cannot be met: %d knots reach %.3g", target,
+                      KNOTS_MOST, b->spread.worst);
             return;
         }
-        double more = 1 + ceil((double)(few - 1) * sqrt(b->spread.worst / target));
-        b->count = (size_t)fmin(fmax(more, (double)(few + 1)), KNOTS_MOST);
+        b->count = (size_t)fmin(fmax(more, (double)b->count + 1), KNOTS_MOST);
     }
-    b->count = enough;
-    b->spread = reached;
 }
 
 /* Chooses between mixtures that are linear in p and in 1/p, then places knots. */
@@ -248,7 +237,7 @@ static void place(builder *b)
     b->count = b->options.knots;
     if (vndf_guard_stopped(&b->guard))
         return;
-    if (b->options.knots)
+    if (b->count)
         spread_knots(b);
     else
         reach_distance(b);
@@ -259,30 +248,21 @@ static void place(builder *b)
 /* Arguments of `vndf build`, to be freed. */
 static char *describe(builder *b)
 {
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_text_add_word(&text, "--family");
-    vndf_text_add_word(&text, b->pattern);
-    vndf_text_add(&text, " --parameter ");
-    vndf_text_add_number(&text, b->low);
-    vndf_text_add(&text, "..");
-    vndf_text_add_number(&text, b->high);
-    return vndf_text_finish(&text, vndf_guard_why(&b->guard));
+    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
+    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
+             vndf_number_print(high, b->high));
+    return vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
 }
 
 static void fill(builder *b, vndf_family *family)
 {
-    static const char tool[] = "vndf " VNDF_VERSION;
     const vndf_build_options options = {
         .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
     family->owns = 1;
     family->reciprocal = b->reciprocal;
     family->grazing = (float)fmin(b->spread.grazing, 1);
     family->source = describe(b);
-    family->tool = malloc(sizeof tool);
-    if (family->tool)
-        memcpy(family->tool, tool, sizeof tool);
-    else
-        vndf_guard_starve(&b->guard);
+    family->tool = vndf_text_pair("vndf", VNDF_VERSION, "", vndf_guard_why(&b->guard));
     b->width = (1 - PLACED) / (double)b->count;
     for (size_t i = 0; i < b->count; i++) {
         vndf_error inner = {VNDF_OK, ""};
@@ -317,9 +297,6 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
     char excerpt[VNDF_EXCERPT];
     if (!pattern)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
-    if (strlen(pattern) > VNDF_LIMIT_FAMILY_LENGTH)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %lu characters; at most %d are possible",
-                         (unsigned long)strlen(pattern), VNDF_LIMIT_FAMILY_LENGTH);
     if (strchr(pattern, ':') && !strstr(pattern, PLACE))
         return vndf_fail(error, VNDF_ERROR_SYNTAX,
                          "'%s' does not say where the parameter stands; right would be {p} in its place, as in "

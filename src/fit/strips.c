@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "math/ascending.h"
 
@@ -202,8 +201,8 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
     double all = 0, *need = malloc((profile->count + 1) * sizeof *need);
     const vndf_panel *p = profile->panel;
     size_t next = 1;
-    memset(strips, 0, sizeof *strips);
-    if (!need || !grow(&m)) {
+    *strips = (vndf_strips){.first = malloc((knots + 1) * sizeof *strips->first)};
+    if (!need || !strips->first || !grow(&m)) {
         free(need);
         return 0;
     }
@@ -228,6 +227,9 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
     const double r[2] = {m0 > 0 ? end + profile->tail_m1 / m0 : 2 * end, 2 * end}, mass[2] = {2 * PI * m0, 0};
     push(&m, HUGE_VAL, r, mass, 0, 0);
     scale(strips, 0, 1); /* two points are too few in panels that knots have cut where waves are many */
+    for (size_t i = 0; i < knots; i++)
+        strips->first[i] = vndf_last_before(&strips->at->edge, sizeof *strips->at, strips->count, knot[i]);
+    strips->first[knots] = strips->count;
     vndf_guard_spend(profile->guard, 2 * (double)strips->count);
     free(need);
     return !m.starved;
@@ -236,10 +238,6 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
 void vndf_strips_free(vndf_strips *strips)
 {
     free(strips->at);
-    memset(strips, 0, sizeof *strips);
-}
-
-size_t vndf_strips_edge(const vndf_strips *strips, double r)
-{
-    return vndf_last_before(&strips->at->edge, sizeof *strips->at, strips->count, r);
+    free(strips->first);
+    *strips = (vndf_strips){0, NULL, NULL};
 }

@@ -225,19 +225,6 @@ void vndf_table_write_loaded(const vndf_distribution *table, vndf_writer *writer
     vndf_table_write(&draft, writer);
 }
 
-int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft)
-{
-    vndf_table_draft within = *draft = draft_within(table);
-    draft->stride = 1;
-    if (!vndf_table_draft_allocate(draft))
-        return 0;
-    for (int a = 0; a < VNDF_ARRAYS; a++)
-        for (size_t i = 0; within.array[a] && i <= draft->cells; i++)
-            draft->array[a][i] = within.array[a][VNDF_STRIDE * i];
-    draft->cubes = within.cubes ? draft->cubes : NULL;
-    return 1;
-}
-
 size_t vndf_table_memory(const vndf_distribution *table)
 {
     size_t floats = table->number_count + column_floats(table);

@@ -116,8 +116,4 @@ typedef struct vndf_table_draft {
 /* Arrays of zeros in one block, draft->knot, to be freed; 0 if there is no memory. */
 int vndf_table_draft_allocate(vndf_table_draft *draft);
 
-/* The draft that an encoded table was made of, its arrays allocated. The texts belong to the table. 0 if there is no
- * memory. */
-int vndf_table_draft_of(const vndf_distribution *table, vndf_table_draft *draft);
-
 #endif

@@ -15,6 +15,7 @@ static const struct {
     {"did you mean '--theta'?", "sample ggx --thta 3"},
     {"did you mean '--alpha'?", "sample ggx -a 3"},
     {"did you mean '--theta'?", "sample ggx --the 3"},
+    {"did you mean '--max-bytes'?", "build --slope exp(-r) --bytes 4096 -o x.vndf"},
     {"did you mean '-o'?", "sample ggx --output x.csv"},
     {"lists have commas, as in 1,2", "sample ggx --alpha 0.3 0.1 --theta 1 -n 9 -o x.csv"},
     {"--theta needs a value", "sample ggx --theta"},

@@ -43,80 +43,68 @@ void list_words(const char *const *candidates, const char *before, char listed[L
 
 /* ---- the help as a table of options -------------------------------------------------------------- */
 
-typedef struct option_term {
-    const char *name, *value;         /* in the help */
-    size_t name_length, value_length; /* value_length 0: a flag */
-    size_t indent;                    /* of its item: 2 or 4 columns */
-    int repeats;
-} option_term;
-
-/* The option behind *at, which begins at the help and moves on; 0: there is none. */
-static int next_option(const char **at, option_term *term)
+static void read_help(arguments *given, const char *help)
 {
-    const char *p = *at;
-    size_t indent = 0;
-    if (strncmp(p, ", -", 3) == 0)
-        p += indent = 2;
-    while ((indent != 2 && indent != 4) || *p != '-') {
-        p = strchr(p, '\n');
-        if (!p)
-            return 0;
-        indent = strspn(++p, " ");
-        p += indent;
+    int above = -1;
+    for (const char *line = help; *line; line += strcspn(line, "\n"), line += *line == '\n') {
+        const size_t indent = strspn(line, " ");
+        const char *at = line + indent;
+        while ((indent == 2 || indent == 4) && *at == '-' && given->options < OPTIONS_MAX) {
+            struct option *o = &given->option[given->options++];
+            size_t length = strcspn(at, " ,\n");
+            snprintf(o->name, sizeof o->name, "%.*s", (int)length, at);
+            at += length;
+            o->part_of = indent == 4 ? above : -1;
+            above = indent == 4 ? above : (int)given->options - 1;
+            if (*at == ' ' && at[1] != ' ') {
+                for (length = 0, at++; at[length] && at[length] != '\n' && strncmp(at + length, "  ", 2) != 0 &&
+                                       strncmp(at + length, ", -", 3) != 0;)
+                    length++;
+                o->repeats = length > 4 && strncmp(at + length - 4, " ...", 4) == 0;
+                snprintf(o->value, sizeof o->value, "%.*s", (int)length - (o->repeats ? 4 : 0), at);
+                at += length;
+            }
+            at += strncmp(at, ", -", 3) == 0 ? 2 : 0;
+        }
     }
-    *term = (option_term){.name = p, .name_length = strcspn(p, " ,\n"), .indent = indent};
-    p += term->name_length;
-    if (*p == ' ' && p[1] != ' ') {
-        term->value = ++p;
-        while (*p && *p != '\n' && strncmp(p, "  ", 2) != 0 && strncmp(p, ", -", 3) != 0)
-            p++;
-        term->value_length = (size_t)(p - term->value);
-        term->repeats = term->value_length > 4 && strncmp(p - 4, " ...", 4) == 0;
-        term->value_length -= term->repeats ? 4 : 0;
-    }
-    *at = p;
-    return 1;
 }
 
-static int find_option(const char *help, const char *name, size_t length, option_term *term)
+/* NULL: the help has none of that name. */
+static const struct option *find_option(const arguments *given, const char *name, size_t length)
 {
-    while (next_option(&help, term))
-        if (term->name_length == length && memcmp(term->name, name, length) == 0)
-            return 1;
-    return 0;
+    for (const struct option *o = given->option; o < given->option + given->options; o++)
+        if (strlen(o->name) == length && memcmp(o->name, name, length) == 0)
+            return o;
+    return NULL;
 }
 
-/* The words of a value, red|green or dfg,energy, that the help has for it go to which[], in the order of the value. How
- * many: 0 after a complaint, or where the value may be anything. */
-static size_t read_choices(const arguments *given, const option_term *term, const char *value,
-                           int which[WORDS_MAX])
+/* The words of a value, red|green or dfg,energy, go to which[], in the order of the value. How many: 0 after a
+ * complaint, or where the value may be anything. */
+static size_t read_choices(const arguments *given, const struct option *o, const char *value, int which[WORDS_MAX])
 {
     char text[LISTED_LENGTH], known[LISTED_LENGTH], word[40];
     const char *choice[WORDS_MAX], *hint;
     size_t choices = 0, count = 0, letters;
     unsigned long long seen = 0;
-    snprintf(text, sizeof text, "%.*s", (int)term->value_length, term->value);
-    const int is_list = strchr(text, ',') != NULL;
+    strcpy(text, o->value);
     for (char *at = strtok(text, "|,"); at && choices < WORDS_MAX - 1; at = strtok(NULL, "|,"))
         choice[choices++] = at;
     choice[choices] = NULL;
     for (const char *at = value;; at += letters + 1) {
         size_t k = 0;
-        letters = is_list ? strcspn(at, ",") : strlen(at);
+        letters = strchr(o->value, ',') ? strcspn(at, ",") : strlen(at);
         snprintf(word, sizeof word, "%.*s", (int)(letters < sizeof word ? letters : sizeof word - 1), at);
         while (k < choices && strcmp(word, choice[k]) != 0)
             k++;
         if (k == choices) {
             hint = nearest_word(word, choice, choices);
             list_words(choice, "", known);
-            return complain(given->command, "%.*s '%s' is not %s%s%s%s", (int)term->name_length, term->name, word,
-                            known, hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : ""),
+            return complain(given->command, "%s '%s' is not %s%s%s%s", o->name, word, known,
+                            hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : ""),
                    0;
         }
         if (seen >> k & 1)
-            return complain(given->command, "%.*s '%s' has '%s' twice", (int)term->name_length, term->name, value,
-                            word),
-                   0;
+            return complain(given->command, "%s '%s' has '%s' twice", o->name, value, word), 0;
         seen |= 1ull << k;
         which[count++] = (int)k;
         if (!at[letters])
@@ -124,161 +112,126 @@ static size_t read_choices(const arguments *given, const option_term *term, cons
     }
 }
 
-/* Whether the value of an option is a choice between words. */
-static int has_choices(const option_term *term)
-{
-    for (size_t i = 0; i < term->value_length; i++)
-        if (isupper((unsigned char)term->value[i]))
-            return 0;
-    return term->value_length > 0;
-}
-
 /* ---- reading ------------------------------------------------------------------------------------- */
 
-/* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--output" -o. */
-static option_term nearest_option(const char *help, const char *name)
+/* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--bytes" --max-bytes,
+ * "--output" -o. */
+static const char *nearest_option(const arguments *given, const char *word, size_t length)
 {
-    const size_t size = strlen(name), dashes = strspn(name, "-");
-    size_t least = vndf_word_slip(size);
-    option_term term, found = {.name = NULL};
-    while (next_option(&help, &term)) {
-        const int is_letter = size == dashes + 1;
-        const int begins = is_letter ? term.name[1] == '-' && term.name[2] == name[dashes]
-                                     : term.name_length > size && memcmp(term.name, name, size) == 0;
-        if (begins ? least > 0 : !is_letter && vndf_word_is_nearer(term.name, term.name_length, name, &least))
-            found = term;
-        else if (!found.name && term.name_length == 2 && term.name[1] == name[dashes])
-            found = term;
-        least = begins ? 0 : least;
+    const char *names[OPTIONS_MAX], *short_one = NULL, letter = word[strspn(word, "-")];
+    char name[32];
+    const int is_letter = word[1] == letter ? length == 2 : length == 3;
+    for (size_t i = 0; i < given->options; i++) {
+        names[i] = given->option[i].name;
+        if (is_letter ? names[i][1] == '-' && names[i][2] == letter : strncmp(names[i], word, length) == 0)
+            return names[i];
+        short_one = names[i][1] == letter && !names[i][2] ? names[i] : short_one;
     }
-    return found;
+    snprintf(name, sizeof name, "%.*s", (int)length, word);
+    const char *near = is_letter ? NULL : nearest_word(name, names, given->options);
+    for (size_t i = 0; i < given->options && length > 4 && !near; i++)
+        near = strstr(names[i], name + strspn(name, "-")) ? names[i] : NULL;
+    return near ? near : short_one;
 }
 
 /* `value` is what it was given, or the word behind it, or NULL; 0. */
 static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
 {
-    char name[32];
-    option_term set;
-    snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, word);
-    const option_term hint = nearest_option(given->help, name);
-    const char letter = name[strspn(name, "-")];
+    const char *hint = nearest_option(given, word, length), letter = word[strspn(word, "-")];
+    const int shown = (int)length;
     if (isalpha((unsigned char)letter) && length <= 3 && value && isdigit((unsigned char)*value) &&
-        find_option(given->help, "--set", 5, &set))
-        complain(given->command, "there is no option '%s'; did you mean '--set %c=%s'?", name, letter, value);
-    else if (hint.name)
-        complain(given->command, "there is no option '%s'; did you mean '%.*s'?", name, (int)hint.name_length,
-                 hint.name);
+        find_option(given, "--set", 5))
+        complain(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", shown, word, letter,
+                 value);
+    else if (hint)
+        complain(given->command, "there is no option '%.*s'; did you mean '%s'?", shown, word, hint);
     else
-        complain(given->command, "there is no option '%s'; `%s --help` lists them", name, given->command);
+        complain(given->command, "there is no option '%.*s'; `%s --help` lists them", shown, word, given->command);
     return 0;
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
 static int take_option(arguments *given, int argc, char **argv, int *at)
 {
-    const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL;
-    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL, *wrong = NULL;
-    char name[32];
+    const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL, *wrong = NULL;
+    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    const size_t length = equals ? (size_t)(equals - word) : strlen(word);
+    const struct option *o = find_option(given, word, length);
     int which[WORDS_MAX];
-    option_term term, other;
-    size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    if (!find_option(given->help, word, length, &term))
+    if (!o)
         return refuse_option(given, word, length, equals ? equals + 1 : next);
-    snprintf(name, sizeof name, "%.*s", (int)length, word);
-    if (term.value && equals)
+    if (*o->value && equals)
         value = equals + 1;
-    else if (term.value && next && !find_option(given->help, next, strlen(next), &other))
+    else if (*o->value && next && !find_option(given, next, strlen(next)))
         value = argv[++*at];
-    else if (term.value)
-        return complain(given->command, "%s needs a value, as in %s %.*s", name, name, (int)term.value_length,
-                        term.value),
-               0;
-    if (!term.value && equals)
+    else if (*o->value)
+        return complain(given->command, "%s needs a value, as in %s %s", o->name, o->name, o->value), 0;
+    if (!*o->value && equals)
         wrong = "takes no value";
-    else if (!term.repeats && option_value(given, name))
+    else if (!o->repeats && o->given.count)
         wrong = "is given twice";
-    else if (given->count == WORDS_MAX)
-        wrong = "is one option more than this program reads";
+    else if (o->given.count == WORDS_MAX)
+        wrong = "is given more often than this program reads";
     if (wrong)
-        return complain(given->command, "%s %s", name, wrong), 0;
-    if (has_choices(&term) && !read_choices(given, &term, value, which))
+        return complain(given->command, "%s %s", o->name, wrong), 0;
+    if (*o->value && !strpbrk(o->value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") && !read_choices(given, o, value, which))
         return 0;
-    given->option[given->count].name = word;
-    given->option[given->count].length = length;
-    given->option[given->count++].value = value;
+    words *its = &given->option[o - given->option].given;
+    its->item[its->count++] = value;
     return 1;
 }
 
-/* An option in column 4 of the help goes with the one above it in column 2. */
-static int check_parts(const arguments *given)
-{
-    option_term term, above = {.name = NULL};
-    int has_above = 0;
-    for (const char *at = given->help; next_option(&at, &term);) {
-        char name[32];
-        snprintf(name, sizeof name, "%.*s", (int)term.name_length, term.name);
-        const int is_given = option_value(given, name) != NULL;
-        if (term.indent == 4 && is_given && !has_above)
-            return complain(given->command, "%s is for %.*s, which is not given", name, (int)above.name_length,
-                            above.name),
-                   0;
-        if (term.indent == 2) {
-            above = term;
-            has_above = is_given;
-        }
-    }
-    return 1;
-}
-
-int arguments_read(arguments *given, int argc, char **argv)
+int arguments_read(arguments *given, const char *command, const char *help, int argc, char **argv)
 {
     int options_end = 0;
-    option_term set;
+    *given = (arguments){.command = command};
+    read_help(given, help);
     for (int i = 0; i < argc; i++) {
         if (options_end || argv[i][0] != '-' || !argv[i][1]) {
             if (given->positional.count == WORDS_MAX)
-                return complain(given->command, "these are more than %d words", WORDS_MAX), 0;
-            if (strchr(argv[i], '=') && !strchr(argv[i], '/') && find_option(given->help, "--set", 5, &set))
-                return complain(given->command, "'%s' is not expected; did you mean '--set %s'?", argv[i],
-                                argv[i]),
-                       0;
+                return complain(command, "these are more than %d words", WORDS_MAX), 0;
+            if (strchr(argv[i], '=') && !strchr(argv[i], '/') && find_option(given, "--set", 5))
+                return complain(command, "'%s' is not expected; did you mean '--set %s'?", argv[i], argv[i]), 0;
             given->positional.item[given->positional.count++] = argv[i];
         } else if (strcmp(argv[i], "--") == 0)
             options_end = 1;
         else if (!take_option(given, argc, argv, &i))
             return 0;
     }
-    return check_parts(given);
+    for (const struct option *o = given->option; o < given->option + given->options; o++)
+        if (o->given.count && o->part_of >= 0 && !given->option[o->part_of].given.count)
+            return complain(command, "%s is for %s, which is not given", o->name, given->option[o->part_of].name),
+                   0;
+    return 1;
 }
 
 /* ---- what was given ------------------------------------------------------------------------------ */
 
-words option_values(const arguments *given, const char *name)
+static const struct option *known_option(const arguments *given, const char *name)
 {
-    words found = {.count = 0};
-    option_term term;
-    if (!find_option(given->help, name, strlen(name), &term)) {
+    const struct option *o = find_option(given, name, strlen(name));
+    if (!o) {
         complain(given->command, "its help has no item %s, for which its code asks", name);
         abort();
     }
-    for (size_t i = 0; i < given->count; i++)
-        if (given->option[i].length == strlen(name) && memcmp(given->option[i].name, name, strlen(name)) == 0)
-            found.item[found.count++] = given->option[i].value;
-    return found;
+    return o;
+}
+
+words option_values(const arguments *given, const char *name)
+{
+    return known_option(given, name)->given;
 }
 
 const char *option_value(const arguments *given, const char *name)
 {
-    words found = option_values(given, name);
-    return found.count ? found.item[0] : NULL;
+    const words *its = &known_option(given, name)->given;
+    return its->count ? its->item[0] : NULL;
 }
 
 size_t option_choices(const arguments *given, const char *name, int which[WORDS_MAX])
 {
-    const char *value = option_value(given, name);
-    option_term term;
-    return value && find_option(given->help, name, strlen(name), &term) ? read_choices(given, &term, value, which)
-                                                                        : 0;
+    const struct option *o = known_option(given, name);
+    return o->given.count ? read_choices(given, o, o->given.item[0], which) : 0;
 }
 
 int option_choice(const arguments *given, const char *name, int otherwise)

@@ -17,7 +17,7 @@
 #  define PRINTF_LIKE(text, first)
 #endif
 
-enum { WORDS_MAX = 64 };
+enum { WORDS_MAX = 64, OPTIONS_MAX = 40, LISTED_LENGTH = 256 };
 
 /* In the order given; they belong to argv. */
 typedef struct words {
@@ -27,17 +27,17 @@ typedef struct words {
 
 typedef struct arguments {
     const char *command; /* "vndf build": opens every message */
-    const char *help;
-    words positional; /* what is no option */
-    size_t count;     /* of options */
-    struct {
-        const char *name, *value; /* as they were typed; the value of a flag is its name */
-        size_t length;            /* of the name, which may go on with '=' */
-    } option[WORDS_MAX];
+    words positional;    /* what is no option */
+    size_t options;
+    struct option {
+        char name[24], value[LISTED_LENGTH]; /* as the help has them; "": a flag */
+        int repeats, part_of;                /* part_of: the option that it goes with; -1: none */
+        words given;                         /* its values; of a flag its name */
+    } option[OPTIONS_MAX];
 } arguments;
 
-/* Reads argv; command and help are there already. Returns 1, or 0 after a complaint. */
-int arguments_read(arguments *given, int argc, char **argv);
+/* Reads the help and argv. Returns 1, or 0 after a complaint. */
+int arguments_read(arguments *given, const char *command, const char *help, int argc, char **argv);
 
 /* The first value of an option, NULL if it was not given; and all of them. Ends the program for an option that the help
  * does not name. */
@@ -71,7 +71,6 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
 void options_text(const arguments *given, const char *const *names, char *text, size_t size);
 
 /* "csv, md or json", with `before` in front of each; the candidates end with NULL. */
-enum { LISTED_LENGTH = 256 };
 void list_words(const char *const *candidates, const char *before, char listed[LISTED_LENGTH]);
 
 /* The candidate nearest to a misspelt word, or NULL if none is near. */

@@ -45,10 +45,11 @@ static vndf_source *source_from_formula(const arguments *given, const char *kind
 /* What the program has beside the library for a name that is not known. */
 static const char *more_of(const char *message)
 {
-    return strstr(message, "did you mean")     ? ""
-           : strstr(message, "unknown name")   ? "; a parameter of your own has its value by --set NAME=X"
-           : strstr(message, "unknown family") ? "; `vndf build --list` has them and all materials"
-                                               : "";
+    return strstr(message, "did you mean")   ? ""
+           : strstr(message, "unknown name") ? "; a parameter of your own has its value by --set NAME=X"
+           : strstr(message, "unknown family") || strstr(message, "unknown material")
+               ? "; `vndf build --list` has them and all materials"
+               : "";
 }
 
 vndf_source *source_from_words(const arguments *given, const char *otherwise)

@@ -180,11 +180,11 @@ static vndf_status compile(const vndf_family_form *form, const char *text, const
     return vndf_expression_parse(text, &names, formula, error);
 }
 
-/* Quadrature: 2 pi integral P22 r^2 ds over s = log r by the trapezoidal rule, whose error for an integrand that is
- * analytic for |Im s| < d is of the order of exp(-2 pi d/h). All that need it have d >= pi/4: exp(-158) at h = 1/32.
- * Below e^-64 = 1.6e-28 the mass goes as r^2, beyond e^64 as r^-2 at least, with scales within [1e-11, 1e3]: less than
- * 1e-20 of the mass is cut off. */
-double vndf_family_mass(const vndf_family_form *form, const double *parameter)
+/* The mass under P22; 0 if there is no memory. Quadrature: 2 pi integral P22 r^2 ds over s = log r by the trapezoidal
+ * rule, whose error for an integrand that is analytic for |Im s| < d is of the order of exp(-2 pi d/h). All that need
+ * it have d >= pi/4: exp(-158) at h = 1/32. Below e^-64 = 1.6e-28 the mass goes as r^2, beyond e^64 as r^-2 at least,
+ * with scales within [1e-11, 1e3]: less than 1e-20 of the mass is cut off. */
+static double mass_of(const vndf_family_form *form, const double *parameter)
 {
     const int steps = 32, end = form->mass ? 0 : 64 * steps;
     double sum = 0;
@@ -211,7 +211,7 @@ vndf_source *vndf_source_family(const char *specification, vndf_error *error)
     for (const lobe *l = lobes; done < count; l++, done++) {
         made[done].scale = l->scale;
         if (l->weight > 0)
-            made[done].factor = l->weight / (vndf_family_mass(l->form, l->parameter) * l->scale * l->scale);
+            made[done].factor = l->weight / (mass_of(l->form, l->parameter) * l->scale * l->scale);
         if (compile(l->form, l->form->formula, l->parameter, &made[done].formula, error) != VNDF_OK)
             break;
     }

@@ -30,9 +30,6 @@ typedef struct vndf_family_form {
 const vndf_family_form *vndf_family_form_find(const char *name, size_t size);
 const vndf_family_form *vndf_family_form_at(size_t index);
 
-/* The mass under P22; 0 if there is no memory. */
-double vndf_family_mass(const vndf_family_form *form, const double *parameter);
-
 /* The shipped measured materials. */
 typedef struct vndf_material_fit {
     const char *name;    /* as a specification: "sgd:alum-bronze/r", "abc:two-layer-gold" */

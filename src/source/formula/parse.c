@@ -52,26 +52,25 @@ static size_t name_length(const char *text, size_t size)
     return count;
 }
 
-/* "column 7: 'x' ..." or "column 7: the end ..." */
-static int unexpected(parser *p, const char *wanted)
+/* "column 7: unexpected 'x'; ..." or "column 7: the expression ends here; ...": what would be right. */
+static int unexpected(parser *p, const char *wanted, const char *more)
 {
-    char excerpt[VNDF_EXCERPT];
-    char c = peek(p);
+    char excerpt[VNDF_EXCERPT], c = peek(p);
     if (c == '\0')
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the expression ends here; %s", p->at + 1, wanted);
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the expression ends here; %s%s", p->at + 1, wanted,
+                  more);
     else
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s", p->at + 1,
-                  vndf_excerpt(excerpt, &p->text[p->at], 1), wanted);
+        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s%s", p->at + 1,
+                  vndf_excerpt(excerpt, &p->text[p->at], 1), wanted, more);
     return 0;
 }
 
 /* The same where an operand may be side by side with another. */
 static int unexpected_operand(parser *p, const char *wanted)
 {
-    char text[160], c = peek(p);
+    char c = peek(p);
     int is_operand = is_letter(c) || is_digit(c) || c == '(';
-    snprintf(text, sizeof text, "%s%s", wanted, is_operand ? "; a product is written with *, as in 3*r" : "");
-    return unexpected(p, text);
+    return unexpected(p, wanted, is_operand ? "; a product is written with *, as in 3*r" : "");
 }
 
 /* ---- output ----------------------------------------------------------------------------------- */
@@ -88,14 +87,9 @@ static int emit(parser *p, vndf_instruction instruction, int change)
     return 1;
 }
 
-static int emit_operation(parser *p, char operation, int change)
-{
-    return emit(p, (vndf_instruction){operation, 0, 0, NULL}, change);
-}
-
 static int emit_number(parser *p, double value)
 {
-    return emit(p, (vndf_instruction){VNDF_PUSH_NUMBER, 0, value, NULL}, 1);
+    return emit(p, (vndf_instruction){.operation = VNDF_PUSH_NUMBER, .number = value}, 1);
 }
 
 static int enter(parser *p)
@@ -115,7 +109,7 @@ static int number(parser *p)
     double value;
     size_t size = vndf_number_read(p->text + p->at, p->length - p->at, &value);
     if (size == 0)
-        return unexpected(p, "a number has digits, like 0.5 or 1e-3");
+        return unexpected(p, "a number has digits, like 0.5 or 1e-3", "");
     if (isinf(value)) {
         char excerpt[VNDF_EXCERPT];
         vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double", p->at + 1,
@@ -167,12 +161,12 @@ static int name(parser *p, size_t size)
         return unknown_name(p, size);
     p->at += size;
     if (i < n->variable_count)
-        return emit(p, (vndf_instruction){VNDF_PUSH_VARIABLE, (unsigned)i, 0, NULL}, 1);
+        return emit(p, (vndf_instruction){.operation = VNDF_PUSH_VARIABLE, .variable = (unsigned)i}, 1);
     if (i == n->variable_count)
         return emit_number(p, 3.14159265358979323846);
     i -= n->variable_count + 1;
     if (i >= n->parameter_count)
-        return unexpected(p, "the function before it needs its argument in parentheses");
+        return unexpected(p, "the function before it needs its argument in parentheses", "");
     p->used[i] = 1;
     return emit_number(p, n->parameters[i].value);
 }
@@ -198,22 +192,22 @@ static int name_or_call(parser *p)
     if (!is_call || !function) {
         p->at = start;
         return name(p, size) &&
-               (!is_call || unexpected(p, "the name before it is no function; a product is written with *"));
+               (!is_call || unexpected(p, "the name before it is no function; a product is written with *", ""));
     }
     p->at++;
     if (!enter(p) || !sum(p))
         return 0;
     if (function->one && peek(p) == ',')
-        return unexpected(p, "this function takes one argument");
+        return unexpected(p, "this function takes one argument", "");
     if (function->two) {
         if (peek(p) != ',')
-            return unexpected(p, "min, max and pow take two arguments, separated by a comma");
+            return unexpected(p, "min, max and pow take two arguments, separated by a comma", "");
         p->at++;
         if (!sum(p))
             return 0;
     }
     return close_parenthesis(p, open) &&
-           emit(p, (vndf_instruction){VNDF_CALL, 0, 0, function}, function->two ? -1 : 0);
+           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, function->two ? -1 : 0);
 }
 
 static int primary(parser *p)
@@ -225,9 +219,9 @@ static int primary(parser *p)
     if (is_letter(c))
         return name_or_call(p);
     if (c == '*' && p->at > 0 && p->text[p->at - 1] == '*')
-        return unexpected(p, "a power is written with ^, as in r^2");
+        return unexpected(p, "a power is written with ^, as in r^2", "");
     if (c != '(')
-        return unexpected(p, "a number, a name or '(' would be right");
+        return unexpected(p, "a number, a name or '(' would be right", "");
     p->at++;
     return enter(p) && sum(p) && close_parenthesis(p, opened);
 }
@@ -248,7 +242,7 @@ static int power(parser *p)
         return 0;
     if (peek(p) != '^')
         return 1;
-    return inner_sign(p) && emit_operation(p, '^', -1);
+    return inner_sign(p) && emit(p, (vndf_instruction){.operation = '^'}, -1);
 }
 
 static int sign(parser *p)
@@ -256,7 +250,7 @@ static int sign(parser *p)
     char c = peek(p);
     if (c != '-' && c != '+')
         return power(p);
-    return inner_sign(p) && (c == '+' || emit_operation(p, VNDF_NEGATE, 0));
+    return inner_sign(p) && (c == '+' || emit(p, (vndf_instruction){.operation = VNDF_NEGATE}, 0));
 }
 
 /* Operands between which one of these signs stands. */
@@ -266,7 +260,7 @@ static int chain(parser *p, int (*operand)(parser *), const char *signs)
         return 0;
     for (char c; (c = peek(p)) != '\0' && strchr(signs, c);) {
         p->at++;
-        if (!operand(p) || !emit_operation(p, c, -1))
+        if (!operand(p) || !emit(p, (vndf_instruction){.operation = c}, -1))
             return 0;
     }
     return 1;
@@ -311,20 +305,10 @@ static vndf_status check_parameters(const vndf_names *names, vndf_error *error)
     return VNDF_OK;
 }
 
-static vndf_status check_use(const parser *p)
-{
-    char excerpt[VNDF_EXCERPT];
-    for (size_t i = 0; i < p->names->parameter_count; i++)
-        if (!p->used[i])
-            return vndf_fail(p->error, VNDF_ERROR_ARGUMENT, "parameter '%s': the formula '%s' has no '%s'",
-                             p->names->parameters[i].name, vndf_excerpt(excerpt, p->text, p->length),
-                             p->names->parameters[i].name);
-    return VNDF_OK;
-}
-
 vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vndf_expression *expression,
                                   vndf_error *error)
 {
+    char excerpt[VNDF_EXCERPT];
     parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, {0}, expression, error};
     *expression = (vndf_expression){NULL, 0};
     if (!text)
@@ -340,7 +324,12 @@ vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vnd
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for an expression of %zu characters", p.length);
     if (sum(&p) &&
         (peek(&p) == '\0' || unexpected_operand(&p, "an operator (+ - * / ^) or the end would be right")))
-        status = check_use(&p);
+        for (size_t i = 0; i < names->parameter_count && status == VNDF_OK; i++)
+            status = p.used[i]
+                         ? VNDF_OK
+                         : vndf_fail(error, VNDF_ERROR_ARGUMENT, "parameter '%s': the formula '%s' has no '%s'",
+                                     names->parameters[i].name, vndf_excerpt(excerpt, text, p.length),
+                                     names->parameters[i].name);
     else
         status = VNDF_ERROR_SYNTAX;
     if (status != VNDF_OK)
