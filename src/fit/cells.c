@@ -71,18 +71,11 @@ vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *stri
     return c;
 }
 
-/* z^2 W, with the mean of R^-3 in the cell. */
-static double flat(const vndf_weight *w, double cube, double x, double z)
+vndf_drawn vndf_drawn_by(const vndf_cell *c, double w1, double w0)
 {
-    return w->w1 * x * x + w->w0 * x * z + (w->wq + w->w4 * cube) * z * z;
-}
-
-vndf_drawn vndf_drawn_by(const vndf_cell *c, const vndf_weight *w)
-{
-    double r = c->r, first = 2 * w->w1 * r + w->w0, none = (w->w1 * r + w->w0) * r + w->wq + w->w4 * c->cube;
-    double x1 = c->power > 0 ? 1 : c->x + c->h, z1 = c->power > 0 ? 0 : c->z - c->h;
-    return (vndf_drawn){w->w1 * c->m2 + first * c->m1 + none * c->m0, c->g0 * flat(w, c->cube, c->x, c->z),
-                        c->g1 * flat(w, c->cube, x1, z1)};
+    double r = c->r, x1 = c->power > 0 ? 1 : c->x + c->h, z1 = c->power > 0 ? 0 : c->z - c->h;
+    return (vndf_drawn){w1 * c->m2 + (2 * w1 * r + w0) * c->m1 + (w1 * r + w0) * r * c->m0,
+                        c->g0 * (w1 * c->x * c->x + w0 * c->x * c->z), c->g1 * (w1 * x1 * x1 + w0 * x1 * z1)};
 }
 
 /* z^2 W at the right end. */
@@ -111,6 +104,5 @@ vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
     c.m0 = t->m0[i];
     c.m1 = t->m1[i];
     c.m2 = t->m2[i];
-    c.cube = t->cubes && i > 0 ? t->cubes[i] : 0;
     return c;
 }

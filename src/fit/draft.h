@@ -62,17 +62,13 @@ vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
 /* xi of a slope in the cell. */
 double vndf_cell_place(const vndf_cell *cell, double r);
 
-/* W(R) = w1 R^2 + w0 R + wq + w4/R^3. */
-typedef struct vndf_weight {
-    double w1, w0, wq, w4;
-} vndf_weight;
-
 /* What is drawn in a cell: its mass, and the densities per unit of xi at its ends. */
 typedef struct vndf_drawn {
     double mass, d0, d1;
 } vndf_drawn;
 
-vndf_drawn vndf_drawn_by(const vndf_cell *cell, const vndf_weight *weight);
+/* For W = w1 R^2 + w0 R. */
+vndf_drawn vndf_drawn_by(const vndf_cell *cell, double w1, double w0);
 
 /* From below the horizon, for a cell beyond rho or at rho: W = (R - rho) (b0 R + b1 (R - rho)). */
 vndf_drawn vndf_drawn_below(const vndf_cell *cell, double rho, double b0, double b1);

@@ -248,30 +248,21 @@ static void place(builder *b)
 /* Arguments of `vndf build`, to be freed. */
 static char *describe(builder *b)
 {
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_text_add_word(&text, "--family");
-    vndf_text_add_word(&text, b->pattern);
-    vndf_text_add(&text, " --parameter ");
-    vndf_text_add_number(&text, b->low);
-    vndf_text_add(&text, "..");
-    vndf_text_add_number(&text, b->high);
-    return vndf_text_finish(&text, vndf_guard_why(&b->guard));
+    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
+    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
+             vndf_number_print(high, b->high));
+    return vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
 }
 
 static void fill(builder *b, vndf_family *family)
 {
-    static const char tool[] = "vndf " VNDF_VERSION;
     const vndf_build_options options = {
         .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
     family->owns = 1;
     family->reciprocal = b->reciprocal;
     family->grazing = (float)fmin(b->spread.grazing, 1);
     family->source = describe(b);
-    family->tool = malloc(sizeof tool);
-    if (family->tool)
-        memcpy(family->tool, tool, sizeof tool);
-    else
-        vndf_guard_starve(&b->guard);
+    family->tool = vndf_text_pair("vndf", VNDF_VERSION, "", vndf_guard_why(&b->guard));
     b->width = (1 - PLACED) / (double)b->count;
     for (size_t i = 0; i < b->count; i++) {
         vndf_error inner = {VNDF_OK, ""};
@@ -306,9 +297,6 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
     char excerpt[VNDF_EXCERPT];
     if (!pattern)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the family's name is NULL");
-    if (strlen(pattern) > VNDF_LIMIT_FAMILY_LENGTH)
-        return vndf_fail(error, VNDF_ERROR_SYNTAX, "the family's name has %lu characters; at most %d are possible",
-                         (unsigned long)strlen(pattern), VNDF_LIMIT_FAMILY_LENGTH);
     if (strchr(pattern, ':') && !strstr(pattern, PLACE))
         return vndf_fail(error, VNDF_ERROR_SYNTAX,
                          "'%s' does not say where the parameter stands; right would be {p} in its place, as in "

@@ -40,8 +40,7 @@ static double miss_of(double seen, double drawn)
 /* Half the integral of |drawn - true| for the weight w1 R^2 + w0 R; *density: the largest relative error. */
 static double miss_by(const view *v, double w1, double w0, double *density)
 {
-    const vndf_weight w = {w1, w0, 0, 0};
-    vndf_drawn drawn = vndf_drawn_by(&v->cell, &w);
+    vndf_drawn drawn = vndf_drawn_by(&v->cell, w1, w0);
     double sum = 0, before = 0;
     const vndf_strip *s = v->knots->strips.at;
     for (size_t i = v->from; i < v->end; i++) {

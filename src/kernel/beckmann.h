@@ -8,9 +8,8 @@
  *
  * For K < 5/4 all is divided by exp(-K^2): then x^2 - K^2 = d (d - 2 K) keeps d's digits, and far below the horizon
  * nothing underflows; the law there is exp(-g) (1 + g), g = -2 K d. u1 is met by steps of Householder's method of order
- * four, F' = s d exp(-x^2)/sqrt(pi). A(w) = F(K), so K of the density is 2/sqrt(pi) exp(-x^2 - y^2) d/whole with whole
- * =
- * (2 sqrt(pi)/s) F(K), and no s is left. */
+ * four, F' = s d exp(-x^2)/sqrt(pi). A(w) = F(K), so K of the density is 2/sqrt(pi) exp(-x^2 - y^2) d/whole with
+ * whole = (2 sqrt(pi)/s) F(K), and no s is left. */
 #ifndef VNDF_KERNEL_BECKMANN_H
 #define VNDF_KERNEL_BECKMANN_H
 

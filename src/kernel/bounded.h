@@ -90,41 +90,42 @@ HERE real bounded_arc(arc k, real b)
     return least(most(2.0f * (u - 0.5f), set(1e-6f)), set(1.0f));
 }
 
-/* The part of the law of the slope length up to the largest that reflects upwards. */
-HERE real table_bounded_part(table t, table_view view, real alpha, real slant)
+/* What a direction bounds: roughness, the tangent of the stretched direction, and the part of the law of the slope
+ * length up to the largest that reflects upwards. */
+typedef struct table_bounds {
+    real alpha, slant, part;
+} table_bounds;
+
+HERE table_bounds table_bounds_of(table t, table_view view, real alpha)
 {
-    real steep = slant + root(1.0f + slant * slant), per = 1.0f / (steep + alpha);
+    table_bounds b = {alpha, least(view.v.s / (alpha * view.v.c), set(1e15f)), set(1.0f)};
+    real steep = b.slant + root(1.0f + b.slant * b.slant), per = 1.0f / (steep + alpha);
     given g = table_given(t, steep, set(0.0f), alpha);
     pair u = table_invert(t, view.v, g, steep * per, set(0.0f), 0);
-    return most(u.b, set(1e-6f));
+    b.part = most(u.b, set(1e-6f));
+    return b;
 }
 
-typedef struct bounded_normal {
-    drawn n;
-    real inside; /* the part of the visible normals of its slope length, and of all lengths, that is kept */
-} bounded_normal;
-
-HERE bounded_normal table_draw_bounded(table t, table_view view, real alpha, real slant, real part, real u1,
-                                       real u2)
+HERE drawn table_draw_bounded(table t, table_view view, table_bounds b, real u1, real u2)
 {
-    aim a = table_aim(view.v, u2 * part, 0);
+    aim a = table_aim(view.v, u2 * b.part, 0);
     reached at = table_find(t, view.v, a, 0);
     found f = table_cell(t, view.v, a, at, 0);
     drawn_length d = table_length(t, view.v, f, law_invert(f.at, f.before), 0);
     arc k = table_arc(view.v, d.r, 0);
-    real arc_part = bounded_arc(k, bounded_cosine(alpha, slant, d.r.x, d.r.z));
-    bounded_normal s;
-    s.inside = part * arc_part;
-    s.n =
+    real arc_part = bounded_arc(k, bounded_cosine(b.alpha, b.slant, d.r.x, d.r.z));
+    drawn n =
         table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
-    s.n.density = s.n.density / s.inside;
-    return s;
+    real inside = b.part * arc_part;
+    n.density = n.density / inside;
+    return n;
 }
 
-HERE real table_bounded_inside(table t, table_view view, real alpha, real slant, real part, unit_normal n)
+/* The part of the visible normals of its slope length, and of all lengths, that is kept. */
+HERE real table_bounded_inside(table t, table_view view, table_bounds b, unit_normal n)
 {
     given g = table_given(t, n.x, n.y, n.z);
-    return part * bounded_arc(table_given_arc(view.v, g, 0), bounded_cosine(alpha, slant, g.x, g.z));
+    return b.part * bounded_arc(table_given_arc(view.v, g, 0), bounded_cosine(b.alpha, b.slant, g.x, g.z));
 }
 
 #endif

@@ -44,12 +44,15 @@ typedef whole mask; /* 0 or -1 */
 #if VNDF_KERNEL_X86 && VNDF_LANES == 16
 #  define LANES_INSTRUCTION(name) _mm512_##name
 typedef __m512 lanes_register;
+typedef __m512d lanes_doubles;
 #elif VNDF_KERNEL_X86 && VNDF_LANES == 8
 #  define LANES_INSTRUCTION(name) _mm256_##name
 typedef __m256 lanes_register;
+typedef __m256d lanes_doubles;
 #elif VNDF_KERNEL_X86
 #  define LANES_INSTRUCTION(name) _mm_##name
 typedef __m128 lanes_register;
+typedef __m128d lanes_doubles;
 #endif
 
 /* Four numbers of a table that stand side by side. */
@@ -293,49 +296,37 @@ typedef struct table {
     int copied;         /* registers of a column in pairs: 2 or 4, 0 if there are no columns */
 } table;
 
-/* Four numbers of each lane, those of lane l from row[l] on. */
+/* Four numbers of each lane, those of lane l from row[l] on: quarters of registers are transposed. */
 HERE quad transposed(const float *const row[LANES])
 {
-    quad q;
-#if VNDF_LANES == 4
-    real a = load(row[0]), b = load(row[1]), c = load(row[2]), d = load(row[3]);
-#  if VNDF_KERNEL_X86
-    _MM_TRANSPOSE4_PS(a, b, c, d);
-    q = (quad){a, b, c, d};
-#  else
-    q.a = (real){a[0], b[0], c[0], d[0]};
-    q.b = (real){a[1], b[1], c[1], d[1]};
-    q.c = (real){a[2], b[2], c[2], d[2]};
-    q.d = (real){a[3], b[3], c[3], d[3]};
-#  endif
-#elif VNDF_LANES == 8
-    __m256 r[4];
-    LANES_UNROLLED
-    for (int l = 0; l < 4; l++)
-        r[l] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[l])), _mm_loadu_ps(row[l + 4]), 1);
-    __m256d e = (__m256d)_mm256_unpacklo_ps(r[0], r[1]), f = (__m256d)_mm256_unpackhi_ps(r[0], r[1]);
-    __m256d g = (__m256d)_mm256_unpacklo_ps(r[2], r[3]), h = (__m256d)_mm256_unpackhi_ps(r[2], r[3]);
-    q.a = (real)_mm256_unpacklo_pd(e, g);
-    q.b = (real)_mm256_unpackhi_pd(e, g);
-    q.c = (real)_mm256_unpacklo_pd(f, h);
-    q.d = (real)_mm256_unpackhi_pd(f, h);
-#else
-    __m512 r[4];
+#if VNDF_KERNEL_X86
+    lanes_register r[4];
     LANES_UNROLLED
     for (int l = 0; l < 4; l++) {
+#  if VNDF_LANES == 4
+        r[l] = _mm_loadu_ps(row[l]);
+#  elif VNDF_LANES == 8
+        r[l] = _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[l])), _mm_loadu_ps(row[l + 4]), 1);
+#  else
         r[l] = _mm512_castps128_ps512(_mm_loadu_ps(row[l]));
         r[l] = _mm512_insertf32x4(r[l], _mm_loadu_ps(row[l + 4]), 1);
         r[l] = _mm512_insertf32x4(r[l], _mm_loadu_ps(row[l + 8]), 2);
         r[l] = _mm512_insertf32x4(r[l], _mm_loadu_ps(row[l + 12]), 3);
+#  endif
     }
-    __m512d e = (__m512d)_mm512_unpacklo_ps(r[0], r[1]), f = (__m512d)_mm512_unpackhi_ps(r[0], r[1]);
-    __m512d g = (__m512d)_mm512_unpacklo_ps(r[2], r[3]), h = (__m512d)_mm512_unpackhi_ps(r[2], r[3]);
-    q.a = (real)_mm512_unpacklo_pd(e, g);
-    q.b = (real)_mm512_unpackhi_pd(e, g);
-    q.c = (real)_mm512_unpacklo_pd(f, h);
-    q.d = (real)_mm512_unpackhi_pd(f, h);
-#endif
+    lanes_doubles e = (lanes_doubles)LANES_INSTRUCTION(unpacklo_ps)(r[0], r[1]);
+    lanes_doubles f = (lanes_doubles)LANES_INSTRUCTION(unpackhi_ps)(r[0], r[1]);
+    lanes_doubles g = (lanes_doubles)LANES_INSTRUCTION(unpacklo_ps)(r[2], r[3]);
+    lanes_doubles h = (lanes_doubles)LANES_INSTRUCTION(unpackhi_ps)(r[2], r[3]);
+    quad q = {(real)LANES_INSTRUCTION(unpacklo_pd)(e, g), (real)LANES_INSTRUCTION(unpackhi_pd)(e, g),
+              (real)LANES_INSTRUCTION(unpacklo_pd)(f, h), (real)LANES_INSTRUCTION(unpackhi_pd)(f, h)};
     return q;
+#else
+    real a = load(row[0]), b = load(row[1]), c = load(row[2]), d = load(row[3]);
+    quad q = {
+        {a[0], b[0], c[0], d[0]}, {a[1], b[1], c[1], d[1]}, {a[2], b[2], c[2], d[2]}, {a[3], b[3], c[3], d[3]}};
+    return q;
+#endif
 }
 
 HERE quad look_rows(table t, int group, whole i)

@@ -64,14 +64,15 @@ typedef struct frame {
     real near;        /* below this cosine to the scaled wi, rounding may turn a normal away */
 } frame;
 
-/* w of the direction (x, y, z), unscaled. */
-typedef struct stretched {
+/* A direction or a normal, of any length. */
+typedef struct triple {
     real x, y, z;
-} stretched;
+} triple;
 
-HERE stretched affine_stretched(affine_map m, real x, real y, real z)
+/* w of the direction (x, y, z), unscaled. */
+HERE triple affine_stretched(affine_map m, real x, real y, real z)
 {
-    stretched w = {m.xx * x, m.yy * y, z};
+    triple w = {m.xx * x, m.yy * y, z};
     if (m.plain == 0) {
         w.x = w.x + m.yx * y;
         w.y = m.xy * x + w.y;
@@ -89,7 +90,7 @@ HERE frame frame_scaled(frame f, mask odd)
     f.wx = f.wx * k;
     f.wy = f.wy * k;
     f.wz = f.wz * k;
-    stretched w = affine_stretched(f.m, f.wx, f.wy, f.wz);
+    triple w = affine_stretched(f.m, f.wx, f.wy, f.wz);
     largest = most(most(size(w.x), size(w.y)), size(w.z));
     f.scale = pick(odd, inverse_scale(largest), set(1.0f));
     f.ux = w.x * f.scale;
@@ -102,7 +103,7 @@ HERE frame frame_scaled(frame f, mask odd)
 
 HERE frame frame_of(affine_map m, real x, real y, real z)
 {
-    stretched w = affine_stretched(m, x, y, z);
+    triple w = affine_stretched(m, x, y, z);
     real one = set(1.0f), near = 6e-7f * ((size(x) + size(y)) + size(z)) + 2e-12f;
     frame f = {m, x, y, z, w.x, w.y, w.z, one, one, size(m.determinant), set(3.4028234e38f), near};
     real under = w.x * w.x + w.y * w.y, square = under + w.z * w.z;
@@ -128,21 +129,16 @@ HERE real frame_density(frame f, real density)
     return least(most(density, set(1.17549435e-38f)), f.densest);
 }
 
-/* A normal of the surface, of any length. */
-typedef struct long_normal {
-    real x, y, z;
-} long_normal;
-
 /* Turns it to wi where rounding may have turned it away: wi . wm exceeds what three more roundings may take. */
-HERE long_normal frame_turned_back(frame f, long_normal n)
+HERE triple frame_turned_back(frame f, triple n)
 {
     real up = most(f.wz, set(0.0f)), a = f.wx * n.x, b = f.wy * n.y, c = f.wz * n.z;
     real tiny = 1e-12f * most(most(size(n.x), size(n.y)), n.z); /* all terms may be 0 */
     real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     real turn_by = lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f));
     mask away = less(set(0.0f), lack); /* not by a turn of 0: that would make -0 of 0 */
-    long_normal m = {pick(away, n.x + turn_by * f.wx, n.x), pick(away, n.y + turn_by * f.wy, n.y),
-                     pick(away, n.z + turn_by * up, n.z)};
+    triple m = {pick(away, n.x + turn_by * f.wx, n.x), pick(away, n.y + turn_by * f.wy, n.y),
+                pick(away, n.z + turn_by * up, n.z)};
     return m;
 }
 
@@ -150,7 +146,7 @@ HERE long_normal frame_turned_back(frame f, long_normal n)
 HERE sampled_normal frame_sampled(frame f, drawn n)
 {
     affine_map m = f.m;
-    long_normal w = {m.xx * n.x, m.yy * n.y, n.z};
+    triple w = {m.xx * n.x, m.yy * n.y, n.z};
     if (m.plain == 0) {
         w.x = (w.x + m.xy * n.y) - m.mean_x * n.z;
         w.y = (m.yx * n.x + w.y) - m.mean_y * n.z;

@@ -203,12 +203,12 @@ float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w)
 
 float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w)
 {
-    return vndf_lambda_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
+    return lambda_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
 }
 
 float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w)
 {
-    return vndf_g1_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
+    return g1_of(vndf_mixture_projected_area(mixture, w), weighed_sum(mixture, cosine_of, w));
 }
 
 float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)

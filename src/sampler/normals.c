@@ -85,23 +85,16 @@ float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm)
 
 /* ---- bounded normals ---- */
 
-/* Of a table: roughness, where it is the same along and across, and the tangent of the stretched direction. */
-typedef struct table_bounds {
-    int isotropic;
-    float alpha, slant, part;
-} table_bounds;
-
-static table_bounds table_bounds_of(const vndf_view *view)
+/* Whether it is that of a table with the same roughness along and across, whose bounds follow; `can_bound`. */
+static int has_bounds(const vndf_view *view, table_bounds *b)
 {
     const vndf_state *s = vndf_state_of(view);
     ellipse e = ellipse_of(s->f.m);
-    table_bounds b = {size(e.e12) <= 1e-5f * e.e11 && size(e.e11 - e.e22) <= 1e-5f * e.e11, root(e.e11), 0.0f,
-                      1.0f};
-    if (!b.isotropic || !(s->f.uz > 0.0f))
-        return b;
-    b.slant = least(s->of.table.v.s / (b.alpha * s->of.table.v.c), 1e15f);
-    b.part = table_bounded_part(table_of(view->distribution), s->of.table, b.alpha, b.slant);
-    return b;
+    if (view->distribution->kind != VNDF_KIND_TABLE ||
+        !(size(e.e12) <= 1e-5f * e.e11 && size(e.e11 - e.e22) <= 1e-5f * e.e11))
+        return 0;
+    *b = table_bounds_of(table_of(view->distribution), s->of.table, root(e.e11));
+    return 1;
 }
 
 /* The numbers that closed forms keep; tables of unequal roughness keep all. */
@@ -140,15 +133,12 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
     if (!can_bound(view))
         return no_normal();
     const vndf_state *s = vndf_state_of(view);
+    table_bounds bounds;
     u1 = vndf_clamp_unit(u1);
     u2 = vndf_clamp_unit(u2);
-    table_bounds t = {0, 0.0f, 0.0f, 1.0f};
-    if (view->distribution->kind == VNDF_KIND_TABLE)
-        t = table_bounds_of(view);
-    if (t.isotropic) {
-        bounded_normal n =
-            table_draw_bounded(table_of(view->distribution), s->of.table, t.alpha, t.slant, t.part, u1, u2);
-        return raised(view, on_surface(view, &s->f, n.n));
+    if (has_bounds(view, &bounds)) {
+        drawn n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
+        return raised(view, on_surface(view, &s->f, n));
     }
     number_box b = box_of(view);
     vndf_drawn_normal d = vndf_sample_visible(view, b.begin1 + b.span1 * u1, b.begin2 + b.span2 * u2);
@@ -157,25 +147,16 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
     return d;
 }
 
-/* The part of the visible normals like this one that is kept. */
-static float part_kept(const vndf_view *view, vndf_vec3 wm)
-{
-    const vndf_state *s = vndf_state_of(view);
-    number_box box = box_of(view);
-    if (view->distribution->kind != VNDF_KIND_TABLE)
-        return box.span1 * box.span2;
-    table_bounds b = table_bounds_of(view);
-    unit_normal n = frame_normal(s->f, wm.x, wm.y, wm.z);
-    return b.isotropic
-               ? table_bounded_inside(table_of(view->distribution), s->of.table, b.alpha, b.slant, b.part, n)
-               : 1.0f;
-}
-
 float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)
 {
-    if (!can_bound(view) || !(wm.z >= 0.0f))
+    if (!can_bound(view) || !(wm.z >= 0.0f) || !(2.0 * facing_of(view, wm) * wm.z > view->wi.z))
         return 0.0f;
-    return 2.0 * facing_of(view, wm) * wm.z > view->wi.z
-               ? frame_density(vndf_state_of(view)->f, vndf_pdf(view, wm) / part_kept(view, wm))
-               : 0.0f;
+    const vndf_state *s = vndf_state_of(view);
+    number_box box = box_of(view);
+    float kept = box.span1 * box.span2; /* of the visible normals like this one */
+    table_bounds b;
+    if (has_bounds(view, &b))
+        kept = table_bounded_inside(table_of(view->distribution), s->of.table, b,
+                                    frame_normal(s->f, wm.x, wm.y, wm.z));
+    return frame_density(s->f, vndf_pdf(view, wm) / kept);
 }

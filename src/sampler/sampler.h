@@ -46,9 +46,7 @@ float vndf_pdf_all(const vndf_view *view, vndf_vec3 wm);
 vndf_drawn_normal vndf_sample_v_cavity(const vndf_view *view, float u1, float u2);
 float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm);
 
-/* Lambda and G1 from an area and the projection on the mean plane; G2 from both G1. */
-float vndf_lambda_of(float area, float cosine);
-float vndf_g1_of(float area, float cosine);
+/* G2 from both G1. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model);
 
 /* A mixture's D, area and cosine from its view, likewise. */

@@ -360,16 +360,6 @@ float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)
     return view->distribution ? affine_stretched(vndf_state_of(view)->f.m, w.x, w.y, w.z).z : 0.0f;
 }
 
-float vndf_lambda_of(float area, float cosine)
-{
-    return lambda_of(area, cosine);
-}
-
-float vndf_g1_of(float area, float cosine)
-{
-    return g1_of(area, cosine);
-}
-
 /* 1/(1 + Lambda_i + Lambda_o), with 1 + Lambda = 1/G1, is the smaller G1 times a factor that is 1/2 at least, since a
  * product of two small ones would underflow. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model)
@@ -380,16 +370,6 @@ float vndf_g2_of(float gi, float go, vndf_g2_model model)
     return lesser * (greater / (greater + lesser * (1.0f - greater)));
 }
 
-VNDF_INLINE float lambda_at(look_at at)
-{
-    return vndf_lambda_of(at.area, at.cosine);
-}
-
-VNDF_INLINE float g1_at(look_at at)
-{
-    return vndf_g1_of(at.area, at.cosine);
-}
-
 float vndf_affine_projected_area(const vndf_affine *affine, vndf_vec3 w)
 {
     return look_along(affine_mapped(affine), w).area;
@@ -397,12 +377,14 @@ float vndf_affine_projected_area(const vndf_affine *affine, vndf_vec3 w)
 
 float vndf_affine_lambda(const vndf_affine *affine, vndf_vec3 w)
 {
-    return lambda_at(look_along(affine_mapped(affine), w));
+    look_at at = look_along(affine_mapped(affine), w);
+    return lambda_of(at.area, at.cosine);
 }
 
 float vndf_affine_g1(const vndf_affine *affine, vndf_vec3 w)
 {
-    return g1_at(look_along(affine_mapped(affine), w));
+    look_at at = look_along(affine_mapped(affine), w);
+    return g1_of(at.area, at.cosine);
 }
 
 float vndf_affine_g2(const vndf_affine *affine, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
@@ -417,12 +399,14 @@ float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 
 float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 {
-    return lambda_at(look_along(surface_mapped(surface), w));
+    look_at at = look_along(surface_mapped(surface), w);
+    return lambda_of(at.area, at.cosine);
 }
 
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
-    return g1_at(look_along(surface_mapped(surface), w));
+    look_at at = look_along(surface_mapped(surface), w);
+    return g1_of(at.area, at.cosine);
 }
 
 float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)

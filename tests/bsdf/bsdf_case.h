@@ -5,7 +5,6 @@
 
 #include "harness/constants.h"
 #include "harness/test.h"
-#include "oracle/oracle.h"
 #include "oracle/oracle_bsdf.h"
 
 static inline float bsdf_pick(const float *from, size_t count, unsigned long long *state)
@@ -124,11 +123,14 @@ static inline bsdf_look bsdf_spread(const vndf_bsdf *bsdf, vndf_vec3 wo, const b
 
 static inline void bsdf_describe(const vndf_description *is, const char *ndf, vndf_vec3 wi, vndf_vec3 wo)
 {
-    char text[ORACLE_EFFECTS_TEXT];
-    oracle_effects_name(&is->effects, text);
-    fprintf(stderr, "  %s, %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n",
-            text, ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation,
-            (double)wi.x, (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
+    const vndf_effects *e = &is->effects; /* by the numbers of vndf_bsdf.h */
+    fprintf(
+        stderr,
+        "  lobes %d, fresnel %d, masking %d, normals %d, scattering %d, transport %d, shape %d, reflection %d\n",
+        e->lobes, e->fresnel, e->masking, e->normals, e->scattering, e->transport, e->shape, e->reflection);
+    fprintf(stderr, "    %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n",
+            ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation, (double)wi.x,
+            (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
 }
 
 #endif

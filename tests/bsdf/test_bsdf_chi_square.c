@@ -63,10 +63,10 @@ static void test_hit(const vndf_bsdf *bsdf, vndf_vec3 wi, unsigned long long see
         vndf_bsdf_sample(bsdf, u, &s);
         size_t bin = grid_bin(&g, (double)s.wo.z, atan2((double)s.wo.y, (double)s.wo.x));
         int kept = s.lobe == VNDF_LOBE_REFLECTION || s.lobe == VNDF_LOBE_TRANSMISSION;
-        g.observed[kept ? bin : grid_elsewhere(&g)] += 1;
+        g.observed[kept ? bin : g.elsewhere] += 1;
     }
     pearson found = grid_test(&g);
-    double lost = g.observed[grid_elsewhere(&g)] / samples, noise = 5 * sqrt(lost * (1 - lost) / samples) + 2e-4;
+    double lost = g.observed[g.elsewhere] / samples, noise = 5 * sqrt(lost * (1 - lost) / samples) + 2e-4;
     if (TEST(lost == 1 || (found.classes > 1 && found.p > level)) & TEST_NEAR(mass, 1 - lost, noise))
         return;
     bsdf_describe(&bsdf->material->is, "", wi, wi);

@@ -35,8 +35,9 @@ static void off(const method *m, block *of, size_t first, size_t count)
 
 static void test_notices(void)
 {
-    const effect_set *set = effect_find("conductor Fresnel");
-    const block_law law = effect_law(set, NAN);
+    const effect_set conductor = {.name = "conductor", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
+                     *set = &conductor;
+    const block_law law = effect_law(set);
     method m = method_of(vndf_ggx(), set, 0.3f);
     method_run **const run[DEFECTS] = {&m.each, &m.each, &m.each, &m.shared, &m.eval, &m.density};
     TEST(evidence_verify(&m, &law, &b, 500));
@@ -55,7 +56,7 @@ static void test_sets(const vndf_distribution *d)
     const int is_table = d != vndf_ggx() && d != vndf_beckmann();
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
         const vndf_effects *is = &set->effects;
-        const block_law law = effect_law(set, NAN);
+        const block_law law = effect_law(set);
         evidence_row row;
         method m = method_of(d, set, 0.5f);
         int good = evidence_verify(&m, &law, &b, 500) & worth_of_material(&m, &law, 60, &b, 4, &row);

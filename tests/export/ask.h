@@ -3,16 +3,16 @@
  * A question is a surface (its distribution by the place of its numbers, matrix, mean slope), wi, three uniform
  * numbers, wo. */
 typedef struct question {
-    float n[16];
+    float of, xx, xy, yx, yy, mean_x, mean_y, wi_x, wi_y, wi_z, u1, u2, u3, wo_x, wo_y, wo_z;
 } question;
 
 typedef struct answer {
-    float n[16];
+    float a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15;
 } answer;
 
 HERE vndf_surface surface_asked(question q)
 {
-    const vndf_surface s = {to_whole(q.n[0]), q.n[1], q.n[2], q.n[3], q.n[4], q.n[5], q.n[6]};
+    const vndf_surface s = {to_whole(q.of), q.xx, q.xy, q.yx, q.yy, q.mean_x, q.mean_y};
     return s;
 }
 
@@ -21,22 +21,10 @@ HERE vndf_surface surface_asked(question q)
  * and the normal. Then a normal of two lobes, 0.6 of the surface and 0.4 of GGX with alpha 0.3. */
 HERE answer ask(question q)
 {
-    const vec3 wi = vec3(q.n[7], q.n[8], q.n[9]);
+    const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
     const vndf_view view = vndf_view_of(surface, wi);
-    const vndf_sampled drawn = vndf_sample(view, q.n[10], q.n[11]);
-    answer a;
-    a.n[0] = drawn.wm.x;
-    a.n[1] = drawn.wm.y;
-    a.n[2] = drawn.wm.z;
-    a.n[3] = drawn.pdf;
-    a.n[4] = vndf_pdf(view, drawn.wm);
-    a.n[5] = vndf_visible(view, drawn.wm);
-    a.n[6] = vndf_ndf(surface, drawn.wm);
-    a.n[7] = vndf_lambda(surface, wi);
-    a.n[8] = vndf_g1(surface, wi);
-    a.n[9] = vndf_g2(surface, wi, drawn.wm);
-    a.n[10] = vndf_projected_area(view);
+    const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
     vndf_mixture mixture;
     mixture.count = 2;
     for (int i = 0; i < VNDF_LOBES; i++) {
@@ -46,12 +34,24 @@ HERE answer ask(question q)
     mixture.lobe[1] = vndf_surface_of(VNDF_GGX, 0.3f, 0.3f);
     mixture.weight[1] = 0.4f;
     const vndf_mixture_view lobes = vndf_mixture_view_of(mixture, wi);
-    const vndf_mixed mixed = vndf_mixture_sample(lobes, q.n[10], q.n[11]);
-    a.n[11] = mixed.wm.x;
-    a.n[12] = mixed.wm.y;
-    a.n[13] = mixed.wm.z;
-    a.n[14] = mixed.pdf;
-    a.n[15] = vndf_mixture_pdf(lobes, mixed.wm);
+    const vndf_mixed mixed = vndf_mixture_sample(lobes, q.u1, q.u2);
+    const vec3 wm = drawn.wm, of_two = mixed.wm;
+    const answer a = {wm.x,
+                      wm.y,
+                      wm.z,
+                      drawn.pdf,
+                      vndf_pdf(view, wm),
+                      vndf_visible(view, wm),
+                      vndf_ndf(surface, wm),
+                      vndf_lambda(surface, wi),
+                      vndf_g1(surface, wi),
+                      vndf_g2(surface, wi, wm),
+                      vndf_projected_area(view),
+                      of_two.x,
+                      of_two.y,
+                      of_two.z,
+                      mixed.pdf,
+                      vndf_mixture_pdf(lobes, of_two)};
     return a;
 }
 /* end */
@@ -65,27 +65,13 @@ HERE answer ask(question q)
     material.f0 = vec3(0.0f, 0.04f, 0.9f);           /* only fresnel=schlick */
     material.conductor_eta = vec3(0.2f, 0.9f, 1.5f); /* only fresnel=conductor */
     material.conductor_k = vec3(3.9f, 2.4f, 1.9f);   /* only fresnel=conductor */
-    const vndf_bsdf bsdf = vndf_bsdf_of(material, vec3(q.n[7], q.n[8], q.n[9]));
-    const vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(q.n[10], q.n[11], q.n[12]));
-    const vec3 wo = vec3(q.n[13], q.n[14], q.n[15]), f = vndf_bsdf_eval(bsdf, wo),
-               own = vndf_bsdf_eval(bsdf, s.wo);
-    answer a;
-    a.n[0] = s.wo.x;
-    a.n[1] = s.wo.y;
-    a.n[2] = s.wo.z;
-    a.n[3] = s.weight.x;
-    a.n[4] = s.weight.y;
-    a.n[5] = s.weight.z;
-    a.n[6] = s.pdf;
-    a.n[7] = to_real(s.lobe);
-    a.n[8] = f.x;
-    a.n[9] = f.y;
-    a.n[10] = f.z;
-    a.n[11] = vndf_bsdf_pdf(bsdf, wo);
-    a.n[12] = own.x;
-    a.n[13] = own.y;
-    a.n[14] = own.z;
-    a.n[15] = vndf_bsdf_pdf(bsdf, s.wo);
+    const vndf_bsdf bsdf = vndf_bsdf_of(material, vec3(q.wi_x, q.wi_y, q.wi_z));
+    const vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(q.u1, q.u2, q.u3));
+    const vec3 wo = vec3(q.wo_x, q.wo_y, q.wo_z), f = vndf_bsdf_eval(bsdf, wo), own = vndf_bsdf_eval(bsdf, s.wo);
+    const answer a = {s.wo.x,     s.wo.y,     s.wo.z, s.weight.x,
+                      s.weight.y, s.weight.z, s.pdf,  to_real(s.lobe),
+                      f.x,        f.y,        f.z,    vndf_bsdf_pdf(bsdf, wo),
+                      own.x,      own.y,      own.z,  vndf_bsdf_pdf(bsdf, s.wo)};
     return a;
 }
 /* end */

@@ -115,45 +115,34 @@ static void test_families(const vndf_family *metals, float p, const vndf_affine 
 
 enum { TEXT_MOST = 1 << 18 };
 
-/* The file without blanks, and without the stars that open lines of a comment. */
+/* The file without blanks, and without stars, which open lines of a comment. */
 static int read_bare(const char *path, char *text)
 {
     FILE *file = fopen(path, "rb");
-    size_t n = 0;
-    int letter, at_start = 1;
-    if (!TEST(file != NULL))
-        return 0;
-    while ((letter = getc(file)) != EOF && n < TEXT_MOST - 1) {
-        if (letter == '\n')
-            at_start = 1;
-        if (isspace(letter) || (at_start && letter == '*'))
-            continue;
-        at_start = 0;
-        text[n++] = (char)letter;
-    }
-    text[n] = '\0';
-    fclose(file);
-    return TEST(n > 0 && n < TEXT_MOST - 1);
+    size_t size = file ? fread(text, 1, TEXT_MOST - 1, file) : 0, kept = 0;
+    for (size_t i = 0; i < size; i++)
+        if (!isspace((unsigned char)text[i]) && text[i] != '*')
+            text[kept++] = text[i];
+    text[kept] = '\0';
+    if (file)
+        fclose(file);
+    return TEST(size > 0 && size < TEXT_MOST - 1);
 }
 
 /* Every part of this file between "example: HEADER" and "end" is part of that header. */
 static void test_letters(void)
 {
     static char here[TEXT_MOST], header[TEXT_MOST];
-    static const char opens[] = "/*example:", ends[] = "/*end*/";
-    char path[512];
-    int count = 0;
-    if (!read_bare(VNDF_SOURCE_DIR "/tests/house/test_header_examples.c", here))
-        return;
-    for (char *at = here; (at = strstr(at, opens)) != NULL;) {
-        char *name = at += strlen(opens), *body = strstr(name, "*/"), *end = strstr(at, ends);
-        if (!isalpha((unsigned char)*name) || !body || !end) /* the words above */
+    char path[512], name[32];
+    int count = 0, length = 0;
+    read_bare(VNDF_SOURCE_DIR "/tests/house/test_header_examples.c", here);
+    for (char *at = here, *end; (at = strstr(at, "/example:")) && (end = strstr(at, "/end/")); at = end + 1) {
+        if (sscanf(at, "/example:%31[a-z_.]/%n", name, &length) != 1) /* the words above */
             continue;
-        *body = *end = '\0';
+        *end = '\0';
         snprintf(path, sizeof path, VNDF_SOURCE_DIR "/include/%s", name);
-        if (read_bare(path, header) && !TEST(strstr(header, body + 2) != NULL))
+        if (!TEST(read_bare(path, header) && strstr(header, at + length)))
             fprintf(stderr, "  example %d is not in %s\n", count + 1, name);
-        at = end + 1;
         count++;
     }
     TEST(count == 4);

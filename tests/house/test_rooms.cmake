@@ -1,8 +1,7 @@
 # The order of the house, which src/README.md draws: a room includes rooms below it, a sub-room its own room and
-# the sub-rooms that are listed before it, and no header comes back to itself. The run time (core to bsdf) does not
-# know vndf_build.h, tools/ know src/ through include/ and one header of core/ alone, and src/ takes from the system
-# the headers of the C library, but for what is stated below. A folder holds no more than 20 sources and headers. No
-# line of a source is longer than 120 columns.
+# the sub-rooms that are listed before it. The run time (core to bsdf) does not know vndf_build.h, tools/ know src/
+# through include/ and some headers of core/ alone, and src/ takes from the system the headers of the C library, but
+# for what is stated below. No line of a source is longer than 120 columns.
 cmake_minimum_required(VERSION 3.16)
 
 # A line a room: the room / its sub-rooms, of which each may use those before it : the rooms that it may use. The kernel
@@ -24,7 +23,6 @@ set(c_library assert complex ctype errno fenv float inttypes iso646 limits local
 set(system_core fcntl sys/stat unistd)
 # Lanes are the processor's own.
 set(system_kernel emmintrin immintrin)
-set(most_files 20)
 
 foreach(tower src tools)
     foreach(line IN LISTS order_${tower})
@@ -89,44 +87,19 @@ function(check_angled file name where)
     endif()
 endfunction()
 
-# Checks every #include of FILE, and notes which headers a header includes.
+# Checks every #include of FILE.
 function(check_file tower file)
     file(STRINGS ${SOURCE}/${tower}/${file} lines REGEX "^[ \t]*#[ \t]*include")
-    set(headers "")
     foreach(line IN LISTS lines)
         if(line MATCHES "include[ \t]*\"([^\"]+)\"")
-            set(name ${CMAKE_MATCH_1})
-            check_quoted(${tower} ${file} ${name} ${tower}/${file})
-            list(APPEND headers ${name})
+            check_quoted(${tower} ${file} ${CMAKE_MATCH_1} ${tower}/${file})
         elseif(tower STREQUAL src AND line MATCHES "include[ \t]*<([^>]+)>")
             check_angled(${file} ${CMAKE_MATCH_1} ${tower}/${file})
         endif()
     endforeach()
-    set_property(GLOBAL PROPERTY "includes ${tower}/${file}" "${headers}")
 endfunction()
 
 # ---- all files ----------------------------------------------------------------------------------
-
-# No header comes back to itself: those that include none of the rest are taken away until none is left.
-function(check_circles tower headers)
-    while(NOT headers STREQUAL "")
-        set(rest "")
-        foreach(header IN LISTS headers)
-            get_property(included GLOBAL PROPERTY "includes ${tower}/${header}")
-            set(others "${included}")
-            list(REMOVE_ITEM others ${headers})
-            if(NOT others STREQUAL included)
-                list(APPEND rest ${header})
-            endif()
-        endforeach()
-        if(rest STREQUAL headers)
-            list(JOIN rest "\n  " names)
-            message(SEND_ERROR "headers of ${tower}/ that include one another in a circle, or lead to one:\n  ${names}")
-            return()
-        endif()
-        set(headers "${rest}")
-    endwhile()
-endfunction()
 
 foreach(tower src tools)
     file(GLOB_RECURSE files RELATIVE ${SOURCE}/${tower} ${SOURCE}/${tower}/*.c ${SOURCE}/${tower}/*.h)
@@ -134,8 +107,6 @@ foreach(tower src tools)
     if(count LESS 80)
         message(FATAL_ERROR "${count} sources under ${SOURCE}/${tower}")
     endif()
-    set(headers "")
-    set(folders "")
     foreach(file IN LISTS files)
         room_of(${file} room sub)
         if(NOT "${tower}/${file}" MATCHES "^tools/(main\\.c|command\\.h)$"
@@ -144,21 +115,6 @@ foreach(tower src tools)
                 "sub-rooms and what each may include")
         endif()
         check_file(${tower} ${file})
-        if(file MATCHES "\\.h$")
-            list(APPEND headers ${file})
-        endif()
-        get_filename_component(folder ${file} DIRECTORY)
-        list(APPEND folders "${folder}")
-        list(APPEND "in ${folder}" ${file})
-    endforeach()
-    check_circles(${tower} "${headers}")
-    list(REMOVE_DUPLICATES folders)
-    foreach(folder IN LISTS folders)
-        list(LENGTH "in ${folder}" flat)
-        if(flat GREATER most_files)
-            message(SEND_ERROR "${tower}/${folder} holds ${flat} files, more than ${most_files}: "
-                "sub-rooms show the architecture")
-        endif()
     endforeach()
     message("${tower}/: ${count} files in order")
 endforeach()

@@ -1,6 +1,7 @@
 # Clang, or where it is not here the compiler of the build, warns of nothing in the library, the program and the tests
 # where it does not optimise: it then has macros in place of functions, of which it says other things than of those
-# that everyone compiles. It reads all sources, without making code.
+# that everyone compiles. It reads all sources, without making code. Each public header compiles alone, and twice in a
+# row, as C99, C11 and C++11.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT WARNINGS)
@@ -33,3 +34,22 @@ list(FILTER tests EXCLUDE REGEX "/export/(answer|family)\\.c$") # not without a 
 warn_not("the library" "${library}" ${arithmetic})
 warn_not("the program" "${program}")
 warn_not("the tests" "${tests}" -DVNDF_SOURCE_DIR="" -DVNDF_PROGRAM="" -DVNDF_JUDGED="" -DTABLES="")
+
+file(GLOB headers ${SOURCE}/include/*.h)
+list(LENGTH headers count)
+set(languages c99 c11)
+if(CLANG OR CXX_COMPILER)
+    list(APPEND languages c++11)
+endif()
+file(WRITE ${OUT}/empty "")
+foreach(standard IN LISTS languages)
+    string(REGEX REPLACE "[0-9]" "" language ${standard})
+    foreach(header IN LISTS headers)
+        execute_process(COMMAND ${C_COMPILER} -x ${language} -std=${standard} -fsyntax-only -Wall -Wextra -Wpedantic
+                -Wshadow -Wconversion -Werror -I${SOURCE}/include -include ${header} -include ${header} ${OUT}/empty
+            RESULT_VARIABLE status ERROR_VARIABLE output)
+        if(NOT status EQUAL 0 OR count LESS 3)
+            message(SEND_ERROR "${header} does not compile alone as ${standard}:\n${output}")
+        endif()
+    endforeach()
+endforeach()

@@ -33,8 +33,6 @@ endfunction()
 run(0 export ggx --rgl --alpha 0.4 --f0 0.9,0.6,0.3 -o out.bsdf)
 expect("export prints on stdout" "x${output}" STREQUAL x)
 run(0 build --rgl out.bsdf --max-bytes 2048 -o in.vndf)
-file(READ ${OUT}/out.bsdf hex LIMIT 14 HEX)
-expect("the file begins with ${hex}" hex STREQUAL "74656e736f725f66696c65000100")
 has(output "source --rgl out.bsdf (crc32 ")
 number(f0 f0)
 expect("F0 is ${f0}, 0.6 went out" f0 GREATER 0.598 AND f0 LESS 0.602)
@@ -65,11 +63,6 @@ refused(export
     "ggx --alpha 1 --language c -o bad.h|--alpha is for"
     "none.vndf --rgl -o bad.bsdf|none.vndf")
 
-refused(build
-    "--merl out.bsdf|this is no MERL file"
-    "--merl out.bsdf --channel grey|--channel 'grey' is not"
-    "--rgl out.bsdf --channel red|--channel is for --merl")
-
 # ---- surfaces -----------------------------------------------------------------------------------
 
 # 48 x 48 whole numbers by a recurrence, smoothed along rows: slopes of both axes differ.
@@ -94,8 +87,7 @@ number(rms rms_slope)
 number(before scale)
 expect("half the step: rms ${finer} after ${rms}" finer GREATER rms)
 foreach(key anisotropy p22_error_median p22_error_99 residual_bins residual_isotropy)
-    number(value ${key})
-    expect("build prints no ${key}" NOT value STREQUAL none)
+    has(output "\n${key} ")
 endforeach()
 expect("no matrix" output MATCHES "\nmatrix [.0-9]+,[-.e0-9]+,[-.e0-9]+,[.0-9]+\n")
 file(READ ${OUT}/curve.csv curve)
@@ -114,7 +106,6 @@ refused(build
     "--height heights.txt --step 0|--step '0' is not in the range"
     "--height heights.txt --cutoff 46|4 slopes"
     "--normal-map heights.txt|begin with PF, Pf, P5 or P6"
-    "--height heights.txt --profile heights.txt|an input of this command"
     "--height heights.txt --profile bad.vndf|-o and --profile both name"
     "--height heights.txt --profile -|--profile '-': a file is needed"
     "--family ggx --profile bad.csv|--profile is for files of measurements"

@@ -20,12 +20,6 @@ static double ggx(double theta, double alpha)
     return case_ggx(tan(theta), alpha) / pow(cos(theta), 4);
 }
 
-/* Twice the projected area of GGX along a direction with this cosine. */
-static double twice_area(double c, double alpha)
-{
-    return c + sqrt(c * c + alpha * alpha * (1 - c * c));
-}
-
 /* Single scattering of GGX at the middle of each bin: half vector (sin h, 0, cos h), both directions at d from it. */
 static void make(double alpha, const double f0[3])
 {
@@ -33,11 +27,12 @@ static void make(double alpha, const double f0[3])
     memcpy(bytes, head, sizeof head);
     for (size_t i = 0; i < PLANE; i++) {
         double u = ((double)(i / 16200) + 0.5) / 90, h = PI / 2 * u * u,
-               phi = ((double)(i % 180) + 0.5) / 180 * PI;
-        double d = ((double)(i / 180 % 90) + 0.5) / 180 * PI, up = cos(h) * cos(d),
-               side = sin(h) * sin(d) * cos(phi);
-        double ci = up - side, co = up + side, a = twice_area(ci, alpha), b = twice_area(co, alpha);
-        double f = ci > 0 && co > 0 ? ggx(h, alpha) / (2 * (a * co + b * ci - 2 * ci * co)) : 0;
+               d = ((double)(i / 180 % 90) + 0.5) / 180 * PI;
+        double side = sin(h) * sin(d) * cos(((double)(i % 180) + 0.5) / 180 * PI), square = alpha * alpha;
+        double ci = cos(h) * cos(d) - side, co = cos(h) * cos(d) + side;
+        double a = ci + sqrt(ci * ci + square * (1 - ci * ci)), b = co + sqrt(co * co + square * (1 - co * co));
+        double f =
+            ci > 0 && co > 0 ? ggx(h, alpha) / (2 * (a * co + b * ci - 2 * ci * co)) : 0; /* a, b: twice areas */
         for (size_t k = 0; k < 3; k++)
             put(k, i, f * (f0[k] + (1 - f0[k]) * pow(1 - cos(d), 5)) / unit_of[k]);
     }
@@ -77,7 +72,7 @@ static void test_diffuse(void)
 {
     data_file file;
     for (size_t i = 0; i < PLANE; i++)
-        put(0, i, little_double(bytes + 12 + 8 * i) + 0.25 / PI / unit_of[0]);
+        put(0, i, little_number(bytes + 12 + 8 * i, 8) + 0.25 / PI / unit_of[0]);
     TEST(read_back(&file, 0.3, MERL_RED) < 0.03);
     TEST_NEAR(case_number(&file, "diffuse "), 0.25, 0.005);
     TEST_RELATIVE(case_number(&file, "\nf0 "), 0.9, 0.02);

@@ -95,38 +95,35 @@ static void test_noise(void)
 
 /* ---- grids --------------------------------------------------------------------------------------- */
 
-/* Mass before a place, by the midpoint rule, is the number that leads there. */
+/* Bilinear between points of a grid of this width, at the middle of part (column, row) of cells cut into parts^2. */
+static double bilinear(const double *grid, int width, int parts, int column, int row)
+{
+    const double *at = grid + row / parts * width + column / parts;
+    double u = (column % parts + 0.5) / parts, v = (row % parts + 0.5) / parts;
+    return (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[width] + u * at[width + 1]);
+}
+
+/* Of even numbers each quarter of a cell gets its part of the mass, and the border stays the border. */
 static void test_warp(void)
 {
-    enum { W = 5, H = 4, FINE = 400 };
-    const double density[H * W] = {0, 1, 2, 0, 0, 0, 3, 1, 4, 0, 0, 0, 0, 2, 1, 5, 1, 0, 0, 2};
+    enum { W = 5, H = 4, ACROSS = 2 * (W - 1), BOXES = ACROSS * 2 * (H - 1), FINE = 800 };
+    static const double density[W * H] = {0, 1, 2, 0, 0, 0, 3, 1, 4, 0, 0, 0, 0, 2, 1, 5, 1, 0, 0, 2}, nothing[4];
+    double x, y, count[BOXES] = {0}, whole = 0;
     warp to;
-    double x, y, last = -1;
-    if (!TEST(warp_make(&to, density, W, H)))
-        return;
-    for (int i = 0; i < 40; i++) {
-        double s = (i + 0.5) / 40, below = 0, whole = 0;
-        warp_sample(&to, 0.3, s, &x, &y);
-        TEST(y > last && y >= 0 && y <= 1 && x >= 0 && x <= 1);
-        last = y;
-        for (int row = 0; row < FINE * (H - 1); row++) {
-            double v = (row + 0.5) / FINE, sum = 0;
-            for (int column = 0; column < W; column++)
-                sum += (column == 0 || column == W - 1 ? 0.5 : 1) *
-                       ((1 - (v - (int)v)) * density[(int)v * W + column] +
-                        (v - (int)v) * density[((int)v + 1) * W + column]);
-            whole += sum;
-            below += v / (H - 1) < y ? sum : 0;
-        }
-        TEST_NEAR(below / whole, s, 2e-3);
+    TEST(!warp_make(&to, nothing, 2, 2) && warp_make(&to, density, W, H));
+    for (int i = 0; i < FINE * FINE; i++) {
+        warp_sample(&to, (i % FINE + 0.5) / FINE, ((double)(i / FINE) + 0.5) / FINE, &x, &y);
+        count[(int)(y * 2 * (H - 1)) * ACROSS + (int)(x * ACROSS)] += 1.0 / (FINE * FINE);
     }
+    for (int i = 0; i < BOXES; i++)
+        whole += bilinear(density, W, 2, i % ACROSS, i / ACROSS);
+    for (int i = 0; i < BOXES; i++)
+        TEST_NEAR(count[i], bilinear(density, W, 2, i % ACROSS, i / ACROSS) / whole, 2e-4);
     warp_sample(&to, 0, 0, &x, &y);
     TEST(x >= 0 && y == 0);
     warp_sample(&to, 1, 1, &x, &y);
     TEST(x <= 1 && y == 1);
     warp_free(&to);
-    const double nothing[4] = {0, 0, 0, 0};
-    TEST(!warp_make(&to, nothing, 2, 2));
 }
 
 /* A function that ends within cells, at x + y = 1.3: what interpolates the grid has its light and, nearly, its
@@ -143,10 +140,7 @@ static void test_fit(void)
     }
     grid_fit(value, is_known, SIDE, POINTS, 8, grid);
     for (int i = 0; i < FINE * FINE; i++) {
-        int y = i / FINE, x = i % FINE;
-        const double *at = grid + y / POINTS * SIDE + x / POINTS;
-        double v = (y % POINTS + 0.5) / POINTS, u = (x % POINTS + 0.5) / POINTS;
-        double here = (1 - v) * ((1 - u) * at[0] + u * at[1]) + v * ((1 - u) * at[SIDE] + u * at[SIDE + 1]);
+        double here = bilinear(grid, SIDE, POINTS, i % FINE, i / FINE);
         light += (double)value[i];
         found += is_known[i] > 0 ? here : 0;
         worst = fmax(worst, is_known[i] > 0 ? fabs(here - (double)value[i]) : 0);
@@ -176,7 +170,7 @@ static data_file uneven_file(double uneven)
     return file_of(&field, 1);
 }
 
-/* A file with one field of zeros. */
+/* A file with one field. */
 static data_file one_field(const char *name, int dimensions, size_t columns, const float *numbers)
 {
     const tensor field = {name, TENSOR_F32, dimensions, {dimensions > 1 ? 2 : columns, columns}, numbers};

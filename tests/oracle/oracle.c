@@ -1,7 +1,6 @@
 #include "cli/sort.h"
 #include "harness/constants.h"
 #include "oracle/oracle.h"
-#include "oracle/oracle_table.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -10,58 +9,31 @@
 
 /* ---- the distributions ---- */
 
-static double ggx(double r)
+static double shape_at(int shape, double r)
 {
-    return pow(1 + r * r, -2);
-}
-
-static double beckmann(double r)
-{
-    return exp(-r * r);
-}
-
-static double student(double r) /* gamma 1.8 */
-{
-    return pow(1 + r * r / 0.8, -1.8);
-}
-
-static double laplace(double r)
-{
-    return exp(-r);
-}
-
-/* Shifted gamma (Bagher et al. 2012), the published fit of nickel, red: alpha 0.00556292, p 0.171288. */
-static double measured(double r)
-{
-    double alpha = 0.00556292, x = alpha + r * r / alpha;
-    return exp(-x) * pow(x / alpha, -0.171288);
-}
-
-/* Seven tenths Beckmann and three of a GGX a hundred times narrower, each of mass 1. */
-static double haze(double r)
-{
-    return 0.7 * exp(-r * r) + 0.3e4 * pow(1 + 1e4 * r * r, -2);
-}
-
-static double ring(double r)
-{
-    return exp(-pow((r - 1) / 0.2, 2));
-}
-
-static double disc(double r)
-{
-    return r <= 1 ? 1 : 0;
+    const double nickel = 0.00556292, x = nickel + r * r / nickel;
+    switch (shape) {
+    case ORACLE_GGX: return pow(1 + r * r, -2);
+    case ORACLE_BECKMANN: return exp(-r * r);
+    case ORACLE_STUDENT: return pow(1 + r * r / 0.8, -1.8); /* gamma 1.8 */
+    case ORACLE_LAPLACE: return exp(-r);
+    case ORACLE_MEASURED: return exp(-x) * pow(x / nickel, -0.171288); /* shifted gamma, Bagher et al. 2012, red */
+    case ORACLE_HAZE: /* seven tenths Beckmann and three of a GGX a hundred times narrower, each of mass 1 */
+        return 0.7 * exp(-r * r) + 0.3e4 * pow(1 + 1e4 * r * r, -2);
+    case ORACLE_RING: return exp(-pow((r - 1) / 0.2, 2));
+    default: return r <= 1 ? 1 : 0;
+    }
 }
 
 static const oracle oracles[ORACLE_COUNT] = {
-    {"ggx", ggx, {0, 0}, 1e-6, 1e12, 0, 0},
-    {"beckmann", beckmann, {0, 0}, 1e-6, 6, 0, 0},
-    {"student-t:1.8", student, {0, 0}, 1e-6, 1e20, 0, 0},
-    {"exp(-r)", laplace, {0, 0}, 1e-6, 40, 0, 0},
-    {"sgd:nickel/r", measured, {0, 0}, 5e-9, 0.5, 0, 0},
-    {"mix:(0.7,1,beckmann)+(0.3,0.01,ggx)", haze, {0, 0}, 1e-8, 1e10, 0, 0},
-    {"exp(-((r-1)/0.2)^2)", ring, {0, 0}, 1e-6, 2.4, 1, 0},
-    {"step(1-r)", disc, {1, 0}, 1e-6, 1, 1, 0},
+    {"ggx", ORACLE_GGX, NULL, {0, 0}, 1e-6, 1e12, 0, 0},
+    {"beckmann", ORACLE_BECKMANN, NULL, {0, 0}, 1e-6, 6, 0, 0},
+    {"student-t:1.8", ORACLE_STUDENT, NULL, {0, 0}, 1e-6, 1e20, 0, 0},
+    {"exp(-r)", ORACLE_LAPLACE, NULL, {0, 0}, 1e-6, 40, 0, 0},
+    {"sgd:nickel/r", ORACLE_MEASURED, NULL, {0, 0}, 5e-9, 0.5, 0, 0},
+    {"mix:(0.7,1,beckmann)+(0.3,0.01,ggx)", ORACLE_HAZE, NULL, {0, 0}, 1e-8, 1e10, 0, 0},
+    {"exp(-((r-1)/0.2)^2)", ORACLE_RING, NULL, {0, 0}, 1e-6, 2.4, 1, 0},
+    {"step(1-r)", ORACLE_DISC, NULL, {1, 0}, 1e-6, 1, 1, 0},
 };
 
 /* ---- quadrature ---- */
@@ -107,7 +79,7 @@ static double seen_at(double u, const void *user)
 {
     const direction *d = user;
     double r = exp(u);
-    return d->o->shape(r) * r * r * oracle_circle(d->c, d->s * r);
+    return shape_at(d->o->shape, r) * r * r * oracle_circle(d->c, d->s * r);
 }
 
 /* From r0 to r1 in panels of at most half an octave of slope, narrower where the shape falls steeply. */
@@ -115,7 +87,7 @@ static double seen_between(const direction *d, double r0, double r1)
 {
     double sum = 0, u = log(r0), end = log(r1);
     while (u < end) {
-        double r = exp(u), here = d->o->shape(r), there = d->o->shape(r * 1.001);
+        double r = exp(u), here = shape_at(d->o->shape, r), there = shape_at(d->o->shape, r * 1.001);
         double steep = here > 0 && there > 0 ? fabs(log(there / here)) / 0.001 : 0,
                next = u + 0.35 / (1 + 0.1 * steep);
         next = next < end ? next : end;
@@ -125,7 +97,7 @@ static double seen_between(const direction *d, double r0, double r1)
     return sum;
 }
 
-double oracle_area(const oracle *o, double s, double c)
+static double area_by_quadrature(const oracle *o, double s, double c)
 {
     direction d = {o, s, c};
     double edge[4] = {o->peak}, sum = 0;
@@ -144,9 +116,106 @@ double oracle_area(const oracle *o, double s, double c)
     return o->norm * sum;
 }
 
+double oracle_area(const oracle *o, double s, double c)
+{
+    if (o->table)
+        return oracle_law_from(o->table, s, c).area;
+    if (o->shape == ORACLE_GGX)
+        return c < 0 ? s * s / (hypot(s, c) - c) / 2 : (c + hypot(s, c)) / 2;
+    if (o->shape == ORACLE_BECKMANN)
+        return s > 0 ? c * erfc(-c / s) / 2 + s * exp(-c * c / (s * s)) / (2 * sqrt(PI)) : fmax(c, 0);
+    return area_by_quadrature(o, s, c);
+}
+
 double oracle_p22(const oracle *o, double r)
 {
-    return o->norm * o->shape(r);
+    if (o->table)
+        return oracle_table_p22(o->table, r);
+    return o->norm * shape_at(o->shape, r);
+}
+
+/* ---- surfaces ---- */
+
+/* The matrix times the scale is rounded to float: that is the surface, which matters where M is nearly singular. */
+oracle_surface oracle_surface_from(const oracle *of, const vndf_affine *shape)
+{
+    float scale = of->table ? (float)of->table->scale : 1;
+    const float m[4] = {scale * shape->xx, scale * shape->xy, scale * shape->yx, scale * shape->yy};
+    oracle_surface o = {*of,          (double)m[0],          (double)m[1],         (double)m[2],
+                        (double)m[3], (double)shape->mean_x, (double)shape->mean_y};
+    return o;
+}
+
+static double determinant(const oracle_surface *o)
+{
+    return fabs(o->xx * o->yy - o->xy * o->yx);
+}
+
+oracle_look oracle_look_from(const oracle_surface *o, const double wi[3])
+{
+    double length = sqrt(wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2]);
+    double x = (o->xx * wi[0] + o->yx * wi[1]) / length, y = (o->xy * wi[0] + o->yy * wi[1]) / length;
+    oracle_look look = {hypot(x, y), (wi[2] - wi[0] * o->mean_x - wi[1] * o->mean_y) / length, 1, 0};
+    if (look.s > 0)
+        look.x = x / look.s, look.y = y / look.s;
+    return look;
+}
+
+/* The slope of wm over the matrix; slopes are (-wm.x/wm.z, -wm.y/wm.z), and u here is turned by a half. */
+static void unstretch(const oracle_surface *o, const double wm[3], double u[2])
+{
+    double x = wm[0] / wm[2] + o->mean_x, y = wm[1] / wm[2] + o->mean_y, d = o->xx * o->yy - o->xy * o->yx;
+    u[0] = (o->yy * x - o->xy * y) / d;
+    u[1] = (o->xx * y - o->yx * x) / d;
+}
+
+/* dwm per slope area: cos^3 of the angle of wm. */
+static double cosine3(const double wm[3])
+{
+    return pow(wm[2] / sqrt(wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2]), 3);
+}
+
+double oracle_surface_ndf(const oracle_surface *o, const double wm[3])
+{
+    double u[2];
+    if (!(wm[2] > 0))
+        return 0;
+    unstretch(o, wm, u);
+    return oracle_p22(&o->of, hypot(u[0], u[1])) / (determinant(o) * pow(cosine3(wm), 4.0 / 3));
+}
+
+double oracle_surface_area(const oracle_surface *o, const double w[3])
+{
+    oracle_look look = oracle_look_from(o, w);
+    return oracle_area(&o->of, look.s, look.c);
+}
+
+double oracle_surface_drawn_area(const oracle_surface *o, const double w[3])
+{
+    oracle_look at = oracle_look_from(o, w);
+    return o->of.table ? oracle_law_from(o->of.table, at.s, at.c).drawn : oracle_area(&o->of, at.s, at.c);
+}
+
+double oracle_surface_visible(const oracle_surface *o, const double wi[3], const double wm[3])
+{
+    double wi2 = wi[0] * wi[0] + wi[1] * wi[1] + wi[2] * wi[2],
+           wm2 = wm[0] * wm[0] + wm[1] * wm[1] + wm[2] * wm[2];
+    double facing = (wi[0] * wm[0] + wi[1] * wm[1] + wi[2] * wm[2]) / sqrt(wi2 * wm2);
+    return facing > 0 ? facing * oracle_surface_ndf(o, wm) / oracle_surface_area(o, wi) : 0;
+}
+
+double oracle_surface_drawn(const oracle_surface *o, const double wi[3], const double wm[3])
+{
+    double u[2];
+    if (!o->of.table)
+        return oracle_surface_visible(o, wi, wm);
+    if (!(wm[2] > 0))
+        return 0;
+    unstretch(o, wm, u);
+    oracle_look look = oracle_look_from(o, wi);
+    oracle_law law = oracle_law_from(o->of.table, look.s, look.c);
+    double along = look.x * u[0] + look.y * u[1], across = look.x * u[1] - look.y * u[0];
+    return oracle_law_density(&law, hypot(along, across), atan2(across, along)) / (determinant(o) * cosine3(wm));
 }
 
 /* ---- making ---- */
@@ -155,7 +224,7 @@ oracle oracle_get(size_t index)
 {
     oracle o = oracles[index];
     o.norm = 1;
-    o.norm = 1 / oracle_area(&o, 0, 1); /* seen from above, every slope counts its own area */
+    o.norm = 1 / area_by_quadrature(&o, 0, 1); /* seen from above, every slope counts its own area */
     return o;
 }
 

@@ -10,18 +10,10 @@
 
 #include <stddef.h>
 
+#include "oracle/oracle_table.h"
 #include "vndf_build.h"
 
-typedef struct oracle {
-    const char *name;          /* how the builder gets it: a family, or a formula of slopes */
-    double (*shape)(double r); /* P22 up to a factor */
-    double breaks[2];          /* slopes where it jumps or has a kink, ascending; 0: none */
-    double peak, reach;        /* slopes below and beyond which less than 1e-12 of the mass lies */
-    int rough;                 /* a ring or a jump: ten times the error is allowed */
-    double norm;               /* P22 = norm shape, integral P22 r dr = 1/(2 pi) */
-} oracle;
-
-/* In the order of oracle_get. */
+/* The shapes, in the order of oracle_get; that of a table is ORACLE_COUNT. */
 enum {
     ORACLE_GGX,
     ORACLE_BECKMANN,
@@ -33,6 +25,16 @@ enum {
     ORACLE_DISC,
     ORACLE_COUNT
 };
+
+typedef struct oracle {
+    const char *name; /* how the builder gets it: a family, or a formula of slopes */
+    int shape;
+    const oracle_table *table; /* its slopes are over the median; it has a shape and a table alone */
+    double breaks[2];          /* slopes where it jumps or has a kink, ascending; 0: none */
+    double peak, reach;        /* slopes below and beyond which less than 1e-12 of the mass lies */
+    int rough;                 /* a ring or a jump: ten times the error is allowed */
+    double norm;               /* P22 = norm times the shape, integral P22 r dr = 1/(2 pi) */
+} oracle;
 
 oracle oracle_get(size_t index);
 
@@ -46,8 +48,40 @@ vndf_distribution *oracle_shipped(const char *name);
 
 double oracle_p22(const oracle *o, double r);
 
-/* integral over slopes of P22 max(0, c + s r cos a): relative error below 1e-9 where it exceeds 1e-200. */
+/* integral over slopes of P22 max(0, c + s r cos a), s and c of any length: relative error below 1e-9 where it exceeds
+ * 1e-200. GGX: Walter et al. 2007, equation 33, Lambda = (sqrt(1 + 1/a^2) - 1)/2, a = 1/(alpha tan). Beckmann: equation
+ * 25, Lambda = (erf(a) - 1)/2 + exp(-a^2)/(2 a sqrt(pi)) (both from Heitz 2014), written as areas. */
 double oracle_area(const oracle *o, double s, double c);
+
+/* ---- surfaces ---- */
+
+/* Slopes s = M u + mean, u of a distribution: D, area, and both visible densities, true (max(0, wi.wm) D/A) and drawn.
+ * Directions count, not their lengths. */
+typedef struct oracle_surface {
+    oracle of;                             /* what u is */
+    double xx, xy, yx, yy, mean_x, mean_y; /* of a table times its scale */
+} oracle_surface;
+
+/* The matrix and the mean slope of `shape`; its distribution is not read. */
+oracle_surface oracle_surface_from(const oracle *of, const vndf_affine *shape);
+
+/* The unit problem: wi stretched is (s, 0, c), and (x, y) its unit part across, which azimuths are counted from. */
+typedef struct oracle_look {
+    double s, c, x, y;
+} oracle_look;
+oracle_look oracle_look_from(const oracle_surface *surface, const double wi[3]);
+
+double oracle_surface_ndf(const oracle_surface *surface, const double wm[3]);
+double oracle_surface_area(const oracle_surface *surface, const double w[3]);
+
+/* The area of what is drawn, by which mixtures share; of the closed forms and formulas the true one. */
+double oracle_surface_drawn_area(const oracle_surface *surface, const double w[3]);
+
+/* The density per steradian with which wm is drawn; of the closed forms and formulas the true one. */
+double oracle_surface_drawn(const oracle_surface *surface, const double wi[3], const double wm[3]);
+double oracle_surface_visible(const oracle_surface *surface, const double wi[3], const double wm[3]);
+
+/* ---- for tests ---- */
 
 /* wi at theta and phi in degrees; exactly horizontal at 90. */
 vndf_vec3 oracle_direction(double theta, double phi);

@@ -11,15 +11,15 @@
 
 int oracle_ndf_open(oracle_ndf *ndf, const char *name)
 {
+    const int is_ggx = strcmp(name, "ggx") == 0;
     memset(ndf, 0, sizeof *ndf);
     ndf->name = name;
-    ndf->slopes.kind = strcmp(name, "ggx") == 0 ? ORACLE_KIND_GGX : ORACLE_KIND_BECKMANN;
-    ndf->distribution = ndf->slopes.kind == ORACLE_KIND_GGX ? vndf_ggx() : vndf_beckmann();
-    if (ndf->slopes.kind == ORACLE_KIND_GGX || strcmp(name, "beckmann") == 0)
+    ndf->distribution = is_ggx ? vndf_ggx() : vndf_beckmann();
+    ndf->slopes = oracle_get(is_ggx ? ORACLE_GGX : ORACLE_BECKMANN);
+    if (is_ggx || strcmp(name, "beckmann") == 0)
         return 1;
-    ndf->owned = strchr(name, ':') ? oracle_build(name, 0, NULL, NULL) : oracle_shipped(name);
-    ndf->distribution = ndf->owned;
-    ndf->slopes = (oracle_slopes){ORACLE_KIND_TABLE, &ndf->table, NULL};
+    ndf->distribution = ndf->owned = strchr(name, ':') ? oracle_build(name, 0, NULL, NULL) : oracle_shipped(name);
+    ndf->slopes = (oracle){.shape = ORACLE_COUNT, .table = &ndf->table};
     if (ndf->owned && oracle_table_of(&ndf->table, ndf->owned))
         return 1;
     vndf_free(ndf->owned);
@@ -28,8 +28,7 @@ int oracle_ndf_open(oracle_ndf *ndf, const char *name)
 
 void oracle_ndf_close(oracle_ndf *ndf)
 {
-    if (ndf->slopes.kind == ORACLE_KIND_TABLE)
-        oracle_table_free(&ndf->table);
+    oracle_table_free(&ndf->table);
     vndf_free(ndf->owned);
 }
 
@@ -65,30 +64,20 @@ vndf_vec3 oracle_toward(double z, double phi)
 
 oracle_bsdf oracle_bsdf_from(const vndf_description *is, const oracle_ndf *const ndf[])
 {
-    oracle_bsdf o = {.is = *is, .weight = {1}, .count = 1};
-    vndf_shape shape = is->effects.shape;
-    double turn = shape == VNDF_SHAPE_ROTATED ? (double)is->rotation : 0, ax = (double)is->alpha_x,
-           ay = (double)is->alpha_y, sum = 0;
-    vndf_affine a = {NULL,
-                     (float)(cos(turn) * ax),
-                     (float)(-sin(turn) * ay),
-                     (float)(sin(turn) * ax),
-                     (float)(cos(turn) * ay),
-                     0,
-                     0};
-    if (shape > VNDF_SHAPE_ROTATED)
-        a = is->affine;
+    const vndf_shape shape = is->effects.shape;
+    const vndf_mixture *mixture = shape == VNDF_SHAPE_MIXTURE ? is->mixture : NULL;
+    double turn = shape == VNDF_SHAPE_ROTATED ? (double)is->rotation : 0, c = cos(turn), s = sin(turn), sum = 0;
+    float xx = (float)(c * is->alpha_x), xy = (float)(-s * is->alpha_y), yx = (float)(s * is->alpha_x),
+          yy = (float)(c * is->alpha_y);
+    vndf_affine a = shape > VNDF_SHAPE_ROTATED ? is->affine : (vndf_affine){NULL, xx, xy, yx, yy, 0, 0};
     if (shape == VNDF_SHAPE_MATRIX)
         a.mean_x = a.mean_y = 0;
-    o.lobe[0] = oracle_surface_from(ndf[0]->slopes, &a);
-    if (shape == VNDF_SHAPE_MIXTURE)
-        o.count = is->mixture->count;
-    for (int i = 0; i < o.count && shape == VNDF_SHAPE_MIXTURE; i++) {
-        o.lobe[i] = oracle_surface_from(ndf[i]->slopes, &is->mixture->lobe[i].surface);
-        o.weight[i] = (double)is->mixture->lobe[i].weight;
-    }
-    for (int i = 0; i < o.count; i++)
+    oracle_bsdf o = {.is = *is, .count = mixture ? mixture->count : 1};
+    for (int i = 0; i < o.count; i++) {
+        o.lobe[i] = oracle_surface_from(&ndf[i]->slopes, mixture ? &mixture->lobe[i].surface : &a);
+        o.weight[i] = mixture ? (double)mixture->lobe[i].weight : 1;
         sum += o.weight[i];
+    }
     for (int i = 0; i < o.count; i++) {
         o.weight[i] /= sum;
         o.mean[0] += o.weight[i] * o.lobe[i].mean_x;
@@ -107,19 +96,13 @@ double oracle_bsdf_cosine(const oracle_bsdf *o, const double w[3])
     return oracle_bsdf_rise(o, w) / sqrt(1 + o->mean[0] * o->mean[0] + o->mean[1] * o->mean[1]);
 }
 
-static double area_of(const oracle_bsdf *o, const double w[3])
-{
-    double sum = 0;
-    for (int i = 0; i < o->count; i++)
-        sum += o->weight[i] * oracle_surface_area(&o->lobe[i], w);
-    return sum;
-}
+typedef double of_surface(const oracle_surface *surface, const double w[3]);
 
-static double ndf_of(const oracle_bsdf *o, const double wm[3])
+static double sum_of(const oracle_bsdf *o, of_surface *what, const double w[3])
 {
     double sum = 0;
     for (int i = 0; i < o->count; i++)
-        sum += o->weight[i] * oracle_surface_ndf(&o->lobe[i], wm);
+        sum += o->weight[i] * what(&o->lobe[i], w);
     return sum;
 }
 
@@ -128,7 +111,7 @@ static double one_lambda(const oracle_bsdf *o, const double w[3])
 {
     double rise = oracle_bsdf_rise(o, w), side = rise < 0 ? -1 : 1,
            up[3] = {side * w[0], side * w[1], side * w[2]};
-    return area_of(o, up) / (fabs(rise) / sqrt(dot(w, w)));
+    return sum_of(o, oracle_surface_area, up) / (fabs(rise) / sqrt(dot(w, w)));
 }
 
 /* ---- masking ---- */
@@ -217,7 +200,8 @@ static void fresnel_of(const oracle_bsdf *o, double cosine, double ratio, double
 /* With which a normal is drawn: lobes by their areas. */
 static double normal_density(const oracle_bsdf *o, const double wi[3], const double wm[3], double facing)
 {
-    double all = ndf_of(o, wm) * wm[2], area = 0, sum = 0;
+    double all = sum_of(o, oracle_surface_ndf, wm) * wm[2], area = sum_of(o, oracle_surface_drawn_area, wi),
+           sum = 0;
     switch (o->is.effects.normals) {
     case VNDF_NORMALS_ALL: return all;
     case VNDF_NORMALS_V_CAVITY: /* of a normal and its twin (-x, -y, z) the one that is seen */
@@ -225,8 +209,6 @@ static double normal_density(const oracle_bsdf *o, const double wi[3], const dou
     case VNDF_NORMALS_BOUNDED: return -1;
     default: break;
     }
-    for (int i = 0; i < o->count; i++)
-        area += o->weight[i] * oracle_surface_drawn_area(&o->lobe[i], wi);
     for (int i = 0; i < o->count; i++) {
         double share = o->weight[i] * oracle_surface_drawn_area(&o->lobe[i], wi) / area;
         sum += share > 0 ? share * oracle_surface_drawn(&o->lobe[i], wi, wm) : 0;
@@ -279,7 +261,8 @@ oracle_value oracle_bsdf_eval(const oracle_bsdf *o, const double wi_given[3], co
     double jacobian = reflects ? 1 / (4 * facing) : eta * eta * beyond / (sum * sum);
     double carried = reflects || e->transport == VNDF_TRANSPORT_IMPORTANCE ? 1 : 1 / (eta * eta);
     double tilt = sqrt(1 + o->mean[0] * o->mean[0] + o->mean[1] * o->mean[1]);
-    double shape = ndf_of(o, wm) * g2_of(o, wi, wo, wm, facing, beyond) * facing * jacobian * carried * tilt;
+    double shape = sum_of(o, oracle_surface_ndf, wm) * g2_of(o, wi, wo, wm, facing, beyond) * facing * jacobian *
+                   carried * tilt;
     fresnel_of(o, fmin(facing, 1), eta, fresnel);
     for (int i = 0; i < VNDF_WAVELENGTHS; i++) {
         value.f[i] = (reflects ? fresnel[i] : 1 - fresnel[i]) * shape / (rise_i * fabs(rise_o));
@@ -312,42 +295,12 @@ vndf_effects oracle_effects(size_t index)
 int oracle_effects_sensible(const vndf_effects *e)
 {
     int through = e->lobes != VNDF_LOBES_REFLECTION, walk = e->scattering == VNDF_SCATTERING_MULTIPLE;
-    if (through && (e->fresnel == VNDF_FRESNEL_CONDUCTOR || e->normals == VNDF_NORMALS_BOUNDED))
-        return 0;
-    if (e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE) /* F says nothing of the lobe */
-        return 0;
-    if (e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES)
-        return 0;
-    if (e->reflection == VNDF_REFLECTION_RETRO && e->lobes == VNDF_LOBES_TRANSMISSION)
-        return 0;
-    if (e->shape >= VNDF_SHAPE_AFFINE &&
-        (walk || e->reflection == VNDF_REFLECTION_RETRO || e->normals != VNDF_NORMALS_VISIBLE ||
-         e->masking == VNDF_MASKING_V_CAVITIES))
-        return 0;
-    return !walk || (e->masking == VNDF_MASKING_HEIGHT_CORRELATED && e->normals == VNDF_NORMALS_VISIBLE &&
-                     e->lobes != VNDF_LOBES_TRANSMISSION);
-}
-
-void oracle_effects_name(const vndf_effects *e, char text[ORACLE_EFFECTS_TEXT])
-{
-    static const char *const lobes[] = {"reflection", "transmission", "both"};
-    static const char *const fresnel[] = {"no-fresnel", "schlick", "dielectric", "conductor"};
-    static const char *const masking[] = {"correlated", "separable", "v-cavities", "unmasked"};
-    static const char *const normals[] = {"visible", "bounded", "all", "v-cavity"};
-    static const char *const transport[] = {"radiance", "importance"}, *const axes[] = {"fixed", "rotated",
-                                                                                        "matrix", "affine",
-                                                                                        "mixture"};
-    const char *words[] = {lobes[e->lobes],
-                           fresnel[e->fresnel],
-                           masking[e->masking],
-                           normals[e->normals],
-                           transport[e->transport],
-                           axes[e->shape],
-                           e->scattering ? "multiple" : "single",
-                           e->reflection ? "retro" : "specular"};
-    text[0] = '\0';
-    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
-        strcat(text, words[i]);
-        strcat(text, i + 1 < sizeof words / sizeof *words ? " " : "");
-    }
+    int retro = e->reflection == VNDF_REFLECTION_RETRO, visible = e->normals == VNDF_NORMALS_VISIBLE;
+    return !(through && (e->fresnel == VNDF_FRESNEL_CONDUCTOR || e->normals == VNDF_NORMALS_BOUNDED)) &&
+           !(e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE) && /* F says nothing of the lobe */
+           !(e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES) &&
+           !((retro || walk) && e->lobes == VNDF_LOBES_TRANSMISSION) &&
+           !(e->shape >= VNDF_SHAPE_AFFINE &&
+             (walk || retro || !visible || e->masking == VNDF_MASKING_V_CAVITIES)) &&
+           !(walk && (e->masking != VNDF_MASKING_HEIGHT_CORRELATED || !visible));
 }

@@ -1,7 +1,7 @@
 /* Reflection and refraction on a rough surface once more, in double, from the published formulas alone and
  * sharing no code with src/: Walter et al. 2007 (half vectors equations 13 and 16, Jacobians 14 and 17, f 20 and
  * 21), Heitz 2014 (Smith's G1 and G2, equations 43, 98, 99), Heitz et al. 2016 (transmission), Cook & Torrance's
- * V-cavities; D and areas of oracle_surface.h, summed over the lobes of a mixture, with the mean plane in the place
+ * V-cavities; D and areas of oracle.h, summed over the lobes of a mixture, with the mean plane in the place
  * of z = 0. Fresnel's equations by complex arithmetic in long double. Lambda is kept as the projected area
  * A = cos (1 + Lambda), which stays finite; the formulas divide as they are printed. */
 #ifndef TESTS_ORACLE_ORACLE_BSDF_H
@@ -9,13 +9,11 @@
 
 #include <stddef.h>
 
-#include "oracle/oracle_surface.h"
+#include "oracle/oracle.h"
 #include "vndf_bsdf.h"
 
-/* ---- distributions ---- */
-
 typedef struct oracle_ndf {
-    oracle_slopes slopes;
+    oracle slopes;
     const char *name;
     const vndf_distribution *distribution;
     vndf_distribution *owned; /* a table's */
@@ -58,20 +56,12 @@ double oracle_bsdf_cosine(const oracle_bsdf *o, const double w[3]);
 
 int oracle_bsdf_two_sided(const vndf_effects *effects);
 
-/* ---- effect sets ---- */
-
 /* All of them but compensation, sensible or not, numbered from 0. */
 enum { ORACLE_EFFECT_SETS = 3 * 4 * 4 * 4 * 2 * 5 * 2 * 2 };
 vndf_effects oracle_effects(size_t index);
 
 /* By what vndf_bsdf.h says of each effect. */
 int oracle_effects_sensible(const vndf_effects *effects);
-
-/* "both dielectric separable visible radiance rotated"; text has room for it. */
-enum { ORACLE_EFFECTS_TEXT = 128 };
-void oracle_effects_name(const vndf_effects *effects, char text[ORACLE_EFFECTS_TEXT]);
-
-/* ---- directions ---- */
 
 void oracle_from_vec3(vndf_vec3 w, double out[3]);
 

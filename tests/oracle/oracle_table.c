@@ -19,33 +19,6 @@ static uint64_t word_at(const unsigned char *at, int bytes)
     return word;
 }
 
-static double float_at(const unsigned char *at)
-{
-    const uint32_t word = (uint32_t)word_at(at, 4);
-    float value;
-    memcpy(&value, &word, sizeof value);
-    return (double)value;
-}
-
-static double double_at(const unsigned char *at)
-{
-    const uint64_t word = word_at(at, 8);
-    double value;
-    memcpy(&value, &word, sizeof value);
-    return value;
-}
-
-static uint32_t checksum(const unsigned char *bytes, size_t size)
-{
-    uint32_t crc = 0xffffffffu;
-    for (size_t i = 0; i < size; i++) {
-        crc ^= bytes[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
-    }
-    return crc ^ 0xffffffffu;
-}
-
 /* The numbers of cells, from byte `at` on. */
 static int take_arrays(oracle_table *t, const unsigned char *at)
 {
@@ -57,26 +30,28 @@ static int take_arrays(oracle_table *t, const unsigned char *at)
         return 0;
     for (size_t i = 0; i < 11; i++) {
         *array[i] = t->numbers + i * count;
-        for (size_t j = 0; j < count && (i != 6 || t->moments == 4); j++, at += 4)
-            (*array[i])[j] = float_at(at);
+        for (size_t j = 0; j < count && (i != 6 || t->moments == 4); j++, at += 4) {
+            const uint32_t word = (uint32_t)word_at(at, 4);
+            float value;
+            memcpy(&value, &word, sizeof value);
+            (*array[i])[j] = (double)value;
+        }
     }
     return 1;
 }
 
-/* Magic, format, size, the numbers of the head, two texts, those of the cells, checksum. */
+/* Magic, format, size, the numbers of the head, two texts, those of the cells; then a checksum, which is not read. */
 static int read_table(oracle_table *t, const unsigned char *bytes, size_t size)
 {
     size_t at = 92;
     if (size < 104 || memcmp(bytes, "VNDFtab\n", 8) != 0 || word_at(bytes + 8, 4) != 4 ||
-        word_at(bytes + 12, 4) != size || word_at(bytes + size - 4, 4) != checksum(bytes, size - 4))
+        word_at(bytes + 12, 4) != size)
         return 0;
-    t->normalization = double_at(bytes + 16);
-    t->scale = double_at(bytes + 24);
+    const uint64_t scale = word_at(bytes + 24, 8);
+    memcpy(&t->scale, &scale, sizeof scale);
     t->cells = (size_t)word_at(bytes + 32, 4);
     t->moments = (size_t)word_at(bytes + 36, 4);
     t->squarings = (size_t)word_at(bytes + 40, 4);
-    for (int i = 0; i < 12; i++)
-        t->certificate[i] = float_at(bytes + 44 + 4 * i);
     for (int i = 0; i < 2 && at + 4 <= size; i++)
         at += 4 + (size_t)word_at(bytes + at, 4);
     return t->cells >= 2 && t->cells < 4096 && t->moments >= 2 && t->moments <= 4 && t->squarings <= 5 &&
@@ -204,7 +179,7 @@ double oracle_circle(double c, double s)
     return 2 * s * e * e2 / 3 * series; /* s (sin e - e cos e) loses digits */
 }
 
-/* ---- the law above the horizon ---- */
+/* ---- the law ---- */
 
 static double turn(const oracle_table *t, size_t j)
 {
@@ -225,117 +200,87 @@ static void look_above(oracle_law *l)
                                         {1.00473604, 1.48847826, .64837836, 0},
                                         {.99928177, 1.58441365, .47441838, .08347885}};
     const oracle_table *t = l->t;
-    const double *a = powers[t->moments - 2], flat[4] = {0, l->c, 0, 0};
-    l->first = 0;
+    const double *a = powers[t->moments - 2];
     while (l->first < t->cells && turn(t, l->first + 1) <= rounded(l->rho))
         l->first++;
-    l->w1 = l->s * a[0] / PI;
-    l->w0 = l->c * a[1] / PI;
-    l->wq = l->s > 0 ? l->c * l->rho * a[2] / PI : 0;
-    l->w4 = l->s > 0 && l->rho >= 1e-3 ? l->c * pow(l->rho, 4) * a[3] / PI : 0;
-    for (size_t i = 0; i < l->first; i++)
-        l->near += mass_of(t, i, flat);
+    l->w[0] = l->s * a[0] / PI;
+    l->w[1] = l->c * a[1] / PI;
+    l->w[2] = l->s > 0 ? l->c * l->rho * a[2] / PI : 0;
+    l->w[3] = l->s > 0 && l->rho >= 1e-3 ? l->c * pow(l->rho, 4) * a[3] / PI : 0;
 }
 
-/* The polynomial of cell i. */
-static void weights_above(const oracle_law *l, size_t i, double w[4])
+/* W = (R - rho)(b0 R + b1 (R - rho)). */
+static void weights_below(double b0, double b1, double rho, double w[4])
 {
-    int flat = i < l->first || i == 0 || l->first == l->t->cells || l->rho >= 0x1.ep14;
-    w[0] = i < l->first ? 0 : l->w1;
-    w[1] = flat ? l->c : l->w0;
-    w[2] = flat ? 0 : l->wq;
-    w[3] = flat ? 0 : l->w4;
-}
-
-/* ---- the law below ---- */
-
-/* W = (R - rho)(b0 R + b1 (R - rho)), in sums of positive terms. */
-static double mass_below(const oracle_law *l, size_t i)
-{
-    const oracle_table *t = l->t;
-    double d = t->knot[i] - l->rho, e = l->b0 * t->knot[i] + l->b1 * d, b = l->b0 + l->b1;
-    return b * t->m2[i] + (b * d + e) * t->m1[i] + d * e * t->m0[i];
-}
-
-static double end_below(const oracle_law *l, size_t i, int right)
-{
-    const oracle_table *t = l->t;
-    double b = l->b0 + l->b1;
-    if (right && i == t->cells)
-        return t->g1[i] * b;
-    double r = t->knot[right ? i + 1 : i], d = r - l->rho, z = 1 / (1 + r);
-    return (right ? t->g1 : t->g0)[i] * z * z * d * (l->b0 * r + l->b1 * d);
+    w[0] = b0 + b1, w[1] = -(b0 + 2 * b1) * rho, w[2] = b1 * rho * rho, w[3] = 0;
 }
 
 /* r W_r (G1/3 + G_rho/6), W_r and G of the right end, r the part of the cell. */
-static double rough_part(const oracle_law *l, size_t i, double xi)
+static double rough_part(const oracle_table *t, size_t i, const double w[4], double xi)
 {
-    const oracle_table *t = l->t;
     double ends = t->g1[i] / 3 + (t->g0[i] + xi * (t->g1[i] - t->g0[i])) / 6;
-    return (1 - xi) * end_below(l, i, 1) / t->g1[i] * ends;
+    return (1 - xi) * end_of(t, i, w, 1) / t->g1[i] * ends;
 }
 
 static void look_below(oracle_law *l)
 {
     const oracle_table *t = l->t;
     size_t i = l->first = cell_of(t, l->rho), next = i < t->cells ? i + 1 : i;
+    double b0, b1, at_knot[4]; /* there the mass is exact */
     l->part = place_in(t, i, l->rho).xi;
-    l->b0 = t->b0[i] + l->part * (t->b0[next] - t->b0[i]);
-    l->b1 = t->b1[i] + l->part * (t->b1[next] - t->b1[i]);
-    oracle_law at = *l; /* at the knot the mass is exact */
-    at.rho = t->knot[i];
-    l->part_mass = rough_part(l, i, l->part) * mass_below(&at, i) / rough_part(&at, i, 0);
+    b0 = t->b0[i] + l->part * (t->b0[next] - t->b0[i]);
+    b1 = t->b1[i] + l->part * (t->b1[next] - t->b1[i]);
+    weights_below(b0, b1, l->rho, l->w);
+    weights_below(b0, b1, t->knot[i], at_knot);
+    l->part_mass = rough_part(t, i, l->w, l->part) * mass_of(t, i, at_knot) / rough_part(t, i, at_knot, 0);
 }
 
-/* ---- both ---- */
+/* The polynomial of cell i. */
+static void weights_in(const oracle_law *l, size_t i, double w[4])
+{
+    int flat = l->c >= 0 && (i < l->first || i == 0 || l->first == l->t->cells || l->rho >= 0x1.ep14);
+    memcpy(w, l->w, sizeof l->w);
+    if (flat)
+        w[0] = i < l->first ? 0 : w[0], w[1] = l->c, w[2] = w[3] = 0;
+}
 
 oracle_law oracle_law_from(const oracle_table *t, double s, double c)
 {
     oracle_law l = {.t = t, .s = s, .c = c, .rho = s > 0 ? fabs(c) / s : HUGE_VAL};
     double w[4], sum = 0, up = s + fabs(c), above = up * spline(t, fabs(c) / up);
-    if (c >= 0) {
-        look_above(&l);
-        for (size_t i = l.first; i <= t->cells; i++) {
-            weights_above(&l, i, w);
-            sum += mass_of(t, i, w);
-        }
-        l.drawn = l.near + sum;
-        l.area = above;
+    if (!(c >= 0) && !(s > 0))
         return l;
+    (c >= 0 ? look_above : look_below)(&l);
+    for (size_t i = c >= 0 ? 0 : l.first + 1; i <= t->cells; i++) {
+        weights_in(&l, i, w);
+        sum += mass_of(t, i, w);
     }
-    if (!(s > 0))
-        return l;
-    look_below(&l);
-    for (size_t i = l.first + 1; i <= t->cells; i++)
-        sum += mass_below(&l, i);
-    l.drawn = s / PI * (l.part_mass + sum);
+    l.drawn = c >= 0 ? sum : s / PI * (l.part_mass + sum);
     double part = fmin(fmax((l.drawn / above - 4e-4) / 1.6e-3, 0), 1);
-    l.area = l.drawn + part * (above + c - l.drawn);
+    l.area = c >= 0 ? above : l.drawn + part * (above + c - l.drawn);
     return l;
 }
 
-double oracle_law_radius(const oracle_law *l, double r)
+/* The density of R in the drawn law, per slope length. */
+static double radius_density(const oracle_law *l, double r)
 {
     size_t i = cell_of(l->t, r);
-    double w[4];
-    if (l->c >= 0) {
-        weights_above(l, i, w);
+    double w[4], part = 1 - l->part;
+    weights_in(l, i, w);
+    if (l->c >= 0)
         return law_in(l->t, i, w, r) / l->drawn;
-    }
     if (r <= l->rho)
         return 0;
-    place p = place_in(l->t, i, r);
     if (i > l->first)
-        return l->s / PI * rational(mass_below(l, i), end_below(l, i, 0), end_below(l, i, 1), p.xi, p.eta) /
-               p.width / l->drawn;
-    double part = 1 - l->part, eta = p.eta / part, xi = (p.xi - l->part) / part;
-    return l->s / PI * rational(l->part_mass, 0, fmin(part * end_below(l, i, 1), 1e4 * l->part_mass), xi, eta) /
-           (p.width * part) / l->drawn;
+        return l->s / PI * law_in(l->t, i, w, r) / l->drawn;
+    place p = place_in(l->t, i, r);
+    double end = fmin(part * end_of(l->t, i, w, 1), 1e4 * l->part_mass), eta = p.eta / part;
+    return l->s / PI * rational(l->part_mass, 0, end, (p.xi - l->part) / part, eta) / (p.width * part) / l->drawn;
 }
 
 double oracle_law_density(const oracle_law *l, double r, double azimuth)
 {
     double facing = l->c + l->s * r * cos(azimuth);
     r = fmax(r, 1e-12); /* 0/0 */
-    return facing > 0 ? oracle_law_radius(l, r) / r * facing / oracle_circle(l->c, l->s * r) : 0;
+    return facing > 0 ? radius_density(l, r) / r * facing / oracle_circle(l->c, l->s * r) : 0;
 }

@@ -13,7 +13,7 @@
 #include "vndf.h"
 
 typedef struct oracle_table {
-    double normalization, scale, certificate[12];
+    double scale;
     size_t cells, moments, squarings;
     double *knot, *g0, *g1, *m0, *m1, *m2, *cube, *b0, *b1, *area,
         *slope;      /* cells + 1 each; of cube zeros if moments < 4 */
@@ -30,16 +30,13 @@ void oracle_table_free(oracle_table *t);
  * rho, which begins at `part` of it. */
 typedef struct oracle_law {
     const oracle_table *t;
-    double s, c, rho, w1, w0, wq, w4, b0, b1, part, part_mass, near;
+    double s, c, rho, w[4], part, part_mass;
     size_t first;
     double drawn, area; /* projected areas: the drawn one, and the public one */
 } oracle_law;
 
 /* s and c of any length; areas are per that length. */
 oracle_law oracle_law_from(const oracle_table *t, double s, double c);
-
-/* The density of R in the drawn law, per slope length. */
-double oracle_law_radius(const oracle_law *law, double r);
 
 /* The density of slopes (R, azimuth from wi), per area of the slope plane. */
 double oracle_law_density(const oracle_law *law, double r, double azimuth);

@@ -10,14 +10,11 @@ from vndf._arrays import Batch, components, stacked
 
 
 class Places(unittest.TestCase):
-    def test_no_copy_of_what_is_contiguous(self):
+    def test_a_copy_of_all_but_what_is_contiguous(self):
         wi = np.zeros((3, 4, 5), np.float32)
         self.assertEqual(Batch(wi=components(wi, 3, "wi")).addresses("wi"), [wi[i].ctypes.data for i in range(3)])
-
-    def test_a_copy_of_everything_else(self):
         for wi in (np.zeros((5, 3), np.float32).T, np.zeros((3, 5)), np.zeros((3, 10), np.float32)[:, ::2]):
-            batch = Batch(wi=components(wi, 3, "wi"))
-            self.assertNotEqual(batch.addresses("wi")[0], wi.ctypes.data)
+            self.assertNotEqual(Batch(wi=components(wi, 3, "wi")).addresses("wi")[0], wi.ctypes.data)
 
     def test_one_number_for_all_is_not_repeated(self):
         batch = Batch(wi=components((0.0, 0.6, 0.8), 3, "wi"), u=components(np.zeros((2, 9)), 2, "u"))
@@ -31,15 +28,13 @@ class Places(unittest.TestCase):
         with self.assertRaises(ValueError):
             stacked("ggx")
 
-    def test_results_of_a_number_are_numbers(self):
-        self.assertEqual(np.shape(vndf.Surface(vndf.ggx(), 0.5).g1((0.0, 0.6, 0.8))), ())
-        self.assertEqual(vndf.Surface(vndf.ggx(), 0.5).sample((0.0, 0.6, 0.8), (0.5, 0.5)).wm.shape, (3,))
-
-    def test_empty_arrays(self):
-        wm, pdf = vndf.Surface(vndf.ggx(), 0.5).sample(np.zeros((3, 0)), np.zeros((2, 0)))
-        self.assertEqual((wm.shape, pdf.shape), ((3, 0), (0,)))
-        drawn = vndf.Material(vndf.Surface(vndf.ggx(), 0.5)).sample(np.zeros((3, 0)), np.zeros((3, 0)))
-        self.assertEqual(drawn.weight.shape, (3, 0))
+    def test_results_of_a_number_and_of_nothing(self):
+        surface = vndf.Surface(vndf.ggx(), 0.5)
+        for shape in ((), (0,), (2, 1)):
+            wm, pdf = surface.sample(np.ones((3, *shape)), np.zeros((2, *shape)))
+            self.assertEqual((wm.shape, np.shape(pdf)), ((3, *shape), shape))
+            drawn = vndf.Material(surface).sample(np.ones((3, *shape)), np.zeros((3, *shape)))
+            self.assertEqual((drawn.weight.shape, np.shape(drawn.lobe)), ((3, *shape), shape))
 
     def test_a_generator_draws_the_numbers(self):
         """In place of u, for one sample an element, the same as by hand."""
@@ -50,7 +45,8 @@ class Places(unittest.TestCase):
             np.testing.assert_array_equal(drawn, of.sample((0.0, 0.6, 0.8), u)[0])
 
     def test_each_shape_says_what_it_is(self):
-        lobes = vndf.Mixture((vndf.Surface(vndf.ggx(), 0.3), 1), (vndf.Surface(vndf.ggx(), matrix=np.ones((2, 2, 9))), 2))
+        sheared = vndf.Surface(vndf.ggx(), matrix=np.ones((2, 2, 9)))
+        lobes = vndf.Mixture((vndf.Surface(vndf.ggx(), 0.3), 1), (sheared, 2))
         for word in ("ggx", "0.3", "array(9,)", "vndf.Mixture"):
             self.assertIn(word, repr(lobes))
         said = repr(vndf.Material(vndf.Surface(vndf.ggx(), 0.4), scattering="multiple"))
@@ -68,37 +64,19 @@ class Places(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "matrix"):
             vndf.Surface(vndf.ggx(), matrix=0.5)
 
-    def test_numbers_of_float64_are_rounded(self):
-        self.assertEqual(stacked(0.1), np.float32(0.1))
-
-    def test_memory_of_a_shape_lives_as_long_as_the_call(self):
-        surface = vndf.Surface(vndf.ggx(), np.full(1000, 0.5), np.full(1000, 0.25))
-        first = surface.ndf(np.array([0, 0, 1.0])[:, None])
-        self.assertTrue((first == first[0]).all())
-
 
 class Lock(unittest.TestCase):
     def test_other_threads_run_while_c_works(self):
+        """Otherwise this one would wait for all of the 2 million samples."""
         surface = vndf.Surface(vndf.load(os.path.join(os.environ["VNDF_SOURCE"], "tables", "student-t-2.5.vndf")), 0.3)
-        wi = np.array([0.6, 0.0, -0.8], np.float32)  # below the horizon: one after the other, for long
         u = np.random.default_rng(1).random((2, 2000000), dtype=np.float32)
-        for attempt in range(5):  # on a busy machine this thread may have to wait for a processor
-            took = []
-
-            def work():
-                begin = time.perf_counter()
-                surface.sample(wi, u)
-                took.append(time.perf_counter() - begin)
-
-            worker = threading.Thread(target=work)
-            worker.start()
-            longest, last = 0.0, time.perf_counter()
-            while worker.is_alive():
-                now = time.perf_counter()
-                longest, last = max(longest, now - last), now
-            if longest < 0.5 * took[0]:
-                return
-        self.fail(f"nothing ran for {longest:.3f} s of {took[0]:.3f} s in C")
+        worker = threading.Thread(target=lambda: surface.sample((0.6, 0.0, -0.8), u))
+        worker.start()
+        rounds = 0
+        while worker.is_alive():
+            time.sleep(1e-3)
+            rounds += 1
+        self.assertGreater(rounds, 10)
 
 
 if __name__ == "__main__":

@@ -21,11 +21,13 @@ def sphere(count):
 
 
 class Materials(unittest.TestCase):
-    def albedo(self, material, wi=WI, count=400000):
-        drawn = material.sample(wi, np.random.default_rng(2).random((3, count), dtype=np.float32))
-        return drawn.weight.mean(axis=1), 5 * drawn.weight.std(axis=1) / np.sqrt(count) + 1e-4
+    def draw(self, material, count=400000):
+        """Samples, the mean of their weights, and 5 sigma of it."""
+        drawn = material.sample(WI, np.random.default_rng(2).random((3, count), dtype=np.float32))
+        return drawn, drawn.weight.mean(axis=1), 5 * drawn.weight.std(axis=1) / np.sqrt(count) + 1e-4
 
     def test_samples_estimate_the_integral(self):
+        """Weights have the mean of f cos, and densities the integral of what is not lost."""
         wo, solid_angle = sphere(400)
         for effects in (
             dict(fresnel="conductor", eta=(0.2, 0.9, 1.1), k=(3.9, 2.4, 2.2)),
@@ -38,15 +40,9 @@ class Materials(unittest.TestCase):
             value, pdf = material.eval_pdf(WI, wo)
             integral = (value * abs(wo[2])).sum(axis=1) * solid_angle
             self.assertEqual(value.shape[0], material.wavelengths)
-            estimate, error = self.albedo(material)
+            drawn, estimate, error = self.draw(material)
             np.testing.assert_array_less(abs(estimate - integral), error + 2e-3 * integral, str(effects))
-
-    def test_densities_integrate_to_what_is_not_lost(self):
-        wo, solid_angle = sphere(400)
-        material = vndf.Material(vndf.Surface(rings(), 0.5))
-        drawn = material.sample(WI, np.random.default_rng(3).random((3, 400000), dtype=np.float32))
-        kept = (drawn.lobe == vndf.LOBE_REFLECTION).mean()
-        self.assertAlmostEqual(material.pdf(WI, wo).sum() * solid_angle, kept, 2)
+            self.assertAlmostEqual(pdf.sum() * solid_angle, (drawn.lobe != vndf.LOBE_NONE).mean(), 2, str(effects))
 
     def test_a_mixture_is_the_sum_of_its_lobes(self):
         lobes = [(vndf.Surface(rings(), 0.2), 0.7), (vndf.Surface(vndf.ggx(), 0.5, 0.3, rotation=0.4), 0.3)]
@@ -62,16 +58,9 @@ class Materials(unittest.TestCase):
         np.testing.assert_allclose(vndf.Material(mixture).eval(WI, wo)[0], expected, rtol=2e-4)
         np.testing.assert_allclose(mixture.ndf(wm), d, rtol=1e-4)
 
-    def test_textures_are_hits_of_their_own(self):
-        alpha = np.linspace(0.1, 1.0, 50)
-        textured = vndf.Material(vndf.Surface(vndf.ggx(), alpha)).eval(WI, (-0.5, 0.1, 0.86))
-        for i in (0, 20, 49):
-            one = vndf.Material(vndf.Surface(vndf.ggx(), alpha[i])).eval(WI, (-0.5, 0.1, 0.86))
-            np.testing.assert_array_equal(one, textured[:, i])
-
     def test_a_rotation_turns_to_the_left(self):
-        """Roughness 0.5 along the direction at 0.4 from x: the surface answers for turned directions what the upright one
-        does, and so does its material."""
+        """Roughness 0.5 along the direction at 0.4 from x: the surface answers for turned directions what the upright
+        one does, and so does its material."""
         upright, turned = vndf.Surface(rings(), 0.5, 0.2), vndf.Surface(rings(), 0.5, 0.2, rotation=0.4)
         back = np.array([[np.cos(0.4), np.sin(0.4), 0], [-np.sin(0.4), np.cos(0.4), 0], [0, 0, 1]])
         wo, wm = np.array([-0.48, 0.64, 0.6]), np.array([0.1, 0.3, 0.9]) / 0.91**0.5
@@ -81,12 +70,12 @@ class Materials(unittest.TestCase):
 
     def test_compensation_gives_the_energy_back(self):
         rough = vndf.Surface(vndf.ggx())
-        self.assertLess(self.albedo(vndf.Material(rough))[0][0], 0.8)
+        self.assertLess(self.draw(vndf.Material(rough))[1][0], 0.8)
         for scattering in ("turquin", "kulla-conty"):
-            whole, _ = self.albedo(vndf.Material(rough, scattering=scattering))
+            whole = self.draw(vndf.Material(rough, scattering=scattering))[1]
             self.assertLess(abs(whole[0] - 1), 0.02)
-            glass = vndf.Material(rough, scattering=scattering, lobes="both", fresnel="dielectric", transport="importance")
-            self.assertLess(abs(self.albedo(glass)[0][0] - 1), 0.03)
+            glass = dict(lobes="both", fresnel="dielectric", transport="importance")
+            self.assertLess(abs(self.draw(vndf.Material(rough, scattering=scattering, **glass))[1][0] - 1), 0.03)
 
     def test_g2_is_that_of_the_heights(self):
         surface = vndf.Surface(rings(), 0.5)

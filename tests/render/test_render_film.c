@@ -5,73 +5,64 @@
  * pass. */
 #include "render_case.h"
 
-static const char balls[] =
-    "film width 96 height 64\ncamera from 0 0 8 to 0 0 0 field 30\n"
-    "environment constant 0.2 0.2 0.2\nmaterial lamp light radiance %g %g %g\n"
-    "material gold conductor of gold distribution ggx alpha 0.2\n"
-    "material odd conductor of gold distribution ggx alpha %g\n"
-    "sphere centre 2 4 4 radius 0.3 material lamp\n"
-    "sphere centre -2 1 0 radius 0.9 material gold\nsphere centre 0 1 0 radius 0.9 material gold\n"
-    "sphere centre 2 1 0 radius 0.9 material gold\nsphere centre -2 -1 0 radius 0.9 material gold\n"
-    "sphere centre 0 -1 0 radius 0.9 material gold\nsphere centre 2 -1 0 radius 0.9 material odd\n";
-
 static scene *scene_of(double lamp, double alpha)
 {
     char text[2048];
-    snprintf(text, sizeof text, balls, lamp, lamp, lamp, alpha);
+    snprintf(text, sizeof text,
+             "film width 96 height 64\ncamera from 0 0 8 to 0 0 0 field 30\n"
+             "environment constant 0.2 0.2 0.2\nmaterial lamp light radiance %g %g %g\n"
+             "material gold conductor of gold distribution ggx alpha 0.2\n"
+             "material odd conductor of gold distribution ggx alpha %g\n"
+             "sphere centre 2 4 4 radius 0.3 material lamp\n"
+             "sphere centre -2 1 0 radius 0.9 material gold\nsphere centre 0 1 0 radius 0.9 material gold\n"
+             "sphere centre 2 1 0 radius 0.9 material gold\nsphere centre -2 -1 0 radius 0.9 material gold\n"
+             "sphere centre 0 -1 0 radius 0.9 material gold\nsphere centre 2 -1 0 radius 0.9 material odd\n",
+             lamp, lamp, lamp, alpha);
     return case_scene(text);
 }
 
-static film render(double lamp, double alpha, uint64_t samples, uint64_t seed)
+/* A picture of the scene as it is beside one with another lamp or ball, as ways whose times are known. */
+static void find(double lamp, double alpha, const uint64_t samples[2], uint64_t seed, finding found[SAMPLERS])
 {
-    film f = {.sum = NULL};
-    scene *s = scene_of(lamp, alpha);
-    if (s)
-        case_render(&f, s, SAMPLER_VISIBLE, samples, seed);
-    scene_free(s);
-    return f;
-}
-
-/* Two films as ways whose figures are known. */
-static finding find(film first, film other, finding *of_first)
-{
-    finding found[SAMPLERS] = {{.x = 0}};
-    first.processor = 2;
-    other.processor = 3;
-    const comparison c = {.way = {{.film = first}, {.film = other}}, .count = 2};
+    comparison c = {.count = 2};
+    for (size_t i = 0; i < 2; i++) {
+        scene *s = scene_of(i ? lamp : 30, i ? alpha : 0.2);
+        case_render(&c.way[i].film, s, SAMPLER_VISIBLE, samples[i], 2 * seed + i);
+        c.way[i].film.processor = 2.0 + (double)i;
+        scene_free(s);
+    }
     TEST(comparison_find(&c, found));
-    *of_first = found[0];
-    film_free(&first);
-    film_free(&other);
-    return found[1];
+    film_free(&c.way[0].film);
+    film_free(&c.way[1].film);
 }
 
 static void test_verdict(double lamp, double alpha, uint64_t samples, verdict want)
 {
     for (uint64_t seed = 1; seed <= 2; seed++) {
-        finding first,
-            f = find(render(30, 0.2, samples, 2 * seed), render(lamp, alpha, samples, 2 * seed + 1), &first);
-        if (!TEST(f.is == want))
+        finding found[SAMPLERS], *f = &found[1];
+        find(lamp, alpha, (const uint64_t[2]){samples, samples}, seed, found);
+        if (!TEST(f->is == want))
             fprintf(stderr, "    light %g, alpha %g: %g, worst %g at (%d, %d), mean square %g\n", lamp, alpha,
-                    f.whole, f.worst, f.x, f.y, f.mean_square);
+                    f->whole, f->worst, f->x, f->y, f->mean_square);
         if (want == VERDICT_DIFFERS && lamp == 30)
-            TEST(f.x >= 48 && f.y >= 24); /* where the odd ball is */
+            TEST(f->x >= 48 && f->y >= 24); /* where the odd ball is */
         if (want == VERDICT_UNKNOWN)
-            TEST(isnan(f.whole) && isnan(f.worst) && isfinite(f.ratio));
+            TEST(isnan(f->whole) && isnan(f->worst) && isfinite(f->ratio));
     }
 }
 
 static void test_figures(void)
 {
-    finding first, f = find(render(30, 0.2, 64, 1), render(30, 0.2, 128, 2), &first);
-    const double ratio = f.noise.value / first.noise.value;
+    finding found[SAMPLERS], *first = &found[0], *f = &found[1];
+    find(30, 0.2, (const uint64_t[2]){64, 128}, 1, found);
+    const double ratio = f->noise.value / first->noise.value;
     TEST_NEAR(ratio, 0.5, 0.05);
-    TEST(first.noise.trimmed < first.noise.value && first.noise.spread > 0);
-    TEST_RELATIVE(f.samples.value, 2 * ratio, 1e-12);
-    TEST_RELATIVE(f.efficiency.value, 2 / (3 * ratio), 1e-12);
-    TEST(first.samples.value == 1 && first.samples.spread == 0 && f.samples.spread > 0);
-    find(render(30, 0.2, 1, 1), render(30, 0.2, 1, 2), &first);
-    TEST(isnan(first.noise.value) && isnan(first.noise.spread) && isnan(first.noise.trimmed));
+    TEST(first->noise.trimmed < first->noise.value && first->noise.spread > 0);
+    TEST_RELATIVE(f->samples.value, 2 * ratio, 1e-12);
+    TEST_RELATIVE(f->efficiency.value, 2 / (3 * ratio), 1e-12);
+    TEST(first->samples.value == 1 && first->samples.spread == 0 && f->samples.spread > 0);
+    find(30, 0.2, (const uint64_t[2]){1, 1}, 1, found);
+    TEST(isnan(first->noise.value) && isnan(first->noise.spread) && isnan(first->noise.trimmed));
 }
 
 static void test_run(void)
@@ -81,23 +72,22 @@ static void test_run(void)
     comparison c = {.count = 2,
                     .run = {.samples = 24, .threads = 2},
                     .way = {{.sampler = SAMPLER_VISIBLE}, {.sampler = SAMPLER_ALL}}};
-    for (size_t i = 0; i < 2 && s; i++) {
+    const film *one = &c.way[0].film, *other = &c.way[1].film;
+    for (size_t i = 0; i < 2; i++) {
         c.way[i].plan = path_prepare(s, c.way[i].sampler, &error);
         TEST(c.way[i].plan && film_make(&c.way[i].film, s->width, s->height));
     }
-    TEST(comparison_run(&c) && c.way[0].film.samples == 24 && c.way[1].film.samples == 24);
-    TEST(memcmp(c.way[0].film.sum, c.way[1].film.sum, 3 * film_pixels(&c.way[0].film) * sizeof(double)) != 0);
-    film once = {.sum = NULL}; /* which is the same, but for rounding, in one run */
+    TEST(comparison_run(&c) && one->samples == 24 && other->samples == 24);
+    TEST(memcmp(one->sum, other->sum, 3 * film_pixels(one) * sizeof(double)) != 0);
+    film once = {.sum = NULL}; /* which is the same in one run */
     case_render(&once, s, SAMPLER_VISIBLE, 24, 0);
-    for (size_t i = 0; i < 3 * film_pixels(&once); i++)
-        TEST_NEAR(once.sum[i], c.way[0].film.sum[i], 1e-9);
+    TEST(memcmp(one->sum, once.sum, 3 * film_pixels(one) * sizeof(double)) == 0);
     film_free(&once);
     c.has_equal_time = 1;
     c.run.samples = 96;
-    TEST(comparison_run(&c) && c.way[0].film.samples == 96);
-    TEST(c.way[1].film.processor >= c.way[0].film.processor);
+    TEST(comparison_run(&c) && one->samples == 96 && other->processor >= one->processor);
     for (size_t i = 0; i < 2; i++) {
-        path_free(c.way[i].plan);
+        free(c.way[i].plan);
         film_free(&c.way[i].film);
     }
     scene_free(s);

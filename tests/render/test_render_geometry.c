@@ -24,47 +24,29 @@ static vec3 place(unsigned long long *state, double half)
     return vec(x, y, between(state, -half, half));
 }
 
-/* Small, large and far from the origin. */
-static int add_shapes(geometry *g, unsigned long long *state, vec3 origin)
-{
-    int good = 1;
-    for (int i = 0; i < SHAPES; i++) {
-        const double size = exp(between(state, -4, i % 50 ? -1 : 1));
-        shape s = {
-            .kind = (shape_kind)(i % 3), .corner = add(origin, place(state, 2)), .radius = i % 3 ? 0 : size};
-        if (i % 3) {
-            s.edge_u = scale(direction(state), size);
-            s.edge_v = scale(unit(cross(s.edge_u, direction(state))), between(state, 0.1, 2) * size);
-        }
-        good &= geometry_add(g, &s);
-    }
-    return good;
-}
-
-/* With one shape at a time, which a hierarchy cannot get wrong. */
-static double nearest_of_all(const geometry *g, const ray *r)
-{
-    double nearest = HUGE_VAL;
-    for (size_t i = 0; i < g->count; i++) {
-        geometry one = {0};
-        hit h;
-        if (geometry_add(&one, &g->shapes[i]) && geometry_build(&one) && geometry_hit(&one, r, &h))
-            nearest = fmin(nearest, h.distance);
-        geometry_free(&one);
-    }
-    return nearest;
-}
-
+/* Small and large shapes about an origin; one at a time cannot be put in the wrong box. */
 static void test_nearest(vec3 origin, double exactness)
 {
+    static geometry alone[SHAPES];
     unsigned long long state = 3;
     geometry g = {0};
-    if (!TEST(add_shapes(&g, &state, origin) && geometry_build(&g)))
-        return;
+    int good = 1;
+    for (int i = 0; i < SHAPES; i++) {
+        const double size = exp(between(&state, -4, i % 50 ? -1 : 1));
+        shape s = {
+            .kind = (shape_kind)(i % 3), .corner = add(origin, place(&state, 2)), .radius = i % 3 ? 0 : size};
+        s.edge_u = i % 3 ? scale(direction(&state), size) : s.edge_u;
+        s.edge_v =
+            i % 3 ? scale(unit(cross(s.edge_u, direction(&state))), between(&state, 0.1, 2) * size) : s.edge_v;
+        good &= geometry_add(&g, &s) && geometry_add(&alone[i], &s) && geometry_build(&alone[i]);
+    }
+    TEST(good && geometry_build(&g));
     for (int i = 0; i < 300; i++) {
         const ray r = {add(origin, place(&state, 3)), direction(&state), HUGE_VAL};
-        const double want = nearest_of_all(&g, &r);
+        double want = HUGE_VAL;
         hit h;
+        for (int k = 0; k < SHAPES; k++)
+            want = geometry_hit(&alone[k], &r, &h) ? fmin(want, h.distance) : want;
         if (!geometry_hit(&g, &r, &h)) {
             TEST(!isfinite(want) && !geometry_blocked(&g, &r));
             continue;
@@ -75,6 +57,8 @@ static void test_nearest(vec3 origin, double exactness)
         TEST(length(subtract(h.place, along(r.origin, h.distance, r.direction))) < exactness);
         TEST(fabs(length(h.normal) - 1) < 1e-12 && fabs(dot(h.shading.x, h.shading.z)) < 1e-9);
     }
+    for (int k = 0; k < SHAPES; k++)
+        geometry_free(&alone[k]);
     geometry_free(&g);
 }
 
@@ -86,51 +70,35 @@ static vec3 globe(int row, int column)
     return vec(s * sin(phi), cos(theta), s * cos(phi));
 }
 
-static int add_triangle(geometry *g, vec3 a, vec3 b, vec3 c)
-{
-    const shape s = {.kind = SHAPE_TRIANGLE, .corner = a, .edge_u = subtract(b, a), .edge_v = subtract(c, a)};
-    return geometry_add(g, &s);
-}
-
-static int add_globe(geometry *g)
-{
-    int good = 1;
-    for (int row = 0; row < ROWS; row++)
-        for (int k = 0; k < 2 * ROWS; k++) {
-            const vec3 a = globe(row, k), b = globe(row + 1, k), c = globe(row + 1, k + 1), d = globe(row, k + 1);
-            good &= row == ROWS - 1 || add_triangle(g, a, b, c);
-            good &= row == 0 || add_triangle(g, a, c, d);
-        }
-    return good;
-}
-
 /* From inside, at edges too; then on from what was met to both sides. */
 static void test_closed(void)
 {
     unsigned long long state = 8;
     geometry g = {0};
     int left = 0, met_again = 0;
-    if (!TEST(add_globe(&g) && geometry_build(&g)))
-        return;
+    for (int i = 0; i < 4 * ROWS * ROWS; i++) { /* two triangles a part of a ring, of which the poles have one */
+        const int row = i / 2 / (2 * ROWS), k = i / 2 % (2 * ROWS);
+        const vec3 a = globe(row, k), b = globe(row + 1, k), c = globe(row + 1, k + 1), d = globe(row, k + 1);
+        const shape s = {.kind = SHAPE_TRIANGLE,
+                         .corner = a,
+                         .edge_u = subtract(i % 2 ? c : b, a),
+                         .edge_v = subtract(i % 2 ? d : c, a)};
+        TEST((i % 2 ? row == 0 : row == ROWS - 1) || geometry_add(&g, &s));
+    }
+    TEST(geometry_build(&g));
     for (int i = 0; i < 100000; i++) {
-        const vec3 from = place(&state, 0.2);
-        const vec3 edge = globe(i % ROWS, i / ROWS);
+        const vec3 from = place(&state, 0.2), edge = globe(i % ROWS, i / ROWS), on = direction(&state);
         const ray r = {from, i % 2 ? direction(&state) : unit(subtract(edge, from)), HUGE_VAL};
         hit h, next;
-        if (!geometry_hit(&g, &r, &h)) {
+        if (!geometry_hit(&g, &r, &h))
             left++;
-            continue;
+        else if (i % 2) { /* at an edge going in may mean going out of another side */
+            const ray further = ray_from(&h, on);
+            const int is_met = geometry_hit(&g, &further, &next); /* outside all of it is convex */
+            met_again += dot(on, h.normal) < 0 ? !is_met || next.distance < 1e-9 : is_met;
         }
-        if (i % 2 == 0)
-            continue; /* met at an edge, where going in may mean going out of another side */
-        const vec3 on = direction(&state);
-        const ray further = ray_from(&h, on);
-        const int is_inside = dot(on, h.normal) < 0;
-        met_again += is_inside ? !geometry_hit(&g, &further, &next) || next.distance < 1e-9 : 0;
-        met_again += !is_inside && geometry_hit(&g, &further, &next); /* outside all of it is convex */
     }
-    TEST(left == 0);
-    TEST(met_again == 0);
+    TEST(left == 0 && met_again == 0);
     geometry_free(&g);
 }
 

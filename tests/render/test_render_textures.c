@@ -25,8 +25,10 @@ static scene *here(const char *text)
     vndf_error error;
     snprintf(copy, sizeof copy, "%s", text);
     scene *s = scene_read_text("here", copy, strlen(copy), &error);
-    if (!TEST(s != NULL))
+    if (!TEST(s != NULL)) {
         fprintf(stderr, "    %s\n", error.message);
+        exit(1);
+    }
     return s;
 }
 
@@ -39,8 +41,6 @@ static void test_upright(const char *shapes, const char *camera, const int want[
              "image q file \"render_quarters.pfm\"\nmaterial m matte colour 1 1 1 colour-map q\n%s",
              camera, shapes);
     scene *s = here(text);
-    if (!s)
-        return;
     film f = {.sum = NULL};
     case_render(&f, s, SAMPLER_VISIBLE, 64, 1);
     for (int i = 0; i < 4; i++) {
@@ -57,21 +57,19 @@ static void test_upright(const char *shapes, const char *camera, const int want[
 /* A map of 1/2 halves the roughness. */
 static void test_roughness(void)
 {
-#define LAMP                                                         \
+#define LIT_FLOOR(material)                                          \
   "camera from 0 1 2 to 0 0 0\nmaterial lamp light radiance 9 9 9\n" \
-  "sphere centre 0 2 -2 radius 0.3 material lamp\n"
-#define FLAT "rectangle corner -1 0 1 edge-u 2 0 0 edge-v 0 0 -2 material m\n"
+  "sphere centre 0 2 -2 radius 0.3 material lamp\n" material "\n"    \
+  "rectangle corner -1 0 1 edge-u 2 0 0 edge-v 0 0 -2 material m\n"
     static const float half[4][3] = {{0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}};
     static const char *const texts[2] = {
-        LAMP "material m conductor of gold distribution ggx alpha 0.2 0.1\n" FLAT,
-        LAMP "image h file \"render_half.pfm\"\n"
-             "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h\n" FLAT};
+        LIT_FLOOR("material m conductor of gold distribution ggx alpha 0.2 0.1"),
+        LIT_FLOOR("image h file \"render_half.pfm\"\n"
+                  "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h")};
     double light[2] = {0, 1};
     TEST(put_quarters("render_half.pfm", half));
     for (int i = 0; i < 2; i++) {
         scene *s = here(texts[i]);
-        if (!s)
-            continue;
         s->width = s->height = 8;
         light[i] = case_light(s, SAMPLER_VISIBLE, 64).value;
         scene_free(s);

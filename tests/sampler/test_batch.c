@@ -121,15 +121,10 @@ static void run_mixture(const batch_case *b, int which, float *const out[OUTPUTS
 {
     static int lobe[MOST];
     float *const *in = b->in, *const none[INPUTS] = {NULL}, *const *m = b->flat ? none : in;
-    const vndf_mixture_batch of = {b->count,
-                                   b->shared,
-                                   b->limit,
-                                   in[WI_X],
-                                   in[WI_Y],
-                                   in[WI_Z],
-                                   2,
-                                   {{b->d, in[XX], m[XY], m[YX], in[YY], m[MEAN_X], m[MEAN_Y], in[W0]},
-                                    {vndf_ggx(), in[XX], m[YX], m[XY], in[YY], m[MEAN_X], m[MEAN_Y], in[W1]}}};
+    vndf_mixture_batch of = {.count = b->count, .shared = b->shared, .limit = b->limit, .lobes = 2};
+    of.wi_x = in[WI_X], of.wi_y = in[WI_Y], of.wi_z = in[WI_Z];
+    of.lobe[0] = (vndf_lobe_batch){b->d, in[XX], m[XY], m[YX], in[YY], m[MEAN_X], m[MEAN_Y], in[W0]};
+    of.lobe[1] = (vndf_lobe_batch){vndf_ggx(), in[XX], m[YX], m[XY], in[YY], m[MEAN_X], m[MEAN_Y], in[W1]};
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {in[NX], in[NY], in[NZ]};
     switch (which) {
     case SAMPLE: vndf_mixture_sample_n(&of, in[U1], in[U2], to, out[3], lobe); break;

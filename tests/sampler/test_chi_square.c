@@ -7,7 +7,6 @@
 #include <float.h>
 
 #include "evidence/measure/statistics.h"
-#include "oracle/oracle_surface.h"
 #include "sampler/seen.h"
 
 /* Roughness, mean slope, angle and azimuth of wi in degrees; alpha_y 0: the same as alpha_x. */
@@ -40,9 +39,8 @@ static seen view_of(const vndf_distribution *d, const setting *v)
 /* Wherever the visible density of the formula is a number that floats can tell from 0, in its own tails too. */
 static int is_positive(const seen *s, const oracle *shape)
 {
-    const oracle_slopes slopes = {ORACLE_KIND_FORMULA, NULL, shape};
     const vndf_affine *a = &s->of.lobe[0].surface;
-    const oracle_surface truth = oracle_surface_from(slopes, a);
+    const oracle_surface truth = oracle_surface_from(shape, a);
     unsigned long long state = 5;
     for (int i = 0; i < 3000; i++) {
         double r = random_decade(&state, -4, 4), t = random_between(&state, -PI, PI);
@@ -65,7 +63,7 @@ static void test_subject(const subject *of, size_t index)
                  off = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
     for (size_t view = index % stride; view < VIEWS; view += stride) {
         seen s = view_of(of->d, &views[view]);
-        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi, 0);
+        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi);
         if (seen_quantity(&s, AREA, s.wi) <= 1e-6f) /* next to nothing is seen */
             continue;
         slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);

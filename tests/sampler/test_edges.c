@@ -10,14 +10,6 @@
 
 /* ---- mixtures ---- */
 
-/* wi.wm to the last bit, or nearly: products of floats are exact. */
-static int faces(vndf_vec3 wi, vndf_vec3 wm)
-{
-    return (long double)wi.x * (long double)wm.x + (long double)wi.y * (long double)wm.y +
-               (long double)wi.z * (long double)wm.z >
-           0;
-}
-
 /* Where less than 1e-10 of what is seen at grazing incidence is left, nothing is promised but no harm. */
 static void check_view(const seen *s, const char *name, unsigned long long *state)
 {
@@ -27,7 +19,7 @@ static void check_view(const seen *s, const char *name, unsigned long long *stat
         float u1 = test_uniform(state), u2 = test_uniform(state), pdf = -1;
         vndf_vec3 wm = seen_draw(s, i < 64 ? edges[i / 8] : u1, i < 64 ? edges[i % 8] : u2, &pdf);
         good &= fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && pdf >= 0 && pdf <= FLT_MAX;
-        good &= !seen_at_all(s, 1e-10f) || (pdf >= FLT_MIN && faces(s->wi, wm));
+        good &= !seen_at_all(s, 1e-10f) || (pdf >= FLT_MIN && dot_of(s->wi, wm) > 0);
     }
     if (!TEST(good) && test_failures < 20)
         seen_print(s, name);

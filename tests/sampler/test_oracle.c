@@ -3,7 +3,6 @@
  * 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart, matrices of condition
  * up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror - the values at
  * inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
-#include "oracle/oracle_surface.h"
 #include "sampler/seen.h"
 
 typedef enum family { ROUGH, APART, SHEARED, LEANING, MIXED, FAMILIES } family;
@@ -43,9 +42,9 @@ static vndf_affine random_shape(const vndf_distribution *d, family f, unsigned l
 }
 
 /* Half of the normals are samples, half of any slope; a third of the directions are chosen in the stretched frame. */
-static point random_point(const oracle_slopes *of, const vndf_distribution *d, family f, unsigned long long *state)
+static point random_point(const oracle *of, const vndf_distribution *d, family f, unsigned long long *state)
 {
-    static const oracle_slopes second = {ORACLE_KIND_GGX, NULL, NULL};
+    static const oracle second = {.shape = ORACLE_GGX, .norm = 1 / PI};
     vndf_mixture m = {f == MIXED ? 2 : 1,
                       {{random_shape(d, f, state), 0.25f}, {random_shape(vndf_ggx(), f, state), 0.5f}}};
     const vndf_affine *a = &m.lobe[0].surface;
@@ -72,8 +71,8 @@ static point random_point(const oracle_slopes *of, const vndf_distribution *d, f
         const double steep[3] = {x * z, y * z, z};
         wm = vec3_of(steep);
     }
-    p.lobe[0] = oracle_surface_from(*of, a);
-    p.lobe[1] = oracle_surface_from(second, &m.lobe[1].surface);
+    p.lobe[0] = oracle_surface_from(of, a);
+    p.lobe[1] = oracle_surface_from(&second, &m.lobe[1].surface);
     p.wi[0] = (double)wi.x, p.wi[1] = (double)wi.y, p.wi[2] = (double)wi.z;
     p.wm[0] = (double)wm.x, p.wm[1] = (double)wm.y, p.wm[2] = (double)wm.z;
     return p;
@@ -147,7 +146,7 @@ static double error_of(const point *p, int q)
     return got < low ? (low - got) / size : got > high ? (got - high) / size : got >= low ? 0 : HUGE_VAL;
 }
 
-static void test_family(const subject *of, const oracle_slopes *slopes, family f, size_t points)
+static void test_family(const subject *of, const oracle *slopes, family f, size_t points)
 {
     size_t checked[ASKED] = {0}, missed[ASKED] = {0};
     double worst[ASKED] = {0};
@@ -180,10 +179,7 @@ static void test_family(const subject *of, const oracle_slopes *slopes, family f
 static void test_subject(const subject *of, size_t index)
 {
     oracle_table table = {.numbers = NULL};
-    const oracle_slopes slopes = {index == 0   ? ORACLE_KIND_GGX
-                                  : index == 1 ? ORACLE_KIND_BECKMANN
-                                               : ORACLE_KIND_TABLE,
-                                  &table, NULL};
+    const oracle slopes = index < 2 ? of->shape : (oracle){.shape = ORACLE_COUNT, .table = &table};
     if (index < 2 || TEST(oracle_table_of(&table, of->d)))
         for (int f = 0; f < FAMILIES; f++)
             test_family(of, &slopes, (family)f, test_amount(1000, 5000, 30000));

@@ -28,29 +28,6 @@ set(flags -std=c11 ${arithmetic} -I${SOURCE}/src -I${SOURCE}/include -I${SOURCE}
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
 
-# Every line "HASH COUNT NAME" has to be the first one of its count and name: the file's or, to renew it, the first
-# build's.
-function(compare who text learning)
-    string(REGEX MATCHALL "[0-9a-f]+ [0-9]+ [^\n]+" lines "${text}")
-    list(LENGTH lines found)
-    list(LENGTH tables least)
-    if(found LESS_EQUAL least)
-        message(SEND_ERROR "${who} has too few hashes:\n${text}")
-    endif()
-    foreach(line IN LISTS lines)
-        string(REGEX MATCH "^([^ ]+) (.+)$" line "${line}")
-        get_property(known GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}")
-        if(NOT known AND learning)
-            set_property(GLOBAL PROPERTY "hash ${CMAKE_MATCH_2}" ${CMAKE_MATCH_1})
-            set_property(GLOBAL APPEND_STRING PROPERTY hashes "${line}\n")
-        elseif(NOT known STREQUAL CMAKE_MATCH_1)
-            message(SEND_ERROR "${who} gives ${CMAKE_MATCH_1} for ${CMAKE_MATCH_2}, expected '${known}'. If arithmetic "
-                "or tables were changed on purpose: cmake --build build --target same_bits")
-        endif()
-    endforeach()
-    message("same bits: ${who}")
-endfunction()
-
 # run(NAME COUNT EMULATOR SOURCES COMPILER FLAG...): EMULATOR may be empty. Says `found`, if programs of this compiler
 # run here.
 function(run who count emulator parts)
@@ -75,19 +52,35 @@ function(run who count emulator parts)
     if(NOT status EQUAL 0)
         message(FATAL_ERROR "${who} cannot build or run the run time:\n${output}${errors}")
     endif()
-    compare("${who}, ${count} samples of each distribution" "${output}" ${RENEW})
+    string(REGEX MATCHALL "[0-9a-f]+ [0-9]+ [^\n]+" lines "${output}") # HASH COUNT NAME
+    list(LENGTH lines found)
+    list(LENGTH tables least)
+    if(found LESS_EQUAL least)
+        message(SEND_ERROR "${who} has too few hashes:\n${output}")
+    endif()
+    if(NOT expected) # to renew them: of the first build
+        set(expected "${lines}" PARENT_SCOPE)
+    endif()
+    foreach(line IN LISTS lines)
+        if(expected AND NOT line IN_LIST expected)
+            message(SEND_ERROR "${who} gives another hash: ${line}. If arithmetic or tables were changed on purpose: "
+                "cmake --build build --target same_bits")
+        endif()
+    endforeach()
+    message("same bits: ${who}, ${count} samples of each distribution")
 endfunction()
 
+set(expected "")
+set(first ${many}) # all hashes that there are
 if(NOT RENEW)
-    set(RENEW OFF)
-    file(READ ${expected_file} expected)
-    compare(${expected_file} "${expected}" ON)
+    file(STRINGS ${expected_file} expected)
+    set(first ${few})
 endif()
 
 # ---- this machine -------------------------------------------------------------------------------
 
 if(SANITIZE STREQUAL "")
-    run("the library of this build" ${few} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
+    run("the library of this build" ${first} "" "${program};${STATIC_LIBRARY}" ${C_COMPILER} -O2)
 endif()
 get_filename_component(compilers ${C_COMPILER} REALPATH) # cc and gcc may be one
 foreach(name gcc clang)
@@ -125,6 +118,6 @@ foreach(machine IN LISTS machines)
 endforeach()
 
 if(RENEW)
-    get_property(text GLOBAL PROPERTY hashes)
-    file(WRITE ${expected_file} "${text}")
+    list(JOIN expected "\n" text)
+    file(WRITE ${expected_file} "${text}\n")
 endif()

@@ -8,6 +8,7 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
     memset(g, 0, sizeof *g);
     g->rows = rows;
     g->columns = columns;
+    g->elsewhere = rows * columns;
     for (size_t i = 0; i <= rows; i++)
         g->x[i] = x0 + (x1 - x0) * (double)i / (double)rows;
     for (size_t i = 0; i <= columns; i++)
@@ -17,11 +18,6 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
 size_t grid_bin(const grid *g, double x, double y)
 {
     return bins_interval(g->x, g->rows, x) * g->columns + bins_interval(g->y, g->columns, y);
-}
-
-size_t grid_elsewhere(const grid *g)
-{
-    return g->rows * g->columns;
 }
 
 /* ---- integrals ---- */
@@ -105,16 +101,16 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
 {
     double mass = 0;
     for (int again = 0; again < 2; again++)
-        for (size_t i = 0; i < grid_elsewhere(g); i++)
+        for (size_t i = 0; i < g->elsewhere; i++)
             if (!again || g->expected[i] <= allowed * samples)
                 g->expected[i] = samples * expect(g, density, of, i, again, allowed);
-    for (size_t i = 0; i < grid_elsewhere(g); i++)
+    for (size_t i = 0; i < g->elsewhere; i++)
         mass += g->expected[i] / samples;
-    g->expected[grid_elsewhere(g)] = fmax(1 - mass, 0) * samples;
+    g->expected[g->elsewhere] = fmax(1 - mass, 0) * samples;
     return mass;
 }
 
 pearson grid_test(const grid *g)
 {
-    return pearson_of(g->expected, g->observed, NULL, grid_elsewhere(g) + 1, 5);
+    return pearson_of(g->expected, g->observed, NULL, g->elsewhere + 1, 5);
 }

@@ -8,9 +8,9 @@
 
 enum { GRID_ROWS = 65, GRID_COLUMNS = 130, GRID_BINS = GRID_ROWS * GRID_COLUMNS };
 
-/* Large: keep it static. Bin row * columns + column; the last, rows * columns, is of what is elsewhere. */
+/* Large: keep it static. Bin row * columns + column; the last, `elsewhere`, is of what is in no other. */
 typedef struct grid {
-    size_t rows, columns;
+    size_t rows, columns, elsewhere;
     double x[GRID_ROWS + 1], y[GRID_COLUMNS + 1]; /* borders, ascending */
     double expected[GRID_BINS + 1], observed[GRID_BINS + 1];
 } grid;
@@ -19,7 +19,6 @@ typedef struct grid {
 void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1);
 
 size_t grid_bin(const grid *g, double x, double y);
-size_t grid_elsewhere(const grid *g);
 
 /* The integral over a rectangle, which is halved, the way that changes more, until that changes less than `allowed`,
  * or a hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an

@@ -10,26 +10,16 @@
 
 /* ---- the frame ---- */
 
-slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi, int all)
+slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi)
 {
     double scale = vndf_distribution_info(shape->distribution).scale;
     scale = scale > 0 ? scale : 1;
-    slope_frame f = {scale * (double)shape->xx,
-                     scale * (double)shape->xy,
-                     scale * (double)shape->yx,
-                     scale * (double)shape->yy,
-                     (double)shape->mean_x,
-                     (double)shape->mean_y,
-                     0,
-                     0,
-                     1,
-                     1,
-                     0};
+    slope_frame f = {.mean_x = (double)shape->mean_x, .mean_y = (double)shape->mean_y, .x = 1};
+    f.xx = scale * (double)shape->xx, f.xy = scale * (double)shape->xy;
+    f.yx = scale * (double)shape->yx, f.yy = scale * (double)shape->yy;
     double length = sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + (double)wi.z * wi.z);
     double x = wi.x / length, y = wi.y / length, a = f.xx * x + f.yx * y, b = f.xy * x + f.yy * y;
     f.det = fabs(f.xx * f.yy - f.xy * f.yx);
-    if (all)
-        return f;
     f.c = wi.z / length - x * f.mean_x - y * f.mean_y;
     f.s = hypot(a, b);
     if (f.s > 0)
@@ -124,7 +114,7 @@ slope_test slope_chi_square(const slope_frame *frame, slope_draw *draw, slope_fu
         vndf_vec3 wm = draw(of, u1, u2, &density);
         place_of(frame, wm, &q, &part);
         found.unseen += !(density >= FLT_MIN && density <= FLT_MAX);
-        bins.observed[q < LAST ? grid_bin(&bins, q, part) : grid_elsewhere(&bins)] += 1;
+        bins.observed[q < LAST ? grid_bin(&bins, q, part) : bins.elsewhere] += 1;
     }
     pearson judged = grid_test(&bins);
     found.classes = judged.classes;

@@ -13,9 +13,8 @@ typedef struct slope_frame {
     double s, c, x, y;                          /* the direction in it: (s, 0, c) after a turn by (x, y) */
 } slope_frame;
 
-/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; with `all`, of all
- * normals. */
-slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi, int all);
+/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi. */
+slope_frame slope_frame_from(const vndf_affine *shape, vndf_vec3 wi);
 
 /* The normal where its slopes are over the matrix, unit, turned to wi: (slope cos, slope sin) ~ (x, y)/z. */
 void slope_over(const slope_frame *f, vndf_vec3 wm, double n[3]);

@@ -1,6 +1,7 @@
 /* vndf render: a scene file into a picture, by one sampler or by several side by side. Reads the words, prepares
  * the scene, renders, saves the picture, prints figures. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/figures.h"
@@ -8,7 +9,7 @@
 #include "cli/progress.h"
 #include "command.h"
 #include "draw/table.h"
-#include "render/compare.h"
+#include "render/film.h"
 
 static const char name[] = "vndf render";
 
@@ -240,7 +241,7 @@ static int run(const arguments *given)
         return complain(name, "%s", error.message);
     int status = !w.path || output_open(&w.output, name, w.path) ? render(&w, s) : STATUS_USE;
     for (size_t i = 0; i < w.ways.count; i++) {
-        path_free(w.ways.way[i].plan);
+        free(w.ways.way[i].plan);
         film_free(&w.ways.way[i].film);
     }
     scene_free(s);

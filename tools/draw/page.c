@@ -159,11 +159,6 @@ static const char style[] =
     "figure{margin:1em 0;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
     "@media screen{.wide svg.chart[role]{min-width:760px}}@media (max-width:600px){body{padding:12px}}\n"
-    "@page{size:A4 landscape;margin:12mm}\n"
-    "@media print{:root{color-scheme:light}body{font-size:10pt;max-width:none;padding:0}nav{display:none}\n"
-    ".scroll{overflow:visible}h2{margin-top:1em}h2,h3,.lead{break-after:avoid}"
-    "figure,table,.advice,.lead{break-inside:avoid}.panels{flex-wrap:nowrap}.panels svg{min-width:0;flex:0 1 auto}"
-    ".wide svg[role]{max-height:145mm}a{color:inherit}}\n"
     "code{font-family:ui-monospace,'DejaVu Sans Mono',monospace;font-size:.92em;overflow-wrap:anywhere}\n";
 
 int page_begin(html_page *page, const char *title)

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/sort.h"
 #include "evidence/measure/stratified.h"
 
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
@@ -76,6 +77,78 @@ static vndf_status measure(evidence_list *list, const evidence_plan *plan, block
     return VNDF_OK;
 }
 
+/* ---- time ---------------------------------------------------------------------------------------- */
+
+enum { TURNS_LEAST = 7 };
+
+static const double shortest = 20e-6; /* seconds: a shorter run is repeated, for the clock's sake */
+
+int evidence_go_on(const evidence_plan *plan, const char *what)
+{
+    double done = (clock_seconds() - plan->start) / plan->seconds;
+    return progress_show(fmin(done, 0.99), what, plan->progress) == 0;
+}
+
+static void run_block(const method *m, method_run *run, block *b, size_t share)
+{
+    for (size_t first = 0; first < BLOCK; first += share)
+        run(m, b, first, share);
+}
+
+/* Nanoseconds for a sample. The first run, which is not counted, brings inputs and tables into the cache; then
+ * it runs once against the clock, so that the branch predictor does not learn the inputs by heart, or more often
+ * where a single run is too short for the clock. */
+static double time_run(const method *m, method_run *run, block *b, size_t share)
+{
+    if (!run)
+        return NAN;
+    double start = clock_seconds();
+    run_block(m, run, b, share);
+    int repeats = (int)fmin(fmax(shortest / fmax(clock_seconds() - start, 1e-7), 1), 100);
+    start = clock_seconds();
+    for (int i = 0; i < repeats; i++)
+        run_block(m, run, b, share);
+    return 1e9 * (clock_seconds() - start) / repeats / BLOCK;
+}
+
+static int take_turn(evidence_list *list, const evidence_plan *plan, block *b, size_t turn)
+{
+    for (entry *e = list->entry; e < list->entry + list->count; e++) {
+        const method *m = &e->m;
+        method_run *const run[SERIES] = {m->each, m->shared, m->eval, m->density};
+        if (!e->is_needed || e->row.number[COL_WRONG] > 0)
+            continue;
+        block_fill(b, &e->law, 1000 + turn);
+        for (int way = 0; way < SERIES; way++)
+            e->ns[way][turn] = time_run(m, run[way], b, way == 0 ? BLOCK : SHARE);
+        if (!evidence_go_on(plan, "taking turns"))
+            return 0;
+    }
+    return 1;
+}
+
+/* All methods take turns, so that all of them meet the machine in the same mood, each turn with new random inputs, and
+ * the median over the turns counts. The first turn warms up the machine and is not counted. */
+static vndf_status take_times(evidence_list *list, const evidence_plan *plan, block *b)
+{
+    static const evidence_column medians[SERIES] = {COL_NS, COL_SHARED, COL_EVAL, COL_PDF};
+    size_t turns = 0;
+    int goes_on = take_turn(list, plan, b, 0);
+    while (goes_on && turns < TURNS_MOST && (turns < TURNS_LEAST || clock_seconds() - plan->start < plan->seconds))
+        goes_on = take_turn(list, plan, b, turns++);
+    for (entry *e = list->entry; e < list->entry + list->count; e++) {
+        double *to = e->row.number;
+        for (int way = 0; way < SERIES && e->is_needed && !(to[COL_WRONG] > 0); way++) {
+            double *ns = e->ns[way];
+            sort_numbers(ns, turns);
+            to[medians[way]] = ns[turns / 2];
+            if (way == 0)
+                to[COL_SPREAD] = 0.5 * (ns[3 * turns / 4] - ns[turns / 4]) / ns[turns / 2];
+        }
+    }
+    return goes_on ? VNDF_OK : VNDF_ERROR_ARGUMENT;
+}
+
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
 static double efficiency(double variance, double ns, double other_variance, double other_ns)
@@ -112,7 +185,7 @@ vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_e
     if (status == VNDF_OK) {
         status = measure(list, plan, b);
         if (status == VNDF_OK)
-            status = evidence_time(list, plan, b);
+            status = take_times(list, plan, b);
         if (status != VNDF_OK)
             fail(error, status);
     }

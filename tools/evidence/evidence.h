@@ -6,8 +6,7 @@
  *     list.c       which methods of which distributions: entries, made ready, and which of them are needed
  *     verify.c     whether the results of a method are right, before it is timed
  *     worth.c      error and variance of a method from one direction
- *     time.c       time, in turns
- *     evidence.c   all of these in order, into rows
+ *     evidence.c   all of these in order, and time in turns, into rows
  *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
  *     page/        what `vndf report` writes
  *
@@ -68,6 +67,9 @@ vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_e
 
 /* ---- entries ------------------------------------------------------------------------------------- */
 
+/* What is timed: each, shared, eval, density of a method. */
+enum { SERIES = 4, TURNS_MOST = 501 };
+
 typedef struct entry entry;
 struct entry {
     method m;
@@ -77,6 +79,7 @@ struct entry {
     entry *beside;           /* what its time is compared with: caps or bare reflection; NULL: nothing */
     entry *normals;          /* what its worth is compared with: all normals, of materials visible ones; or NULL */
     double variance[3]; /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
+    double ns[SERIES][TURNS_MOST]; /* of each turn */
     evidence_row row;
 };
 
@@ -89,7 +92,7 @@ typedef struct evidence_list {
     vndf_error *error;
 } evidence_list;
 
-/* Everything the plan asks for: at most 8 x 29 materials fit. Free it whatever this returns; an error if a table
+/* Everything the plan asks for: at most 8 x 28 materials fit. Free it whatever this returns; an error if a table
  * or a material cannot be made or `only` fits nothing. */
 vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error);
 void evidence_list_free(evidence_list *list);
@@ -117,9 +120,5 @@ int worth_of_material(const method *m, const block_law *law, double theta, block
 
 /* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */
 double worth_fresnel(double cosine, double n, double k);
-
-/* Fills the times of all entries that are needed and not wrong: turns until the plan's seconds are spent, some at
- * least. VNDF_ERROR_ARGUMENT: stopped. */
-vndf_status evidence_time(evidence_list *list, const evidence_plan *plan, block *b);
 
 #endif

@@ -135,7 +135,6 @@ static vndf_status make_normals(evidence_list *to, subject *s)
         add(to, ggx, method_ggx_caps_batch(sets[i]));
     add_closed(to, ggx);
     add(to, ggx, method_exported(vndf_ggx(), "closed form"));
-    add(to, beckmann, method_beckmann_newton());
     add_closed(to, beckmann);
     add_at_hand(to, at_hand, s);
     if (strcmp(s->name, student) != 0) { /* time for a D that everybody has, beside that at hand */
@@ -163,7 +162,7 @@ static vndf_status make_materials(evidence_list *to, method_reference *of, const
         entry *e = add(to, of, m);
         if (!e)
             continue;
-        e->law = effect_law(set, NAN);
+        e->law = effect_law(set);
         e->row.number[COL_ALPHA_X] = (double)plan->alpha_x;
         e->row.number[COL_ALPHA_Y] = (double)plan->alpha_y;
         e->beside = find(to, effect_sets[EFFECT_BARE].name, of);

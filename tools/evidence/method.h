@@ -164,10 +164,9 @@ void method_release(method *m);
 
 /* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
 
-/* GGX and Beckmann, from the publications; the batch by one of the three instruction sets. */
+/* GGX, from the publication; the batch by one of the three instruction sets. */
 method method_ggx_caps(void);
 method method_ggx_caps_batch(vndf_instructions set);
-method method_beckmann_newton(void);
 
 /* Any D, from the publications. */
 method method_all_normals(const method_reference *reference);
@@ -202,14 +201,10 @@ enum { EFFECT_BARE = 0 }; /* bare reflection, which the others are compared with
 extern const effect_set effect_sets[];
 extern const size_t effect_set_count;
 
-/* The set of that name, or NULL. */
-const effect_set *effect_find(const char *name);
-
 /* A set made ready for one distribution and roughness, the state of its method. It stays where it was made: hits
  * point to its material. */
 typedef struct effect_case {
     const effect_set *set;
-    vndf_surface surface;
     vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
     vndf_albedo *albedo;  /* owned; NULL unless energy is compensated */
     vndf_material material;
@@ -218,8 +213,8 @@ typedef struct effect_case {
 /* A method without `each` and an error if the set cannot be made. */
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
 
-/* How blocks of a set are filled, from an incident angle or (NaN) from everywhere. */
-block_law effect_law(const effect_set *set, double theta);
+/* How blocks of a set are filled. */
+block_law effect_law(const effect_set *set);
 
 /* The cosine of w that goes with values: to the normal of the mean plane. */
 double effect_cosine(const effect_case *of, vndf_vec3 w);

@@ -29,7 +29,7 @@ static const struct {
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
-    [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER},
+    [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER | WIDE},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
     [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER},
     [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER | WIDE},

@@ -84,48 +84,37 @@ void worth_of_normals(const method *m, const method_reference *reference, double
 
 /* ---- materials ----------------------------------------------------------------------------------- */
 
-typedef struct tally {
-    double count, sum, square, lost, most;
-} tally;
-
-static double variance_of(const tally *t)
+static double variance_of(double sum, double square, double count)
 {
-    double mean = t->sum / t->count;
-    return fmax(t->square / t->count - mean * mean, 0) * t->count / (t->count - 1);
-}
-
-static tally weigh(const method *m, const block_law *law, double theta, block *b, size_t blocks, uint64_t seed)
-{
-    tally t = {0, 0, 0, 0, 0};
-    block_law of = *law;
-    vndf_vec3 wi = direction_from(theta, 25);
-    of.theta = theta;
-    for (size_t i = 0; i < blocks; i++) {
-        block_fill(b, &of, seed + i);
-        block_aim(b, wi, 1);
-        m->each(m, b, 0, BLOCK);
-        for (size_t k = 0; k < BLOCK; k++) {
-            double weight = (double)(m->limit ? b->value[0][k] : b->out[k].weight[0]);
-            t.count += 1;
-            t.sum += weight;
-            t.square += weight * weight;
-            t.lost += (m->limit ? b->lobe[k] : b->out[k].lobe) == VNDF_LOBE_NONE;
-            t.most = fmax(t.most, weight);
-        }
-    }
-    return t;
+    return fmax(square / count - sum / count * (sum / count), 0) * count / (count - 1);
 }
 
 int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
                       evidence_row *found)
 {
-    tally x = weigh(m, law, theta, b, blocks, 1u << 20), y = weigh(m, law, theta, b, blocks, 2u << 20);
-    tally t = {x.count + y.count, x.sum + y.sum, x.square + y.square, x.lost + y.lost, fmax(x.most, y.most)};
-    double between = sqrt(variance_of(&x) / x.count + variance_of(&y) / y.count), *to = found->number;
-    to[COL_MEAN] = t.sum / t.count;
-    to[COL_VARIANCE] = variance_of(&t);
-    to[COL_NOISE] = sqrt(to[COL_VARIANCE] / t.count);
-    to[COL_LOST] = t.lost / t.count;
-    to[COL_WEIGHT] = t.most;
-    return fabs(x.sum / x.count - y.sum / y.count) <= noise_limit * between + 1e-5;
+    const vndf_vec3 wi = direction_from(theta, 25);
+    const double n = (double)(blocks * BLOCK);
+    double sum[2] = {0, 0}, square[2] = {0, 0}, lost = 0, most = 0, *to = found->number;
+    block_law of = *law;
+    of.theta = theta;
+    for (size_t i = 0; i < 2 * blocks; i++) {
+        const int half = i >= blocks;
+        block_fill(b, &of, ((uint64_t)(half + 1) << 20) + i % blocks);
+        block_aim(b, wi, 1);
+        m->each(m, b, 0, BLOCK);
+        for (size_t k = 0; k < BLOCK; k++) {
+            double weight = (double)(m->limit ? b->value[0][k] : b->out[k].weight[0]);
+            sum[half] += weight;
+            square[half] += weight * weight;
+            lost += (m->limit ? b->lobe[k] : b->out[k].lobe) == VNDF_LOBE_NONE;
+            most = fmax(most, weight);
+        }
+    }
+    to[COL_MEAN] = (sum[0] + sum[1]) / (2 * n);
+    to[COL_VARIANCE] = variance_of(sum[0] + sum[1], square[0] + square[1], 2 * n);
+    to[COL_NOISE] = sqrt(to[COL_VARIANCE] / (2 * n));
+    to[COL_LOST] = lost / (2 * n);
+    to[COL_WEIGHT] = most;
+    const double noise = sqrt((variance_of(sum[0], square[0], n) + variance_of(sum[1], square[1], n)) / n);
+    return fabs(sum[0] - sum[1]) / n <= noise_limit * noise + 1e-5;
 }

@@ -13,16 +13,13 @@ static void name_table(exported_table *table)
     const char *slash = strrchr(table->file, '/'), *from = slash ? slash + 1 : table->file;
     const char *end = strrchr(from, '.');
     size_t length = end && end > from ? (size_t)(end - from) : strlen(from), n = 0;
-    int gap = 0;
     for (size_t i = 0; i < length && n + 2 < sizeof table->name; i++) {
-        int good = (unsigned char)from[i] < 128 && isalnum((unsigned char)from[i]);
-        if (good && gap && n > 0)
-            table->name[n++] = '_';
-        if (good)
+        if ((unsigned char)from[i] < 128 && isalnum((unsigned char)from[i]))
             table->name[n++] = (char)toupper((unsigned char)from[i]);
-        gap = !good;
+        else if (n > 0 && table->name[n - 1] != '_')
+            table->name[n++] = '_';
     }
-    table->name[n] = '\0';
+    table->name[n - (n > 0 && table->name[n - 1] == '_')] = '\0';
 }
 
 /* Whether the kernel or a table before has a constant of that name. */
@@ -105,28 +102,23 @@ static void put_table(FILE *to, const export_document *document, const exported_
 {
     const vndf_info info = vndf_distribution_info(t->distribution);
     const vndf_family_facts facts = vndf_family_info(t->family);
-    const vndf_certificate *c = &info.certificate;
-    fprintf(to, "// %s%s, %zu numbers: ", document->as.upper, t->name, t->size);
-    put_printable(to, t->family ? facts.source : info.source);
-    fprintf(to, "\n//   made by %s; ", t->family ? facts.tool : info.tool);
+    fprintf(to, "// %s%s, %zu numbers, ", document->as.upper, t->name, t->size);
     if (t->family)
-        fprintf(to, "%zu tables for parameters from %g to %g, total variation between them at most %.2g\n",
-                facts.count, (double)facts.low, (double)facts.high, (double)facts.distance);
+        fprintf(to, "for parameters from %g to %g", (double)facts.low, (double)facts.high);
     else
-        fprintf(to,
-                "total variation from the true visible normals at most %.2g above the horizon, %.2g\n"
-                "//   below it; largest true density over the drawn one %.4g; area within %.1g\n",
-                (double)c->tv_above, (double)c->tv, (double)c->max_weight, (double)c->area_error);
+        fprintf(to, "total variation above the horizon %.2g", (double)info.certificate.tv_above);
+    fprintf(to, ", made by %s: ", t->family ? facts.tool : info.tool);
+    put_printable(to, t->family ? facts.source : info.source);
+    fputs("\n", to);
 }
 
 static const char head[] =
     "//\n// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): a\n"
     "// normal wm that faces wi, its density per steradian, and the true density over that. vndf_pdf, vndf_visible\n"
-    "// and vndf_ndf answer for a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area for directions.\n"
-    "// A vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
-    "// are unit and may be below the surface; roughness is alpha. All of it is float: the density of a sample is,\n"
-    "// to 1e-5, that of a normal within one rounding of it; beside vndf_pdf of that normal it is 1e-4 for 99.99% of\n"
-    "// the samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
+    "// and vndf_ndf are of a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area of directions. A\n"
+    "// vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
+    "// are unit and may be below the surface; roughness is alpha. vndf_pdf of a sample is its density within 1e-4\n"
+    "// for 99.99% of samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static const char bsdf_head[] =
     "// vndf_bsdf_of(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"

@@ -58,7 +58,7 @@ int effects_read(export_effects *effects, const char *text, char error[EFFECTS_E
             snprintf(error, EFFECTS_ERROR_MAX,
                      "'%.*s': key=choice is needed, with the keys %s%s; files scatter once, at "
                      "one surface, by visible normals: all else needs the library",
-                     length < 60 ? length : 60, text, keys, nearest_in(keys, text, (size_t)name));
+                     length < 60 ? length : 60, text, keys, key < 0 ? nearest_in(keys, text, (size_t)name) : "");
             return 0;
         }
         choice[key] = list_place(choices[key], text + name + 1, (size_t)(length - name - 1));

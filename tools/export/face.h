@@ -29,26 +29,22 @@ typedef struct vndf_view {
     int below;       /* only table */
 } vndf_view;
 
-/* The matrix in units of the distribution's slopes. */
-HERE affine_map matrix_of(vndf_surface m)
-{
-    float scale = 1.0f;
-    if (m.distribution >= 0)               /* only table */
-        scale = fetch(m.distribution + 3); /* only table */
-    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0, 0.0f};
-    return affine_measured(s);
-}
-
-/* A view without what the distribution makes of it. */
+/* A view without what the distribution makes of it; its frame has the matrix in units of the distribution's slopes. */
 HERE vndf_view placed(vndf_surface m, vec3 wi)
 {
     vndf_view view;
+    float scale = 1.0f;
+    /* only table */
+    if (m.distribution >= 0) {
+        scale = fetch(m.distribution + 3);
+        view.t = table_at(m.distribution);
+    }
+    /* end */
+    const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0, 0.0f};
     view.surface = m;
     view.wi = wi;
-    view.at = frame_of(matrix_of(m), wi.x, wi.y, wi.z);
+    view.at = frame_of(affine_measured(s), wi.x, wi.y, wi.z);
     view.unit_area = 0.0f;
-    if (m.distribution >= 0)               /* only table */
-        view.t = table_at(m.distribution); /* only table */
     return view;
 }
 

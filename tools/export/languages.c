@@ -9,7 +9,7 @@
 static const char common[] =
     "TYPED: $T $V; SEVERAL: $T $V[$N]; FUNCTION: $T $D($P) {; STRUCT: struct $D {; STRUCT_END: };; "
     "CONSTANT: enum { $D = $N };; ARRAY_END: \n};; MAKE: {; MADE: }; "
-    "real: float; whole: int; mask: bool; vec3: float3; "
+    "real: float; whole: int; mask: bool; vec3: float3; direction: float3; "
     "set = $1; set_whole = $1; any = $1; less = ($1 < $2); at_most = ($1 <= $2); same = ($1 == $2); both = ($1 && $2); "
     "either = ($1 || $2); pick = ($1 ? $2 : $3); pick_whole = ($1 ? $2 : $3); root = sqrt($1); size = abs($1); "
     "to_real = float($1); to_whole = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
@@ -51,12 +51,13 @@ static const language languages[] = {
     {"c", "C99", LANGUAGE_GUARDED, 0, NULL, NULL,
      "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
      "FUNCTION: VNDF_FUNCTION $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
-     "ARRAY: static const float $D[$N] = {\n    ; ZERO: {0}; POINTER: const float *; vec3: vndf_vec3; "
+     "ARRAY: static const float $D[$N] = {\n    ; ZERO: {0}; POINTER: const float *; "
+     "vec3: vndf_vec3; direction: vndf_vec3; "
      "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_whole = (int)($1); "
      "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cpp", "C++11", LANGUAGE_GUARDED, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
      "FUNCTION: VNDF_FUNCTION $T $D($P) {; ARRAY: static const float $D[$N] = {\n    ; ZERO: {}; "
-     "POINTER: const float *; vec3: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
+     "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cuda", "CUDA", LANGUAGE_GUARDED | LANGUAGE_UNROLLS, 0, NULL, NULL, "",
@@ -73,7 +74,7 @@ static const language languages[] = {
      BOUND(", as a texture", "layout(std430, binding = 0) readonly buffer vndf_buffer { float vndf_numbers[]; };"),
      "",
      "CONSTANT: const int $D = $N;; ARRAY: const float $D[$N] = float[$N](\n    ; ARRAY_END: \n);; MAKE: $T(; MADE: ); "
-     "vec3: vec3; bits = floatBitsToInt($1); of_bits = intBitsToFloat($1); vec3 = vec3($1, $2, $3); "
+     "vec3: vec3; direction: vec3; bits = floatBitsToInt($1); of_bits = intBitsToFloat($1); vec3 = vec3($1, $2, $3); "
      "fetch = VNDF_FETCH($1); "},
     {"hlsl", "HLSL, shader model 5 and later", 0, 4096,
      "a shader's constants end at 64 KiB, where each number takes 16 bytes",
@@ -85,7 +86,8 @@ static const language languages[] = {
      "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n", "",
      "TYPED: $V: $T; SEVERAL: $V: array<$T, $N>; GIVEN: $V_in: $T; COPY: var $V = $V_in;; FUNCTION: fn $D($P) -> $T {; "
      "STRUCT_END: }; CONSTANT: const $D: i32 = $N;; ARRAY: var<private> $D: array<f32, $N> = array<f32, $N>(\n    ; "
-     "ARRAY_END: \n);; MAKE: $T(; MADE: ); int: i32; float: f32; real: f32; whole: i32; vec3: vec3<f32>; "
+     "ARRAY_END: \n);; MAKE: $T(; MADE: ); int: i32; float: f32; real: f32; whole: i32; "
+     "vec3: vec3<f32>; direction: vec3<f32>; "
      "pick = select($3, $2, $1); pick_whole = select($3, $2, $1); to_real = f32($1); to_whole = i32($1); "
      "bits = bitcast<i32>($1); of_bits = bitcast<f32>($1); vec3 = vec3<f32>($1, $2, $3); fetch = vndf_numbers[$1]; "},
     {"msl", "the Metal shading language", 0, 16384, "Metal has 64 KiB of constants", NULL,

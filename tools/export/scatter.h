@@ -31,17 +31,6 @@ HERE vec3 scaled(float factor, vec3 w)
     return vec3(factor * w.x, factor * w.y, factor * w.z);
 }
 
-HERE direction direction_of(vec3 w)
-{
-    const direction d = {w.x, w.y, w.z};
-    return d;
-}
-
-HERE vec3 vector_of(direction d)
-{
-    return vec3(d.x, d.y, d.z);
-}
-
 /* wi is unit, towards the viewer. */
 HERE vndf_bsdf vndf_bsdf_of(vndf_material material, vec3 wi)
 {
@@ -122,7 +111,7 @@ HERE lobe_share share_of(vndf_bsdf b, meeting m)
 HERE float masked(vndf_bsdf b, meeting m)
 {
     const event e = m.e;
-    const float area_o = vndf_projected_area(vndf_view_of(b.material.surface, vector_of(e.up))); /* only smith */
+    const float area_o = vndf_projected_area(vndf_view_of(b.material.surface, e.up)); /* only smith */
     float carried = 1.0f;
     /* only transmits transport=radiance */
     if (m.reflects == 0)
@@ -156,7 +145,7 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
 {
     vndf_scattered s = {vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 0.0f), 0.0f, 0};
     const vndf_sampled n = vndf_sample(b.view, u.x, u.y);
-    const direction wi = direction_of(b.view.wi), wm = direction_of(n.wm);
+    const vec3 wi = b.view.wi, wm = n.wm;
     const seen_cosine c = seen_cosine_of(wi, wm);
     meeting m;
     m.reflects = 1; /* only lobes=reflection */
@@ -172,12 +161,12 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
         m.e = reflected_at(wi, wm, c);        /* only reflects */
     if (m.reflects == 0)                      /* only transmits */
         m.e = refracted_at(wi, wm, c, b.eta); /* only transmits */
-    m.e.rise = projected(b.material.surface, vector_of(m.e.up));
+    m.e.rise = projected(b.material.surface, m.e.up);
     if (!any(m.e.met) || !(m.e.rise > 0.0f) || !(b.rise > 0.0f))
         return s;
     const lobe_share share = share_of(b, m);                 /* only coloured */
     const lobe_share share = {vec3(1.0f, 1.0f, 1.0f), 1.0f}; /* only fresnel=none lobes=reflection */
-    s.wo = scaled(pick(same(m.reflects, 1), b.side, -b.side), vector_of(m.e.up));
+    s.wo = scaled(pick(same(m.reflects, 1), b.side, -b.side), m.e.up);
     s.weight = scaled(masked(b, m) * m.e.rise * (b.area * n.weight) / share.part, share.f);
     s.pdf = least(most(n.pdf * m.e.jacobian * share.part, 1.17549435e-38f), 3.4028234e38f);
     s.lobe = 2 - m.reflects;
@@ -196,7 +185,7 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
 
 HERE meeting meeting_of(vndf_bsdf b, vec3 given)
 {
-    const direction wi = direction_of(b.view.wi);
+    const vec3 wi = b.view.wi;
     vec3 wo = scaled(b.side, given);
     meeting m;
     if (wo.z > 0.0f)                   /* only reflection=retro */
@@ -206,12 +195,12 @@ HERE meeting meeting_of(vndf_bsdf b, vec3 given)
     m.e.met = less(rise, rise); /* no */
     /* only reflects */
     if (rise > 0.0f) {
-        m.e = reflecting(wi, direction_of(wo));
-        m.e.rest = reflecting_rest(m.e, wi, direction_of(wo));
+        m.e = reflecting(wi, wo);
+        m.e.rest = reflecting_rest(m.e, wi, wo);
     }
     /* end */
-    if (rise < 0.0f)                                                  /* only transmits */
-        m.e = refracting(wi, direction_of(scaled(-1.0f, wo)), b.eta); /* only transmits */
+    if (rise < 0.0f)                                    /* only transmits */
+        m.e = refracting(wi, scaled(-1.0f, wo), b.eta); /* only transmits */
     m.e.rise = size(rise);
     m.e.met = both(m.e.met, less(0.0f, b.rise));
     return m;
@@ -225,7 +214,7 @@ HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
     if (!any(m.e.met))
         return vec3(0.0f, 0.0f, 0.0f);
     f = share_of(b, m).f; /* only coloured */
-    const float ndf = placed_ndf(b.view, vector_of(m.e.wm));
+    const float ndf = placed_ndf(b.view, m.e.wm);
     return scaled(b.tilt * ndf * m.e.facing * m.e.jacobian * masked(b, m), f);
 }
 
@@ -237,5 +226,5 @@ HERE float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
     if (!any(m.e.met))
         return 0.0f;
     part = share_of(b, m).part; /* only lobes=both */
-    return least(part * (vndf_pdf(b.view, vector_of(m.e.wm)) * m.e.jacobian), 3.4028234e38f);
+    return least(part * (vndf_pdf(b.view, m.e.wm) * m.e.jacobian), 3.4028234e38f);
 }

@@ -32,59 +32,48 @@ void put_prefixed(const translation *t, const char *from, size_t length)
     }
 }
 
-/* A variable or a member. */
-static void put_name(const translation *t, const word *name)
-{
-    char spaced[80];
-    snprintf(spaced, sizeof spaced, " %.*s ", name->length, name->text);
-    put_prefixed(t, name->text, (size_t)name->length);
-    fputs(strstr(language_reserved, spaced) ? "_" : "", t->file);
-}
-
-/* All declarations begin with the prefix. */
-static void put_declared(const translation *t, const declaration *d)
-{
-    const word *name = &t->word[d->name];
-    if (strncmp(name->text, "vndf_", 5) != 0 && strncmp(name->text, "VNDF_", 5) != 0)
-        fputs(d->kind == CONSTANT ? t->upper : t->lower, t->file);
-    put_prefixed(t, name->text, (size_t)name->length);
-}
-
 static int is_same(const translation *t, int a, int b)
 {
     const word *v = &t->word[a], *w = &t->word[b];
     return v->length == w->length && memcmp(v->text, w->text, (size_t)v->length) == 0;
 }
 
-static declaration *declared(translation *t, int name)
+/* The declaration of that name, if it is of one of these kinds (1 << FUNCTION ...), or NULL. */
+static declaration *declared(translation *t, int name, int kinds)
 {
-    int i = 0;
-    while (i < t->count && !is_same(t, t->at[i].name, name))
-        i++;
-    return i < t->count ? &t->at[i] : NULL;
+    for (declaration *d = t->at; d < t->at + t->count; d++)
+        if (is_same(t, d->name, name))
+            return kinds >> d->kind & 1 ? d : NULL;
+    return NULL;
+}
+
+/* Declarations, of these kinds, begin with the prefix; a variable or a member must not be a word of the language. */
+static void put_name(translation *t, int name, int kinds)
+{
+    const word *w = &t->word[name];
+    const declaration *d = declared(t, name, kinds);
+    char spaced[80];
+    snprintf(spaced, sizeof spaced, " %.*s ", w->length, w->text);
+    if (d && strncmp(w->text, "vndf_", 5) != 0 && strncmp(w->text, "VNDF_", 5) != 0)
+        fputs(d->kind == CONSTANT ? t->upper : t->lower, t->file);
+    put_prefixed(t, w->text, (size_t)w->length);
+    fputs(!d && strstr(language_reserved, spaced) ? "_" : "", t->file);
+}
+
+/* What the language has for a type, *length characters, or NULL. */
+static const char *own_type(const translation *t, int type, int *length)
+{
+    return language_word(t->to, t->word[type].text, t->word[type].length, ": ", length);
 }
 
 static int is_struct(translation *t, int type)
 {
-    const declaration *d = declared(t, type);
-    return d && d->kind == STRUCT;
+    int length;
+    return declared(t, type, 1 << STRUCT) && !own_type(t, type, &length);
 }
 
 static void put_words(translation *t, int at, int end);
 static void put_parameters(translation *t, const declaration *d);
-
-static void put_type(translation *t, int type)
-{
-    const word *w = &t->word[type];
-    int length;
-    const char *own = language_word(t->to, w->text, w->length, ": ", &length);
-    if (own)
-        put_prefixed(t, own, (size_t)length);
-    else if (is_struct(t, type))
-        put_declared(t, declared(t, type));
-    else
-        put_name(t, w);
-}
 
 /* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
 static void put_argument(translation *t, int call, int i, const char *signs)
@@ -94,8 +83,11 @@ static void put_argument(translation *t, int call, int i, const char *signs)
     for (; i > 0; i--)
         at = word_find(t, at, close, ",") + 1;
     end = word_find(t, at, close, ",");
-    for (int sign = at; sign<end; sign = t->word[sign].other> sign ? t->word[sign].other + 1 : sign + 1)
-        brackets |= t->word[sign].kind == WORD_SIGN && strchr(signs, *t->word[sign].text);
+    for (int next = at; next < end;) {
+        const word *w = &t->word[next];
+        brackets |= w->kind == WORD_SIGN && strchr(signs, *w->text);
+        next = w->other > next ? w->other + 1 : next + 1;
+    }
     fputs(brackets ? "(" : "", t->file);
     put_words(t, at, end);
     fputs(brackets ? ")" : "", t->file);
@@ -104,15 +96,21 @@ static void put_argument(translation *t, int call, int i, const char *signs)
 /* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
 static void put_own(translation *t, const char *own, int length, const declaration *d, int type, int name)
 {
-    for (const char *at = own, *end = own + length, *plain; at < end; at++) {
+    int type_length;
+    for (const char *at = own, *end = own + length, *plain, *type_is; at < end; at++) {
         for (plain = at; at < end && *at != '$'; at++)
             ;
         put_prefixed(t, plain, (size_t)(at - plain));
         switch (at < end ? *++at : ' ') {
         case ' ': break;
-        case 'T': put_type(t, type); break;
-        case 'V': put_name(t, &t->word[name]); break;
-        case 'D': put_declared(t, d); break;
+        case 'T':
+            if ((type_is = own_type(t, type, &type_length)) != NULL)
+                put_prefixed(t, type_is, (size_t)type_length);
+            else
+                put_name(t, type, 1 << STRUCT);
+            break;
+        case 'V': put_name(t, name, 0); break;
+        case 'D': put_name(t, d->name, 1 << d->kind); break;
         case 'P': put_parameters(t, d); break;
         case 'N': put_words(t, name + 2, d && d->kind == CONSTANT ? d->end : name + 3); break;
         default: put_argument(t, name, *at - '1', length == 2 ? "+-*/&|<>" : "&|<>");
@@ -159,17 +157,14 @@ static const char *own_call(const translation *t, int name, int *length)
 static int put_call(translation *t, int name)
 {
     const int close = t->word[name + 1].other;
-    const declaration *d = declared(t, name);
+    const declaration *d = declared(t, name, 1 << FUNCTION);
     int length;
     const char *own = own_call(t, name, &length);
     if (own) {
         put_own(t, own, length, NULL, 0, name);
         return close + 1;
     }
-    if (d && d->kind == FUNCTION)
-        put_declared(t, d);
-    else
-        put_name(t, &t->word[name]);
+    put_name(t, name, 1 << FUNCTION);
     fputs(!d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
     put_words(t, name + 2, close);
     fputs(")", t->file);
@@ -188,36 +183,24 @@ static void put_gap(const translation *t, int at)
     }
 }
 
-static int put_word(translation *t, int at)
-{
-    const word *w = &t->word[at];
-    if (w->kind == WORD_NUMBER) {
-        put_number(t, w);
-    } else if (w->kind == WORD_NAME && !word_is(w - 1, ".")) {
-        if (word_is(w + 1, "(") && !word_is(w, "return"))
-            return put_call(t, at);
-        const declaration *d = declared(t, at);
-        if (d && (d->kind == CONSTANT || d->kind == ARRAY))
-            put_declared(t, d);
-        else
-            put_name(t, w);
-    } else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
-               !memchr(w[1].text, '.', (size_t)w[1].length)) {
-        fputs("//", t->file); /* of whole numbers */
-    } else if (t->indents && word_is(w, "&&")) {
-        fputs("and", t->file);
-    } else {
-        put_name(t, w);
-    }
-    return at + 1;
-}
-
 static void put_words(translation *t, int at, int end)
 {
-    for (int from = at; at < end;) {
+    for (int from = at; at < end; at++) {
+        const word *w = &t->word[at];
+        const int is_member = word_is(w - 1, "."), is_call = word_is(w + 1, "(") && w->kind == WORD_NAME;
         if (at > from)
             put_gap(t, at);
-        at = put_word(t, at);
+        if (w->kind == WORD_NUMBER)
+            put_number(t, w);
+        else if (is_call && !is_member && !word_is(w, "return"))
+            at = put_call(t, at) - 1;
+        else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
+                 !memchr(w[1].text, '.', (size_t)w[1].length))
+            fputs("//", t->file); /* of whole numbers */
+        else if (t->indents && word_is(w, "&&"))
+            fputs("and", t->file);
+        else
+            put_name(t, at, is_member ? 0 : 1 << CONSTANT | 1 << ARRAY);
     }
 }
 
@@ -280,7 +263,7 @@ static void put_variables(translation *t, int type, int end, int members)
         if (first || t->apart)
             put_form(t, word_is(&t->word[name + 1], "[") ? "SEVERAL" : "TYPED", NULL, type, name);
         else
-            put_name(t, &t->word[name]);
+            put_name(t, name, 0);
         if (word_is(&t->word[name + 1], "=")) {
             fputs(" = ", t->file);
             put_value(t, type, name + 2, stop);
@@ -349,8 +332,7 @@ static int put_for(translation *t, int at)
 {
     const int close = t->word[at + 1].other, first = word_find(t, at + 2, close, ";"),
               second = word_find(t, first + 1, close, ";");
-    const declaration *end = declared(t, first + 3);
-    if (end && end->kind == CONSTANT && t->to->is & LANGUAGE_UNROLLS)
+    if (declared(t, first + 3, 1 << CONSTANT) && t->to->is & LANGUAGE_UNROLLS)
         fprintf(t->file, "#pragma unroll\n%*s", indent_of(t, at), "");
     if (t->indents) {
         put_own(t, "for $V in range(", 16, NULL, 0, at + 3);
@@ -464,12 +446,13 @@ static void want(translation *t, declaration *d)
         return;
     d->wanted = 1;
     for (int i = d->kind == CONSTANT ? d->end : d->begin, length; i < d->end; i++) {
-        declaration *of = word_is(&t->word[i - (i > 0)], ".") ? NULL : declared(t, i);
+        const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
+        declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
         d->fetches |= word_is(&t->word[i], "fetch");
-        if (!of || of == d || (of->kind == FUNCTION && !word_is(&t->word[i + 1], "(")) || own_call(t, i, &length))
-            continue;
-        want(t, of);
-        d->fetches |= of->fetches;
+        if (of && of != d && !own_call(t, i, &length) && !own_type(t, i, &length)) {
+            want(t, of);
+            d->fetches |= of->fetches;
+        }
     }
 }
 

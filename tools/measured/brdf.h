@@ -69,23 +69,7 @@ typedef struct reflectance {
 /* 0 if the probes do not tell. */
 int model_reflectance(const probe *probes, size_t count, reflectance *found);
 
-/* ---- RGL ----------------------------------------------------------------------------------------- */
-
-/* The .bsdf files of EPFL's realistic graphics lab (J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient
- * Material Acquisition and Rendering", TOG 37(6), 2018): tensor files that Mitsuba 3 (plugin `measured`) and pbrt-v4
- * render.
- *
- * An angle theta from z stands at u = sqrt(2 theta/pi), an azimuth phi at (phi + pi)/(2 pi); of an isotropic material
- * azimuths of normals are counted from wi. The fields are
- *
- *     theta_i [n], phi_i [1]     incident directions, radians
- *     ndf [2][.]                 D over u: the material's own, at any scale
- *     sigma [2][.]               projected area A over u of wi, at the same scale
- *     vndf [1][n][phi][theta]    density of visible normals over the unit square of (u, v)
- *     luminance, rgb or spectra  [1][n](channels)[y][x]: what is reflected over what single scattering without masking
- *                                of wo would, f cos_o 4 A / D, at the normal where the vndf's warp sends (x, y)
- *     wavelengths                of spectra, nm
- *     jacobian [1] = 1           rgb and spectra are still to be multiplied by D/(4 A) */
+/* ---- files; rgl.c and merl.c say what they hold ---- */
 
 #define RGL_ANISOTROPY_MOST 0.05
 
@@ -109,26 +93,6 @@ typedef struct rgl_form {
 /* Writes single scattering of the distribution to an open file; 0 if there is no memory, or that
  * fails. Some 3 MiB for three channels. */
 int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form *form);
-
-/* ---- MERL ---------------------------------------------------------------------------------------- */
-
-/* MERL files (W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003): three
- * numbers of 32 bits, 90 90 180 (or 360), then red, green and blue, each 90 x 90 x 180 doubles, the azimuth fastest;
- * all with the least byte first. f is a number times 1/1500, 1.15/1500 and 1.66/1500. Its bins, counted from the half
- * vector h: theta_h even in its square root from 0 to 90 degrees, theta_d even, phi_d even over half a turn. A number
- * is taken as f in the middle of its bin, and masked with heights correlated.
- *
- * D comes from what the surface sends back to where the light came from, by power iteration (J. Dupuy, E. Heitz,
- * J.-C. Iehl, P. Poulin, V. Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with
- * Power Iterations", EGSR 2015). There m = wi = wo, and the model has f = F0 D(w) / (4 cos (2 A(w)
- * - cos)). Now 2 A(w) - cos is the integral of |w.m| D(m) dm, so that
- *
- *     F0 D(w) = 4 cos f(w) integral |w.m| D(m) dm:
- *
- * D is an eigenvector, and F0 its eigenvalue, where D has the integral 1 over the projected hemisphere. (The paper
- * has the positive part of w.m in the place of |w.m|: it takes masking along the way in and along the same way out as
- * one event. Which of the two holds is a property of the surface; this is the one that the model of all files here
- * has.) */
 
 typedef enum merl_channel { MERL_RED, MERL_GREEN, MERL_BLUE, MERL_LUMINANCE } merl_channel;
 

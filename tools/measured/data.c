@@ -38,20 +38,15 @@ uint64_t little_whole(const unsigned char *at, size_t bytes)
     return value;
 }
 
-double little_float(const unsigned char *at)
+double little_number(const unsigned char *at, size_t bytes)
 {
-    uint32_t bits = (uint32_t)little_whole(at, 4);
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return (double)value;
-}
-
-double little_double(const unsigned char *at)
-{
-    uint64_t bits = little_whole(at, 8);
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
+    const uint64_t bits = little_whole(at, bytes);
+    const uint32_t low = (uint32_t)bits;
+    float narrow;
+    double wide;
+    memcpy(&narrow, &low, sizeof narrow);
+    memcpy(&wide, &bits, sizeof wide);
+    return bytes == 4 ? (double)narrow : wide;
 }
 
 void put_little(FILE *file, uint64_t value, size_t bytes)
@@ -64,17 +59,14 @@ void put_little(FILE *file, uint64_t value, size_t bytes)
 
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count, data_file *file)
 {
-    *made = (profile){over, of, count, calloc(count, sizeof(double)), calloc(count, sizeof(double))};
-    if (made->x && made->value)
-        return 1;
-    profile_free(made);
-    return refuse(file, "there is no memory for %zu rows", count);
+    double *x = calloc(2 * count, sizeof *x);
+    *made = (profile){over, of, x ? count : 0, x, x ? x + count : NULL};
+    return x != NULL || refuse(file, "there is no memory for %zu rows", count);
 }
 
 void profile_free(profile *freed)
 {
     free(freed->x);
-    free(freed->value);
     *freed = (profile){freed->over, freed->of, 0, NULL, NULL};
 }
 

@@ -25,17 +25,16 @@ int refuse(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
 /* Adds a line, unless it does not fit. */
 void note(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
 
-/* Numbers with the least byte first. */
+/* Numbers with the least byte first: whole ones, and floats of 4 or 8 bytes. */
 uint64_t little_whole(const unsigned char *at, size_t bytes);
-double little_float(const unsigned char *at);
-double little_double(const unsigned char *at);
+double little_number(const unsigned char *at, size_t bytes);
 void put_little(FILE *file, uint64_t value, size_t bytes);
 
 typedef struct profile {
     vndf_rows_over over;
     vndf_rows_of of;
     size_t count;
-    double *x, *value; /* owned */
+    double *x, *value; /* owned, one behind the other */
 } profile;
 
 /* Room for `count` rows of zeros. 0 and the reason if there is no memory. */

@@ -1,3 +1,20 @@
+/* MERL files (W. Matusik, H. Pfister, M. Brand, L. McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003): three
+ * numbers of 32 bits, 90 90 180 (or 360), then red, green and blue, each 90 x 90 x 180 doubles, the azimuth fastest;
+ * all with the least byte first. f is a number times 1/1500, 1.15/1500 and 1.66/1500. Its bins, counted from the half
+ * vector h: theta_h even in its square root from 0 to 90 degrees, theta_d even, phi_d even over half a turn. A number
+ * is taken as f in the middle of its bin, and masked with heights correlated.
+ *
+ * D comes from what the surface sends back to where the light came from, by power iteration (J. Dupuy, E. Heitz,
+ * J.-C. Iehl, P. Poulin, V. Ostromoukhov, "Extracting Microfacet-based BRDF Parameters from Arbitrary Materials with
+ * Power Iterations", EGSR 2015). There m = wi = wo, and the model has f = F0 D(w) / (4 cos (2 A(w)
+ * - cos)). Now 2 A(w) - cos is the integral of |w.m| D(m) dm, so that
+ *
+ *     F0 D(w) = 4 cos f(w) integral |w.m| D(m) dm:
+ *
+ * D is an eigenvector, and F0 its eigenvalue, where D has the integral 1 over the projected hemisphere. (The paper
+ * has the positive part of w.m in the place of |w.m|: it takes masking along the way in and along the same way out as
+ * one event. Which of the two holds is a property of the surface; this is the one that the model of all files here
+ * has.) */
 #include "measured/brdf.h"
 
 #include <math.h>
@@ -38,7 +55,7 @@ static double value_at(const search *s, int half, int difference, int azimuth)
     for (int i = 0; i < 3; i++) {
         if (s->channel != MERL_LUMINANCE && s->channel != (merl_channel)i)
             continue;
-        double value = little_double(s->numbers + 8 * (at + (size_t)i * plane)) * unit_of[i];
+        double value = little_number(s->numbers + 8 * (at + (size_t)i * plane), 8) * unit_of[i];
         if (!(value >= 0) || !(value < 1e30))
             return -1;
         sum += (s->channel == MERL_LUMINANCE ? of_luminance[i] : 1) * value;

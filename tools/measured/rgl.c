@@ -1,4 +1,16 @@
-/* A .bsdf in and out; brdf.h says what its fields are.
+/* The .bsdf files of EPFL's realistic graphics lab (J. Dupuy, W. Jakob, "An Adaptive Parameterization for Efficient
+ * Material Acquisition and Rendering", TOG 37(6), 2018): tensor files that Mitsuba 3 (plugin `measured`) and pbrt-v4
+ * render. An angle theta from z stands at u = sqrt(2 theta/pi), an azimuth phi at (phi + pi)/(2 pi); of an isotropic
+ * material azimuths of normals are counted from wi.
+ *
+ *     theta_i [n], phi_i [1]     incident directions, radians
+ *     ndf [2][.]                 D over u: the material's own, at any scale
+ *     sigma [2][.]               projected area A over u of wi, at the same scale
+ *     vndf [1][n][phi][theta]    density of visible normals over the unit square of (u, v)
+ *     luminance, rgb or spectra  [1][n](channels)[y][x]: what is reflected over what single scattering without masking
+ *                                of wo would, f cos_o 4 A / D, at the normal where the vndf's warp sends (x, y)
+ *     wavelengths                of spectra, nm
+ *     jacobian [1] = 1           rgb and spectra are still to be multiplied by D/(4 A)
  *
  * In: D, and how well the model explains the light that the file holds beside it.
  *

@@ -1,4 +1,17 @@
-#include "measured/slopes.h"
+/* The law of slopes of a surface that was measured: P22 over the slope length, whether it is isotropic, and how sure
+ * all that is.
+ *
+ * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s
+ * s^T / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
+ * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken
+ * as isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this
+ * matrix.
+ *
+ * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
+ * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
+ * longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from the spread between 64
+ * parts of the surface: neighbouring slopes are not independent, parts nearly are. */
+#include "measured/surface.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -6,15 +19,8 @@
 
 #include "cli/sort.h"
 
-enum {
-    BINS_MOST = 96,
-    BINS_LEAST = 4,
-    TAIL_LEAST = 100,
-    RINGS = 8,
-    SECTORS = 12,
-    SHAPE_STEPS = 60,
-    FIT_STEPS = 40
-};
+enum { BINS_MOST = 96, BINS_LEAST = 4, TAIL_LEAST = 100, RINGS = 8, SECTORS = 12 };
+enum { SHAPE_STEPS = 60, FIT_STEPS = 40 };
 
 static const double pi = 3.14159265358979323846;
 static const double RATIO_MOST = 100;                    /* of the axes of the shape */

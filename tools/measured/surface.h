@@ -1,8 +1,37 @@
-/* Surfaces that were measured: heights on a grid, or normals, and their slopes. */
+/* Surfaces that were measured: heights on a grid, or normals; their slopes, and the law of these. */
 #ifndef TOOLS_MEASURED_SURFACE_H
 #define TOOLS_MEASURED_SURFACE_H
 
-#include "measured/slopes.h"
+#include "measured/data.h"
+
+enum { SLOPE_PARTS = 64, SLOPES_LEAST = 1000 };
+
+/* Slopes of points of a surface, and the part of it, 0 to SLOPE_PARTS - 1, where each lies. */
+typedef struct slope {
+    float x, y;
+    int part;
+} slope;
+
+typedef struct slope_set {
+    slope *at; /* owned; room for as many as were asked for */
+    size_t count;
+    double quantum; /* the least difference that slopes can have, 0 of floats: no bin is narrower than two */
+} slope_set;
+
+/* Room for `room` slopes, none of them there. */
+int slopes_make(slope_set *made, size_t room, data_file *file);
+void slopes_free(slope_set *freed);
+void slopes_add(slope_set *to, double x, double y, int part);
+
+/* Turns the slopes into u, notes what was found, and makes rows of P22 over |u|. Refused are fewer than SLOPES_LEAST
+ * slopes, and such as are all alike or lie on a line. */
+int slopes_law(slope_set *slopes, data_file *file, profile *rows);
+
+/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given.
+ */
+double slope_mass(const vndf_source *source, double from, double to);
+
+/* ---- files ---- */
 
 enum { SURFACE_SIDE_MAX = 16384, SURFACE_MAX = 1 << 24, CUTOFF_MAX = 256 };
 

@@ -22,7 +22,7 @@ size_t tensor_count(const tensor *of)
 
 double tensor_at(const tensor *of, size_t i)
 {
-    return little_float((const unsigned char *)of->data + 4 * i);
+    return little_number((const unsigned char *)of->data + 4 * i, 4);
 }
 
 /* The numbers of a field whose dimensions begin at byte `at`: 0 and the reason if they do not fit the file. */
@@ -116,11 +116,10 @@ int tensor_write(FILE *file, const tensor *fields, size_t count)
 int warp_make(warp *made, const double *density, int width, int height)
 {
     size_t w = (size_t)width, h = (size_t)height;
-    *made = (warp){width, height, density, calloc(w * h, sizeof(double)), calloc(h, sizeof(double))};
-    if (!made->along || !made->up) {
-        warp_free(made);
+    double *along = calloc((w + 1) * h, sizeof *along);
+    if (!along)
         return 0;
-    }
+    *made = (warp){width, height, density, along, along + w * h};
     for (size_t y = 0; y < h; y++) {
         const double *row = density + y * w;
         double *sum = made->along + y * w;
@@ -138,7 +137,6 @@ int warp_make(warp *made, const double *density, int width, int height)
 void warp_free(warp *freed)
 {
     free(freed->along);
-    free(freed->up);
     freed->along = freed->up = NULL;
 }
 

@@ -40,7 +40,7 @@ typedef struct warp {
     int width, height;
     const double *density; /* height rows of width; the caller's, >= 0 */
     double *along;         /* owned: the integral of each row up to each point, in units of a cell */
-    double *up;            /* owned: the integral of the row sums up to each row */
+    double *up;            /* behind it: the integral of the row sums up to each row */
 } warp;
 
 /* 0 if there is no memory, or the density is 0 everywhere. Both sides are 2 at least. */

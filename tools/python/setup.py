@@ -1,5 +1,5 @@
-"""Puts into the package the C library, its headers, and its kernel in Python, which vndf.mitsuba runs: the files that the
-environment variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder.
+"""Puts into the package the C library, its headers, and its kernel in Python, which vndf.mitsuba runs: the files that
+the environment variables VNDF_LIBRARY and VNDF_KERNEL name, or what CMake builds from the checkout around this folder.
 pyproject.toml has everything else."""
 from __future__ import annotations
 
@@ -28,13 +28,11 @@ if not (SOURCE / "include" / "vndf.h").exists():
 
 def build(folder: pathlib.Path) -> tuple[pathlib.Path, pathlib.Path]:
     """Library and kernel, in a folder outside the checkout: what CMake leaves would be sources under tools/."""
-    cmake = ["cmake", "-S", SOURCE, "-B", folder, "-DCMAKE_BUILD_TYPE=Release", "-DVNDF_BUILD_TESTS=OFF"]
-    subprocess.run(cmake, check=True)
-    build = ["cmake", "--build", folder, "--config", "Release", "--parallel", str(os.cpu_count())]
-    subprocess.run([*build, "--target", "vndf", "vndf_write_kernel"], check=True)
-    program = next(path for path in folder.rglob("vndf_write_kernel*") if path.is_file() and os.access(path, os.X_OK))
-    subprocess.run([program, folder / "_kernel.py"], check=True)
-    return next(folder.rglob(NAME)), folder / "_kernel.py"
+    options = ["-DCMAKE_BUILD_TYPE=Release", "-DVNDF_BUILD_TESTS=OFF"]
+    subprocess.run(["cmake", "-S", SOURCE, "-B", folder, *options], check=True)
+    target = ["--config", "Release", "--parallel", str(os.cpu_count()), "--target", "vndf", "vndf_kernel"]
+    subprocess.run(["cmake", "--build", folder, *target], check=True)
+    return next(folder.rglob(NAME)), folder / "exported" / "_kernel.py"
 
 
 class BuildWithLibrary(build_py):
@@ -47,7 +45,8 @@ class BuildWithLibrary(build_py):
             shutil.copyfile(library, package / NAME)
             shutil.copyfile(kernel, package / "_kernel.py")
         if not self.editable_mode:  # they are found in the checkout
-            shutil.copytree(SOURCE / "include", package / "include", dirs_exist_ok=True)
+            headers = shutil.ignore_patterns(".*", "*.hpp")
+            shutil.copytree(SOURCE / "include", package / "include", ignore=headers, dirs_exist_ok=True)
 
 
 class PlatformWheel(bdist_wheel):

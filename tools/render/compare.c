@@ -1,4 +1,4 @@
-#include "render/compare.h"
+#include "render/film.h"
 
 #include <stdlib.h>
 

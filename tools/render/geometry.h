@@ -45,10 +45,8 @@ void geometry_free(geometry *g);
 
 /* ---- meshes ---- */
 
-/* Add triangles of a material: of a torus knot that stands within [-0.85, 1.03] x [-0.45, 0.45] x [-0.98, 0.98] (0 if
- * there is no memory); of an OBJ file, or its `length` bytes with a 0 behind them, which messages call `name` (0 and
- * "NAME:LINE: what is wrong", and then none is added). Files that are not trusted are safe. */
-int knot_add(geometry *g, int material);
+/* Adds the triangles of an OBJ file, or its `length` bytes with a 0 behind them, which errors call `name`. 0 and
+ * "NAME:LINE: what is wrong", and then none is added. Files that are not trusted are safe. */
 int obj_read(geometry *g, const char *path, int material, vndf_error *error);
 int obj_read_text(geometry *g, const char *name, const char *text, size_t length, int material, vndf_error *error);
 

@@ -39,7 +39,6 @@ const char scene_grammar[] =
     "with for ROUGH:\n"
     "  distribution ggx | beckmann | table FILE.vndf | family NAME:PARAMETERS | slope \"P22(r)\"\n"
     "               | ndf \"D(c, theta, t)\"    the last three are built here, see `vndf build --help`\n"
-    "  [bytes COUNT]                          of a table that is built (4096)\n"
     "  [alpha A | alpha AX AY]                stretches the slopes; ggx and beckmann need it (1)\n"
     "  [alpha-map IMAGE]                      alpha times the image's red, which is above 0\n"
     "  [scattering single|multiple]           multiple: light goes on between microfacets (single)\n"
@@ -51,9 +50,8 @@ const char scene_grammar[] =
     "  sphere centre X Y Z radius R material NAME\n"
     "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
     "                          edges at right angles; from the front, edge-v is left of edge-u\n"
-    "  mesh file FILE.obj | pattern knot [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
+    "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
     "                          scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
     "\n"
     "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to\n"
-    "1, maps of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000; bytes\n"
-    "2048 to 1048576.\n";
+    "1, maps of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000.\n";

@@ -73,7 +73,7 @@ int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsi
     vsnprintf(text + used, size - used, format, list);
     va_end(list);
     for (; *text; text++)
-        *text = *text >= ' ' && *text < 127 ? *text : '?';
+        *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
     error->status = VNDF_ERROR_SYNTAX;
     return 0;
 }

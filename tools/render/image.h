@@ -43,8 +43,8 @@ int image_make_pattern(image *made, const char *name, int width, int height, vnd
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image, float exposure);
 
-/* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Bytes that
- * cannot be printed become '?'. Returns 0. */
+/* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Control
+ * characters become '?'. Returns 0. */
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
               ...) PRINTF_LIKE(5, 6);
 

@@ -5,7 +5,7 @@
  * Pixels count by the mean luminance of 3 x 3 of them, so that the density is positive wherever the image, which
  * is interpolated between pixels, is. An image that is nearly even is not drawn: every direction finds its light.
  */
-#include "render/light.h"
+#include "render/scene.h"
 
 #include <stdlib.h>
 

@@ -14,7 +14,6 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
-#include "render/light.h"
 
 enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
 
@@ -23,7 +22,7 @@ const char *const path_sampler_names[SAMPLERS + 1] = {"visible", "all", "perfect
 struct path_plan {
     const scene *scene;
     path_sampler sampler;
-    vndf_material *materials;
+    vndf_material materials[SCENE_MATERIALS_MAX];
     vec3 corner, right, down; /* of the film at distance 1 from the eye: pixels are at corner + x right + y down */
 };
 
@@ -231,39 +230,33 @@ static int survives(walk *w)
     return 1;
 }
 
-static void trace(walk *w)
-{
-    const scene *s = w->plan->scene;
-    const int is_lit = lights_any(s);
-    surface p;
-    hit h;
-    for (unsigned count = 1;; count++) {
-        w->counts->rays++;
-        const int is_met = geometry_hit(&s->geometry, &w->ray, &h);
-        if (!is_met || s->materials[h.shape->material].kind == MATERIAL_LIGHT) {
-            meet_light(w, is_met ? &h : NULL);
-            return;
-        }
-        if (count > s->depth || !begin(&p, w->plan, &h, w->ray.direction))
-            return;
-        if (is_lit)
-            reach_light(w, &p, &h);
-        if (!go_on(w, &p, &h) || (count >= ROULETTE && !survives(w)))
-            return;
-    }
-}
-
 /* The random numbers of a path are a stream of their own: a hash of seed, pixel and index. */
 void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
                 float rgb[3])
 {
-    const uint64_t pixel = (uint64_t)y * (uint64_t)plan->scene->width + (uint64_t)x;
+    const scene *s = plan->scene;
+    const uint64_t pixel = (uint64_t)y * (uint64_t)s->width + (uint64_t)x;
     walk w = {.plan = plan, .counts = counts, .throughput = {1, 1, 1}, .carried = 1};
+    surface p;
+    hit h;
     w.random = random_from(random_from(random_from(seed).start ^ pixel).start ^ index);
     const double dx = random_double(&w.random), dy = random_double(&w.random);
-    w.ray = (ray){plan->scene->from, unit(along(along(plan->corner, x + dx, plan->right), y + dy, plan->down)),
-                  HUGE_VAL};
-    trace(&w);
+    const vec3 to = along(along(plan->corner, x + dx, plan->right), y + dy, plan->down);
+    w.ray = (ray){s->from, unit(to), HUGE_VAL};
+    for (unsigned count = 1;; count++) {
+        w.counts->rays++;
+        const int is_met = geometry_hit(&s->geometry, &w.ray, &h);
+        if (!is_met || s->materials[h.shape->material].kind == MATERIAL_LIGHT) {
+            meet_light(&w, is_met ? &h : NULL);
+            break;
+        }
+        if (count > s->depth || !begin(&p, plan, &h, w.ray.direction))
+            break;
+        if (lights_any(s))
+            reach_light(&w, &p, &h);
+        if (!go_on(&w, &p, &h) || (count >= ROULETTE && !survives(&w)))
+            break;
+    }
     const int is_good = fabs(w.radiance[0]) + fabs(w.radiance[1]) + fabs(w.radiance[2]) < (double)FLT_MAX;
     counts->lost += !is_good;
     for (int i = 0; i < 3; i++)
@@ -275,36 +268,26 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
 path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error)
 {
     path_plan *plan = calloc(1, sizeof *plan);
-    vndf_material *materials = calloc(s->material_count + 1, sizeof *materials);
-    int good = plan && materials;
-    if (!good)
-        refuse_at(error, "materials", 0, 0, "there is no memory for %zu", s->material_count);
-    for (size_t i = 0; i < s->material_count && good; i++) {
+    if (!plan)
+        return refuse_at(error, "materials", 0, 0, "there is no memory for %zu", s->material_count), NULL;
+    for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
         vndf_description is = m->is;
         vndf_error why = {VNDF_OK, ""};
         is.effects.normals = sampler == SAMPLER_ALL ? VNDF_NORMALS_ALL : VNDF_NORMALS_VISIBLE;
-        good = m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &materials[i], &why) == VNDF_OK;
-        if (!good)
-            snprintf(error->message, sizeof error->message, "material '%s' cannot have the sampler '%s': %.300s",
-                     m->name, path_sampler_names[sampler], why.message);
-    }
-    if (!good) {
-        free(materials);
+        if (m->kind != MATERIAL_ROUGH || vndf_material_resolve(&is, &plan->materials[i], &why) == VNDF_OK)
+            continue;
         free(plan);
+        snprintf(error->message, sizeof error->message, "material '%s' cannot have the sampler '%s': %.300s",
+                 m->name, path_sampler_names[sampler], why.message);
         return NULL;
     }
     const vec3 forward = unit(subtract(s->to, s->from)), right = unit(cross(forward, s->up));
     const double step = 2 * tan(0.5 * s->field) / s->height;
-    *plan = (path_plan){.scene = s, .sampler = sampler, .materials = materials, .right = scale(right, step)};
+    plan->scene = s;
+    plan->sampler = sampler;
+    plan->right = scale(right, step);
     plan->down = scale(cross(forward, right), step);
     plan->corner = along(along(forward, -0.5 * s->width, plan->right), -0.5 * s->height, plan->down);
     return plan;
-}
-
-void path_free(path_plan *plan)
-{
-    if (plan)
-        free(plan->materials);
-    free(plan);
 }

@@ -12,10 +12,9 @@ extern const char *const path_sampler_names[SAMPLERS + 1]; /* NULL at the end */
 
 typedef struct path_plan path_plan;
 
-/* Resolves the materials of a scene, which must outlive the plan, with a sampler. NULL and an error if one of them
- * cannot have it. */
+/* Resolves the materials of a scene, which must outlive the plan, with a sampler; to be freed. NULL and an error if
+ * one of them cannot have it. */
 path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error);
-void path_free(path_plan *plan);
 
 /* Counters of one thread. */
 typedef struct path_counts {

@@ -12,14 +12,12 @@
 
 #include "cli/arguments.h"
 #include "cli/files.h"
-#include "render/light.h"
 #include "vndf_build.h"
 
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
-    STATEMENT_MAX = 64, /* words */
-    MATERIALS_MAX = 4096,
+    STATEMENT_MAX = 64,               /* words */
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
 
@@ -83,7 +81,6 @@ static const key keys[] = {
     {"dielectric", "index", "N", NUMBERS, 1, 1, 0.01, 100, NEEDED, NULL},
     {"rough", "distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", WORDS, 1, 2, 0, 0,
      NEEDED, NULL},
-    {"rough", "bytes", "COUNT", WHOLE, 1, 1, 2048, 1 << 20, MAY_BE, NULL},
     {"rough", "alpha", "A or AX AY", NUMBERS, 1, 2, 1e-6, 1e3, MAY_BE, NULL},
     {"rough", "alpha-map", "IMAGE", NAME, MAY_BE, NULL},
     {"rough", "scattering", "single|multiple", NAME, MAY_BE, NULL},
@@ -97,8 +94,7 @@ static const key keys[] = {
     {"rectangle", "corner", PLACE, NEEDED, NULL},
     {"rectangle", "edge-u", PLACE, NEEDED, NULL},
     {"rectangle", "edge-v", PLACE, NEEDED, NULL},
-    {"mesh", "file", "PATH", NAME, OR, "pattern"},
-    {"mesh", "pattern", "knot", NAME, MAY_BE, NULL},
+    {"mesh", "file", "PATH", NAME, NEEDED, NULL},
     {"mesh", "scale", "FACTOR", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
     {"mesh", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, MAY_BE, NULL},
     {"mesh", "move", PLACE, MAY_BE, NULL},
@@ -115,12 +111,11 @@ typedef struct reader {
     size_t count;
     clause clause[CLAUSES_MAX]; /* of all its keys */
     size_t clauses;
-    unsigned seen;                                                   /* a bit for each statement */
-    const char *images[SCENE_IMAGES_MAX], *materials[MATERIALS_MAX]; /* their names */
-    size_t pixels;                                                   /* of all images so far */
+    unsigned seen;                                                         /* a bit for each statement */
+    const char *images[SCENE_IMAGES_MAX], *materials[SCENE_MATERIALS_MAX]; /* their names */
+    size_t pixels;                                                         /* of all images so far */
     struct made_table {
         size_t form;
-        unsigned bytes;
         const char *text;
     } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
 } reader;
@@ -347,38 +342,29 @@ static int find_image(reader *r, const char *name, const char *what, int channel
 
 /* ---- once in a scene ---- */
 
-static int read_film(reader *r)
+/* The film, the camera or the integrator: what the others set stays. */
+static int read_view(reader *r)
 {
     scene *s = r->made;
-    s->width = (int)number_of(r, "width", 0);
-    s->height = (int)number_of(r, "height", 0);
-    return (int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
-           refuse(r, clause_of(r, "width")->at, "%d x %d pixels are more than %d", s->width, s->height,
-                  IMAGE_PIXELS_MAX);
-}
-
-static int read_camera(reader *r)
-{
-    scene *s = r->made;
-    const clause *up = clause_of(r, "up");
+    const clause *to = clause_of(r, "to"), *up = clause_of(r, "up");
+    s->width = (int)number_of(r, "width", s->width);
+    s->height = (int)number_of(r, "height", s->height);
+    s->depth = (unsigned)number_of(r, "depth", s->depth);
+    s->samples = (unsigned)number_of(r, "samples", s->samples);
+    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
+    if ((int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
+        return refuse(r, &r->list[0], "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
+    if (!to->at)
+        return 1;
     s->from = vector_of(r, "from");
     s->to = vector_of(r, "to");
     s->up = up->at ? vector_of(r, "up") : s->up;
     s->field = number_of(r, "field", 40) * (PI / 180);
     const vec3 forward = subtract(s->to, s->from);
     if (!(length(forward) >= least_size))
-        return refuse(r, clause_of(r, "to")->at, "'from' and 'to' are the same place");
+        return refuse(r, to->at, "'from' and 'to' are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
            refuse(r, up->at ? up->at : &r->list[0], "'up' is the direction of the view");
-}
-
-static int read_integrator(reader *r)
-{
-    scene *s = r->made;
-    s->depth = (unsigned)number_of(r, "depth", s->depth);
-    s->samples = (unsigned)number_of(r, "samples", s->samples);
-    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
-    return 1;
 }
 
 static int read_environment(reader *r)
@@ -417,9 +403,8 @@ static int read_image(reader *r)
 
 enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 
-static vndf_distribution *make_table(reader *r, size_t form, const word *of, unsigned bytes, vndf_error *error)
+static vndf_distribution *make_table(reader *r, size_t form, const word *of, vndf_error *error)
 {
-    const vndf_build_options options = {.max_bytes = bytes};
     if (form == TABLE) {
         char *path = path_of(r, of);
         const char *role = path ? files_note(path, 0) : NULL;
@@ -432,7 +417,7 @@ static vndf_distribution *make_table(reader *r, size_t form, const word *of, uns
     vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
                           : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
                                           : vndf_source_ndf_expression(of->text, NULL, 0, error);
-    vndf_distribution *built = source ? vndf_build(source, &options, NULL, error) : NULL;
+    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, error) : NULL;
     vndf_source_free(source);
     return built;
 }
@@ -442,15 +427,13 @@ static int read_distribution(reader *r, const vndf_distribution **found)
     static const char *const names[FORMS] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
     static const char *const takes[FORMS] = {
         "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
-    const clause *c = clause_of(r, "distribution"), *bytes = clause_of(r, "bytes");
+    const clause *c = clause_of(r, "distribution");
     const word *of = &c->value[1];
     scene *s = r->made;
     vndf_error error = {VNDF_OK, ""};
     size_t form, i = 0;
     if (!read_choice(r, c->value, "distribution", names, FORMS, &form))
         return 0;
-    if (bytes->at && form <= TABLE)
-        return refuse(r, bytes->at, "'bytes' is of tables that are made here: family, slope or ndf");
     if (c->count > 1 && form <= BECKMANN)
         return refuse(r, of, "'distribution %s' takes nothing more", names[form]);
     if (c->count < 2 && form > BECKMANN)
@@ -460,17 +443,15 @@ static int read_distribution(reader *r, const vndf_distribution **found)
         return clause_of(r, "alpha")->at ||
                refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
     }
-    /* materials with the same form, text and size share a table */
-    const struct made_table is = {form, (unsigned)number_of(r, "bytes", 4096), of->text};
-    while (i < s->table_count && (r->tables[i].form != form || r->tables[i].bytes != is.bytes ||
-                                  strcmp(r->tables[i].text, is.text) != 0))
+    /* materials with the same form and text share a table */
+    while (i < s->table_count && (r->tables[i].form != form || strcmp(r->tables[i].text, of->text) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
         return refuse(r, of, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
-        if (!(s->tables[i] = make_table(r, form, of, is.bytes, &error))) /* else path_of has refused */
+        if (!(s->tables[i] = make_table(r, form, of, &error))) /* else path_of has refused */
             return error.message[0] ? refuse(r, of, "%s", error.message) : 0;
-        r->tables[s->table_count++] = is;
+        r->tables[s->table_count++] = (struct made_table){form, of->text};
     }
     *found = s->tables[i];
     return 1;
@@ -530,7 +511,8 @@ static int read_material(reader *r)
     scene *s = r->made;
     material made = {.colour = {1.0f, 1.0f, 1.0f}};
     size_t kind;
-    if (!new_name(r, r->materials, s->material_count, MATERIALS_MAX, "material wall matte colour 0.5 0.5 0.5") ||
+    if (!new_name(r, r->materials, s->material_count, SCENE_MATERIALS_MAX,
+                  "material wall matte colour 0.5 0.5 0.5") ||
         !read_choice(r, &r->list[2], "kind of material", kinds, KINDS, &kind) ||
         !read_clauses(r, 3, kinds[kind], kind <= SHAPE ? "rough" : ""))
         return 0;
@@ -574,30 +556,21 @@ static int read_rectangle(reader *r, int of)
                      of);
 }
 
-/* A file, or the knot; it does not emit. */
 static int read_mesh(reader *r, int of)
 {
-    static const char *const patterns[] = {"knot"};
-    const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
+    const word *file = clause_of(r, "file")->value;
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
     vndf_error error = {VNDF_OK, ""};
-    size_t which;
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
-    if (pattern && !read_choice(r, pattern, "pattern of a mesh", patterns, 1, &which))
-        return 0;
-    if (pattern && !knot_add(g, of))
-        return refuse(r, &r->list[0], "there is no memory for this shape");
-    if (file) {
-        char *path = path_of(r, file);
-        const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
-        free(path);
-        if (!good)
-            return 0;
-    }
-    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
-    return 1;
+    char *path = path_of(r, file);
+    const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
+    free(path);
+    if (good)
+        geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180),
+                       vector_of(r, "move"));
+    return good;
 }
 
 /* ---- all of it ---- */
@@ -607,8 +580,8 @@ static int read_mesh(reader *r, int of)
 enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
                                               "material", "sphere", "rectangle",  "mesh"};
-static int (*const readers[NAMED])(reader *r) = {read_film,        read_camera, read_integrator,
-                                                 read_environment, read_image,  read_material};
+static int (*const readers[NAMED])(reader *r) = {read_view,        read_view,  read_view,
+                                                 read_environment, read_image, read_material};
 static int (*const shape_readers[])(reader *r, int of) = {read_sphere, read_rectangle, read_mesh};
 
 static int read_statement(reader *r)
@@ -671,24 +644,17 @@ static int finish(reader *r)
 
 scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
 {
-    scene *s = malloc(sizeof *s);
-    material *materials = calloc(MATERIALS_MAX, sizeof *materials);
+    scene *s = calloc(1, sizeof *s);
     reader r = {
         .name = name, .error = error, .made = s, .at = text, .start = text, .end = text + length, .line = 1};
-    if (!s || !materials) {
-        refuse_at(error, name, 0, 0, "there is no memory");
-        free(materials);
-        free(s);
-        return NULL;
-    }
-    *s = (scene){.up = {0, 1, 0},
-                 .width = 640,
-                 .height = 360,
-                 .depth = 12,
-                 .samples = 64,
-                 .exposure = 1.0f,
-                 .environment = {.scale = 1.0f},
-                 .materials = materials};
+    if (!s)
+        return refuse_at(error, name, 0, 0, "there is no memory"), NULL;
+    s->up = vec(0, 1, 0);
+    s->width = 640;
+    s->height = 360;
+    s->depth = 12;
+    s->samples = 64;
+    s->exposure = s->environment.scale = 1.0f;
     if (read_statements(&r) && finish(&r))
         return s;
     scene_free(s);
@@ -715,7 +681,6 @@ void scene_free(scene *s)
         image_free(&s->images[i]);
     for (size_t i = 0; i < s->table_count; i++)
         vndf_free(s->tables[i]);
-    free(s->materials);
     free(s->environment.rows);
     free(s->environment.cells);
     geometry_free(&s->geometry);

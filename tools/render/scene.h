@@ -6,7 +6,13 @@
 #include "render/image.h"
 #include "vndf_bsdf.h"
 
-enum { SCENE_NAME = 65, SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
+enum {
+    SCENE_NAME = 65,
+    SCENE_MATERIALS_MAX = 1024,
+    SCENE_LIGHTS_MAX = 64,
+    SCENE_IMAGES_MAX = 64,
+    SCENE_TABLES_MAX = 64
+};
 
 typedef enum material_kind {
     MATERIAL_ROUGH, /* vndf_bsdf.h */
@@ -47,10 +53,10 @@ typedef struct scene {
     unsigned depth, samples; /* the most surfaces on a path; a pixel */
     float exposure;          /* of the PNG */
     environment environment;
-    geometry geometry;
+    geometry geometry; /* owned, as are all below */
     emitter lights[SCENE_LIGHTS_MAX];
     size_t light_count;
-    material *materials; /* owned, as are all below */
+    material materials[SCENE_MATERIALS_MAX];
     size_t material_count;
     image images[SCENE_IMAGES_MAX];
     size_t image_count;
@@ -70,5 +76,30 @@ scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *
 int scene_resize(scene *s, int width, vndf_error *error);
 
 extern const char scene_grammar[];
+
+/* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
+
+/* Lists the lights of a scene and sums up its environment. 0 if there is no memory, or there are more than
+ * SCENE_LIGHTS_MAX lights. */
+int lights_make(scene *s);
+
+typedef struct light_sample {
+    vec3 direction;  /* towards the light, unit */
+    double distance; /* infinite: the environment */
+    double density;  /* per steradian */
+    float radiance[3];
+} light_sample;
+
+/* Whether there is light to draw. */
+int lights_any(const scene *s);
+
+/* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
+int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
+
+/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment. */
+double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
+
+/* The light that comes from far away. */
+void environment_radiance(const environment *e, vec3 direction, float rgb[3]);
 
 #endif

@@ -566,45 +566,11 @@ HERE unit_normal normal_at(const block *b, int g, frame f)
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
 }
 
-/* What of frames and normals a density needs to the end: f has `determinant` and `densest` alone. */
-typedef struct densities {
-    frame f[GROUPS];
-    mask seen[GROUPS];
-} densities;
-
-/* Keeps the frame; the element is seen if it is valid and so is its normal. */
-HERE void keep_seen(const block *b, densities *at, int g, frame f, unit_normal n)
+HERE void put_given(side *s, int g, unit_normal n)
 {
-    mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
-    at->f[g].determinant = f.determinant;
-    at->f[g].densest = f.densest;
-    at->seen[g] = both(b->valid[g], up);
-}
-
-HERE void put_density(const densities *at, int g, real density, float *to)
-{
-    store(to + g * LANES, pick(at->seen[g], frame_density(at->f[g], density), set(0.0f)));
-}
-
-HERE void density_table(const block *b, float *to)
-{
-    densities at;
-    side s;
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        unit_normal n = normal_at(b, g, f);
-        table_direction w = put_direction(&s, g, f);
-        keep_seen(b, &at, g, f, n);
-        unit_normal unturned = table_unturned(w.ex, w.ey, n);
-        mask below = less(f.uz, set(0.0f));
-        store(s.read[GIVEN_A] + g * LANES, pick(below, unturned.x, n.x));
-        store(s.read[GIVEN_B] + g * LANES, pick(below, unturned.y, n.y));
-        store(s.read[GIVEN_C] + g * LANES, n.z);
-        store(s.read[GIVEN_D] + g * LANES, n.facing / frame_reach(f));
-    }
-    take_sides(DENSITY, b, &s);
-    for (int g = 0; g < b->groups; g++)
-        put_density(&at, g, load(s.write[RESULT_A] + g * LANES) / at.f[g].determinant, to);
+    store(s->read[GIVEN_A] + g * LANES, n.x);
+    store(s->read[GIVEN_B] + g * LANES, n.y);
+    store(s->read[GIVEN_C] + g * LANES, n.z);
 }
 
 /* D times the determinant of given normals, D of a direction straight up if there is no other. */
@@ -616,55 +582,61 @@ HERE void p22_table(table t, int groups, const side *s, real *p22)
         p22[g] = table_p22(t, n[g]);
 }
 
-HERE void put_given(side *s, int g, unit_normal n)
+/* A density that a float can hold where the element and its normal are valid, else 0. */
+HERE void put_density(const frame *f, mask valid, int g, real density, float *to)
 {
-    store(s->read[GIVEN_A] + g * LANES, n.x);
-    store(s->read[GIVEN_B] + g * LANES, n.y);
-    store(s->read[GIVEN_C] + g * LANES, n.z);
+    store(to + g * LANES, pick(valid, frame_density(*f, density), set(0.0f)));
 }
 
-HERE void visible_table(const block *b, float *to)
+/* The drawn density, or the visible one; for closed forms they are the same. */
+HERE void density(const block *b, float *to, const vndf_kind kind, const int visible)
 {
-    densities at;
+    frame at[GROUPS]; /* `determinant` and `densest` are needed to the end */
+    mask valid[GROUPS];
     side s;
     real facing[GROUPS], reach[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g);
         unit_normal n = normal_at(b, g, f);
-        put_direction(&s, g, f);
-        keep_seen(b, &at, g, f, n);
-        put_given(&s, g, n);
-        facing[g] = n.facing;
-        reach[g] = frame_reach(f);
+        mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
+        valid[g] = both(b->valid[g], up);
+        if (kind == VNDF_KIND_GGX) {
+            real k = ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
+            put_density(&f, valid[g], g, k / f.determinant, to);
+            continue;
+        }
+        if (kind == VNDF_KIND_BECKMANN) {
+            real k = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
+            put_density(&f, valid[g], g, k / f.determinant, to);
+            continue;
+        }
+        table_direction w = put_direction(&s, g, f);
+        at[g].determinant = f.determinant;
+        at[g].densest = f.densest;
+        if (visible) {
+            put_given(&s, g, n);
+            facing[g] = n.facing;
+            reach[g] = frame_reach(f);
+        } else {
+            unit_normal m = table_unturned(w.ex, w.ey, n);
+            mask below = less(f.uz, set(0.0f));
+            m.x = pick(below, m.x, n.x);
+            m.y = pick(below, m.y, n.y);
+            put_given(&s, g, m);
+            store(s.read[GIVEN_D] + g * LANES, n.facing / frame_reach(f));
+        }
     }
-    take_sides(AREA, b, &s);
-    p22_table(b->t, b->groups, &s, p22);
+    if (kind != VNDF_KIND_TABLE)
+        return;
+    take_sides(visible ? AREA : DENSITY, b, &s);
+    if (visible)
+        p22_table(b->t, b->groups, &s, p22);
     for (int g = 0; g < b->groups; g++) {
-        real area = most(load(s.write[RESULT_A] + g * LANES) * reach[g], set(1e-37f));
-        put_density(&at, g, p22[g] / at.f[g].determinant * (facing[g] / area), to);
+        real result = load(s.write[RESULT_A] + g * LANES), k = result / at[g].determinant;
+        if (visible)
+            k = p22[g] / at[g].determinant * (facing[g] / most(result * reach[g], set(1e-37f)));
+        put_density(&at[g], valid[g], g, k, to);
     }
-}
-
-/* Of the closed forms, whose density is the visible one. */
-HERE void density_closed(const block *b, float *to, const vndf_kind kind)
-{
-    densities at;
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        unit_normal n = normal_at(b, g, f);
-        keep_seen(b, &at, g, f, n);
-        real density = kind == VNDF_KIND_GGX
-                           ? ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing)
-                           : beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
-        put_density(&at, g, density / f.determinant, to);
-    }
-}
-
-/* The normal that an inverse is asked for, held above the horizon. */
-HERE unit_normal inverted_at(const block *b, int g, frame f)
-{
-    real z = most(input(b, VNDF_READ_C, g), set(0.0f));
-    return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), z);
 }
 
 HERE void put_numbers(const block *b, int g, pair u, float *const to[VNDF_WRITES])
@@ -675,28 +647,28 @@ HERE void put_numbers(const block *b, int g, pair u, float *const to[VNDF_WRITES
     store(to[1] + g * LANES, pick(valid, least(most(u.b, zero), one), zero));
 }
 
-HERE void invert_table(const block *b, float *const to[VNDF_WRITES])
+/* The numbers of normals, which are held above the horizon. */
+HERE void invert(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
     side s;
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g);
-        table_direction w = put_direction(&s, g, f);
-        put_given(&s, g, table_unturned(w.ex, w.ey, inverted_at(b, g, f)));
+        unit_normal n = frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g),
+                                     most(input(b, VNDF_READ_C, g), set(0.0f)));
+        if (kind == VNDF_KIND_GGX)
+            put_numbers(b, g, ggx_invert(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z), to);
+        else if (kind == VNDF_KIND_BECKMANN)
+            put_numbers(b, g, beckmann_invert(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z), to);
+        else {
+            table_direction w = put_direction(&s, g, f);
+            put_given(&s, g, table_unturned(w.ex, w.ey, n));
+        }
     }
+    if (kind != VNDF_KIND_TABLE)
+        return;
     take_sides(INVERT, b, &s);
     for (int g = 0; g < b->groups; g++) {
         pair u = {load(s.write[RESULT_A] + g * LANES), load(s.write[RESULT_B] + g * LANES)};
-        put_numbers(b, g, u, to);
-    }
-}
-
-HERE void invert_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        unit_normal n = inverted_at(b, g, f);
-        pair u = kind == VNDF_KIND_GGX ? ggx_invert(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z)
-                                       : beckmann_invert(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z);
         put_numbers(b, g, u, to);
     }
 }
@@ -768,23 +740,18 @@ HERE void sample(const block *b, float *const to[VNDF_WRITES], const vndf_kind k
 
 HERE void block_of(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
 {
-    const int is_table = kind == VNDF_KIND_TABLE;
     if (b->task == VNDF_TASK_SAMPLE && b->plain) { /* once more, where the compiler knows it */
         block plain = *b;
         plain.plain = 1;
         sample(&plain, to, kind);
     } else if (b->task == VNDF_TASK_SAMPLE)
         sample(b, to, kind);
-    else if (b->task == VNDF_TASK_PDF && is_table)
-        density_table(b, to[0]);
-    else if (b->task == VNDF_TASK_VISIBLE && is_table)
-        visible_table(b, to[0]);
+    else if (b->task == VNDF_TASK_VISIBLE && kind == VNDF_KIND_TABLE)
+        density(b, to[0], kind, 1);
     else if (b->task == VNDF_TASK_PDF || b->task == VNDF_TASK_VISIBLE)
-        density_closed(b, to[0], kind);
-    else if (b->task == VNDF_TASK_INVERT && is_table)
-        invert_table(b, to);
+        density(b, to[0], kind, 0);
     else if (b->task == VNDF_TASK_INVERT)
-        invert_closed(b, to, kind);
+        invert(b, to, kind);
     else if (b->task == VNDF_TASK_NDF)
         ndf(b, to[0], kind);
     else

@@ -236,21 +236,6 @@ STEP void sample_mixtures(mixed *m, float *const to[VNDF_WRITES])
     }
 }
 
-/* The densities of the whole: where the first lobe sees the normal none is 0. */
-STEP void density_mixtures(mixed *m, vndf_task task, float *to)
-{
-    real sum[GROUPS];
-    sum_lobes(m, task, m->share, sum);
-    for (int g = 0; g < m->groups; g++) {
-        real first = set(0.0f), d = sum[g];
-        for (int l = m->call->lobes; l-- > 0;)
-            first = pick(has_lobe(m, l, g), load(m->value[l] + g * LANES), first);
-        if (task == VNDF_TASK_PDF)
-            d = pick(less(set(0.0f), first), most(d, set(1.17549435e-38f)), set(0.0f));
-        store(to + g * LANES, pick(m->valid[g], least(d, set(3.40282347e38f)), set(0.0f)));
-    }
-}
-
 /* The lobe that is asked for, or that draws the normal most often. */
 STEP void invert_mixtures(mixed *m, float *const to[VNDF_WRITES])
 {
@@ -295,20 +280,26 @@ STEP void invert_mixtures(mixed *m, float *const to[VNDF_WRITES])
     }
 }
 
-/* D, areas and what masking makes of them. */
-STEP void whole_mixtures(mixed *m, const real *projection, float *to)
+/* Densities, by the shares of lobes: where the first lobe sees the normal none is 0. D, areas and what masking makes of
+ * them, by the weights. */
+STEP void sum_mixtures(mixed *m, const real *projection, float *to)
 {
-    const real end = set(3.40282347e38f);
+    const real zero = set(0.0f), end = set(3.40282347e38f);
     const vndf_task task = m->call->task;
     real sum[GROUPS];
-    sum_lobes(m, task == VNDF_TASK_NDF ? task : VNDF_TASK_AREA, m->weight, sum);
+    sum_lobes(m, task > VNDF_TASK_NDF ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, sum);
     for (int g = 0; g < m->groups; g++) {
-        real all_of = least(sum[g], end), cosine = least(projection[g], end);
+        real first = zero, d = sum[g], cosine = least(projection[g], end);
+        for (int l = m->call->lobes; task == VNDF_TASK_PDF && l-- > 0;)
+            first = pick(has_lobe(m, l, g), load(m->value[l] + g * LANES), first);
+        if (task == VNDF_TASK_PDF)
+            d = pick(less(zero, first), most(d, set(1.17549435e-38f)), zero);
+        d = least(d, end);
         if (task == VNDF_TASK_LAMBDA)
-            all_of = lambda_of(all_of, cosine);
+            d = lambda_of(d, cosine);
         else if (task == VNDF_TASK_G1)
-            all_of = g1_of(all_of, cosine);
-        store(to + g * LANES, all_of);
+            d = g1_of(d, cosine);
+        store(to + g * LANES, pick(m->valid[g], d, zero));
     }
 }
 
@@ -317,17 +308,14 @@ STEP void block_of_mixtures(mixed *m, float *const to[VNDF_WRITES])
     real projection[GROUPS];
     const vndf_task task = m->call->task;
     set_weights(m, projection);
-    if (task >= VNDF_TASK_NDF) {
-        whole_mixtures(m, projection, to[0]);
-        return;
-    }
-    set_shares(m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
+    if (task < VNDF_TASK_NDF)
+        set_shares(m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
     if (task == VNDF_TASK_SAMPLE)
         sample_mixtures(m, to);
     else if (task == VNDF_TASK_INVERT)
         invert_mixtures(m, to);
     else
-        density_mixtures(m, task, to[0]);
+        sum_mixtures(m, projection, to[0]);
 }
 
 static void mixtures(const vndf_call *call)

@@ -22,47 +22,18 @@ static const double pi = 3.14159265358979323846;
 
 enum { PILOTS = 2001 };
 
-/* Place i of parts, for i even: even between low and high. */
-static double even_place(size_t i, size_t parts, double low, double high)
+/* Every other border is even between low and high, the rest are quantiles of what is sorted. */
+static void place_borders(double *border, size_t parts, double low, double high, const double *sorted)
 {
-    return low + (high - low) * (double)i / (double)(parts + parts % 2);
-}
-
-static double quantile(size_t i, size_t parts, const double *sorted)
-{
-    return sorted[PILOTS * i / (parts + 1)];
-}
-
-/* Every other border is even in theta', the rest are quantiles of the sorted slopes. */
-static void place_slopes(double border[BINS_THETA + 1], const double *sorted, double scale)
-{
-    for (size_t i = 0; i <= BINS_THETA; i++)
-        border[i] =
-            i % 2 == 0 ? tan(even_place(i, BINS_THETA, 0, pi / 2)) : quantile(i, BINS_THETA, sorted) / scale;
-    border[BINS_THETA] = HUGE_VAL;
-    sort_numbers(border, BINS_THETA + 1);
-}
-
-/* The same in azimuth. */
-static void place_turns(double border[BINS_PHI + 1], const double *sorted)
-{
-    for (size_t i = 0; i <= BINS_PHI; i++)
-        border[i] = i % 2 == 0 ? even_place(i, BINS_PHI, -pi, pi) : quantile(i, BINS_PHI, sorted);
-    border[BINS_PHI] = pi;
-    sort_numbers(border, BINS_PHI + 1);
+    for (size_t i = 0; i <= parts; i++)
+        border[i] = i % 2 ? sorted[PILOTS * i / (parts + 1)]
+                          : low + (high - low) * (double)i / (double)(parts + parts % 2);
 }
 
 /* Infinite at the horizon. */
 static double slope_of(double x, double y, double z)
 {
     return z > 0 ? sqrt(x * x + y * y) / z : HUGE_VAL; /* squares of floats: no overflow */
-}
-
-/* A hostile sampler must not spoil the map: any finite positive scale makes a valid one. */
-static double median_scale(const double *sorted)
-{
-    double scale = sorted[PILOTS / 2];
-    return scale > 1e-12 ? fmin(scale, 1e12) : 1e-12;
 }
 
 bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
@@ -81,11 +52,17 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
     }
     sort_numbers(slope, PILOTS);
     sort_numbers(turn, PILOTS);
-    double scale = median_scale(slope);
+    /* a hostile sampler must not spoil the map: any finite positive scale makes a valid one */
+    const double median = slope[PILOTS / 2], scale = median > 1e-12 ? fmin(median, 1e12) : 1e-12;
     map.stretch_x = ax * scale;
     map.stretch_y = ay * scale;
-    place_slopes(map.slope, slope, scale);
-    place_turns(map.phi, turn);
+    place_borders(map.slope, BINS_THETA, 0, pi / 2, slope);
+    for (size_t i = 0; i <= BINS_THETA; i++) /* even ones are so in theta' */
+        map.slope[i] = i % 2 ? map.slope[i] / scale : tan(map.slope[i]);
+    map.slope[BINS_THETA] = HUGE_VAL;
+    sort_numbers(map.slope, BINS_THETA + 1);
+    place_borders(map.phi, BINS_PHI, -pi, pi, turn);
+    sort_numbers(map.phi, BINS_PHI + 1);
     return map;
 }
 

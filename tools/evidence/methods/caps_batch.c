@@ -47,28 +47,15 @@ INLINED void caps_each(block *b, size_t first, size_t count)
 
 /* ---- the instruction sets ------------------------------------------------------------------------ */
 
-#if (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
+#if (defined(__x86_64__) || defined(__i386__)) && defined(__clang__)
 #  define FOR_AVX2 __attribute__((target("avx2,fma")))
-#  if defined(__clang__)
-#    define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma"), min_vector_width(512)))
-#  else
-#    define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512")))
-#  endif
-static int has(vndf_instructions set)
-{
-    return set == VNDF_INSTRUCTIONS_AVX512
-               ? __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                     __builtin_cpu_supports("avx512vl")
-               : set == VNDF_INSTRUCTIONS_PORTABLE ||
-                     (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"));
-}
+#  define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma"), min_vector_width(512)))
+#elif (defined(__x86_64__) || defined(__i386__)) && defined(__GNUC__)
+#  define FOR_AVX2 __attribute__((target("avx2,fma")))
+#  define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma,prefer-vector-width=512")))
 #else
 #  define FOR_AVX2
 #  define FOR_AVX512
-static int has(vndf_instructions set)
-{
-    return set == VNDF_INSTRUCTIONS_PORTABLE;
-}
 #endif
 
 static void each_portable(const method *m, block *b, size_t first, size_t count)
@@ -95,7 +82,7 @@ method method_ggx_caps_batch(vndf_instructions set)
                 .instructions = method_instructions_name(set),
                 .kind = ROW_PUBLISHED,
                 .limit = set};
-    if (has(set))
+    if (vndf_instructions_used(set) == set)
         m.each = set == VNDF_INSTRUCTIONS_AVX512 ? each_avx512
                  : set == VNDF_INSTRUCTIONS_AVX2 ? each_avx2
                                                  : each_portable;

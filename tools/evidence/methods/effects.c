@@ -53,18 +53,10 @@ const effect_set effect_sets[] = {
 
 const size_t effect_set_count = sizeof effect_sets / sizeof effect_sets[0];
 
-const effect_set *effect_find(const char *name)
-{
-    for (size_t i = 0; i < effect_set_count; i++)
-        if (strcmp(effect_sets[i].name, name) == 0)
-            return &effect_sets[i];
-    return NULL;
-}
-
 /* Directions wo are on the side that the set scatters to. */
-block_law effect_law(const effect_set *set, double theta)
+block_law effect_law(const effect_set *set)
 {
-    return (block_law){.low = 0.5f, .high = 1.5f, .theta = theta, .lobes = set->effects.lobes};
+    return (block_law){.low = 0.5f, .high = 1.5f, .theta = NAN, .lobes = set->effects.lobes};
 }
 
 /* ---- hits one by one ----------------------------------------------------------------------------- */
@@ -72,7 +64,8 @@ block_law effect_law(const effect_set *set, double theta)
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
     if (of->set->kind == EFFECT_ROUGH) {
-        const vndf_roughness r = {in->alpha * of->surface.alpha_x, in->alpha * of->surface.alpha_y, 1.0f, 0.0f};
+        const vndf_description *is = &of->material.is;
+        const vndf_roughness r = {in->alpha * is->alpha_x, in->alpha * is->alpha_y, 1.0f, 0.0f};
         vndf_bsdf_rough(bsdf, &of->material, &r, in->wi);
     } else {
         vndf_bsdf_at(bsdf, &of->material, in->wi);
@@ -181,17 +174,16 @@ double effect_cosine(const effect_case *of, vndf_vec3 w)
 
 static vndf_status make(effect_case *of, const effect_set *set, const vndf_surface *surface, vndf_error *error)
 {
+    const vndf_surface s = {surface->distribution, surface->alpha_x,
+                            set->stretched ? surface->alpha_x / 4 : surface->alpha_y};
     of->set = set;
-    of->surface = *surface;
-    if (set->stretched)
-        of->surface.alpha_y = of->surface.alpha_x / 4;
-    lobes_of(&of->mixture, &of->surface, set->effects.shape == VNDF_SHAPE_AFFINE);
+    lobes_of(&of->mixture, &s, set->effects.shape == VNDF_SHAPE_AFFINE);
     if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
         of->albedo = vndf_albedo_build(surface->distribution, 0.0f, error);
     /* gold at 650, 550 and 450 nm for conductors; a dielectric under Schlick's approximation */
     const vndf_description is = {.distribution = surface->distribution,
-                                 .alpha_x = of->surface.alpha_x,
-                                 .alpha_y = of->surface.alpha_y,
+                                 .alpha_x = s.alpha_x,
+                                 .alpha_y = s.alpha_y,
                                  .rotation = 0.5f,
                                  .affine = of->mixture.lobe[0].surface,
                                  .mixture = &of->mixture,

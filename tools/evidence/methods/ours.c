@@ -203,8 +203,9 @@ void method_release(method *m)
 
 const char *method_instructions_name(vndf_instructions set)
 {
-    return set == VNDF_INSTRUCTIONS_AVX512     ? "avx512"
-           : set == VNDF_INSTRUCTIONS_AVX2     ? "avx2"
-           : set == VNDF_INSTRUCTIONS_PORTABLE ? "portable"
-                                               : "scalar";
+    static const char *const names[] = {[VNDF_INSTRUCTIONS_BEST] = "scalar",
+                                        [VNDF_INSTRUCTIONS_PORTABLE] = "portable",
+                                        [VNDF_INSTRUCTIONS_AVX2] = "avx2",
+                                        [VNDF_INSTRUCTIONS_AVX512] = "avx512"};
+    return names[set];
 }

@@ -48,29 +48,4 @@ static inline void method_shared_loop(vndf_vec3 (*draw)(const void *view, float 
     }
 }
 
-/* The direction of the unit problem: stretched by alpha, turned about z so that its y is 0. */
-typedef struct method_turn {
-    float s, c;             /* the unit direction (s, 0, c) */
-    float length;           /* of the stretched direction before it was made unit */
-    float cos_phi, sin_phi; /* its azimuth */
-} method_turn;
-
-static inline method_turn method_turn_from(vndf_vec3 wi, float alpha)
-{
-    float across = sqrtf(wi.x * wi.x + wi.y * wi.y), x = alpha * across, length = sqrtf(x * x + wi.z * wi.z);
-    method_turn t = {x / length, wi.z / length, length, 1, 0};
-    if (across > 0) {
-        t.cos_phi = wi.x / across;
-        t.sin_phi = wi.y / across;
-    }
-    return t;
-}
-
-/* The normal for a slope of the unit problem, turned and stretched back. */
-static inline vndf_vec3 method_normal(const method_turn *t, float alpha, float slope_x, float slope_y)
-{
-    return method_unit(-alpha * (t->cos_phi * slope_x - t->sin_phi * slope_y),
-                       -alpha * (t->sin_phi * slope_x + t->cos_phi * slope_y), 1.0f);
-}
-
 #endif

@@ -145,16 +145,16 @@ static inline float square(const warp *w, float theta, float u1, float u2, float
 static inline vndf_vec3 draw(const method *m, const method_input *in, float *pdf)
 {
     const warp *w = m->state;
-    float a = in->alpha * w->scale, p, q;
-    method_turn turn = method_turn_from(in->wi, a);
-    float density = square(w, acosf(fminf(turn.c, 1.0f)), in->u[0], in->u[1], &p, &q);
+    const vndf_vec3 wi = in->wi;
+    float a = in->alpha * w->scale, p, q, across = sqrtf(wi.x * wi.x + wi.y * wi.y);
+    float cos_phi = across > 0 ? wi.x / across : 1.0f, sin_phi = across > 0 ? wi.y / across : 0.0f;
+    float density = square(w, atan2f(a * across, wi.z), in->u[0], in->u[1], &p, &q);
     p = fmaxf(p, 1e-4f);
     float theta = p * p * (method_pi / 2), phi = (2 * q - 1) * method_pi, s = sinf(theta), z = cosf(theta);
     float x = s * cosf(phi), y = s * sinf(phi);
     float length = sqrtf(a * a * s * s + z * z);
     *pdf = density / (2 * method_pi * method_pi * p * s) * length * length * length / (a * a);
-    return method_unit(a * (turn.cos_phi * x - turn.sin_phi * y), a * (turn.sin_phi * x + turn.cos_phi * y),
-                       fmaxf(z, 0.0f));
+    return method_unit(a * (cos_phi * x - sin_phi * y), a * (sin_phi * x + cos_phi * y), fmaxf(z, 0.0f));
 }
 
 static void each(const method *m, block *b, size_t first, size_t count)

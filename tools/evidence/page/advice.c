@@ -72,37 +72,32 @@ static void write_limits(FILE *html, const vndf_distribution *table, int is_kept
         }
 }
 
-/* Where the next cheaper choice falls short: a smaller file with as many moments, or fewer moments in the same file. */
-static void write_cheaper(FILE *html, const vndf_distribution *table, const char *what)
-{
-    if (report_keeps(table))
-        return;
-    fprintf(html, " %s would mean ", what);
-    write_limits(html, table, 0);
-    fputs("; with the weight it is unbiased all the same.", html);
-}
-
 static void write_advice(FILE *html, const report_subject *s)
 {
-    const vndf_distribution *const *table = (const vndf_distribution *const *)s->of.table + s->chosen;
+    const vndf_distribution *table = s->of.table[s->chosen];
     const table_size *size = &table_sizes[s->chosen];
-    const int is_good = report_keeps(*table);
+    const int is_good = report_keeps(table);
     char bytes[TABLE_BYTES];
-    table_bytes_text(bytes, (double)vndf_distribution_info(*table).bytes);
+    table_bytes_text(bytes, (double)vndf_distribution_info(table).bytes);
     fputs("<p><strong>", html);
     svg_escape(html, s->of.name);
     fprintf(html, ": ship %s with %d moments.</strong> %s", bytes, size->moments,
             is_good
                 ? "It is the smallest that keeps all limits: "
                 : "None of those built keeps all limits; this is the smallest that comes near the finest, with ");
-    write_limits(html, *table, is_good);
+    write_limits(html, table, is_good);
     fputs(". ", html);
     if (s->ns[s->chosen] > 0)
         fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", s->ns[s->chosen], s->batch[s->chosen]);
-    if (s->chosen >= 3 && is_good)
-        write_cheaper(html, table[-3], "The next smaller file");
-    if (size->moments > 2 && is_good)
-        write_cheaper(html, table[-1], "One moment fewer");
+    for (int fewer = 0; fewer < 2 && is_good; fewer++) { /* what is cheaper: a smaller file, or fewer moments */
+        const int is_there = fewer ? size->moments > 2 : s->chosen >= 3;
+        const vndf_distribution *other = is_there ? s->of.table[s->chosen - (fewer ? 1 : 3)] : NULL;
+        if (!other || report_keeps(other))
+            continue;
+        fputs(fewer ? " One moment fewer would mean " : " The next smaller file would mean ", html);
+        write_limits(html, other, 0);
+        fputs("; with the weight it is unbiased all the same.", html);
+    }
     fputs("<code>vndf build ", html);
     svg_escape(html, vndf_source_description(s->of.source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);

@@ -1,30 +1,33 @@
 /* Error against time. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "draw/chart.h"
 #include "evidence/page/report.h"
 
-enum { POINTS_MAX = 16, LABEL = 80, SERIES_MAX = 12 };
+/* One by one and in batches: published methods, closed forms, tables of 2, 3 and 4 moments; and what is advised. */
+enum {
+    PUBLISHED,
+    CLOSED,
+    TABLES,
+    WAYS = TABLES + 3,
+    ADVISED = 2 * WAYS,
+    SERIES_COUNT,
+    POINTS_MAX = 16,
+    LABEL = 80
+};
 
-/* Series and their points, in the making. */
 typedef struct plot {
-    double x[SERIES_MAX][POINTS_MAX], y[SERIES_MAX][POINTS_MAX];
-    char label[SERIES_MAX][POINTS_MAX][LABEL];
-    const char *text[SERIES_MAX][POINTS_MAX];
-    chart_series series[SERIES_MAX];
-    size_t count;
+    double x[SERIES_COUNT][POINTS_MAX], y[SERIES_COUNT][POINTS_MAX];
+    char label[SERIES_COUNT][POINTS_MAX][LABEL];
+    const char *text[SERIES_COUNT][POINTS_MAX];
+    chart_series series[SERIES_COUNT];
 } plot;
 
-static void begin_series(plot *p, unsigned colour, chart_mark mark, chart_line line)
+static void add_point(plot *p, int k, double x, double y, const char *label)
 {
-    size_t k = p->count++;
-    p->series[k] = (chart_series){p->x[k], p->y[k], 0, colour, mark, line, p->text[k]};
-}
-
-static void add_point(plot *p, double x, double y, const char *label)
-{
-    size_t k = p->count - 1, i = p->series[k].count;
+    size_t i = p->series[k].count;
     if (i == POINTS_MAX || !(x > 0) || !(y >= 0))
         return;
     p->x[k][i] = x;
@@ -34,60 +37,51 @@ static void add_point(plot *p, double x, double y, const char *label)
     p->series[k].count++;
 }
 
-/* Of D at hand, and of closed forms what is exact for them. */
-static int is_wanted(const report *r, const evidence_row *of, row_kind kind, int moments, int is_batch)
+/* A row of D at hand, or of a closed form what is exact for it. A label leaves out what colour and shape say: of
+ * tables it is the size alone, and only where there are 4 moments. */
+static void add_row(plot *p, const report *r, const evidence_row *of)
 {
-    int is_exact = kind == ROW_CLOSED || (kind == ROW_PUBLISHED && !strstr(of->method, "all normals"));
-    int is_at_hand = is_exact || strcmp(of->distribution, r->subject[0].of.name) == 0;
-    return of->kind == kind && is_at_hand && of->number[COL_TV] <= 1 &&
-           (kind != ROW_TABLE || of->number[COL_MOMENTS] == moments) &&
-           strcmp(of->instructions, is_batch ? r->batch : "scalar") == 0;
-}
-
-/* A label leaves out what colour and shape say: of tables it is the size alone, and only where there are 4
- * moments. */
-static void add_rows(plot *p, const report *r, row_kind kind, int moments, int is_batch)
-{
-    static const chart_mark marks[] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT};
-    static const chart_line lines[] = {CHART_NO_LINE, CHART_NO_LINE, CHART_DOTTED, CHART_DASHED, CHART_SOLID};
-    begin_series(p, is_batch ? 1 : 0, marks[kind], lines[moments]);
-    for (const evidence_row *of = r->rows.row; of < r->rows.row + r->rows.count; of++) {
-        double tv = of->number[COL_TV];
-        char label[LABEL] = "";
-        if (!is_wanted(r, of, kind, moments, is_batch))
-            continue;
-        if (kind == ROW_TABLE && moments == 4)
-            table_bytes_text(label, of->number[COL_FILE]);
-        else if (kind == ROW_CLOSED)
-            snprintf(label, sizeof label, "vndf_%.40s()", of->distribution);
-        else if (kind == ROW_PUBLISHED)
-            snprintf(label, sizeof label, "%.*s", (int)strcspn(of->method, ","), of->method);
-        /* a comparison with a density cannot tell an exact method's error from the rounding of floats */
-        add_point(p, of->number[COL_NS], kind != ROW_TABLE && tv < 3e-6 ? 0 : tv, label);
-    }
-    p->count -= p->series[p->count - 1].count == 0;
+    const int is_batch = strcmp(of->instructions, r->batch) == 0, moments = (int)fmax(of->number[COL_MOMENTS], 2);
+    const int is_exact =
+        of->kind == ROW_CLOSED || (of->kind == ROW_PUBLISHED && !strstr(of->method, "all normals"));
+    const double tv = of->number[COL_TV];
+    char label[LABEL] = "";
+    if (of->kind > ROW_TABLE || (!is_batch && strcmp(of->instructions, "scalar") != 0) ||
+        (!is_exact && strcmp(of->distribution, r->subject[0].of.name) != 0))
+        return;
+    if (of->kind == ROW_TABLE && moments == 4)
+        table_bytes_text(label, of->number[COL_FILE]);
+    else if (of->kind == ROW_CLOSED)
+        snprintf(label, sizeof label, "vndf_%.40s()", of->distribution);
+    else if (of->kind == ROW_PUBLISHED)
+        snprintf(label, sizeof label, "%.*s", (int)strcspn(of->method, ","), of->method);
+    /* a comparison with a density cannot tell an exact method's error from the rounding of floats */
+    add_point(p, is_batch * WAYS + (of->kind == ROW_TABLE ? TABLES + moments - 2 : (int)of->kind),
+              of->number[COL_NS], of->kind != ROW_TABLE && tv < 3e-6 ? 0 : tv, label);
 }
 
 static void fill(plot *p, const report *r)
 {
+    static const chart_mark marks[WAYS] = {CHART_TRIANGLE, CHART_SQUARE, CHART_DOT, CHART_DOT, CHART_DOT};
+    static const chart_line lines[WAYS] = {CHART_NO_LINE, CHART_NO_LINE, CHART_DOTTED, CHART_DASHED, CHART_SOLID};
     const report_subject *s = &r->subject[0];
     const double tv = (double)vndf_distribution_info(s->of.table[s->chosen]).certificate.tv_above;
-    for (int is_batch = 0; is_batch < 2; is_batch++) {
-        add_rows(p, r, ROW_PUBLISHED, 0, is_batch);
-        add_rows(p, r, ROW_CLOSED, 0, is_batch);
-        for (int moments = 2; moments <= 4; moments++)
-            add_rows(p, r, ROW_TABLE, moments, is_batch);
-    }
-    begin_series(p, 3, CHART_RING, CHART_NO_LINE);
-    add_point(p, s->ns[s->chosen], tv, "advised");
-    add_point(p, s->batch[s->chosen], tv, "advised");
+    for (int k = 0; k < ADVISED; k++)
+        p->series[k] = (chart_series){p->x[k],         p->y[k],         0,         (unsigned)(k / WAYS),
+                                      marks[k % WAYS], lines[k % WAYS], p->text[k]};
+    p->series[ADVISED] =
+        (chart_series){p->x[ADVISED], p->y[ADVISED], 0, 3, CHART_RING, CHART_NO_LINE, p->text[ADVISED]};
+    for (size_t i = 0; i < r->rows.count; i++)
+        add_row(p, r, &r->rows.row[i]);
+    add_point(p, ADVISED, s->ns[s->chosen], tv, "advised");
+    add_point(p, ADVISED, s->batch[s->chosen], tv, "advised");
 }
 
 int report_frontier(html_page *page, const report *r)
 {
     char title[160], batch[40];
     FILE *alone = page_file(page, "frontier.svg");
-    plot p = {.count = 0};
+    plot p = {.x = {{0}}};
     if (!alone)
         return 0;
     fill(&p, r);
@@ -107,7 +101,7 @@ int report_frontier(html_page *page, const report *r)
                .zero = "exact",
                .band = 90,
                .series = p.series,
-               .count = p.count,
+               .count = SERIES_COUNT,
                .key = key,
                .key_count = sizeof key / sizeof *key};
     chart_fit(&c, 7);

@@ -2,8 +2,7 @@
  *
  *     advice.c    which table to ship, and how many moments; and all tables with their certificates
  *     frontier.c  error against time
- *     time.c      what a caller pays
- *     normals.c   density and samples (tools/draw/panels.h) */
+ *     samples.c   what a caller pays; density and samples (tools/draw/panels.h) */
 #ifndef TOOLS_EVIDENCE_PAGE_REPORT_H
 #define TOOLS_EVIDENCE_PAGE_REPORT_H
 

@@ -6,14 +6,14 @@ void main() {
     float odds = t.x / (1.0 - t.x);
     float r = odds * odds * odds; // so that the last cell is far out in any tail
     float phi = 2.0 * PI * t.y;
-    vndf_affine_map m = vndf_matrix_of(surface_here()); // in units of the distribution's slopes
+    vndf_view view = vndf_view_of(surface_here(), incident);
+    vndf_affine_map m = view.at.m; // in units of the distribution's slopes
     vec2 unit = r * vec2(cos(phi), sin(phi));
     vec3 long_normal = vec3(m.xx * unit.x + m.xy * unit.y, m.yx * unit.x + m.yy * unit.y, 1.0);
     float per = 1.0 / length(long_normal);
     vec3 wm = long_normal * per;
     float area = 3.0 * r * odds * odds / ((1.0 - t.x) * (1.0 - t.x)) * 2.0 * PI / (size.x * size.y);
     area = area * abs(m.xx * m.yy - m.xy * m.yx) * per * per * per;
-    vndf_view view = vndf_view_of(surface_here(), incident);
     float mass = vndf_pdf(view, wm) * area;
     part = vec4(mass, mass * max(dot(incident, wm), 0.0), vndf_visible(view, wm) * area, 0.0);
 }

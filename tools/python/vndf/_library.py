@@ -1,5 +1,5 @@
-"""The C library: its structs, functions and words, as the headers declare them, which lie beside it; and its errors. The
-rest of the package knows no types of C. Pointers are plain addresses, the quickest way to hand over an array of numpy."""
+"""The C library: its structs, functions and words, as its headers declare them; and its errors. The rest of the package
+knows no types of C. Pointers are plain addresses, the quickest way to hand over an array of numpy."""
 from __future__ import annotations
 
 import collections
@@ -17,16 +17,8 @@ if TYPE_CHECKING:
     from typing_extensions import Self
 
 
-class Status(enum.IntEnum):
-    """Why a call failed (vndf_status)."""
-
-    ARGUMENT = 1  #: an argument is outside its stated range, or the call was interrupted
-    MEMORY = 2  #: no memory
-    IO = 3  #: a file cannot be opened, read or written
-    TABLE = 4  #: the bytes are not a table that this version reads
-    SYNTAX = 5  #: an expression, CSV or family name cannot be read
-    DISTRIBUTION = 6  #: the input cannot be the normals of a microsurface
-    TARGET = 7  #: no table meets the accuracy or size asked for
+#: Why a call failed (vndf_status).
+Status = enum.IntEnum("Status", "ARGUMENT MEMORY IO TABLE SYNTAX DISTRIBUTION TARGET")
 
 
 class Error(Exception):
@@ -73,7 +65,7 @@ def words(name: str) -> list[str]:
 
 
 def _declared(text: str, argument: bool = False) -> list[tuple[str, Any]]:
-    """Name and type of each of `const float *x, *y` or `float weight[4]`; an argument that is an array is an address."""
+    """Name and type of each of `const float *x, *y` or `float weight[4]`; as an argument an array is an address."""
     inner = re.fullmatch(r"\s*struct {(.*)} (\w+)\s*", text, re.S)
     if inner:
         return [(inner[2], _structure(inner[2], inner[1]))]
@@ -184,8 +176,8 @@ def want(value: Any, *kinds: type) -> None:
 
 
 class Owner:
-    """Owns a pointer, and frees it by the C call named `_free`. `_makers`: the calls that make one. A copy is the object
-    itself, and what has no bytes cannot be pickled."""
+    """Owns a pointer, and frees it by the C call named `_free`. `_makers`: the calls that make one. A copy is the
+    object itself, and what has no bytes cannot be pickled."""
 
     _free = ""
     _makers = ""

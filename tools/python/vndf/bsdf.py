@@ -47,8 +47,8 @@ def _albedo(distribution: Distribution, eta: float) -> _Albedo:
 
 
 class Material:
-    """A rough material: a surface (:class:`Surface`, :class:`Mixture`, or :meth:`Family.at`), whose numbers may be arrays
-    where a texture brings one for each hit, its optics and its effects.
+    """A rough material: a surface (:class:`Surface`, :class:`Mixture`, or :meth:`Family.at`), whose numbers may be
+    arrays where a texture brings one for each hit, its optics and its effects.
 
     lobes: "reflection", "transmission", "both".
     fresnel: "none", "schlick" (f0), "dielectric" (eta), "conductor" (eta and k).
@@ -111,8 +111,8 @@ class Material:
         return f"<vndf.Material of {', '.join([repr(self._made['surface']), *said])}>"
 
     def sample(self, wi: Any, u: Any) -> Scattered:
-        """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1], two for the normal and one for the lobe, or
-        a ``numpy.random.default_rng()`` that draws them, one sample an element."""
+        """Directions from wi (3, ...) and uniform numbers u (3, ...) in [0, 1], two for the normal, one for the lobe,
+        or a ``numpy.random.default_rng()`` that draws them, one sample an element."""
         w, groups = components(wi, 3, "wi"), self._made["surface"]._groups
         numbers = uniform(u, 3, lambda: Batch(**groups, wi=w).shape)
         batch, hits = self._open(wi=w, u=numbers)

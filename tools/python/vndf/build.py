@@ -8,8 +8,8 @@ from typing import Any, Callable, Iterable, Optional, Sequence, TypeVar, Union
 import numpy as np
 
 from ._arrays import Numbers
-from ._library import Owner, checked, library, pointer, struct, text_bytes, values, want
-from .distribution import Certificate, Distribution, Path
+from ._library import Owner, checked, library, pointer, struct, text_bytes, want
+from .distribution import Distribution, Path
 
 _T = TypeVar("_T")
 
@@ -21,7 +21,7 @@ class Source(Owner):
     """A distribution of normals as it is given, at any scale, normalised or not."""
 
     _free = "source_free"
-    _makers = "vndf.Source.slope, .ndf, .family, .csv, .rows or .of"
+    _makers = "vndf.Source.slope, .ndf, .family, .csv or .rows"
     _called: Any = None  # what C calls back
 
     @staticmethod
@@ -32,7 +32,7 @@ class Source(Owner):
 
     @staticmethod
     def ndf(ndf: Union[str, Callable[[float], float]], **parameters: float) -> Source:
-        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta), or as a Python function of c; a function of
+        """D as a formula in c = cos(theta), theta (radians) and t = tan(theta), or as a Python function of c; one of
         slopes is better for narrow distributions, as 1 - c loses digits."""
         return _formula("ndf", ndf, parameters)
 
@@ -63,12 +63,6 @@ class Source(Owner):
         addresses = at.ctypes.data, value.ctypes.data
         return Source._of(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
 
-    @staticmethod
-    def of(distribution: Distribution) -> Source:
-        """What a table was built from, for formulas and families; anything else raises :class:`vndf.Error`."""
-        want(distribution, Distribution)
-        return Source._of(checked("source_of", distribution._pointer))
-
     def p22(self, r: float) -> float:
         """P22 at the slope length r >= 0, as it was given."""
         return _Call().run(lambda: float(library.source_p22(self._pointer, r)))
@@ -98,8 +92,8 @@ def _number(function: Callable[[float], float], x: float) -> float:
 
 
 class _Call:
-    """A long call of C, in a thread, and what the Python functions that it calls have raised. Python delivers signals to
-    the main thread alone, so Control-C arrives where this waits, never inside C, where it would be lost."""
+    """A long call of C, in a thread, and what the Python functions that it calls have raised. Python delivers signals
+    to the main thread alone, so Control-C arrives where this waits, never inside C, where it would be lost."""
 
     raised: Optional[BaseException] = None
 
@@ -148,8 +142,8 @@ def build(
 ) -> Distribution:  # fmt: skip
     """Builds a table.
 
-    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, up to 8192.
-    max_tv: build the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
+    max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, to 8192.
+    max_tv: the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     breaks: slopes where a feature begins, ends or has its peak.
     finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.
@@ -167,15 +161,6 @@ def build(
         break_count=marks.size, finest=finest, moments=moments,
     )  # fmt: skip
     return call.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
-
-
-def certify(distribution: Distribution, source: Source) -> Any:
-    """Measures the :class:`Certificate` of a table against a source."""
-    want(distribution, Distribution)
-    want(source, Source)
-    measured = struct("vndf_certificate")()
-    _Call().run(lambda: checked("certify", distribution._pointer, source._pointer, byref(measured)))
-    return Certificate(*values(measured))
 
 
 def family_help() -> str:

@@ -30,46 +30,14 @@ import functools
 import math
 import operator
 import warnings
-from typing import Any, NamedTuple, Union
+from typing import Any, NamedTuple
 
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import Law, Table, law_of
+from ._drjit import MicrofacetDistribution, law_of
 from ._library import constant
-from .distribution import Distribution
 from .surface import Family
-
-
-class MicrofacetDistribution:
-    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible normals
-    are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or "beckmann"."""
-
-    def __init__(self, distribution: Union[Distribution, str], alpha_u: Any, alpha_v: Any = None) -> None:
-        self._law = law_of(distribution)
-        self._alphas = [mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)]
-
-    def eval(self, m: Any) -> Any:
-        """D(m)."""
-        return self._law.ndf(*self._alphas, m)
-
-    def pdf(self, wi: Any, m: Any) -> Any:
-        """The density with which `sample` draws m."""
-        return self._law.pdf(self._law.view(*self._alphas, wi), m)
-
-    def sample(self, wi: Any, sample: Any) -> tuple[Any, Any]:
-        """A visible normal and its density."""
-        return self._law.sample(self._law.view(*self._alphas, wi), sample.x, sample.y)
-
-    def smith_g1(self, v: Any, m: Any) -> Any:
-        """Smith's masking, 0 where v sees the back of m."""
-        up = abs(v.z)
-        g1 = up / self._law.view(*self._alphas, mi.Vector3f(v.x, v.y, up)).area
-        return dr.select(dr.dot(v, m) * v.z > 0.0, g1, 0.0)
-
-    def G(self, wi: Any, wo: Any, m: Any) -> Any:
-        """The product of both ways, which Mitsuba's plugins use."""
-        return self.smith_g1(wi, m) * self.smith_g1(wo, m)
 
 
 class _Lobe:
@@ -90,7 +58,7 @@ class _Lobe:
         self.textures = {**self.alphas, weight: self.weight}
         self.family = Family.load(path) if parameter in props else None
         if self.family:
-            self.laws: list[Law] = [Table(distribution) for distribution in self.family.distributions]
+            self.laws = [law_of(distribution) for distribution in self.family.distributions]
             self.parameter = self.textures[parameter] = props.get_texture(parameter, 1.0)
         else:
             self.laws = [law_of(self.name if self.name in ("ggx", "beckmann") else path)]
@@ -107,11 +75,12 @@ class _Lobe:
         return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
 
     def at(self, si: Any, active: Any) -> list[Any]:
-        """Of a hit each law, with alpha_u, alpha_v and its weight."""
+        """Of a hit each distribution and its weight."""
         alphas = [dr.maximum(texture.eval_1(si, active), 1e-4) for texture in self.alphas.values()]
         weight = dr.maximum(self.weight.eval_1(si, active), 0.0)
-        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, self._shares(si, active))]
-        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
+        parts = [(MicrofacetDistribution(law, alphas[0], alphas[-1]), weight * share)
+                 for law, share in zip(self.laws, self._shares(si, active))]  # fmt: skip
+        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[1] > 0.0] or parts[:1]
 
 
 class _Microsurface:
@@ -121,7 +90,7 @@ class _Microsurface:
         numbers = [i for i in range(2, constant("VNDF_MIXTURE_LOBES") + 1) if f"distribution_{i}" in props]
         for i, number in enumerate(numbers):
             if number != i + 2:
-                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes are numbered without a gap")
+                raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes have no gaps")
         self.lobes = [_Lobe(props, suffix) for suffix in ("", *(f"_{number}" for number in numbers))]
         self.textures = {name: texture for lobe in self.lobes for name, texture in lobe.textures.items()}
         self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
@@ -139,11 +108,9 @@ class _Hit:
     def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
         self._separable = surface.is_separable
         parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
-        total = sum(weight for *_, weight in parts)
-        self._lobes = [
-            (law, x, y, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0))
-            for law, x, y, weight in parts
-        ]
+        total = sum(weight for _, weight in parts)
+        self._lobes = [(normals, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0))
+                       for normals, weight in parts]  # fmt: skip
         self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
 
     def turned(self, w: Any, sign: float = 1.0) -> Any:
@@ -154,36 +121,34 @@ class _Hit:
         return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
 
     def seen_from(self, w: Any) -> tuple[list[Any], Any]:
-        """Of each lobe its law, its view and its share of what is drawn; the projected area of all."""
-        views = [law.view(x, y, w) for law, x, y, _ in self._lobes]
-        weights = [weight for *_, weight in self._lobes]
-        drawn = [weight * view.drawn for weight, view in zip(weights, views)]
-        total = sum(drawn)
-        seen = [(lobe[0], view, dr.select(total > 0.0, part / total, 0.0))
-                for lobe, view, part in zip(self._lobes, views, drawn)]  # fmt: skip
-        return seen, sum(weight * view.area for weight, view in zip(weights, views))
+        """Of each lobe its normals, its view and its share of what is drawn; the projected area of all."""
+        views = [(normals, normals.view(w), weight) for normals, weight in self._lobes]
+        drawn = sum(weight * view.drawn for _, view, weight in views)
+        seen = [(normals, view, dr.select(drawn > 0.0, weight * view.drawn / drawn, 0.0))
+                for normals, view, weight in views]  # fmt: skip
+        return seen, sum(weight * view.area for _, view, weight in views)
 
     @staticmethod
     def sample(seen: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
         """A visible normal, and the density of all lobes together."""
         if len(seen) == 1:
-            return seen[0][0].sample(seen[0][1], u1, u2)
+            return seen[0][0].sample_from(seen[0][1], u1, u2)
         before: Any = 0.0
         wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (law, view, share) in enumerate(seen):
+        for i, (normals, view, share) in enumerate(seen):
             last = i + 1 == len(seen)
             here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
             u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
-            wm = dr.select(here, law.sample(view, u, u2)[0], wm)
+            wm = dr.select(here, normals.sample_from(view, u, u2)[0], wm)
             before = before + share
         return wm, _Hit.pdf(seen, wm)
 
     @staticmethod
     def pdf(seen: list[Any], wm: Any) -> Any:
-        return sum(share * law.pdf(view, wm) for law, view, share in seen)
+        return sum(share * normals.pdf_from(view, wm) for normals, view, share in seen)
 
     def ndf(self, wm: Any) -> Any:
-        return sum(weight * law.ndf(x, y, wm) for law, x, y, weight in self._lobes)
+        return sum(weight * normals.eval(wm) for normals, weight in self._lobes)
 
     def g2(self, area_i: Any, cos_i: Any, area_o: Any, cos_o: Any, reflects: Any) -> Any:
         """Masking and shadowing of directions with these projected areas and cosines, both > 0."""

@@ -103,10 +103,9 @@ class Rough:
 
 class Surface(Rough):
     """A distribution, stretched: by ``alpha`` along x and ``alpha_y`` along y (None: the same), > 0, and turned by
-    ``rotation``, the angle from x to the axis of alpha, radians; or by any ``matrix``, shape (2, 2, ...), and moved by a
-    ``mean`` slope, shape (2, ...), as filtered normal maps have them: slopes are M u + mean. Numbers or arrays, for single
-    elements; alpha = 1 is the distribution as it was built. Single numbers that are no surface are refused; in arrays
-    they scatter nothing."""
+    ``rotation``, the angle from x to the axis of alpha, radians; or by any ``matrix``, shape (2, 2, ...), and moved by
+    a ``mean`` slope, shape (2, ...), as filtered normal maps have them: slopes are M u + mean. alpha = 1 is the
+    distribution as it was built. Single numbers that are no surface are refused; in arrays they scatter nothing."""
 
     _prefix = "affine_"
 
@@ -134,7 +133,7 @@ class Surface(Rough):
             moved = components((0.0, 0.0) if mean is None else mean, 2, "mean")
             shape = stacked([*rows.reshape(4, *rows.shape[2:]), *moved])
             if shape.ndim == 1 and not (np.isfinite(shape).all() and shape[0] * shape[3] != shape[1] * shape[2]):
-                raise ValueError(f"matrix and mean are {shape.tolist()}; they must be finite, and the matrix not singular")
+                raise ValueError(f"matrix and mean are {shape.tolist()}; they must be finite, and not singular")
         self._is_moved = mean is not None
         self._groups = {"shape": shape}
 
@@ -151,9 +150,8 @@ class Surface(Rough):
         return struct("vndf_affine_batch")(self.distribution._pointer, batch.count, batch.shared(), 0, *shape, *wi)
 
     def sample(self, wi: Any, u: Any) -> Sample:
-        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1], or a ``numpy.random.default_rng()``
-        that draws them, one sample an element. An invalid direction or roughness gives the normal (0, 0, 1) and density
-        0."""
+        """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1], or a `numpy.random.default_rng()`
+        that draws them, one sample an element. An invalid direction or roughness gives (0, 0, 1) and density 0."""
         result = self._draw("sample", 4, wi, u)
         return Sample(result[:3], result[3])
 
@@ -170,8 +168,8 @@ class Surface(Rough):
 
 
 class Mixture(Rough):
-    """Up to 8 lobes on one surface, D = sum of w_i D_i: pairs of a :class:`Surface` and a weight >= 0. Weights, too, may
-    be arrays; they count over their sum."""
+    """Up to 8 lobes on one surface, D = sum of w_i D_i: pairs of a :class:`Surface` and a weight >= 0, which counts
+    over the sum of all, and may be an array."""
 
     def __init__(self, *lobes: tuple[Surface, Numbers]) -> None:
         most = constant("VNDF_MIXTURE_LOBES")
@@ -191,7 +189,8 @@ class Mixture(Rough):
         shapes, weights = batch.addresses("shape", share=True), batch.addresses("weight", share=True)
         filled = struct("vndf_mixture_batch")(batch.count, batch.shared(), 0, *wi, len(self.lobes))
         for i, lobe in enumerate(self.lobes):
-            filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *shapes[6 * i : 6 * i + 6], weights[i])
+            six = shapes[6 * i : 6 * i + 6]
+            filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *six, weights[i])
         return filled
 
     def _lobes_of_hits(self, groups: dict[str, Floats]) -> list[tuple[Any, Any, Any]]:
@@ -217,8 +216,7 @@ class Family(Stored):
 
     _free = "family_free"
     _kind = "family_"
-    _makers = "vndf.Family.build, vndf.Family.load or vndf.Family.of"
-    _given: Sequence[Distribution] = ()  # what `of` was given
+    _makers = "vndf.Family.build or vndf.Family.load"
 
     @staticmethod
     def build(
@@ -230,21 +228,6 @@ class Family(Stored):
         call, name = _Call(), text_bytes(specification)
         options = struct("vndf_family_options")(max_distance, knots, max_bytes, moments, call.progress(progress), None)
         return call.run(lambda: Family._of(checked("build_family", name, low, high, byref(options))))
-
-    @staticmethod
-    def of(distributions: Sequence[Distribution], parameters: Sequence[float]) -> Family:
-        """Distributions of any kind at ascending parameters."""
-        if len(distributions) != len(parameters):
-            raise ValueError(f"{len(distributions)} distributions at {len(parameters)} parameters")
-        for distribution in distributions:
-            want(distribution, Distribution)
-        pointers = np.array([d._pointer for d in distributions], np.uintp)
-        at = np.array(parameters, np.float32)
-        pointer = checked("family_of", pointers.ctypes.data, at.ctypes.data, len(pointers))
-        return Family._of(pointer, _given=list(distributions))
-
-    def __reduce__(self) -> Any:
-        return (Family.of, (self._given, self.parameters)) if self._given else super().__reduce__()
 
     def __repr__(self) -> str:
         info = self.info
@@ -277,10 +260,8 @@ class Family(Stored):
         knots, reciprocal = self.axis
         p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
         x = -1.0 / p if reciprocal else p
-        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, max(len(knots) - 2, 0))
-        beyond = np.minimum(index + 1, len(knots) - 1)
-        width = knots[beyond] - knots[index]
-        return index, np.where(width > 0, (x - knots[index]) / np.where(width > 0, width, 1), 0 * x)
+        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
+        return index, (x - knots[index]) / (knots[index + 1] - knots[index])
 
     def at(self, parameter: Numbers, *shape: Any, **stretched: Any) -> Blend:
         """The family at a parameter or at an array of them, as a texture has, clamped to its range; stretched as a
@@ -318,8 +299,7 @@ class Blend(Rough):
         parameter, *six = groups["shape"]
         index, share = self.family.places(parameter)
         pointers = np.array([d._pointer for d in self.family.distributions], np.uintp)
-        beyond = np.minimum(index + 1, len(pointers) - 1)
-        return [(pointers[index], six, 1 - share), (pointers[beyond], six, share)]
+        return [(pointers[index], six, 1 - share), (pointers[index + 1], six, share)]
 
     sample = Mixture.sample
 
