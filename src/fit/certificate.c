@@ -7,8 +7,9 @@
 #include "kernel/wide.h"
 #include "math/ascending.h"
 
+/* The text for the types of that page: first what reads a table, */
 #include "kernel/rows.h"
-
+/* then the law. */
 #include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;
@@ -29,10 +30,9 @@ typedef struct survey {
     table table;
     const vndf_profile *profile;
     vndf_strips strips;
-    direction *at;       /* of each edge */
-    double *xi, *kernel; /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
-    double
-        rarely[RATIOS]; /* of the direction at hand: what is seen, by the ratio in which it is drawn too rarely */
+    direction *at;         /* of each edge */
+    double *xi, *kernel;   /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
+    double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
 } survey;
 
 /* ---- one direction ---- */

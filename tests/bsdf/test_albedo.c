@@ -6,7 +6,7 @@
  *              u = cos_o), E = 1 at grazing incidence and in the limit of no roughness; averages are integrals of the
  *              look-ups; any numbers give results in [0, 1]
  *   furnace    by both ways the mean weight is 1 within a hundredth at alpha 0.05 to 1 and every angle (4.5 sigma, 7e-6
- *              each, of 200 or 720); where F is less than 1 it is less, and single scattering less still
+ *              each, of 280 or 720); where F is less than 1 it is less, and single scattering less still
  *   values     f of Kulla & Conty is reciprocal within 4e-5; that of Turquin is f of single scattering times one number
  *              of wi; samples have the density and weight of where they go; F_avg is that of a finer quadrature
  *

@@ -1,5 +1,5 @@
 /* What the fuzz targets share: the entry point that libFuzzer (or fuzz_replay.c) calls, which hands each input to the
- * target's fuzz_one, checks that stop the program, and files of this library whose checksum is put right. */
+ * target's fuzz_one, and checks that stop the program. */
 #ifndef TESTS_FUZZ_FUZZ_H
 #define TESTS_FUZZ_FUZZ_H
 
@@ -10,7 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/checksum.h"
 #include "vndf.h"
 
 /* The bytes in a block of exactly their size, so that memory checkers see a read beyond it; and a copy, to change or
@@ -46,26 +45,6 @@ static inline int fuzz_loaded(const void *loaded, const vndf_error *error)
     fuzz_require((loaded != NULL) == (error->status == VNDF_OK), "NULL and an error come together");
     fuzz_require(loaded != NULL || error->message[0] != '\0', "an error has a message");
     return loaded != NULL;
-}
-
-/* Keeps a value that only a fault on the way to it is interesting of. */
-static inline void fuzz_use(double value)
-{
-    static volatile double sink;
-    sink = value;
-    (void)sink;
-}
-
-/* Files of this library: magic (8 bytes), version, size, ..., CRC-32 of all before it: the last two put right. */
-enum { FUZZ_MENDABLE = 20 };
-static inline void fuzz_mend(uint8_t *bytes, size_t size)
-{
-    const size_t crc_at = size - 4;
-    for (int i = 0; i < 4; i++)
-        bytes[12 + i] = (uint8_t)(size >> (8 * i));
-    const uint32_t crc = vndf_crc32(0, bytes, crc_at);
-    for (int i = 0; i < 4; i++)
-        bytes[crc_at + (size_t)i] = (uint8_t)(crc >> (8 * i));
 }
 
 #endif

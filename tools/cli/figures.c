@@ -163,7 +163,7 @@ int rows_print(const arguments *given, rows_printer *print, const void *rows)
     if (form == FIGURES_TEXT)
         form = option_choice(given, "--format", path && !has_file ? FIGURES_CSV : FIGURES_TEXT);
     if (form != FIGURES_NONE)
-        status = print_to(given, "-", print, rows, form);
+        status = print_to(given, "-", print, rows, (int)form);
     int to_file = has_file ? print_to(given, path, print, rows, 1 + output_form(given->command, path, forms + 1))
                            : STATUS_GOOD;
     return status == STATUS_GOOD ? to_file : status;
