@@ -72,10 +72,11 @@ static void test_files(void)
     TEST(sscanf(strchr(text, '\n'), "%f,%f,%f,%f", &first[0], &first[1], &first[2], &first[3]) == 4);
     unsigned char *raw = (unsigned char *)run_file("a.f32", &size);
     for (int i = 0; TEST(raw && size == 1600) && i < 4; i++) {
-        unsigned bits;
+        unsigned bits, found = 0;
         memcpy(&bits, &first[i], sizeof bits);
-        const unsigned char *b = raw + 4 * i;
-        TEST(((unsigned)b[0] | (unsigned)b[1] << 8 | (unsigned)b[2] << 16 | (unsigned)b[3] << 24) == bits);
+        for (int k = 0; k < 4; k++)
+            found |= (unsigned)raw[4 * i + k] << 8 * k;
+        TEST(found == bits);
     }
     free(raw);
     test_same(samples(text, "ggx" ROUGH), samples(other, "ggx --theta 60 --phi 30 --matrix 0.1,0,0,0.3"));

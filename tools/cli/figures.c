@@ -159,10 +159,9 @@ int rows_print(const arguments *given, rows_printer *print, const void *rows)
 {
     const char *path = option_value(given, "-o");
     const int has_file = path && !output_is_stdout(path);
-    figures_form form = figures_begin(given).form;
-    int status = STATUS_GOOD;
+    int form = (int)figures_begin(given).form, status = STATUS_GOOD;
     if (form == FIGURES_TEXT)
-        form = (figures_form)option_choice(given, "--format", path && !has_file ? FIGURES_CSV : FIGURES_TEXT);
+        form = option_choice(given, "--format", path && !has_file ? FIGURES_CSV : FIGURES_TEXT);
     if (form != FIGURES_NONE)
         status = print_to(given, "-", print, rows, (int)form);
     int to_file = has_file ? print_to(given, path, print, rows, 1 + output_form(given->command, path, forms + 1))

@@ -89,25 +89,23 @@ static int read_words(const arguments *given, render_work *w)
 
 /* ---- figures ---- */
 
-/* For people "1.32+-0.01 (1.29)", the last without fireflies; in JSON three numbers. */
-static void add_measured(text_table *t, const char *key, const measured *m, int has_json)
+/* For people "1.32+-0.01 (1.29)" under the first heading, the last without fireflies; in JSON three numbers. */
+static void add_measured(text_table *t, const char *const headings[3], const measured *m, int has_json)
 {
+    const double numbers[3] = {m->value, m->spread, m->trimmed};
     char text[64];
-    if (!has_json) {
-        snprintf(text, sizeof text, "%.3g+-%.2g (%.3g)", m->value, m->spread, m->trimmed);
-        table_figure(t, key, isfinite(m->value) ? text : "no variance");
-        return;
-    }
-    table_number(t, key, "%.9g", m->value);
-    snprintf(text, sizeof text, "%s_spread", key);
-    table_number(t, text, "%.9g", m->spread);
-    snprintf(text, sizeof text, "%s_trimmed", key);
-    table_number(t, text, "%.9g", m->trimmed);
+    snprintf(text, sizeof text, "%.3g+-%.2g (%.3g)", m->value, m->spread, m->trimmed);
+    if (!has_json)
+        table_figure(t, headings[0], isfinite(m->value) ? text : "no variance");
+    for (int i = 0; i < 3 && has_json; i++)
+        table_number(t, headings[i], "%.9g", numbers[i]);
 }
 
 /* A row for each way. */
 static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
+    static const char *const needed[] = {"samples_needed", "samples_needed_spread", "samples_needed_trimmed"};
+    static const char *const efficiency[] = {"efficiency", "efficiency_spread", "efficiency_trimmed"};
     const comparison *c = &w->ways;
     const int has_json = w->form == FIGURES_JSON;
     text_table t = {.rows = 0};
@@ -120,8 +118,8 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         table_number(&t, "samples", "%.0f", (double)f->samples);
         table_number(&t, "seconds", "%.3g", f->processor);
         table_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
-        add_measured(&t, "samples_needed", &a->samples, has_json);
-        add_measured(&t, "efficiency", &a->efficiency, has_json);
+        add_measured(&t, needed, &a->samples, has_json);
+        add_measured(&t, efficiency, &a->efficiency, has_json);
         table_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio);
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
         if (has_json) {
