@@ -115,40 +115,26 @@ static int run_plan(evidence_plan *plan, const arguments *given)
 
 /* ---- vndf bench effects -------------------------------------------------------------------------- */
 
-typedef struct opened {
-    chosen_distribution of[MATERIALS_MAX];
-    size_t count;
-    vndf_distribution *built;
-} opened;
-
-static int open_one(opened *o, evidence_plan *plan, const char *word)
+/* The named distributions, or both closed forms and a table that is built. Close all of them in any case. */
+static int open_all(chosen_distribution *of, evidence_plan *plan, const words *names)
 {
-    if (!distribution_open(&o->of[o->count], effects_name, word, 0))
-        return 0;
-    plan->of[plan->count].name = word;
-    plan->of[plan->count++].distribution = o->of[o->count++].distribution;
-    return 1;
-}
-
-/* The named distributions, or both closed forms and a table built for the purpose. */
-static int open_all(opened *o, evidence_plan *plan, const words *names)
-{
+    static const words closed_forms = {{"ggx", "beckmann"}, 2};
+    const words *all = names->count ? names : &closed_forms;
     vndf_error error = {VNDF_OK, ""};
-    for (size_t i = 0; i < names->count; i++)
-        if (!open_one(o, plan, names->item[i]))
+    for (; plan->count < all->count; plan->count++, of++) {
+        if (!distribution_open(of, effects_name, all->item[plan->count], 0))
             return 0;
+        plan->of[plan->count].name = all->item[plan->count];
+        plan->of[plan->count].distribution = of->distribution;
+    }
     if (names->count)
         return 1;
-    if (!open_one(o, plan, "ggx") || !open_one(o, plan, "beckmann"))
-        return 0;
     vndf_source *source = vndf_source_family(student, &error);
-    o->built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
+    of->owned = source ? vndf_build(source, NULL, NULL, &error) : NULL;
     vndf_source_free(source);
-    if (!o->built)
-        complain(effects_name, "%s", error.message);
     plan->of[plan->count].name = student;
-    plan->of[plan->count++].distribution = o->built;
-    return o->built != NULL;
+    plan->of[plan->count++].distribution = of->owned;
+    return of->owned || (complain(effects_name, "%s", error.message), 0);
 }
 
 static int run_effects(const arguments *given)
@@ -157,7 +143,7 @@ static int run_effects(const arguments *given)
     const words names = option_values(given, "--distribution");
     vndf_surface surface;
     evidence_plan plan = {.theta = 60, .seconds = 15};
-    opened o = {.count = 0, .built = NULL};
+    chosen_distribution of[MATERIALS_MAX] = {{NULL, NULL, NULL}};
     if (names.count > MATERIALS_MAX)
         return complain(effects_name, "--distribution is given more than %d times", MATERIALS_MAX);
     if (!roughness_from(effects_name, alpha ? alpha : "0.5", &surface) ||
@@ -166,10 +152,9 @@ static int run_effects(const arguments *given)
         return STATUS_USE;
     plan.alpha_x = surface.alpha_x;
     plan.alpha_y = surface.alpha_y;
-    int status = open_all(&o, &plan, &names) ? run_plan(&plan, given) : STATUS_USE;
-    for (size_t i = 0; i < o.count; i++)
-        distribution_close(&o.of[i]);
-    vndf_free(o.built);
+    int status = open_all(of, &plan, &names) ? run_plan(&plan, given) : STATUS_USE;
+    for (size_t i = 0; i < MATERIALS_MAX; i++)
+        distribution_close(&of[i]);
     return status;
 }
 
