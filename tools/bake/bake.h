@@ -26,7 +26,8 @@ typedef struct bake_settings {
     const vndf_distribution *distribution;
     bake_mapping mapping;
     vndf_masking masking;
-    size_t size; /* of dfg and ltc: size x size */
+    int masks_alike; /* what passes has 1/(1 + Lambda_i + Lambda_o), as in Cycles and OSPRay, not the Beta function */
+    size_t size;     /* of dfg and ltc: size x size */
     progress *progress;
 } bake_settings;
 

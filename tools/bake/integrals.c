@@ -48,32 +48,43 @@ vndf_description bake_mirror(const bake_settings *s, float alpha)
     return of;
 }
 
-/* The mean weights from one direction. Samples are a continuous function of their numbers: midpoints t of [0, 1] in
- * each, u = t^2 (3 - 2 t), are dense at both ends, where samples change fast. */
+/* Samples are a continuous function of their numbers: midpoints t of [0, 1] in each, u = t^2 (3 - 2 t), are dense at
+ * both ends, where samples change fast. Sample i stands for this part of the square, but for a factor. */
+static double part_of(int i, int side)
+{
+    double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
+    return s * (1 - s) * t * (1 - t);
+}
+
+/* Their numbers; the sum of their parts. */
+static double fill_numbers(bake_points *p, int side)
+{
+    double whole = 0;
+    for (int i = 0; i < side * side; i++) {
+        double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
+        p->u[0][i] = (float)(s * s * (3 - 2 * s));
+        p->u[1][i] = (float)(t * t * (3 - 2 * t));
+        p->u[2][i] = 0.5f;
+        whole += part_of(i, side);
+    }
+    return whole;
+}
+
+/* The mean weights from one direction. */
 bake_sum bake_mean(const vndf_description *of, const double wi[3], int side)
 {
     static bake_points p;
     vndf_material material;
     vndf_error error;
     bake_sum sum = {0, 0};
-    double whole = 0;
     if (vndf_material_resolve(of, &material, &error) != VNDF_OK)
         return sum;
-    for (int i = 0; i < side * side; i++) {
-        double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
-        p.u[0][i] = (float)(s * s * (3 - 2 * s));
-        p.u[1][i] = (float)(t * t * (3 - 2 * t));
-        p.u[2][i] = 0.5f;
-    }
+    const double whole = fill_numbers(&p, side);
     bake_sample(&material, wi, (size_t)(side * side), &p);
     for (int i = 0; i < side * side; i++) {
-        double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side, part = s * (1 - s) * t * (1 - t);
-        whole += part;
-        sum.all += part * (double)p.weight[0][i];
-        sum.grazing += part * (double)p.weight[1][i];
+        sum.all += part_of(i, side) / whole * (double)p.weight[0][i];
+        sum.grazing += part_of(i, side) / whole * (double)p.weight[1][i];
     }
-    sum.all /= whole;
-    sum.grazing /= whole;
     return sum;
 }
 
@@ -82,6 +93,29 @@ bake_sum bake_direction(const bake_settings *s, float alpha, double cosine)
     const vndf_description of = bake_mirror(s, alpha);
     const double wi[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
     return bake_mean(&of, wi, BAKE_SIDE);
+}
+
+/* The mean of weights that masking has no part in, times 1/(1 + Lambda(wi) + Lambda(wo)). */
+static double mean_masked_alike(const vndf_description *of, const double wi[3], int side)
+{
+    const vndf_surface surface = {of->distribution, of->alpha_x, of->alpha_y};
+    static bake_points p;
+    vndf_description bare = *of;
+    vndf_material material;
+    vndf_error error;
+    const vndf_vec3 in = {(float)wi[0], (float)wi[1], (float)wi[2]};
+    double sum = 0, whole = 0, lambda = 1 + (double)vndf_lambda(&surface, in);
+    bare.effects.masking = VNDF_MASKING_NONE;
+    if (vndf_material_resolve(&bare, &material, &error) != VNDF_OK)
+        return 0;
+    whole = fill_numbers(&p, side);
+    bake_sample(&material, wi, (size_t)(side * side), &p);
+    for (int i = 0; i < side * side; i++) {
+        const vndf_vec3 out = {p.wo[0][i], p.wo[1][i], fabsf(p.wo[2][i])};
+        if (p.weight[0][i] > 0)
+            sum += part_of(i, side) * (double)p.weight[0][i] / (lambda + (double)vndf_lambda(&surface, out));
+    }
+    return sum / whole;
 }
 
 double bake_glass(const bake_settings *s, float alpha, double cosine, double eta)
@@ -93,7 +127,8 @@ double bake_glass(const bake_settings *s, float alpha, double cosine, double eta
     double sum = bake_mean(&of, wi, BAKE_SIDE_GLASS).all;
     of.effects.lobes = VNDF_LOBES_TRANSMISSION;
     of.effects.transport = VNDF_TRANSPORT_IMPORTANCE; /* the part of the light, without 1/eta^2 of radiance */
-    return sum + bake_mean(&of, wi, BAKE_SIDE_GLASS).all;
+    return sum + (s->masks_alike ? mean_masked_alike(&of, wi, BAKE_SIDE_GLASS)
+                                 : bake_mean(&of, wi, BAKE_SIDE_GLASS).all);
 }
 
 /* Nodes and weights of Gauss's rule on [0, 1], by Newton's method on Legendre's polynomial. */
@@ -137,14 +172,15 @@ typedef struct hit {
     double wi[3], lambda, eta;
 } hit;
 
-/* G2 where the light goes on along wo, on this side or, with the Beta function (Heitz et al. 2016), the other. */
+/* G2 where the light goes on along wo, on this side or, with the Beta function (Heitz et al. 2016) or as some hosts
+ * have it, the other. */
 static double g2(const hit *h, const double wo[3])
 {
     const vndf_vec3 out = {(float)wo[0], (float)wo[1], (float)fabs(wo[2])};
     double i = 1 + h->lambda, o = 1 + (double)vndf_lambda(&h->surface, out);
     if (h->s->masking == VNDF_MASKING_SEPARABLE)
         return 1 / (i * o);
-    return wo[2] > 0 ? 1 / (i + o - 1) : exp(lgamma(i) + lgamma(o) - lgamma(i + o));
+    return wo[2] > 0 || h->s->masks_alike ? 1 / (i + o - 1) : exp(lgamma(i) + lgamma(o) - lgamma(i + o));
 }
 
 /* What goes on from the normal with this slope, times (wi.wm/wm.z)/cos_i: for `grazing` see bake_sum. */

@@ -1,6 +1,7 @@
 /* The tables of directions: dfg, energy and prefilter. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "bake/bake.h"
 
@@ -85,72 +86,99 @@ int bake_dfg(const bake_settings *s, baked_list *list)
     return 1;
 }
 
-/* What a host keeps: sizes of the mirror's and of glass's axes, which of roughness and cosine runs faster, where the
- * places are, and what stands for the index: z with eta = (1 + z^2)/(1 - z^2), or eta itself from 1 to 3. */
+/* What a host keeps: sizes of the mirror's and of glass's axes; the order of eta, cosine and roughness from the slowest
+ * to the fastest; whether places are in the middle of texels; what the places of the index stand for. Hosts mask what
+ * passes as what is reflected. */
 typedef struct shape {
     size_t mirror, glass;
-    int roughness_first, centred;
-    int by_root;
+    const char *order;
+    int centred, masks_alike;
+    enum { BY_ETA, BY_ROOT, BY_RATIO } index;
+    const char *outside, *inside; /* the index in words */
 } shape;
 
 static const shape shapes[] = {
-    [BAKE_GRID] = {32, 16, 0, 1, 0}, [BAKE_CYCLES] = {32, 16, 1, 0, 1}, [BAKE_OSPRAY] = {32, 16, 0, 0, 0}};
+    [BAKE_GRID] = {32, 16, "erc", 1, 0, BY_ETA, "eta: 1 + 2 (i + 1/2)/n", "eta: 1 + 2 (i + 1/2)/n"},
+    /* scene/shader.tables: a slice for z, a row for the cosine */
+    [BAKE_CYCLES] = {32, 16, "ecr", 0, 1, BY_ROOT, "z = i/(n - 1), eta = (1 + z^2)/(1 - z^2)",
+                     "z = i/(n - 1), eta = (1 + z^2)/(1 - z^2)"},
+    /* MicrofacetAlbedoTables.ispc: the index is that outside over that inside, 1/3 to 1 and 1 to 3 */
+    [BAKE_OSPRAY] = {32, 16, "rec", 0, 1, BY_RATIO, "1/eta: 1/3 + 2/3 i/(n - 1)", "eta: 1 + 2 i/(n - 1)"},
+};
 
 static double place_of(const shape *h, size_t i, size_t n)
 {
     return h->centred ? ((double)i + 0.5) / (double)n : (double)i / (double)(n - 1);
 }
 
-/* The index for place t; that of a mirror's neighbour and of what is no surface are held away from where they end. */
-static double eta_of(const shape *h, double t)
+/* The index for place t; it is held away from where it ends. */
+static double eta_of(const shape *h, double t, int inside)
 {
-    double z2 = fmin(t * t, 0.98);
-    return fmax(h->by_root ? (1 + z2) / (1 - z2) : 1 + 2 * t, 1.002);
+    double z2 = fmin(t * t, 0.98), eta = 1 + 2 * t;
+    if (h->index == BY_ROOT)
+        eta = (1 + z2) / (1 - z2);
+    if (h->index == BY_RATIO && !inside)
+        eta = 3 / (1 + 2 * t);
+    return fmax(eta, 1.002);
 }
 
-/* Number k of a table of E, or with 0 cosines of E_avg, over roughness and cosine, and for glass the index. */
+/* Number k of a table of E, or of E_avg, over the axes of `order`. */
 typedef struct texel {
     float alpha;
     double cosine, eta;
+    int is_empty; /* no surface: Cycles' first slice */
 } texel;
 
-static texel texel_at(const bake_settings *s, const shape *h, size_t k, size_t n, size_t cosines, size_t indices,
-                      int inside)
+/* The axes of a table: those of the shape in its order, without the index for a mirror and the cosine for a mean. */
+static void axes_of(const shape *h, int glass, int average, char axes[4])
 {
-    const size_t inner = cosines ? n * cosines : n, i = k % inner;
-    const size_t rough = !cosines ? i : h->roughness_first ? i % n : i / cosines;
-    const size_t at = !cosines ? 0 : h->roughness_first ? i / n : i % cosines;
-    texel t = {bake_alpha(s->mapping, place_of(h, rough, n)), 0, 0};
-    if (cosines)
-        t.cosine = fmax(place_of(h, at, cosines), 1e-4);
-    if (indices > 1)
-        t.eta = eta_of(h, place_of(h, k / inner, indices));
+    for (const char *at = h->order; *at; at++)
+        if ((glass || *at != 'e') && (!average || *at != 'c'))
+            *axes++ = *at;
+    *axes = '\0';
+}
+
+static texel texel_at(const bake_settings *s, const shape *h, size_t k, size_t n, const char *axes, int inside)
+{
+    texel t = {0, 0, 0, 0};
+    for (size_t i = strlen(axes); i-- > 0; k /= n) {
+        const double place = place_of(h, k % n, n);
+        if (axes[i] == 'r')
+            t.alpha = bake_alpha(s->mapping, place);
+        else if (axes[i] == 'c')
+            t.cosine = fmax(place, 1e-4);
+        else {
+            t.eta = eta_of(h, place, inside);
+            t.is_empty = h->index == BY_ROOT && place == 0;
+        }
+    }
     if (inside)
         t.eta = 1 / t.eta;
     return t;
 }
 
-static int fill_energy(const bake_settings *s, const shape *h, baked *b, size_t n, size_t cosines, size_t indices,
-                       int inside)
+static int fill_energy(const bake_settings *s, const shape *h, baked *b, size_t n, const char *axes, int inside)
 {
     enum { CHECKED = 16 };
     const size_t size = baked_size(b);
     for (size_t k = 0; k < size; k++) {
-        texel t = texel_at(s, h, k, n, cosines, indices, inside);
-        double e = !cosines    ? bake_average(s, t.alpha, t.eta)
-                   : t.eta > 0 ? bake_glass(s, t.alpha, t.cosine, t.eta)
-                               : bake_direction(s, t.alpha, t.cosine).all;
+        texel t = texel_at(s, h, k, n, axes, inside);
+        double e = t.is_empty           ? 1
+                   : !strchr(axes, 'c') ? bake_average(s, t.alpha, t.eta)
+                   : t.eta > 0          ? bake_glass(s, t.alpha, t.cosine, t.eta)
+                                        : bake_direction(s, t.alpha, t.cosine).all;
         b->value[k] = (float)fmin(e, 1);
         if (progress_show((double)k / (double)size, b->name, s->progress))
             return 0;
     }
-    if (!cosines)
+    if (!strchr(axes, 'c'))
         return 1;
     b->error = "beside quadrature over slopes, at 16 texels";
     for (int c = 0; c < CHECKED; c++) {
         const size_t k = spread(c, CHECKED, size);
-        texel t = texel_at(s, h, k, n, cosines, indices, inside);
-        note_error(b, (double)b->value[k], bake_reference(s, t.alpha, t.cosine, t.eta).all, CHECKED);
+        texel t = texel_at(s, h, k, n, axes, inside);
+        if (!t.is_empty)
+            note_error(b, (double)b->value[k], bake_reference(s, t.alpha, t.cosine, t.eta).all, CHECKED);
     }
     return 1;
 }
@@ -160,23 +188,25 @@ int bake_energy(const bake_settings *s, bake_shape shaped, baked_list *list)
     static const char *const names[] = {"energy",        "energy_average", "glass",
                                         "glass_average", "glass_inside",   "glass_inside_average"};
     const shape *h = &shapes[shaped];
-    const char *rough = h->centred ? roughness_centres : "roughness: i/(n - 1)";
-    const char *cosine = h->centred ? cosine_centres : "cosine: i/(n - 1)";
-    const char *index = h->by_root   ? "z = i/(n - 1), eta = (1 + z^2)/(1 - z^2)"
-                        : h->centred ? "eta: 1 + 2 (i + 1/2)/n"
-                                     : "eta: 1 + 2 i/(n - 1)";
+    bake_settings host = *s;
+    host.masks_alike = h->masks_alike;
     for (int k = 0; k < 6; k++) {
-        const int glass = k > 1, average = k % 2;
+        const int glass = k > 1, average = k % 2, inside = k > 3;
         const size_t n = glass ? h->glass : h->mirror, count[] = {n, n, n};
-        const char *axis[3] = {index, h->roughness_first ? cosine : rough, h->roughness_first ? rough : cosine};
-        if (average)
-            axis[1] = rough;
+        const char *axis[3];
+        char axes[4];
+        axes_of(h, glass, average, axes);
+        for (int i = 0; axes[i]; i++)
+            axis[i] = axes[i] == 'e'   ? (inside ? h->inside : h->outside)
+                      : axes[i] == 'r' ? (h->centred ? roughness_centres : "roughness: i/(n - 1)")
+                                       : (h->centred ? cosine_centres : "cosine: i/(n - 1)");
         baked *b = baked_add(list, names[k],
-                             !glass  ? "the part of the light that a mirror reflects"
-                             : k < 4 ? "what both lobes of a dielectric keep, from the thinner side"
-                                     : "the same from the denser side, of index 1/eta",
-                             1 + !average + glass, axis + !glass, count, 1);
-        if (!b || !fill_energy(s, h, b, n, average ? 0 : n, glass ? n : 1, k > 3))
+                             !glass    ? "the part of the light that a mirror reflects"
+                             : !inside ? "the part of the light that both lobes of a dielectric keep, from the "
+                                         "thinner side"
+                                       : "the same from the denser side, of index 1/eta",
+                             (int)strlen(axes), axis, count, 1);
+        if (!b || !fill_energy(&host, h, b, n, axes, inside))
             return 0;
     }
     return 1;
