@@ -53,7 +53,8 @@ static void test_places(void)
 {
     bake_settings s = settings(vndf_ggx(), 8);
     baked_list list = {.count = 0};
-    TEST(bake_dfg(&s, &list) && bake_energy(&s, "cycles", &list) && bake_prefilter(&s, &list) && list.count == 8);
+    TEST(bake_dfg(&s, &list) && bake_energy(&s, BAKE_CYCLES, &list) && bake_prefilter(&s, &list) &&
+         list.count == 8);
     const float *dfg = list.table[0].value + 3 * (5 * 8 + 2), *prefilter = list.table[7].value;
     bake_sum want = bake_direction(&s, bake_alpha(BAKE_SQUARE, 5.5 / 8), 2.5 / 8);
     TEST_NEAR((double)dfg[0], want.all - want.grazing, 1e-6);

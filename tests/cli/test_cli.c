@@ -80,6 +80,8 @@ static const struct {
     {"'3.1' is not in the range of the family, from 1.8 to 3", "sample --theta 60 -n 9 -o x.csv two.vndfs@3.1"},
     {"the parameter 'x' is not a number", "sample two.vndfs@x --theta 60 -n 9 -o x.csv"},
     {"must end in .svg", "plot ggx -o x.png"},
+    {"must end in .csv, .md or .json", "bench --only caps -o x.txt"},
+    {"--with: column 1: unknown family 'foo'", "report --with foo x"},
     {"--samples '10' is not in the range", "check ggx --samples 10"},
     {"a closed form was not made of a CSV", "check ggx --csv text.txt"},
 };

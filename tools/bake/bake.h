@@ -93,9 +93,9 @@ double bake_average(const bake_settings *s, float alpha, double eta);
 
 int bake_dfg(const bake_settings *s, baked_list *list);
 
-/* In the shape of a host, by its name (NULL: the first); bake_shape_names are all, NULL ends them. */
-extern const char *const bake_shape_names[];
-int bake_energy(const bake_settings *s, const char *shape, baked_list *list);
+/* In the shape of a host. */
+typedef enum bake_shape { BAKE_GRID, BAKE_CYCLES, BAKE_OSPRAY } bake_shape;
+int bake_energy(const bake_settings *s, bake_shape shape, baked_list *list);
 int bake_ltc(const bake_settings *s, baked_list *list);
 int bake_prefilter(const bake_settings *s, baked_list *list);
 

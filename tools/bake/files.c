@@ -5,25 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/files.h"
 #include "draw/png.h"
 #include "draw/svg.h"
 
-const char *const bake_forms[] = {"npy", "dds", "c", "glsl", "js", NULL};
-
 /* ---- numbers ------------------------------------------------------------------------------------- */
-
-static void put(FILE *file, uint32_t value, int bytes)
-{
-    for (int i = 0; i < bytes; i++)
-        fputc((int)(value >> (8 * i) & 255), file);
-}
-
-static void put_float(FILE *file, float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    put(file, bits, 4);
-}
 
 /* Format 1.0 of numpy's files: a dictionary in text, filled up to 64 bytes. */
 static void write_npy(FILE *file, const baked *b)
@@ -37,10 +23,9 @@ static void write_npy(FILE *file, const baked *b)
     int used = snprintf(head, sizeof head, "{'descr': '<f4', 'fortran_order': False, 'shape': (%s), }", shape);
     int all = (10 + used + 1 + 63) / 64 * 64 - 10;
     fwrite("\x93NUMPY\x01\x00", 1, 8, file);
-    put(file, (uint32_t)all, 2);
+    put_little(file, (uint32_t)all, 2);
     fprintf(file, "%-*s\n", all - 1, head);
-    for (size_t i = 0; i < baked_size(b); i++)
-        put_float(file, b->value[i]);
+    put_floats(file, b->value, baked_size(b));
 }
 
 unsigned bake_half(float x)
@@ -68,30 +53,18 @@ static void write_dds(FILE *file, const baked *b)
                  depth = b->axes > 2 ? b->count[0] : 1;
     const int channels = b->channels < 3 ? b->channels : 4;
     const int format = channels == 1 ? R16 : channels == 2 ? RG16 : RGBA16;
-    const uint32_t volume = depth > 1, head[] = {124,
-                                                 0x100f | (volume ? 0x800000u : 0),
-                                                 (uint32_t)height,
-                                                 (uint32_t)width,
-                                                 (uint32_t)width * 2 * (uint32_t)channels,
-                                                 (uint32_t)depth,
-                                                 1};
+    const uint32_t volume = depth > 1, flags = 0x100f | volume << 23;
+    const uint32_t across = (uint32_t)width, down = (uint32_t)height, row = across * 2 * (uint32_t)channels;
+    uint32_t head[36] = {124, flags, down, across, row, (uint32_t)depth, 1};
+    head[18] = 32, head[19] = 4, head[20] = 0x30315844; /* the form of pixels: "DX10", */
+    head[31] = (uint32_t)format, head[32] = volume ? 4 : 3, head[34] = 1;
+    head[26] = volume ? 0x401008 : 0x1000, head[27] = volume << 21;
     fputs("DDS ", file);
     for (size_t i = 0; i < sizeof head / sizeof *head; i++)
-        put(file, head[i], 4);
-    for (int i = 0; i < 11; i++)
-        put(file, 0, 4);
-    put(file, 32, 4), put(file, 4, 4);
-    fputs("DX10", file);
-    for (int i = 0; i < 5; i++)
-        put(file, 0, 4);
-    put(file, volume ? 0x401008u : 0x1000u, 4), put(file, volume ? 0x200000u : 0, 4);
-    for (int i = 0; i < 3; i++)
-        put(file, 0, 4);
-    put(file, (uint32_t)format, 4), put(file, volume ? 4 : 3, 4), put(file, 0, 4), put(file, 1, 4),
-        put(file, 0, 4);
+        put_little(file, head[i], 4);
     for (size_t i = 0; i < width * height * depth; i++)
         for (int k = 0; k < channels; k++)
-            put(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
+            put_little(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
 }
 
 /* ---- arrays -------------------------------------------------------------------------------------- */
@@ -110,39 +83,26 @@ static void write_about(FILE *file, const baked *b, const char *made_by)
     fprintf(file, "// made by: %s\n", made_by);
 }
 
-/* With a point or an exponent in each number, which GLSL needs for a float. */
-static void write_array(FILE *file, const baked *b, const char *end)
+/* Numbers have a point or an exponent each, which GLSL needs for a float. */
+static void write_array(FILE *file, const baked *b, bake_form form, const char *made_by)
 {
+    write_about(file, b, made_by);
+    if (form == BAKE_C)
+        fprintf(file, "static const float %s[%zu] = {\n", b->name, baked_size(b));
+    else if (form == BAKE_GLSL)
+        fprintf(file, "const float %s[%zu] = float[%zu](\n", b->name, baked_size(b), baked_size(b));
+    else {
+        fprintf(file, "export const %s = {size: [", b->name);
+        for (int i = 0; i < b->axes; i++)
+            fprintf(file, "%s%zu", i ? ", " : "", b->count[i]);
+        fprintf(file, "], channels: %d, data: new Float32Array([\n", b->channels);
+    }
     for (size_t i = 0; i < baked_size(b); i++) {
         char text[32];
         snprintf(text, sizeof text, "%.9g", (double)b->value[i]);
         fprintf(file, "%s%s%s", i == 0 ? "" : i % 8 ? ", " : ",\n", text, strpbrk(text, ".e") ? "" : ".0");
     }
-    fputs(end, file);
-}
-
-static void write_c(FILE *file, const baked *b, const char *made_by)
-{
-    write_about(file, b, made_by);
-    fprintf(file, "static const float %s[%zu] = {\n", b->name, baked_size(b));
-    write_array(file, b, "};\n");
-}
-
-static void write_glsl(FILE *file, const baked *b, const char *made_by)
-{
-    write_about(file, b, made_by);
-    fprintf(file, "const float %s[%zu] = float[%zu](\n", b->name, baked_size(b), baked_size(b));
-    write_array(file, b, ");\n");
-}
-
-static void write_js(FILE *file, const baked *b, const char *made_by)
-{
-    write_about(file, b, made_by);
-    fprintf(file, "export const %s = {size: [", b->name);
-    for (int i = 0; i < b->axes; i++)
-        fprintf(file, "%s%zu", i ? ", " : "", b->count[i]);
-    fprintf(file, "], channels: %d, data: new Float32Array([\n", b->channels);
-    write_array(file, b, "])};\n");
+    fputs(form == BAKE_C ? "};\n" : form == BAKE_GLSL ? ");\n" : "])};\n", file);
 }
 
 /* ---- pictures ------------------------------------------------------------------------------------ */
@@ -182,7 +142,7 @@ static int write_png(FILE *file, const baked *b)
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
-int bake_file(html_page *page, const baked *b, size_t form, const char *made_by)
+int bake_file(html_page *page, const baked *b, bake_form form, const char *made_by)
 {
     static const char *const ends[] = {"npy", "dds", "h", "glsl", "js", "png"};
     char name[PAGE_NAME_MAX];
@@ -190,16 +150,14 @@ int bake_file(html_page *page, const baked *b, size_t form, const char *made_by)
     FILE *file = page_file(page, name);
     if (!file)
         return 0;
-    switch (form) {
-    case 0: write_npy(file, b); break;
-    case 1: write_dds(file, b); break;
-    case 2: write_c(file, b, made_by); break;
-    case 3: write_glsl(file, b, made_by); break;
-    case 4: write_js(file, b, made_by); break;
-    default:
-        if (!write_png(file, b))
-            return complain(page->command, "no memory"), 0;
-    }
+    if (form == BAKE_NPY)
+        write_npy(file, b);
+    else if (form == BAKE_DDS)
+        write_dds(file, b);
+    else if (form < BAKE_PICTURE)
+        write_array(file, b, form, made_by);
+    else if (!write_png(file, b))
+        return complain(page->command, "no memory"), 0;
     return 1;
 }
 

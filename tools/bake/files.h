@@ -6,12 +6,11 @@
 #include "bake/bake.h"
 #include "draw/page.h"
 
-/* The forms, NULL ends them: npy, dds, c, glsl, js. The picture is one more at the end, which is always written. */
-extern const char *const bake_forms[];
-enum { BAKE_PICTURE = 5 };
+/* As --format has them; the picture is always written. */
+typedef enum bake_form { BAKE_NPY, BAKE_DDS, BAKE_C, BAKE_GLSL, BAKE_JS, BAKE_PICTURE } bake_form;
 
 /* Adds the file of a table in this form to a page; `made_by` is the command. 0 after a complaint. */
-int bake_file(html_page *page, const baked *b, size_t form, const char *made_by);
+int bake_file(html_page *page, const baked *b, bake_form form, const char *made_by);
 
 /* A section of the page about a table. */
 void bake_section(html_page *page, const baked *b);

@@ -1,7 +1,6 @@
 /* The tables of directions: dfg, energy and prefilter. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "bake/bake.h"
 
@@ -94,8 +93,8 @@ typedef struct shape {
     int by_root;
 } shape;
 
-const char *const bake_shape_names[] = {"grid", "cycles", "ospray", NULL};
-static const shape shapes[] = {{32, 16, 0, 1, 0}, {32, 16, 1, 0, 1}, {32, 16, 0, 0, 0}};
+static const shape shapes[] = {
+    [BAKE_GRID] = {32, 16, 0, 1, 0}, [BAKE_CYCLES] = {32, 16, 1, 0, 1}, [BAKE_OSPRAY] = {32, 16, 0, 0, 0}};
 
 static double place_of(const shape *h, size_t i, size_t n)
 {
@@ -156,14 +155,11 @@ static int fill_energy(const bake_settings *s, const shape *h, baked *b, size_t 
     return 1;
 }
 
-int bake_energy(const bake_settings *s, const char *name, baked_list *list)
+int bake_energy(const bake_settings *s, bake_shape shaped, baked_list *list)
 {
     static const char *const names[] = {"energy",        "energy_average", "glass",
                                         "glass_average", "glass_inside",   "glass_inside_average"};
-    size_t which = 0;
-    while (name && strcmp(bake_shape_names[which], name) != 0)
-        which++;
-    const shape *h = &shapes[which];
+    const shape *h = &shapes[shaped];
     const char *rough = h->centred ? roughness_centres : "roughness: i/(n - 1)";
     const char *cosine = h->centred ? cosine_centres : "cosine: i/(n - 1)";
     const char *index = h->by_root   ? "z = i/(n - 1), eta = (1 + z^2)/(1 - z^2)"

@@ -3,11 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/output.h"
-#include "command.h"
-
-/* ---- figures, one after the other ---------------------------------------------------------------- */
-
 figures figures_begin(const arguments *given)
 {
     return (figures){.file = stdout,
@@ -125,46 +120,4 @@ void figures_end(figures *f)
 {
     if (f->form == FIGURES_JSON)
         fprintf(f->file, "%s\n  \"units\": {%s}\n}\n", f->in_object ? "," : "{", f->units);
-}
-
-/* ---- rows ---------------------------------------------------------------------------------------- */
-
-/* As figures_form and --format have them. */
-static const char *const forms[] = {"text", "csv", "md", "json", NULL};
-
-int rows_check(const arguments *given)
-{
-    const char *path = option_value(given, "-o");
-    output_file output;
-    if (option_value(given, "--json") && option_value(given, "--format"))
-        return complain(given->command, "--json and --format are given; --json is --format json"), 0;
-    if (!path || output_is_stdout(path))
-        return 1;
-    if (output_form(given->command, path, forms + 1) < 0 || !output_open(&output, given->command, path))
-        return 0;
-    output_give_up(&output, NULL);
-    return 1;
-}
-
-static int print_to(const arguments *given, const char *path, rows_printer *print, const void *rows, int form)
-{
-    output_file output;
-    if (!output_open(&output, given->command, path))
-        return STATUS_USE;
-    return print(output.file, rows, (figures_form)form) ? output_commit(&output)
-                                                        : output_give_up(&output, "no memory for the table");
-}
-
-int rows_print(const arguments *given, rows_printer *print, const void *rows)
-{
-    const char *path = option_value(given, "-o");
-    const int has_file = path && !output_is_stdout(path);
-    int form = (int)figures_begin(given).form, status = STATUS_GOOD;
-    if (form == FIGURES_TEXT)
-        form = option_choice(given, "--format", path && !has_file ? FIGURES_CSV : FIGURES_TEXT);
-    if (form != FIGURES_NONE)
-        status = print_to(given, "-", print, rows, (int)form);
-    int to_file = has_file ? print_to(given, path, print, rows, 1 + output_form(given->command, path, forms + 1))
-                           : STATUS_GOOD;
-    return status == STATUS_GOOD ? to_file : status;
 }

@@ -1,5 +1,4 @@
-/* What commands print of what they found: named figures with units, as text or JSON (--json), or not at all (-q); and
- * rows of figures, as text, CSV, Markdown or JSON, to stdout and to files. */
+/* What commands print of what they found: named figures with units, as text or JSON (--json), or not at all (-q). */
 #ifndef TOOLS_CLI_FIGURES_H
 #define TOOLS_CLI_FIGURES_H
 
@@ -7,9 +6,8 @@
 
 #include "cli/arguments.h"
 
+/* CSV and Markdown are for tables of rows (draw/table.h). */
 typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
-
-/* ---- figures, one after the other ---- */
 
 /* Names and units have to outlive it: literals. */
 typedef struct figures {
@@ -43,21 +41,5 @@ void figures_end(figures *f);
 
 /* Between quotes, as JSON has it; bytes that are no UTF-8 are the caller's. */
 void figures_json_text(FILE *file, const char *text);
-
-/* ---- rows ---- */
-
-#define ROWS_HELP                                                                      \
-  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md\n" \
-  "  --format text|csv|md|json  of stdout (default text; with -o - csv)\n"
-
-/* Prints rows in a form other than FIGURES_NONE; 0 if there was no memory. */
-typedef int rows_printer(FILE *file, const void *rows, figures_form form);
-
-/* Whether the words go together and the file can be written, before what they will hold is measured. 1, or 0 after a
- * complaint. */
-int rows_check(const arguments *given);
-
-/* Prints to stdout and to the file of -o; an exit status. */
-int rows_print(const arguments *given, rows_printer *print, const void *rows);
 
 #endif

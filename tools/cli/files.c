@@ -115,3 +115,49 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
         complain(command, "cannot read %s: %s", input_name(path), reason);
     return bytes;
 }
+
+/* ---- numbers ------------------------------------------------------------------------------------- */
+
+uint64_t little_whole(const unsigned char *at, size_t bytes)
+{
+    uint64_t value = 0;
+    for (size_t i = 0; i < bytes; i++)
+        value |= (uint64_t)at[i] << 8 * i;
+    return value;
+}
+
+double little_number(const unsigned char *at, size_t bytes)
+{
+    const uint64_t bits = little_whole(at, bytes);
+    const uint32_t low = (uint32_t)bits;
+    float narrow;
+    double wide;
+    memcpy(&narrow, &low, sizeof narrow);
+    memcpy(&wide, &bits, sizeof wide);
+    return bytes == 4 ? (double)narrow : wide;
+}
+
+void put_little(FILE *file, uint64_t value, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i++)
+        fputc((int)(value >> 8 * i & 255), file);
+}
+
+void floats_to_bytes(unsigned char *bytes, const float *x, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        uint32_t bits;
+        memcpy(&bits, x + i, sizeof bits);
+        for (size_t k = 0; k < 4; k++)
+            bytes[4 * i + k] = (unsigned char)(bits >> 8 * k & 255);
+    }
+}
+
+void put_floats(FILE *file, const float *x, size_t count)
+{
+    unsigned char bytes[4];
+    for (size_t i = 0; i < count; i++) {
+        floats_to_bytes(bytes, x + i, 1);
+        fwrite(bytes, 1, sizeof bytes, file);
+    }
+}

@@ -6,6 +6,8 @@
 #define TOOLS_CLI_FILES_H
 
 #include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
 
 /* NULL, or what forbids that: "an output of this command". What is no file, or not there, is not noted. */
 const char *files_note(const char *path, int is_output);
@@ -22,5 +24,17 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
 
 /* "stdin" for "-". */
 const char *input_name(const char *path);
+
+/* ---- numbers with the least byte first ---- */
+
+/* Whole ones, and floats of 4 or 8 bytes. */
+uint64_t little_whole(const unsigned char *at, size_t bytes);
+double little_number(const unsigned char *at, size_t bytes);
+
+void put_little(FILE *file, uint64_t value, size_t bytes);
+void put_floats(FILE *file, const float *x, size_t count);
+
+/* Into 4 * count bytes. */
+void floats_to_bytes(unsigned char *bytes, const float *x, size_t count);
 
 #endif

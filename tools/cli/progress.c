@@ -67,11 +67,6 @@ int progress_show(double done, const char *what, void *user)
     return output_stopping();
 }
 
-int progress_tell(double done, void *user)
-{
-    return progress_show(done, NULL, user);
-}
-
 void progress_end(const progress *p)
 {
     if (p->is_seen)

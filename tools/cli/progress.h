@@ -20,9 +20,6 @@ void progress_step(progress *p, double to);
 /* `done` of the step, 0 to 1, is done; what is under way, or NULL. Not 0: stop. A vndf_progress of a progress. */
 int progress_show(double done, const char *what, void *user);
 
-/* The same without a word. */
-int progress_tell(double done, void *user);
-
 /* Clears the line. */
 void progress_end(const progress *p);
 

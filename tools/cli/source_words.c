@@ -74,11 +74,9 @@ vndf_source *source_from_words(const arguments *given, const char *otherwise)
     return source;
 }
 
-void source_text_name(const arguments *given, char *text, size_t size)
+const char *source_name(const vndf_source *source)
 {
-    const words set = option_values(given, "--set");
-    const char *kind = option_among(given, source_kinds);
-    size_t at = (size_t)snprintf(text, size, "%s", kind ? option_value(given, kind) : "");
-    for (size_t i = 0; i < set.count && at < size; i++)
-        at += (size_t)snprintf(text + at, size - at, ", %s", set.item[i]);
+    static const char family[] = "--family ";
+    const char *name = vndf_source_description(source);
+    return strncmp(name, family, sizeof family - 1) == 0 ? name + sizeof family - 1 : name;
 }

@@ -15,7 +15,7 @@ vndf_source *source_from_words(const arguments *given, const char *otherwise);
 /* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
 vndf_source *source_from_csv(const char *command, const char *path);
 
-/* For people: the formula, file or family alone, and the parameters after it; cut where `size` ends. */
-void source_text_name(const arguments *given, char *text, size_t size);
+/* For people: its description; of a family its name. */
+const char *source_name(const vndf_source *source);
 
 #endif

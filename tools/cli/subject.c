@@ -72,11 +72,6 @@ vndf_vec3 direction_from(double theta, double phi)
     return direction;
 }
 
-int sees_nothing(const vndf_surface *surface, vndf_vec3 w)
-{
-    return w.z < 0 && vndf_projected_area(surface, w) < 1e-25f;
-}
-
 static const double narrowest = 1e-18, widest = 1e18; /* what the library takes for roughness */
 
 int roughness_from(const char *command, const char *text, vndf_surface *surface)

@@ -27,10 +27,6 @@ int is_family_file(const char *name);
 /* The unit direction at theta and phi in degrees; exact where either is a multiple of 90. */
 vndf_vec3 direction_from(double theta, double phi);
 
-/* Whether so little of the surface faces w (from below the horizon, along a narrow lobe) that densities may
- * underflow: views where nothing but density 0 is no fault. */
-int sees_nothing(const vndf_surface *surface, vndf_vec3 w);
-
 /* "AX" or "AX,AY" into *surface; text NULL: 1, 1. Returns 1, or 0 after a complaint. */
 int roughness_from(const char *command, const char *text, vndf_surface *surface);
 

@@ -45,7 +45,7 @@ static unsigned listed(const arguments *given, const char *option, unsigned othe
     return bits ? bits : otherwise;
 }
 
-static int make(const bake_settings *s, unsigned what, const char *shape, baked_list *list)
+static int make(const bake_settings *s, unsigned what, bake_shape shape, baked_list *list)
 {
     static const double seconds[] = {2, 16, 17, 0.1, 50};
     double all = 0, end = 0;
@@ -78,11 +78,9 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
     fputs("</code></p>\n", page->html);
     for (size_t i = 0; i < list->count; i++) {
         bake_section(page, &list->table[i]);
-        for (size_t f = 0; bake_forms[f]; f++)
-            if (forms >> f & 1 && !bake_file(page, &list->table[i], f, made_by))
+        for (bake_form f = BAKE_NPY; f <= BAKE_PICTURE; f++)
+            if ((forms >> f & 1 || f == BAKE_PICTURE) && !bake_file(page, &list->table[i], f, made_by))
                 return 0;
-        if (!bake_file(page, &list->table[i], BAKE_PICTURE, made_by))
-            return 0;
     }
     page_end(page);
     return 1;
@@ -110,7 +108,8 @@ static void print(const arguments *given, const baked_list *list, const char *fo
 static int bake(const arguments *given, bake_settings *s, unsigned what)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
-    const char *folder = given->positional.item[1], *shape = option_value(given, "--shape");
+    const char *folder = given->positional.item[1];
+    const bake_shape shape = (bake_shape)option_choice(given, "--shape", BAKE_GRID);
     char made_by[1024];
     baked_list list = {.count = 0};
     html_page page;

@@ -15,6 +15,9 @@
 static const char normals_name[] = "vndf bench", effects_name[] = "vndf bench effects",
                   student[] = "student-t:2.5";
 
+#define ROWS \
+  "  -o FILE          all numbers as FILE.csv or FILE.json, or the table as FILE.md; - for stdout, as CSV\n"
+
 static const char *const normals_help[] = {
     "usage: vndf bench [--ndf EXPR | --slope EXPR | --csv FILE | --family NAME[:PARAM,...]] [options]\n"
     "       vndf bench effects ...   what each effect of a BSDF costs; `vndf bench effects --help` says more\n"
@@ -30,11 +33,11 @@ static const char *const normals_help[] = {
     "  --csv FILE       rows of D or P22, as `vndf build` reads them\n"
     "  --seconds S      to spend in all, 0.1 to 3600 (default 40); less means more noise; building the tables\n"
     "                   may take longer\n"
-    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n" ROWS_HELP "\n"
+    "  --only WORD      only rows with WORD in the method, distribution or instruction set\n" ROWS "\n"
     "exit status 1: what a method of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench --only avx512\n"
-    "         vndf bench --slope 'exp(-3*r)' -o bench.csv --format md\n",
+    "         vndf bench --slope 'exp(-3*r)' -o bench.csv\n",
     NULL};
 
 static const char *const effects_help[] = {
@@ -49,7 +52,7 @@ static const char *const effects_help[] = {
     "  --alpha AX[,AY]   roughness (default 0.5)\n"
     "  --theta DEG       incident angle of its weights, 0 to 89.9 (default 60)\n"
     "  --only WORD       only sets of effects or distributions with WORD in their name\n"
-    "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n" ROWS_HELP "\n"
+    "  --seconds S       to spend in all, 0.01 to 3600 (default 15); less means more noise\n" ROWS "\n"
     "exit status 1: what a set of ours returned was wrong, so it was not timed\n"
     "\n"
     "example: vndf bench effects --distribution ggx --only masking\n"
@@ -72,10 +75,29 @@ static int judge(const char *command, const evidence_rows *found)
     return status;
 }
 
+/* For people on stdout unless the file is there, and into the file. */
+static int print(const arguments *given, output_file *output, figures_form ending, const evidence_rows *found)
+{
+    figures_form form = figures_begin(given).form;
+    if (!output->path && option_value(given, "-o") && form == FIGURES_TEXT)
+        form = FIGURES_CSV;
+    if ((form != FIGURES_NONE && !evidence_print(stdout, found, form)) ||
+        (output->path && !evidence_print(output->file, found, ending)))
+        return output_give_up(output, "no memory for the table");
+    const int shown = output_finish_stdout(given->command), saved = output->path ? output_commit(output) : shown;
+    return shown == STATUS_GOOD ? saved : shown;
+}
+
 static int run_plan(evidence_plan *plan, const arguments *given)
 {
+    static const char *const endings[] = {"csv", "md", "json", NULL}; /* in the order of forms, after text */
+    const char *path = option_value(given, "-o");
+    const int ending = path ? output_form(given->command, path, endings) : 0;
     vndf_error error = {VNDF_OK, ""};
     evidence_rows found;
+    output_file output;
+    if (ending < 0 || !output_open(&output, given->command, path ? path : "-"))
+        return STATUS_USE;
     output_hold_signals();
     progress p = progress_begin(given->command, option_value(given, "-q") != NULL);
     plan->progress = &p;
@@ -83,8 +105,8 @@ static int run_plan(evidence_plan *plan, const arguments *given)
     plan->start = clock_seconds();
     vndf_status status = evidence_run(plan, &found, &error);
     progress_end(&p);
-    int printed = status != VNDF_OK ? complain(given->command, "%s", error.message)
-                                    : rows_print(given, evidence_print, &found);
+    int printed = status != VNDF_OK ? output_give_up(&output, error.message)
+                                    : print(given, &output, (figures_form)(FIGURES_CSV + ending), &found);
     int judged = judge(given->command, &found);
     rows_free(&found);
     output_release_signals();
@@ -93,40 +115,26 @@ static int run_plan(evidence_plan *plan, const arguments *given)
 
 /* ---- vndf bench effects -------------------------------------------------------------------------- */
 
-typedef struct opened {
-    chosen_distribution of[MATERIALS_MAX];
-    size_t count;
-    vndf_distribution *built;
-} opened;
-
-static int open_one(opened *o, evidence_plan *plan, const char *word)
+/* The named distributions, or both closed forms and a table that is built. Close all of them in any case. */
+static int open_all(chosen_distribution *of, evidence_plan *plan, const words *names)
 {
-    if (!distribution_open(&o->of[o->count], effects_name, word, 0))
-        return 0;
-    plan->of[plan->count].name = word;
-    plan->of[plan->count++].distribution = o->of[o->count++].distribution;
-    return 1;
-}
-
-/* The named distributions, or both closed forms and a table built for the purpose. */
-static int open_all(opened *o, evidence_plan *plan, const words *names)
-{
+    static const words closed_forms = {{"ggx", "beckmann"}, 2};
+    const words *all = names->count ? names : &closed_forms;
     vndf_error error = {VNDF_OK, ""};
-    for (size_t i = 0; i < names->count; i++)
-        if (!open_one(o, plan, names->item[i]))
+    for (; plan->count < all->count; plan->count++, of++) {
+        if (!distribution_open(of, effects_name, all->item[plan->count], 0))
             return 0;
+        plan->of[plan->count].name = all->item[plan->count];
+        plan->of[plan->count].distribution = of->distribution;
+    }
     if (names->count)
         return 1;
-    if (!open_one(o, plan, "ggx") || !open_one(o, plan, "beckmann"))
-        return 0;
     vndf_source *source = vndf_source_family(student, &error);
-    o->built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
+    of->owned = source ? vndf_build(source, NULL, NULL, &error) : NULL;
     vndf_source_free(source);
-    if (!o->built)
-        complain(effects_name, "%s", error.message);
     plan->of[plan->count].name = student;
-    plan->of[plan->count++].distribution = o->built;
-    return o->built != NULL;
+    plan->of[plan->count++].distribution = of->owned;
+    return of->owned || (complain(effects_name, "%s", error.message), 0);
 }
 
 static int run_effects(const arguments *given)
@@ -135,19 +143,18 @@ static int run_effects(const arguments *given)
     const words names = option_values(given, "--distribution");
     vndf_surface surface;
     evidence_plan plan = {.theta = 60, .seconds = 15};
-    opened o = {.count = 0, .built = NULL};
+    chosen_distribution of[MATERIALS_MAX] = {{NULL, NULL, NULL}};
     if (names.count > MATERIALS_MAX)
         return complain(effects_name, "--distribution is given more than %d times", MATERIALS_MAX);
     if (!roughness_from(effects_name, alpha ? alpha : "0.5", &surface) ||
         !option_number(given, "--seconds", 0.01, 3600, &plan.seconds) ||
-        !option_number(given, "--theta", 0, 89.9, &plan.theta) || !rows_check(given))
+        !option_number(given, "--theta", 0, 89.9, &plan.theta))
         return STATUS_USE;
     plan.alpha_x = surface.alpha_x;
     plan.alpha_y = surface.alpha_y;
-    int status = open_all(&o, &plan, &names) ? run_plan(&plan, given) : STATUS_USE;
-    for (size_t i = 0; i < o.count; i++)
-        distribution_close(&o.of[i]);
-    vndf_free(o.built);
+    int status = open_all(of, &plan, &names) ? run_plan(&plan, given) : STATUS_USE;
+    for (size_t i = 0; i < MATERIALS_MAX; i++)
+        distribution_close(&of[i]);
     return status;
 }
 
@@ -160,16 +167,12 @@ static int run_normals(const arguments *given)
 {
     subject s;
     evidence_plan plan = {.at_hand = &s, .seconds = 40};
-    const char *family = option_value(given, "--family");
-    if (!option_number(given, "--seconds", 0.1, 3600, &plan.seconds) || !rows_check(given))
+    if (!option_number(given, "--seconds", 0.1, 3600, &plan.seconds))
         return STATUS_USE;
     vndf_source *source = source_from_words(given, student);
     if (!source)
         return STATUS_USE;
-    subject_begin(&s, source,
-                  !option_among(given, source_kinds) ? student
-                  : family                           ? family
-                                                     : vndf_source_description(source));
+    subject_begin(&s, source, source_name(source));
     int status = run_plan(&plan, given);
     subject_free(&s);
     return status;

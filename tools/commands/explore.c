@@ -9,6 +9,7 @@
 
 #include "bake/bake.h"
 #include "cli/arguments.h"
+#include "cli/files.h"
 #include "cli/output.h"
 #include "command.h"
 #include "commands/parts/named_tables.h"
@@ -83,17 +84,13 @@ static void put_choices(FILE *to, const export_document *document)
 /* Little-endian, in lines of base64. */
 static void put_numbers(FILE *to, const float *numbers, size_t count)
 {
-    unsigned char line[84];
-    size_t n = 0;
-    for (size_t i = 0; i < 4 * count; i++) {
-        unsigned bits;
-        memcpy(&bits, &numbers[i / 4], sizeof bits);
-        line[n++] = (unsigned char)(bits >> 8 * (i % 4) & 255u);
-        if (n == sizeof line || i + 1 == 4 * count) {
-            base64_write(to, line, n);
-            fputs("\n", to);
-            n = 0;
-        }
+    enum { LINE = 21 };
+    unsigned char line[4 * LINE];
+    for (size_t i = 0; i < count; i += LINE) {
+        const size_t n = count - i < LINE ? count - i : LINE;
+        floats_to_bytes(line, numbers + i, n);
+        base64_write(to, line, 4 * n);
+        fputs("\n", to);
     }
 }
 

@@ -6,10 +6,11 @@
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "cli/output.h"
+#include "cli/subject.h"
 #include "command.h"
-#include "commands/parts/export_brdf.h"
 #include "commands/parts/named_tables.h"
 #include "export/document.h"
+#include "measured/brdf.h"
 
 static const char name[] = "vndf export";
 
@@ -126,18 +127,6 @@ static int fits(const export_document *document)
            0;
 }
 
-/* Little-endian. */
-static int write_raw(const export_document *document, FILE *file)
-{
-    for (size_t i = 0; i < 4 * document->count; i++) {
-        unsigned bits;
-        memcpy(&bits, &document->numbers[i / 4], sizeof bits);
-        if (fputc((int)(bits >> 8 * (i % 4) & 255u), file) == EOF)
-            return 0;
-    }
-    return 1;
-}
-
 static int write_all(const arguments *given, const export_document *document)
 {
     const char *path = option_value(given, "-o"), *raw = option_value(given, "--buffer");
@@ -149,8 +138,9 @@ static int write_all(const arguments *given, const export_document *document)
     if (raw && !output_open(&numbers, name, raw))
         return STATUS_USE;
     int opened = output_open(&text, name, path);
-    int written =
-        opened && document_write(document, text.file, NULL) && (!raw || write_raw(document, numbers.file));
+    int written = opened && document_write(document, text.file, NULL);
+    if (raw && written)
+        put_floats(numbers.file, document->numbers, document->count);
     if (raw && !written)
         output_give_up(&numbers, NULL);
     if (!written)
@@ -159,20 +149,75 @@ static int write_all(const arguments *given, const export_document *document)
     return of_raw != STATUS_GOOD ? of_raw : of_text;
 }
 
+/* ---- reflectances -------------------------------------------------------------------------------- */
+
+/* Roughness, wavelengths, and F0: one number for all channels, or one for each. */
+static int read_form(const arguments *given, rgl_form *form)
+{
+    const char *wavelengths = option_value(given, "--wavelengths"), *f0 = option_value(given, "--f0");
+    double alpha = 1, nanometres[RGL_CHANNELS];
+    size_t channels = 3, count = 1;
+    if (!option_number(given, "--alpha", 1e-4, 10, &alpha))
+        return 0;
+    if (wavelengths)
+        channels = parse_numbers(name, "--wavelengths", wavelengths, 1, 1e6, 1, RGL_CHANNELS, nanometres);
+    for (size_t i = 0; i < channels && wavelengths; i++) {
+        form->wavelength[i] = (float)nanometres[i];
+        if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1]))
+            return complain(name, "--wavelengths '%s': they must ascend", wavelengths), 0;
+    }
+    form->alpha = (float)alpha;
+    form->channels = (int)channels;
+    form->is_spectral = wavelengths != NULL;
+    form->f0[0] = 1;
+    if (channels > 0 && f0)
+        count = parse_numbers(name, "--f0", f0, 0, 1, 1, channels, form->f0);
+    if (count > 1 && count < channels)
+        return complain(name, "--f0 has %zu numbers; 1 or %zu are needed", count, channels), 0;
+    for (size_t i = count; i < channels; i++)
+        form->f0[i] = form->f0[0];
+    return channels > 0 && count > 0;
+}
+
+/* Single scattering of one distribution as a file of reflectances. */
+static int export_rgl(const arguments *given)
+{
+    rgl_form form = {0};
+    chosen_distribution chosen;
+    char description[600];
+    output_file output;
+    if (given->positional.count != 1)
+        return complain(name, "%zu distributions are given; --rgl takes one", given->positional.count);
+    if (!read_form(given, &form) || !distribution_open(&chosen, name, given->positional.item[0], 0))
+        return STATUS_USE;
+    snprintf(description, sizeof description, "vndf %.500s, alpha %g", given->positional.item[0],
+             (double)form.alpha);
+    form.description = description;
+    int status = STATUS_USE;
+    if (output_open(&output, name, option_value(given, "-o"))) {
+        int written = rgl_write(output.file, chosen.distribution, &form);
+        status = written ? output_commit(&output) : output_give_up(&output, "no memory, or no place on the disk");
+    }
+    distribution_close(&chosen);
+    return status;
+}
+
+/* ---- the command --------------------------------------------------------------------------------- */
+
 static int run(const arguments *given)
 {
     static const char *const of_kernels[] = {"--language", "--buffer",       "--prefix", "--lobes",
                                              "--only",     "--distribution", "--bsdf",   NULL};
-    const int is_brdf = option_value(given, "--rgl") != NULL;
-    const char *wrong = is_brdf ? option_among(given, of_kernels) : NULL;
+    const int is_rgl = option_value(given, "--rgl") != NULL;
+    const char *wrong = is_rgl ? option_among(given, of_kernels) : NULL;
     export_document document = {0};
     int status = STATUS_USE;
     if (wrong)
         return complain(name, "%s is for kernels, not for --rgl", wrong);
     if (!option_value(given, "-o"))
         return complain(name, "-o OUT is missing");
-    if (is_brdf)
-        return export_brdf(given);
+    if (is_rgl)
+        return export_rgl(given);
     if (read_settings(given, &document) && named_tables_open(name, &given->positional, 1, &document) &&
         fits(&document))
         status = write_all(given, &document);

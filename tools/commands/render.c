@@ -179,7 +179,7 @@ static int render_ways(comparison *c, const scene *s, int is_quiet)
     progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
     int is_whole = 1;
     line.tells_left = 1;
-    c->run.progress = progress_tell;
+    c->run.progress = progress_show;
     c->run.user = &line;
     for (size_t i = 0; i < c->count && is_whole; i++)
         is_whole = film_make(&c->way[i].film, s->width, s->height);

@@ -30,34 +30,22 @@ static const char *const help[] = {
     "example: vndf report --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 wavy-report\n",
     NULL};
 
-static const char student[] = "student-t:2.5";
-
 /* ---- what is measured ---------------------------------------------------------------------------- */
-
-/* Takes the source, which may be NULL with an error; an exit status. */
-static int add_subject(report *r, vndf_source *source, const char *title, const vndf_error *error)
-{
-    if (!source)
-        return complain(name, "%s", error->message);
-    subject_begin(&r->subject[r->count++].of, source, title);
-    return STATUS_GOOD;
-}
 
 static int add_subjects(report *r, const arguments *given)
 {
     const words with = option_values(given, "--with");
     vndf_error error = {VNDF_OK, ""};
-    char title[256];
     if (with.count >= REPORT_SUBJECTS)
         return complain(name, "--with is given more than %d times", REPORT_SUBJECTS - 1);
-    vndf_source *source = source_from_words(given, student);
-    if (!source)
-        return STATUS_USE;
-    source_text_name(given, title, sizeof title);
-    int status = add_subject(r, source, *title ? title : student, &error);
-    for (size_t i = 0; i < with.count && status == STATUS_GOOD; i++)
-        status = add_subject(r, vndf_source_family(with.item[i], &error), with.item[i], &error);
-    return status;
+    vndf_source *source = source_from_words(given, "student-t:2.5");
+    for (size_t i = 0; source; i++) {
+        subject_begin(&r->subject[r->count++].of, source, source_name(source));
+        if (i == with.count)
+            return STATUS_GOOD;
+        source = vndf_source_family(with.item[i], &error);
+    }
+    return r->count ? complain(name, "--with: %s", error.message) : STATUS_USE;
 }
 
 static int measure(report *r, const arguments *given, evidence_plan *plan)

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "cli/random.h"
@@ -94,15 +95,6 @@ static int read_surface(const arguments *given, vndf_mixture *surface, chosen_di
 
 /* ---- samples ------------------------------------------------------------------------------------- */
 
-static void write_f32(FILE *file, const float values[4])
-{
-    for (size_t i = 0; i < 16; i++) {
-        uint32_t bits;
-        memcpy(&bits, &values[i / 4], sizeof bits);
-        fputc((int)(bits >> 8 * (i % 4) & 255u), file);
-    }
-}
-
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
 static int write_samples(const vndf_mixture_view *view, unsigned long long count, uint64_t seed, int is_csv,
                          int is_quiet, output_file *output)
@@ -118,8 +110,8 @@ static int write_samples(const vndf_mixture_view *view, unsigned long long count
         if (is_csv)
             fprintf(output->file, "%.9g,%.9g,%.9g,%.9g\n", (double)wm.x, (double)wm.y, (double)wm.z, (double)pdf);
         else
-            write_f32(output->file, (const float[4]){wm.x, wm.y, wm.z, pdf});
-        stops = i % 4096 == 0 && progress_tell((double)i / (double)count, &p) && output->path;
+            put_floats(output->file, (const float[4]){wm.x, wm.y, wm.z, pdf}, 4);
+        stops = i % 4096 == 0 && progress_show((double)i / (double)count, NULL, &p) && output->path;
     }
     progress_end(&p);
     return stops ? output_give_up(output, "interrupted") : output_commit(output);

@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "core/checksum.h"
+
 typedef struct bytes {
     unsigned char *data; /* owned by the caller of put_*; large enough for all */
     size_t size;
@@ -25,17 +27,6 @@ static void put_big_endian(bytes *out, uint32_t value)
         out->data[out->size++] = (unsigned char)(value >> shift & 255u);
 }
 
-static uint32_t crc_of(const unsigned char *data, size_t size)
-{
-    uint32_t crc = 0xFFFFFFFFu;
-    for (size_t i = 0; i < size; i++) {
-        crc ^= data[i];
-        for (int bit = 0; bit < 8; bit++)
-            crc = crc & 1u ? crc >> 1 ^ 0xEDB88320u : crc >> 1;
-    }
-    return ~crc;
-}
-
 static void put_chunk(bytes *out, const char name[4], const unsigned char *data, size_t size)
 {
     put_big_endian(out, (uint32_t)size);
@@ -43,7 +34,7 @@ static void put_chunk(bytes *out, const char name[4], const unsigned char *data,
     put(out, name, 4);
     if (size)
         put(out, data, size);
-    put_big_endian(out, crc_of(out->data + start, size + 4));
+    put_big_endian(out, vndf_crc32(0, out->data + start, size + 4));
 }
 
 static uint32_t adler_of(const unsigned char *data, size_t size)

@@ -69,9 +69,9 @@ typedef struct evidence_rows {
 
 void rows_free(evidence_rows *of);
 
-/* A rows_printer. Text and Markdown are for people, without the columns that no row has. CSV and JSON have every
- * number of every row. */
-int evidence_print(FILE *file, const void *of, figures_form form);
+/* Text and Markdown are for people, without the columns that no row has. CSV and JSON have every number of every
+ * row. 0 if there was no memory. */
+int evidence_print(FILE *file, const evidence_rows *all, figures_form form);
 
 /* ---- inputs and results -------------------------------------------------------------------------- */
 

@@ -110,9 +110,8 @@ static void put_whole_row(text_table *t, const evidence_row *r)
         table_number(t, columns[c].key, "%.6g", r->number[c]);
 }
 
-int evidence_print(FILE *file, const void *of, figures_form form)
+int evidence_print(FILE *file, const evidence_rows *all, figures_form form)
 {
-    const evidence_rows *all = of;
     const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON;
     text_table t = {.rows = 0};
     for (const evidence_row *r = all->row; r < all->row + all->count; r++) {

@@ -5,76 +5,66 @@
 
 #include "core/nearest.h"
 
-/* Choices in the order of vndf_bsdf.h, the default first; lists have ", " between words. */
+/* Choices in the order of vndf_bsdf.h, the default first. */
 enum { LOBES, FRESNEL, MASKING, TRANSPORT, REFLECTION, KEYS };
-static const char keys[] = "lobes, fresnel, masking, transport, reflection";
-static const char *const choices[KEYS] = {"reflection, transmission, both", "none, schlick, dielectric, conductor",
-                                          "correlated, separable, v-cavities, none", "radiance, importance",
-                                          "specular, retro"};
-
-/* The word at a place of a list; it ends at a comma. */
-static const char *list_word(const char *list, int place)
-{
-    while (place-- > 0)
-        list += strcspn(list, ",") + 2;
-    return list;
-}
+static const char *const keys[] = {"lobes", "fresnel", "masking", "transport", "reflection", NULL};
+static const char *const choices[KEYS][5] = {{"reflection", "transmission", "both"},
+                                             {"none", "schlick", "dielectric", "conductor"},
+                                             {"correlated", "separable", "v-cavities", "none"},
+                                             {"radiance", "importance"},
+                                             {"specular", "retro"}};
 
 /* The place of a word in a list, or -1. */
-static int list_place(const char *list, const char *word, size_t length)
+static int place_in(const char *const *list, const char *word, size_t length)
 {
-    int place = 0;
-    for (const char *at = list; strcspn(at, ",") != length || memcmp(at, word, length) != 0;
-         at = list_word(at, 1), place++)
-        if (!at[strcspn(at, ",")])
-            return -1;
-    return place;
+    for (int place = 0; list[place]; place++)
+        if (strlen(list[place]) == length && memcmp(list[place], word, length) == 0)
+            return place;
+    return -1;
 }
 
-/* "; did you mean 'both'?", or "". */
-static const char *nearest_in(const char *list, const char *word, size_t length)
+/* "reflection, transmission, both; did you mean 'both'?" */
+static const char *known_words(const char *const *list, const char *word, size_t length)
 {
-    static char hint[64];
-    size_t least = vndf_word_slip(length);
-    hint[0] = '\0';
-    for (int place = 0, is_last = 0; !is_last; place++) {
-        const char *at = list_word(list, place);
-        char one[40];
-        snprintf(one, sizeof one, "%.*s", (int)strcspn(at, ","), at);
-        if (vndf_word_is_nearer(word, length, one, &least))
-            snprintf(hint, sizeof hint, "; did you mean '%s'?", one);
-        is_last = !at[strcspn(at, ",")];
+    static char known[200];
+    size_t least = vndf_word_slip(length), n = 0;
+    const char *nearest = NULL;
+    for (; *list; list++) {
+        n += (size_t)snprintf(known + n, sizeof known - n, "%s%s", n ? ", " : "", *list);
+        nearest = vndf_word_is_nearer(word, length, *list, &least) ? *list : nearest;
     }
-    return hint;
+    if (nearest)
+        snprintf(known + n, sizeof known - n, "; did you mean '%s'?", nearest);
+    return known;
 }
 
 int effects_read(export_effects *effects, const char *text, char error[EFFECTS_ERROR_MAX])
 {
     int choice[KEYS] = {0}, n = 0;
     for (text += strspn(text, " ,"); *text; text += strspn(text, " ,")) {
-        const int length = (int)strcspn(text, " ,"), name = (int)strcspn(text, "= ,");
-        const int key = list_place(keys, text, (size_t)name);
+        const size_t length = strcspn(text, " ,"), name = strcspn(text, "= ,");
+        const int key = place_in(keys, text, name), shown = length < 60 ? (int)length : 60;
         if (key < 0 || name == length) {
-            snprintf(error, EFFECTS_ERROR_MAX,
-                     "'%.*s': key=choice is needed, with the keys %s%s; files scatter once, at "
-                     "one surface, by visible normals: all else needs the library",
-                     length < 60 ? length : 60, text, keys, key < 0 ? nearest_in(keys, text, (size_t)name) : "");
+            snprintf(
+                error, EFFECTS_ERROR_MAX,
+                "'%.*s': key=choice is needed, with the keys %s; files scatter once, at one surface, by visible "
+                "normals: all else needs the library",
+                shown, text, known_words(keys, text, key < 0 ? name : 0));
             return 0;
         }
-        choice[key] = list_place(choices[key], text + name + 1, (size_t)(length - name - 1));
-        if (choice[key] < 0) {
-            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s%s", length < 60 ? length : 60, text,
-                     choices[key], nearest_in(choices[key], text + name + 1, (size_t)(length - name - 1)));
-            return 0;
-        }
+        const char *chosen = text + name + 1;
         text += length;
+        choice[key] = place_in(choices[key], chosen, (size_t)(text - chosen));
+        if (choice[key] < 0) {
+            snprintf(error, EFFECTS_ERROR_MAX, "%.*s: there are %s", shown, text - length,
+                     known_words(choices[key], chosen, (size_t)(text - chosen)));
+            return 0;
+        }
     }
     effects->wanted = 1;
-    for (int key = 0; key < KEYS; key++) {
-        const char *name = list_word(keys, key), *chosen = list_word(choices[key], choice[key]);
-        n += snprintf(effects->words + n, sizeof effects->words - (size_t)n, "%s%.*s=%.*s", key ? " " : "",
-                      (int)strcspn(name, ","), name, (int)strcspn(chosen, ","), chosen);
-    }
+    for (int key = 0; key < KEYS; key++)
+        n += snprintf(effects->words + n, sizeof effects->words - (size_t)n, "%s%s=%s", key ? " " : "", keys[key],
+                      choices[key][choice[key]]);
     effects->is = (vndf_effects){.lobes = (vndf_lobes)choice[LOBES],
                                  .fresnel = (vndf_fresnel)choice[FRESNEL],
                                  .masking = (vndf_masking)choice[MASKING],

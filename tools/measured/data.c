@@ -28,33 +28,6 @@ void note(data_file *file, const char *format, ...)
     memcpy(file->notes + used + (fits ? (size_t)length : 0), fits ? "\n" : "", fits ? 2 : 1);
 }
 
-/* ---- numbers ------------------------------------------------------------------------------------- */
-
-uint64_t little_whole(const unsigned char *at, size_t bytes)
-{
-    uint64_t value = 0;
-    for (size_t i = 0; i < bytes; i++)
-        value |= (uint64_t)at[i] << 8 * i;
-    return value;
-}
-
-double little_number(const unsigned char *at, size_t bytes)
-{
-    const uint64_t bits = little_whole(at, bytes);
-    const uint32_t low = (uint32_t)bits;
-    float narrow;
-    double wide;
-    memcpy(&narrow, &low, sizeof narrow);
-    memcpy(&wide, &bits, sizeof wide);
-    return bytes == 4 ? (double)narrow : wide;
-}
-
-void put_little(FILE *file, uint64_t value, size_t bytes)
-{
-    for (size_t i = 0; i < bytes; i++)
-        fputc((int)(value >> 8 * i & 255), file);
-}
-
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count, data_file *file)

@@ -3,10 +3,10 @@
 #ifndef TOOLS_MEASURED_DATA_H
 #define TOOLS_MEASURED_DATA_H
 
-#include <stdint.h>
 #include <stdio.h>
 
 #include "cli/arguments.h"
+#include "cli/files.h"
 #include "vndf_build.h"
 
 /* A file, whose bytes are not trusted. A reader returns 1, or 0 with the reason in `refused`: the file, the place in
@@ -24,11 +24,6 @@ int refuse(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
 
 /* Adds a line, unless it does not fit. */
 void note(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
-
-/* Numbers with the least byte first: whole ones, and floats of 4 or 8 bytes. */
-uint64_t little_whole(const unsigned char *at, size_t bytes);
-double little_number(const unsigned char *at, size_t bytes);
-void put_little(FILE *file, uint64_t value, size_t bytes);
 
 typedef struct profile {
     vndf_rows_over over;

@@ -98,14 +98,10 @@ int tensor_write(FILE *file, const tensor *fields, size_t count)
     put_little(file, 0, gap);
     for (size_t i = 0; i < count; i++) {
         const size_t numbers = tensor_count(&fields[i]), size = sizes[fields[i].type];
-        for (size_t k = 0; k < numbers; k++) {
-            uint32_t bits = 0;
-            if (fields[i].type == TENSOR_F32)
-                memcpy(&bits, (const float *)fields[i].data + k, sizeof bits);
-            else
-                bits = ((const unsigned char *)fields[i].data)[k];
-            put_little(file, bits, size);
-        }
+        if (fields[i].type == TENSOR_F32)
+            put_floats(file, fields[i].data, numbers);
+        else
+            fwrite(fields[i].data, 1, numbers, file);
         put_little(file, 0, (8 - numbers * size % 8) % 8);
     }
     return fflush(file) == 0 && !ferror(file);

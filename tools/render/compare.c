@@ -15,13 +15,13 @@ const char *const verdict_names[3] = {"same", "differs", "unknown"};
 /* ---- rendering ---- */
 
 /* How far all ways are, whatever is done of a pass of one of several. */
-static int tell(double done, void *user)
+static int tell(double done, const char *what, void *user)
 {
     const comparison *c = user;
     double whole = 0;
     for (size_t i = 0; i < c->count; i++)
         whole += fmin((double)c->way[i].film.samples / (double)c->run.samples, 1) / (double)c->count;
-    return c->run.progress ? c->run.progress(c->count == 1 ? done : whole, c->run.user) : 0;
+    return c->run.progress ? c->run.progress(c->count == 1 ? done : whole, what, c->run.user) : 0;
 }
 
 int comparison_run(comparison *c)

@@ -52,7 +52,7 @@ static void *render_rows(void *user)
             }
         }
         if (w->tells && p->run->progress &&
-            p->run->progress(p->done + p->part * (row + 1) / f->height, p->run->user))
+            p->run->progress(p->done + p->part * (row + 1) / f->height, NULL, p->run->user))
             p->stopped = 1;
     }
     return NULL;

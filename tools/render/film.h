@@ -5,6 +5,7 @@
 #define TOOLS_RENDER_FILM_H
 
 #include "render/path.h"
+#include "vndf_build.h"
 
 typedef struct film {
     int width, height;
@@ -29,7 +30,7 @@ typedef struct film_run {
     uint64_t samples; /* a pixel, to add */
     unsigned threads;
     uint64_t seed;
-    int (*progress)(double done, void *user); /* a result other than 0 stops after the pass; may be NULL */
+    vndf_progress *progress; /* a result other than 0 stops after the pass; may be NULL */
     void *user;
 } film_run;
 

@@ -205,16 +205,9 @@ int image_read_pfm(image *made, const char *path, vndf_error *error)
 
 int image_write_pfm(FILE *file, const image *written)
 {
-    unsigned char bytes[4];
-    uint32_t bits;
     fprintf(file, "PF\n%d %d\n-1.0\n", written->width, written->height);
     for (int y = written->height - 1; y >= 0; y--)
-        for (int i = 0; i < 3 * written->width; i++) {
-            memcpy(&bits, image_pixel(written, 0, y) + i, sizeof bits);
-            for (int k = 0; k < 4; k++)
-                bytes[k] = (unsigned char)(bits >> 8 * k & 255u);
-            fwrite(bytes, 1, sizeof bytes, file);
-        }
+        put_floats(file, image_pixel(written, 0, y), 3 * (size_t)written->width);
     return fflush(file) == 0 && !ferror(file);
 }
 
