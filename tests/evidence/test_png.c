@@ -1,4 +1,5 @@
-/* A PNG is what its standard says, and holds the picture: it is read back here, by code of the test's own. */
+/* A PNG is what its standard says, and holds the picture: it is read back here, by code of the test's own. Where each
+ * part begins follows from the size of the picture, since blocks are stored and chunks are three. */
 #include "harness/test.h"
 
 #include <stdint.h>
@@ -6,49 +7,12 @@
 
 #include "render/image.h"
 
-enum { ROOM = 1 << 20 };
-
-/* What was written to a temporary file; `bytes` has ROOM. */
-static size_t take_back(FILE *file, unsigned char *bytes)
-{
-    rewind(file);
-    size_t size = fread(bytes, 1, ROOM, file);
-    fclose(file);
-    return size;
-}
+enum { ROOM = 1 << 20, BLOCK = 65535, CHUNK = 12 };
 
 static uint32_t big_endian(const unsigned char *b)
 {
     return (uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3];
 }
-
-/* The bytes of a zlib stream of stored blocks (RFC 1950, 1951); 0 if it is wrong. */
-static size_t unpack(const unsigned char *data, size_t size, unsigned char *out)
-{
-    size_t at = 2, count = 0;
-    if (size < 6 || (data[0] * 256 + data[1]) % 31 != 0 || data[0] != 0x78)
-        return 0;
-    for (int is_last = 0; !is_last;) {
-        if (size - at < 9 || data[at] > 1)
-            return 0;
-        is_last = data[at];
-        size_t length = data[at + 1] + 256u * data[at + 2], inverted = data[at + 3] + 256u * data[at + 4];
-        at += 5;
-        if ((length ^ inverted) != 0xffff || length > size - at || count + length > ROOM)
-            return 0;
-        memcpy(out + count, data + at, length);
-        count += length;
-        at += length;
-    }
-    uint32_t a = 1, b = 0;
-    for (size_t i = 0; i < count; i++) {
-        a = (a + out[i]) % 65521;
-        b = (b + a) % 65521;
-    }
-    return size - at == 4 && big_endian(data + at) == (b << 16 | a) ? count : 0;
-}
-
-/* ---- PNG ---- */
 
 static uint32_t crc_of(const unsigned char *data, size_t size)
 {
@@ -60,18 +24,31 @@ static uint32_t crc_of(const unsigned char *data, size_t size)
     return ~crc;
 }
 
-/* The chunk of a name; NULL if it is not there or a chunk is damaged. */
-static const unsigned char *chunk(const unsigned char *png, size_t size, const char *name, size_t *length)
+/* The data of a chunk, which has this name and length and is not damaged. */
+static const unsigned char *chunk(const unsigned char *at, const char *name, size_t length)
 {
-    for (size_t at = 8; at + 12 <= size;) {
-        *length = big_endian(png + at);
-        if (*length > size - at - 12 || crc_of(png + at + 4, *length + 4) != big_endian(png + at + 8 + *length))
-            return NULL;
-        if (memcmp(png + at + 4, name, 4) == 0)
-            return png + at + 8;
-        at += 12 + *length;
+    TEST(big_endian(at) == length && memcmp(at + 4, name, 4) == 0);
+    TEST(big_endian(at + 8 + length) == crc_of(at + 4, length + 4));
+    return at + 8;
+}
+
+/* A zlib stream of `size` bytes in stored blocks (RFC 1950, 1951). */
+static void unpack(const unsigned char *at, size_t size, unsigned char *out)
+{
+    uint32_t a = 1, b = 0;
+    TEST(at[0] == 0x78 && (at[0] * 256 + at[1]) % 31 == 0);
+    at += 2;
+    for (size_t done = 0, length; done < size; done += length, at += 5 + length) {
+        length = size - done < BLOCK ? size - done : BLOCK;
+        TEST(at[0] == (done + length == size) && at[1] + 256u * at[2] == length);
+        TEST((at[1] ^ at[3]) == 255 && (at[2] ^ at[4]) == 255);
+        memcpy(out + done, at + 5, length);
     }
-    return NULL;
+    for (size_t i = 0; i < size; i++) {
+        a = (a + out[i]) % 65521;
+        b = (b + a) % 65521;
+    }
+    TEST(big_endian(at) == (b << 16 | a));
 }
 
 static unsigned char level(float x)
@@ -92,12 +69,13 @@ static void check_pixels(const image *of, const unsigned char *rows, float expos
     TEST(worst <= 1); /* roundings of powf */
 }
 
-static void test_png(const char *pattern, int width, int height, float exposure, unsigned char *bytes,
-                     unsigned char *out)
+static void test_png(const char *pattern, int width, int height, float exposure)
 {
+    static unsigned char bytes[ROOM], out[ROOM];
+    const size_t row = 3 * (size_t)width, whole = (row + 1) * (size_t)height,
+                 packed = 2 + 5 * ((whole + BLOCK - 1) / BLOCK) + whole + 4;
     image made;
     vndf_error error;
-    size_t length = 0;
     FILE *file = tmpfile();
     if (!TEST(file && image_make_pattern(&made, pattern, width, height, &error)))
         return;
@@ -106,19 +84,20 @@ static void test_png(const char *pattern, int width, int height, float exposure,
     made.rgb[2] = INFINITY;
     TEST(image_write_png(file, &made, exposure));
     made.rgb[0] = 0.0f;
-    size_t size = take_back(file, bytes);
-    TEST(memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0);
-    const unsigned char *head = chunk(bytes, size, "IHDR", &length);
-    TEST(head && length == 13 && big_endian(head) == (uint32_t)width && big_endian(head + 4) == (uint32_t)height);
-    TEST(head && memcmp(head + 8, "\x08\x02\0\0\0", 5) == 0);
-    const unsigned char *data = chunk(bytes, size, "IDAT", &length);
-    size_t row = 3 * (size_t)width, whole = (row + 1) * (size_t)height;
-    if (TEST(data && unpack(data, length, out) == whole)) {
+    rewind(file);
+    if (TEST(fread(bytes, 1, ROOM, file) == 8 + 3 * CHUNK + 13 + packed)) {
+        TEST(memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) == 0);
+        const unsigned char *head = chunk(bytes + 8, "IHDR", 13);
+        TEST(big_endian(head) == (uint32_t)width && big_endian(head + 4) == (uint32_t)height);
+        TEST(memcmp(head + 8, "\x08\x02\0\0\0", 5) == 0);
+        const unsigned char *data = chunk(head + 13 + 4, "IDAT", packed);
+        unpack(data, whole, out);
+        chunk(data + packed + 4, "IEND", 0);
         for (size_t y = 0; y < (size_t)height; y++)
             TEST(out[y * (row + 1)] == 0); /* no filter */
         check_pixels(&made, out, exposure);
     }
-    TEST(chunk(bytes, size, "IEND", &length) == bytes + size - 4 && length == 0);
+    fclose(file);
     image_free(&made);
 }
 
@@ -139,14 +118,9 @@ static void test_full_disk(void)
 
 int main(void)
 {
-    unsigned char *bytes = malloc(ROOM), *out = malloc(ROOM);
-    if (!TEST(bytes && out))
-        return test_done();
-    test_png("studio", 300, 200, 0.5f, bytes, out); /* three blocks */
-    test_png("grid", 131, 77, 1.0f, bytes, out);
-    test_png("tiles", 1, 1, 1.0f, bytes, out);
+    test_png("studio", 300, 200, 0.5f); /* three blocks */
+    test_png("grid", 131, 77, 1.0f);
+    test_png("tiles", 1, 1, 1.0f);
     test_full_disk();
-    free(bytes);
-    free(out);
     return test_done();
 }

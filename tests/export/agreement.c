@@ -1,8 +1,8 @@
 /* What scripts ask about kernels that another program runs, and whether they answer as the library does:
  *
  *     vndf_agreement ask WHAT LANGUAGE PREFIX embedded|fetching < ask.h
- *     vndf_agreement make WHAT COUNT QUESTIONS TABLE...
- *     vndf_agreement check WHAT BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE...
+ *     vndf_agreement make WHAT COUNT QUESTIONS TABLE... FAMILY
+ *     vndf_agreement check WHAT BITS|ROUNDED|FAST QUESTIONS ANSWERS TABLE... FAMILY
  *
  * The first prints ask.h in a language; the second writes questions, in turn about GGX, Beckmann and each table; the
  * third judges answers.
@@ -10,12 +10,13 @@
  * WHAT is `normals`, or the effects of a BSDF. Roughness is 0.02 to 1 on both axes, of BSDFs 0.05 to 1,
  * directions are of the whole sphere. Of eight questions one is of a matrix that turns, with a mean slope, one
  * of numbers at the edges of the unit square, one of a hard direction: exactly along z, next to it, at the
- * horizon. Answers in BITS, of an exported C without contracted products, are the library's, bit for bit;
- * ROUNDED ones, of other languages and of all BSDFs, whose library computes in double, and FAST ones, whose
- * compiler reorders sums, differ by no more than the limits below. No normal is turned away, not unit or below
- * the surface, no density is 0 or not finite, but straight from below; no scattered direction has a weight or
- * a density that is negative or not finite, and weight times density is f times the cosine. Exit status: 0
- * good, 1 not, 2 wrong use. */
+ * horizon. Parameters of the family are below its knots, at them, between and above. Answers in BITS, of an exported
+ * C without contracted products, are the library's, bit for bit, but for mixtures between knots, whose shares it has
+ * in double; ROUNDED ones, of other languages and of all BSDFs, whose library computes in double, and FAST ones,
+ * whose compiler reorders sums, differ by no more than the limits below. No normal is turned away, not unit or below
+ * the surface, no density is 0 or not finite, but straight from below; no scattered direction has a weight or a
+ * density that is negative or not finite, and weight times density is f times the cosine. Exit status: 0 good, 1
+ * not, 2 wrong use. */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -38,6 +39,7 @@ typedef struct subjects {
     const vndf_distribution *is[SUBJECTS_MAX];
     float base[SUBJECTS_MAX]; /* the first number of each */
     int count;
+    const vndf_family *tails;
 } subjects;
 
 /* ---- questions ---- */
@@ -109,6 +111,7 @@ static vndf_material material_of(const subjects *s, const export_effects *effect
 static record question_of(const subjects *s, size_t index, const export_effects *effects)
 {
     static const float edges[] = {0.0f, 0x1p-24f, 1 - 0x1p-24f, 1.0f};
+    const vndf_family_facts facts = vndf_family_info(s->tails);
     random_stream stream = random_from((effects->wanted ? 2000003u : 1000003u) + index);
     record q = {{s->base[index % (size_t)s->count]}};
     float least = effects->wanted ? 0.05f : 0.02f;
@@ -128,6 +131,10 @@ static record question_of(const subjects *s, size_t index, const export_effects 
     }
     if (effects->wanted)
         material_of(s, effects, &q);
+    else if (index % 8 == 0)
+        q.n[WO] = vndf_family_parameter(s->tails, index / 8 % facts.count);
+    else
+        q.n[WO] = facts.low + (facts.high - facts.low) * (1.5f * random_float(&stream) - 0.25f);
     return q;
 }
 
@@ -225,13 +232,16 @@ static int compare_normal(const subjects *s, const record *q, const record *a, d
     own.n[8] = vndf_affine_g1(&m, wi);
     own.n[9] = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
     own.n[10] = vndf_affine_projected_area(&m, wi);
-    vndf_mixture mixture = {.count = 2, .lobe = {{m, 0.6f}, {{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.4f}}};
+    vndf_mixture mixture;
+    vndf_family_at(s->tails, q->n[WO], &m, &mixture);
+    const size_t exact = mixture.count == 2 ? 11 : NUMBERS;
+    mixture.lobe[mixture.count++] = (vndf_mixture_lobe){{vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0}, 0.6f};
     vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, wi);
     put(own.n + 11, vndf_mixture_sample(&lobes, u1, u2, &own.n[14], NULL));
     own.n[15] = vndf_mixture_pdf(&lobes, vector(a->n + 11));
     for (int i = 0; i < LIMITS_MAX; i++)
         off[i] = at_edge ? -1 : difference(&NORMALS[i], a->n, own.n);
-    *marked = memcmp(a, &own, sizeof own) != 0;
+    *marked = memcmp(a, &own, exact * sizeof *own.n) != 0;
     return is_refused(q, a->n, a->n[3]) || is_refused(q, a->n + 11, a->n[14]);
 }
 
@@ -314,16 +324,21 @@ static int check(const subjects *s, const export_effects *effects, const char *h
 static int ask(const export_effects *effects, const char *in, const char *prefix, int embeds)
 {
     static char text[1 << 14];
-    export_document document = {
-        .as = {.to = language_named(in), .embeds = embeds}, .lobes = 4, .kinds = EXPORT_ALL, .effects = *effects};
+    export_document document = {.as = {.to = language_named(in), .embeds = embeds},
+                                .only = "family",
+                                .lobes = 4,
+                                .kinds = EXPORT_ALL,
+                                .effects = *effects};
     text[fread(text, 1, sizeof text - 1, stdin)] = '\0';
     document.as.by_pointer = !embeds && !document.as.to->bound;
     return !translation_prefix(&document.as, prefix) || !document_write(&document, stdout, text);
 }
 
+/* The last file is the family. */
 static int load(subjects *s, char **files, int count)
 {
     size_t base = 0;
+    s->tails = count > 0 ? vndf_family_load(files[--count], NULL) : NULL;
     s->is[0] = vndf_ggx();
     s->is[1] = vndf_beckmann();
     s->base[0] = -1.0f;
@@ -338,7 +353,7 @@ static int load(subjects *s, char **files, int count)
         }
         base += vndf_numbers(s->is[s->count], NULL, 0);
     }
-    return 1;
+    return s->tails != NULL;
 }
 
 int main(int argc, char **argv)

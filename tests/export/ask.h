@@ -1,7 +1,7 @@
 /* What a kernel of `vndf export` is asked, in the kernel's own part of C: the same text goes to every language.
  *
  * A question is a surface (its distribution by the place of its numbers, matrix, mean slope), wi, three uniform
- * numbers, wo. */
+ * numbers, wo; of normals the parameter of a family in the place of wo_x. */
 typedef struct question {
     float of, xx, xy, yx, yy, mean_x, mean_y, wi_x, wi_y, wi_z, u1, u2, u3, wo_x, wo_y, wo_z;
 } question;
@@ -18,24 +18,20 @@ HERE vndf_surface surface_asked(question q)
 
 /* only normals */
 /* The normal that is drawn, the density that comes with it, and what calls say of that normal and of wi: G2 is of wi
- * and the normal. Then a normal of two lobes, 0.6 of the surface and 0.4 of GGX with alpha 0.3. */
+ * and the normal. Then a normal of the family tails.vndfs with the shape of the surface, and of GGX with alpha 0.3. */
 HERE answer ask(question q)
 {
     const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
     const vndf_view view = vndf_view_of(surface, wi);
     const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
-    vndf_mixture mixture;
-    mixture.count = 2;
-    for (int i = 0; i < VNDF_LOBES; i++) {
-        mixture.lobe[i] = surface;
-        mixture.weight[i] = 0.6f;
-    }
-    mixture.lobe[1] = vndf_surface_of(VNDF_GGX, 0.3f, 0.3f);
-    mixture.weight[1] = 0.4f;
+    vndf_mixture mixture = vndf_family_at(VNDF_TAILS, q.wo_x, surface);
+    mixture.lobe[2] = vndf_surface_of(VNDF_GGX, 0.3f, 0.3f);
+    mixture.weight[2] = 0.6f;
+    mixture.count = 3;
     const vndf_mixture_view lobes = vndf_mixture_view_of(mixture, wi);
     const vndf_mixed mixed = vndf_mixture_sample(lobes, q.u1, q.u2);
-    const vec3 wm = drawn.wm, of_two = mixed.wm;
+    const vec3 wm = drawn.wm, of_all = mixed.wm;
     const answer a = {wm.x,
                       wm.y,
                       wm.z,
@@ -47,11 +43,11 @@ HERE answer ask(question q)
                       vndf_g1(surface, wi),
                       vndf_g2(surface, wi, wm),
                       vndf_projected_area(view),
-                      of_two.x,
-                      of_two.y,
-                      of_two.z,
+                      of_all.x,
+                      of_all.y,
+                      of_all.z,
                       mixed.pdf,
-                      vndf_mixture_pdf(lobes, of_two)};
+                      vndf_mixture_pdf(lobes, of_all)};
     return a;
 }
 /* end */

@@ -81,16 +81,12 @@ endif()
 
 # ---- wrong use ----------------------------------------------------------------------------------
 
-answers(2 "FILE is missing" explore -o none.html)
+# Files are read as vndf export reads them.
 answers(2 "-o PAGE.html is missing" explore ${tables}/hazy.vndf)
 answers(2 "missing.vndf" explore missing.vndf -o none.html)
-answers(2 "closed form" explore ggx -o none.html)
-answers(2 "which is taken" explore ${tables}/hazy.vndf ${tables}/hazy.vndf -o none.html)
 answers(2 "--engines" explore ${tables}/hazy.vndf --engines 3 -o none.html)
 answers(2 "--language" explore ${tables}/hazy.vndf --language glsl -o none.html)
 answers(2 "no-such-folder" explore ${tables}/hazy.vndf -o no-such-folder/none.html)
-file(WRITE ${OUT}/broken.vndf "broken")
-answers(2 "broken.vndf" explore broken.vndf -o none.html)
 expect("a refused page was written" NOT EXISTS ${OUT}/none.html)
 answers(0 "example: vndf explore" explore --help)
 
