@@ -62,10 +62,18 @@ static void test_places(void)
     TEST_NEAR((double)list.table[1].value[9 * 32 + 20],
               bake_direction(&s, bake_alpha(BAKE_SQUARE, 20 / 31.0), 9 / 31.0).all, 1e-6);
     double z = 6 / 15.0, eta = (1 + z * z) / (1 - z * z);
+    s.masks_alike = 1; /* as Cycles does */
     TEST_NEAR((double)list.table[3].value[(6 * 16 + 9) * 16 + 4],
               bake_glass(&s, bake_alpha(BAKE_SQUARE, 4 / 15.0), 9 / 15.0, eta), 1e-6);
     TEST_NEAR((double)list.table[5].value[(6 * 16 + 9) * 16 + 4],
               bake_glass(&s, bake_alpha(BAKE_SQUARE, 4 / 15.0), 9 / 15.0, 1 / eta), 1e-6);
+    /* What Cycles ships as table_ggx_glass_E, by the same places. */
+    TEST_NEAR((double)list.table[3].value[(1 * 16 + 1) * 16 + 15], 0.5586, 5e-4);
+    TEST_NEAR((double)list.table[3].value[(4 * 16 + 2) * 16 + 15], 0.6657, 5e-4);
+    TEST_NEAR((double)list.table[3].value[(1 * 16 + 0) * 16 + 15], 0.9600, 5e-4);
+    TEST_NEAR((double)list.table[3].value[(0 * 16 + 3) * 16 + 9], 1, 1e-7);
+    TEST_NEAR((double)list.table[2].value[31], 0.409137, 5e-4);
+    TEST_NEAR((double)list.table[2].value[20], 0.761345, 5e-4);
     double sum = 0;
     for (int k = 0; k < 32; k++)
         sum += (double)prefilter[4 * (32 * 7 + k) + 2];

@@ -79,7 +79,7 @@ static void write_about(FILE *file, const baked *b, const char *made_by)
     if (b->channels > 1)
         fprintf(file, "// %d channels, which run fastest\n", b->channels);
     if (b->error)
-        fprintf(file, "// error: %.2g at most, %.2g in the mean (%s)\n", b->worst, b->mean, b->error);
+        fprintf(file, "// error: %.2g the largest, %.2g in the mean: %s\n", b->worst, b->mean, b->error);
     fprintf(file, "// made by: %s\n", made_by);
 }
 
@@ -171,7 +171,8 @@ void bake_section(html_page *page, const baked *b)
         fputs("</li>\n", page->html);
     }
     if (b->error)
-        fprintf(page->html, "<li>error: %.2g at most, %.2g in the mean: %s</li>\n", b->worst, b->mean, b->error);
+        fprintf(page->html, "<li>error: %.2g the largest, %.2g in the mean: %s</li>\n", b->worst, b->mean,
+                b->error);
     fprintf(
         page->html,
         "</ul>\n<figure><img src=\"%s.png\" alt=\"%s as a picture\" style=\"image-rendering:pixelated;"

@@ -1,5 +1,6 @@
 /* vndf bake: tables that engines look up in the place of samples. */
 #include <stdlib.h>
+#include <string.h>
 
 #include "bake/files.h"
 #include "cli/figures.h"
@@ -24,8 +25,8 @@ static const char *const help[] = {
     "                   cosines where alpha_x and alpha_y differ, which take 40 s\n"
     "  --mapping square|linear|sqrt  what alpha is of the roughness in a texture (default square)\n"
     "  --masking correlated|separable  Smith's masking and shadowing together (default correlated)\n"
-    "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64)\n"
-    "  --shape grid|cycles|ospray  order and places of energy, as a path tracer keeps them (default grid)\n"
+    "  --size N         of dfg and ltc: N x N, 4 to 256 (default 64); of anisotropic N^4, at most 8^4\n"
+    "  --shape grid|cycles|ospray  order, places and masking of energy, as a path tracer has them (default grid)\n"
     "  --format npy,dds,c,glsl,js  only files of these forms\n"
     "\n"
     "DIR is made if it is not there. If it is, it has to be empty or to hold tables of this command, which are\n"
@@ -119,6 +120,12 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     s->progress = &p;
     snprintf(made_by, sizeof made_by, "%s %s", name, given->positional.item[0]);
     options_text(given, options, made_by, sizeof made_by);
+    const char *const alphas[] = {"alpha = roughness^2", "alpha = roughness", "alpha = sqrt(roughness)"};
+    const char *source = vndf_distribution_info(s->distribution).source;
+    const size_t length = strlen(made_by);
+    snprintf(made_by + length, sizeof made_by - length, "; %s; Smith's masking, %s%s%s", alphas[s->mapping],
+             s->masking == VNDF_MASKING_SEPARABLE ? "separable" : "correlated", source ? "; D: " : "",
+             source ? source : "");
     int status = make(s, what, shape, &list) ? STATUS_GOOD
                  : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
                                              : complain(name, "no memory, or nothing is reflected");

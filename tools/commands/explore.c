@@ -22,6 +22,7 @@ typedef struct contents {
     export_document document;
     float *baked; /* tables of `vndf bake` for each table, GGX and Beckmann, where they are wanted; owned */
     size_t baked_count;
+    char size[8]; /* of these tables */
 } contents;
 
 /* Numbers that the smallest float texture of WebGL2 holds: 1024 columns, 2048 rows. */
@@ -133,7 +134,7 @@ static int put_part(FILE *to, const contents *of, const char *part, const char *
     else if (strcmp(part, "baked") == 0)
         put_numbers(to, of->baked, of->baked_count);
     else if (strcmp(part, "engines") == 0)
-        return !of->baked || put_file(to, of, "engines.html", letter);
+        return !of->baked || put_file(to, of, "engines.html", of->size);
     else
         return put_file(to, of, part, letter);
     return 1;
@@ -210,6 +211,7 @@ static int write_page(const arguments *given, contents *of)
     if (!option_count(given, "--engines", 4, 64, &size) ||
         !named_tables_open(name, &given->positional, 0, &of->document))
         return STATUS_USE;
+    snprintf(of->size, sizeof of->size, "%llu", size);
     if (of->document.count > NUMBERS_MAX)
         return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", of->document.count,
                         NUMBERS_MAX);

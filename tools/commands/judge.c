@@ -27,7 +27,7 @@ static const char *const help[] = {
     "  valid       densities are finite and not negative, those of samples positive\n"
     "  agrees      the density of a sample is that asked for it, within 1e-3 for 99% of 1000\n"
     "  mass        the integral of the density over the hemisphere is 1 within 1e-3 and the error of quadrature\n"
-    "  holes       no bin that expects 20 samples or more has none\n"
+    "  holes       no bin that expects 20 samples or more has none; smaller holes fail as chi-square\n"
     "  covers      (--ndf) at most 1e-3 of the true visible normals has the density 0, which is bias\n"
     "  chi-square  samples follow the density over 16 x 32 bins of each direction, and over rings and sectors of\n"
     "              all together; bins that expect less than 5 are pooled. Significance 0.01 for all (Sidak)\n"

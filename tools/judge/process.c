@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -18,20 +20,30 @@ static void print_query(char text[LINE], const query *q)
              (double)q->wi.z, (double)q->x.x, (double)q->x.y, (double)q->x.z);
 }
 
-/* 1, or 0 after a complaint. */
-static int run(const char *who, const char *command, FILE *in, FILE *out)
+/* 1, or 0 after a complaint. What is written beyond LINE bytes for each query is not taken, so that no disk fills. */
+static int run(const char *who, const char *command, size_t queries, FILE *in, FILE *out)
 {
+    struct rlimit was, limit;
+    struct stat written;
     fflush(stdout);
+    getrlimit(RLIMIT_FSIZE, &was);
+    limit = was;
+    limit.rlim_cur = (rlim_t)(LINE * (queries + 1));
     int stdin_was = dup(0), stdout_was = dup(1), status = -1;
     if (dup2(fileno(in), 0) >= 0 && dup2(fileno(out), 1) >= 0)
-        status = system(command);
+        status = setrlimit(RLIMIT_FSIZE, &limit) == 0 ? system(command) : -1;
     int reason = errno;
+    setrlimit(RLIMIT_FSIZE, &was);
     dup2(stdin_was, 0);
     dup2(stdout_was, 1);
     close(stdin_was);
     close(stdout_was);
     if (status == -1)
         return complain(who, "'%s' cannot be run: %s", command, strerror(reason)), 0;
+    if (fstat(fileno(out), &written) == 0 && (rlim_t)written.st_size >= limit.rlim_cur)
+        return complain(who, "'%s' writes without an end: more than %d bytes for each of %zu queries", command,
+                        LINE, queries),
+               0;
     if (WIFSIGNALED(status))
         return complain(who, "'%s' was ended by signal %d", command, WTERMSIG(status)), 0;
     if (WEXITSTATUS(status) != 0)
@@ -89,7 +101,7 @@ answer *process_ask(const char *who, const char *command, const query *queries, 
     else if (!good || fflush(in) != 0 || fseek(in, 0, SEEK_SET) != 0)
         good = !complain(who, "a temporary file cannot be written: %s", strerror(errno));
     else
-        good = run(who, command, in, out) && fseek(out, 0, SEEK_SET) == 0 &&
+        good = run(who, command, count, in, out) && fseek(out, 0, SEEK_SET) == 0 &&
                read_answers(who, out, queries, count, answers);
     if (in)
         fclose(in);

@@ -3,7 +3,7 @@
 // of `vndf bake tables/hazy.vndf --what dfg,ltc haze`: ltc_inverse.dds, ltc_norm.dds and dfg.dds as textures with linear
 // filtering, clamped at their edges.
 uniform sampler2D ltc_inverse, ltc_norm, dfg;
-uniform vec3 corner[4]; // of the light, around the point, seen from it against the clock
+uniform vec3 corner[4]; // of the light, in turn, as seen from the point
 uniform vec3 f0;
 uniform float roughness;
 in vec3 normal, view; // unit; view leads to the eye
@@ -33,7 +33,7 @@ float rectangle(mat3 inverse)
         l[i] = normalize(inverse * corner[i]);
     for (int i = 0; i < 4; i++)
         sum += edge(l[i], l[(i + 1) % 4]);
-    return max(sum, 0.0) / 6.2831853;
+    return abs(sum) / 6.2831853;
 }
 
 void main()
