@@ -4,7 +4,6 @@
  * are swapped, a matrix that is not the inverse, weights that do not sum to 1, and half floats that are not the
  * nearest. */
 #include "bake/files.h"
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 

@@ -3,7 +3,6 @@
 #ifndef TESTS_BSDF_BSDF_CASE_H
 #define TESTS_BSDF_BSDF_CASE_H
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "oracle/oracle_bsdf.h"
 

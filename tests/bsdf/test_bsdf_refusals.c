@@ -8,21 +8,18 @@
 
 static vndf_description good(vndf_effects effects)
 {
-    static const vndf_mixture mixture = {1, {{{NULL, 0.3f, 0.1f, 0, 0.2f, 0.1f, 0}, 1}}};
-    static vndf_mixture whole;
-    whole = mixture;
-    whole.lobe[0].surface.distribution = vndf_ggx();
-    vndf_description is = {.distribution = vndf_ggx(),
-                           .effects = effects,
-                           .alpha_x = 0.3f,
-                           .alpha_y = 0.2f,
-                           .affine = {NULL, 0.3f, 0.1f, 0, 0.2f, 0.1f, 0},
-                           .mixture = &whole,
-                           .eta = 1.5f,
-                           .f0 = {0.04f, 0.04f, 0.04f},
-                           .conductor_eta = {0.2f, 0.9f, 1.1f},
-                           .conductor_k = {3.9f, 2.4f, 2.2f}};
-    return is;
+    static vndf_mixture mixture;
+    mixture = (vndf_mixture){1, {{{vndf_ggx(), 0.3f, 0.1f, 0, 0.2f, 0.1f, 0}, 1}}};
+    return (vndf_description){.distribution = vndf_ggx(),
+                              .effects = effects,
+                              .alpha_x = 0.3f,
+                              .alpha_y = 0.2f,
+                              .affine = {NULL, 0.3f, 0.1f, 0, 0.2f, 0.1f, 0},
+                              .mixture = &mixture,
+                              .eta = 1.5f,
+                              .f0 = {0.04f, 0.04f, 0.04f},
+                              .conductor_eta = {0.2f, 0.9f, 1.1f},
+                              .conductor_k = {3.9f, 2.4f, 2.2f}};
 }
 
 /* Refused for a reason that has this text, and safe. */
@@ -49,29 +46,23 @@ static void refuse(const vndf_description *is, const char *text)
 static int is_taken(const vndf_description *is)
 {
     vndf_material material;
-    return vndf_material_resolve(is, &material, NULL) == VNDF_OK;
+    vndf_error error = {VNDF_OK, "untouched"};
+    return vndf_material_resolve(is, &material, &error) == VNDF_OK && error.status == VNDF_OK &&
+           strcmp(error.message, "untouched") == 0;
 }
 
 /* ---- effects ---- */
 
 static void test_sets(void)
 {
-    size_t taken = 0;
     for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
         vndf_effects effects = oracle_effects(i);
         vndf_description is = good(effects);
-        vndf_material material;
-        vndf_error error = {VNDF_OK, "untouched"};
-        int sensible = oracle_effects_sensible(&effects);
-        vndf_status status = vndf_material_resolve(&is, &material, &error);
-        if (!TEST(status == (sensible ? VNDF_OK : VNDF_ERROR_ARGUMENT)))
-            bsdf_describe(&is, "set", (vndf_vec3){0, 0, 1}, (vndf_vec3){0, 0, 1});
-        TEST(error.status == status && (strcmp(error.message, "untouched") == 0) == sensible);
-        taken += (size_t)sensible;
-        if (!sensible)
+        if (!oracle_effects_sensible(&effects))
             refuse(&is, "effects: ");
+        else if (!TEST(is_taken(&is)))
+            bsdf_describe(&is, "set", (vndf_vec3){0, 0, 1}, (vndf_vec3){0, 0, 1});
     }
-    printf("%lu of %lu sets of effects make sense\n", (unsigned long)taken, (unsigned long)ORACLE_EFFECT_SETS);
 }
 
 /* What each combination is refused for: both texts are in the message. */

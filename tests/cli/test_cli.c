@@ -93,8 +93,9 @@ int main(void)
     if (!run_begin(folder))
         return test_done();
     TEST(run_put("text.txt", "text\n"));
-    free(PRINTED(NULL, "build", "--family", "student-t", "--parameter", "1.8..3", "--knots", "2", "--max-bytes",
-                 "2048", "-o", "two.vndfs"));
+    TEST(
+        run_line(&run_plain, "build --family student-t --parameter 1.8..3 --knots 2 --max-bytes 2048 -o two.vndfs")
+            ->status == 0);
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++) {
         const run_outcome *o = run_line(&run_plain, refusals[i].words);
         if (!(TEST(o->status == 2) & TEST_HAS(o->text, refusals[i].says)))

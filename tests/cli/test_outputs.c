@@ -119,7 +119,7 @@ static void write_to(const char *line, const run_setting *setting, const char *n
 
 static void test_writer(const char *line, const char *name)
 {
-    const run_setting full = {.file_limit = 30}, crashed = {.left = 1};
+    const run_setting full = {.file_limit = 30};
     struct stat is;
     TEST(put_old(name));
     write_to(line, &full, name, 2, strerror(EFBIG));
@@ -132,8 +132,10 @@ static void test_writer(const char *line, const char *name)
     TEST(lstat(name, &is) == 0 && S_ISLNK(is.st_mode) && is_written("real"));
     TEST(remove("real") == 0 && remove("folder/link") == 0 && remove(name) == 0);
 
-    write_to(line, &crashed, name, 0, ""); /* a temporary of that name is there already */
-    TEST(run_count(".", ".tmp") == 1 && system("rm *.tmp") == 0 && is_written(name) && remove(name) == 0);
+    TEST(run_put("vndf.0.tmp", "left by a crash"));
+    write_to(line, &run_plain, name, 0, "");
+    TEST(run_has("vndf.0.tmp", "left by a crash") && run_count(".", ".tmp") == 1);
+    TEST(system("rm *.tmp") == 0 && is_written(name) && remove(name) == 0);
 
     TEST(mkfifo("pipe", 0666) == 0);
     write_to(line, &run_plain, "pipe", 2, "");
@@ -182,11 +184,10 @@ static void test_full(void)
 static void test_stdout(void)
 {
     static const char line[] = "build --family ggx --max-bytes 2048 -o ";
-    const run_setting to_file = {.append = "b"};
+    const run_setting to_file = {.out = open("b", O_WRONLY | O_CREAT, 0666)};
     write_to(line, &run_plain, "a.vndf", 0, "");
-    TEST(run_put("b", ""));
     write_to(line, &to_file, "-", 0, "");
-    TEST(run_same("a.vndf", "b") && remove("a.vndf") == 0 && remove("b") == 0);
+    TEST(close(to_file.out) == 0 && run_same("a.vndf", "b") && remove("a.vndf") == 0 && remove("b") == 0);
 }
 
 /* A reader that goes away ends the program by SIGPIPE, or quietly with 2 where that is ignored. */

@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"

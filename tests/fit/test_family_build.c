@@ -2,7 +2,6 @@
  * family's formula, at many parameters, gives the same distances within a twentieth and what the tables add. They are
  * about the same between all knots, one knot less would not reach them, and the tables are those of vndf_build at the
  * knots. What is no family is refused by name. */
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 

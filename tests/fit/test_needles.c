@@ -1,7 +1,6 @@
 /* No feature of a formula hides: needles of any kind, at any slope, of relative width 1e-2 to 1e-12 and with 0.1% to
  * 90% of the mass, are found - the reference of the distribution has the mass that an integration has which knows where
  * they are - or refused with their place. An argument: how many needles, 120 without. */
-#include "harness/constants.h"
 #include "harness/test.h"
 
 #include "fit/profile/profile.h"

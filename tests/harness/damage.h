@@ -1,15 +1,7 @@
-/* Damage to files that are read: bytes that change, checksums that are put right, a copy that nothing can be read
- * beyond, and what a table has to do, whatever it holds. */
+/* Damage to files that are read: bytes that change, checksums that are put right, and what a table has to do, whatever
+ * it holds. */
 #ifndef TESTS_HARNESS_DAMAGE_H
 #define TESTS_HARNESS_DAMAGE_H
-
-#if defined(__unix__) || defined(__APPLE__)
-#  include <sys/mman.h>
-#  include <unistd.h>
-#  if defined(MAP_ANONYMOUS)
-#    define DAMAGE_HAS_PAGES 1
-#  endif
-#endif
 
 #include <stdlib.h>
 
@@ -104,26 +96,17 @@ typedef struct file_kind {
     void (*mend)(unsigned char *bytes, const unsigned char *sound, size_t size);
 } file_kind;
 
-/* Loads a copy that ends where a page begins that nobody may read; elsewhere a block of the exact size, for
- * sanitizers. A refusal has its status and a message. */
-static inline verdict load_fenced(const file_kind *kind, const unsigned char *bytes, size_t size)
+/* Loads a copy in a block of its exact size, beyond which sanitizers see every read. A refusal has its status and a
+ * message. */
+static inline verdict load_exact(const file_kind *kind, const unsigned char *bytes, size_t size)
 {
-    static unsigned char *fence;
     vndf_error error = {VNDF_OK, ""};
-#ifdef DAMAGE_HAS_PAGES
-    if (!fence) {
-        char *base = mmap(NULL, 2 * DAMAGE_BYTES_MAX, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        TEST((void *)base != MAP_FAILED && mprotect(base + DAMAGE_BYTES_MAX, DAMAGE_BYTES_MAX, PROT_NONE) == 0);
-        fence = (unsigned char *)base + DAMAGE_BYTES_MAX;
-    }
-#endif
-    unsigned char *own = fence ? fence - size : malloc(size ? size : 1);
+    unsigned char *own = malloc(size ? size : 1);
     if (!TEST(own != NULL))
         return UNSAFE;
     memcpy(own, bytes, size);
     verdict found = kind->load(own, size, &error);
-    if (!fence)
-        free(own);
+    free(own);
     TEST(found == REFUSED ? error.status == VNDF_ERROR_TABLE && error.message[0] : error.status == VNDF_OK);
     return found;
 }
@@ -133,17 +116,17 @@ static inline void test_damaged_file(const file_kind *kind, const char *path, si
 {
     static unsigned char bytes[DAMAGE_BYTES_MAX], changed[DAMAGE_BYTES_MAX];
     size_t size = read_bytes(path, bytes, DAMAGE_BYTES_MAX - 8), taken = 0;
-    TEST(size > 1000 && size < DAMAGE_BYTES_MAX - 8 && load_fenced(kind, bytes, size) == SAFE);
+    TEST(size > 1000 && size < DAMAGE_BYTES_MAX - 8 && load_exact(kind, bytes, size) == SAFE);
     for (size_t n = 0; n < size; n++)
-        TEST(load_fenced(kind, bytes, n) == REFUSED);
+        TEST(load_exact(kind, bytes, n) == REFUSED);
     memset(bytes + size, 0, 8);
-    TEST(load_fenced(kind, bytes, size + 1) == REFUSED && load_fenced(kind, bytes, size + 8) == REFUSED);
+    TEST(load_exact(kind, bytes, size + 1) == REFUSED && load_exact(kind, bytes, size + 8) == REFUSED);
     for (size_t bit = 0; bit < 8 * size; bit += step) {
         memcpy(changed, bytes, size);
         changed[bit / 8] ^= (unsigned char)(1 << bit % 8);
-        int good = TEST(load_fenced(kind, changed, size) == REFUSED);
+        int good = TEST(load_exact(kind, changed, size) == REFUSED);
         kind->mend(changed, bytes, size);
-        verdict mended = load_fenced(kind, changed, size);
+        verdict mended = load_exact(kind, changed, size);
         taken += mended == SAFE;
         if (!(good & TEST(mended != UNSAFE)) && test_failures < 20)
             fprintf(stderr, "  %s: bit %lu flipped\n", path, (unsigned long)bit);

@@ -22,15 +22,13 @@
 enum { RUN_WORDS = 24, RUN_NOT_RUN = 126, RUN_TEXT = 1 << 16 };
 
 typedef struct run_setting {
-    const char *in;     /* what stdin is opened from; NULL: /dev/null */
-    const char *append; /* what stdout is appended to; NULL: `out` */
-    int left;           /* the first temporary is there already, from a crash */
-    int out;            /* a descriptor in the place of stdout; 0: `text` of the outcome, as stderr */
-    rlim_t file_limit;  /* bytes of a file, for a full disk; 0: none */
+    const char *in;    /* what stdin is opened from; NULL: /dev/null */
+    int out;           /* a descriptor in the place of stdout; 0: `text` of the outcome, as stderr */
+    rlim_t file_limit; /* bytes of a file, for a full disk; 0: none */
     int ignores_pipe;
 } run_setting;
 
-static const run_setting run_plain = {.left = 0};
+static const run_setting run_plain = {.in = NULL};
 
 typedef struct run_outcome {
     int status;          /* of exit; -1: another end */
@@ -38,37 +36,20 @@ typedef struct run_outcome {
     char text[RUN_TEXT]; /* stdout and stderr, their first bytes */
 } run_outcome;
 
-/* What a crash would have left: it holds "left". */
-static inline int run_leave(void)
-{
-    int file = open("vndf.0.tmp", O_WRONLY | O_CREAT | O_EXCL, 0666);
-    return file >= 0 && write(file, "left", 4) == 4 && close(file) == 0;
-}
-
-/* A limit, and signals as a shell in the foreground leaves them. Whether that can be. */
-static inline int run_limit(const run_setting *s)
+/* In the child: its files, `said` being the pipe, a limit, and signals as a shell in the foreground leaves them. */
+static inline void run_become(const run_setting *s, int said)
 {
     static const int signals[] = {SIGINT, SIGTERM, SIGHUP};
     const struct rlimit limit = {s->file_limit, s->file_limit};
-    for (int i = 0; i < 3; i++)
-        signal(signals[i], SIG_DFL);
-    signal(SIGPIPE, s->ignores_pipe ? SIG_IGN : SIG_DFL);
-    return !s->file_limit || setrlimit(RLIMIT_FSIZE, &limit) == 0;
-}
-
-/* In the child; `said` is the pipe. */
-static inline void run_become(const run_setting *s, int said)
-{
     int in = open(s->in ? s->in : "/dev/null", O_RDONLY);
-    int out = s->append ? open(s->append, O_WRONLY | O_APPEND) : s->out ? s->out : said;
-    if (s->left && !run_leave())
-        _exit(RUN_NOT_RUN);
-    if (in < 0 || out < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(said, 2) < 0)
+    if (in < 0 || dup2(in, 0) < 0 || dup2(s->out ? s->out : said, 1) < 0 || dup2(said, 2) < 0 ||
+        (s->file_limit && setrlimit(RLIMIT_FSIZE, &limit) != 0))
         _exit(RUN_NOT_RUN);
     for (int i = 3; i < 64; i++)
         close(i);
-    if (!run_limit(s))
-        _exit(RUN_NOT_RUN);
+    for (int i = 0; i < 3; i++)
+        signal(signals[i], SIG_DFL);
+    signal(SIGPIPE, s->ignores_pipe ? SIG_IGN : SIG_DFL);
 }
 
 static inline void run_read(int from, run_outcome *o)
@@ -233,31 +214,18 @@ static const char run_scene[] = "film width 8 height 8\ncamera from 0 0 5 to 0 0
                                 "material gold conductor of gold distribution ggx alpha 0.2\n"
                                 "sphere centre 0 0 0 radius 1 material gold\n";
 
-/* The words of a failed check. */
-static inline void run_tell(const char *const *words, const run_outcome *o)
-{
-    fputs("  vndf", stderr);
-    for (int i = 0; i < RUN_WORDS && words[i]; i++)
-        fprintf(stderr, " %s", words[i]);
-    fprintf(stderr, ": status %d, signal %d\n%.300s\n", o->status, o->signal, o->text);
-}
-
 /* The outcome of words that have to end with this status; `in` may be NULL. */
 static inline const run_outcome *run_expect(int status, const char *in, const char *const *words)
 {
     const run_setting s = {.in = in};
     const run_outcome *o = run_program(&s, words);
-    if (!TEST(o->status == status))
-        run_tell(words, o);
+    if (TEST(o->status == status))
+        return o;
+    fputs("  vndf", stderr);
+    for (int i = 0; i < RUN_WORDS && words[i]; i++)
+        fprintf(stderr, " %s", words[i]);
+    fprintf(stderr, ": status %d, signal %d\n%.300s\n", o->status, o->signal, o->text);
     return o;
-}
-
-/* What they print, to be freed. */
-static inline char *run_printed(const char *in, const char *const *words)
-{
-    const char *text = run_expect(0, in, words)->text;
-    char *copy = malloc(strlen(text) + 1);
-    return copy ? strcpy(copy, text) : NULL;
 }
 
 #define RUN_LIST(...)   \
@@ -265,7 +233,6 @@ static inline char *run_printed(const char *in, const char *const *words)
   {                     \
     __VA_ARGS__, NULL   \
   }
-#define PRINTED(in, ...) run_printed((in), RUN_LIST(__VA_ARGS__))
 
 /* A new folder to work in, which has to be empty at the end. */
 static inline int run_begin(char folder[])

@@ -1,4 +1,4 @@
-/* The harness: checks count, failures print where and what, test_done() is main's return value.
+/* The harness: checks count, failures print where and what, test_done() is main's return value; random numbers, pi.
  * A test program states one property in its first sentence and ends with `return test_done();`. */
 #ifndef TESTS_HARNESS_TEST_H
 #define TESTS_HARNESS_TEST_H
@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const double PI = 3.14159265358979323846;
 
 static int test_checks, test_failures;
 

@@ -3,7 +3,6 @@
  * along the brush and `across` across it; two families in one mixture have the densities of their sum, 7 to 3. */
 #include <ctype.h>
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf.h"
 #include "vndf_bsdf.h"

@@ -1,7 +1,6 @@
 /* The sheen of Estevez & Kulla 2017 as a family: P22 of its source and D of its table are those of D = (2 + 1/a)
  * sin^(1/a)/(2 pi), the table's area is the integral of that D, and small tables have the distances that are known of
  * them. */
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "vndf_build.h"
 

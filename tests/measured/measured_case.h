@@ -3,7 +3,6 @@
 #ifndef TESTS_MEASURED_MEASURED_CASE_H
 #define TESTS_MEASURED_MEASURED_CASE_H
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "measured/surface.h"
 

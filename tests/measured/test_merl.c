@@ -1,6 +1,6 @@
 /* A MERL file of a GGX surface, in closed form, is read as GGX within 1%, also where a diffuse part is under it,
- * which is told apart; the power iteration finds an eigenvector; what is no MERL file is refused. Noticed: a scale in
- * another's place, masking left out. */
+ * which is told apart; what is no MERL file is refused. Noticed: a scale in another's place, masking left out, a power
+ * iteration that ends at something else than D. */
 #include "measured/measured_case.h"
 
 #include "measured/brdf.h"
@@ -92,32 +92,6 @@ static void test_missing(void)
     TEST(case_number(&file, "angles_without_light ") == 5);
 }
 
-/* 4 cos f int |w.m| D dm is F0 D, by another quadrature. */
-static void test_eigenvector(void)
-{
-    law *l = malloc(sizeof *l);
-    double f[90], f0, whole = 0;
-    law_even(l, 90);
-    for (int i = 0; i < 90; i++)
-        f[i] = exp(-3 * l->theta[i]) * (1 + 0.5 * sin(7 * l->theta[i]));
-    TEST(merl_iterate(l, f, &f0) && f0 > 0);
-    for (int i = 0; i < 90; i++)
-        whole += 2 * PI * l->share[i] * cos(l->theta[i]) * l->ndf[i];
-    TEST_RELATIVE(whole, 1.0, 1e-12);
-    for (int i = 4; i < 90; i += 17) {
-        double sum = 0, c = cos(l->theta[i]), s = sin(l->theta[i]);
-        for (int k = 0; k < 90; k++)
-            for (int phi = 0; phi < 360; phi++)
-                sum += 2 * PI / 360 * l->share[k] * l->ndf[k] *
-                       fabs(c * cos(l->theta[k]) + s * sin(l->theta[k]) * cos((phi + 0.5) * PI / 180));
-        TEST_RELATIVE(4 * c * f[i] * sum, f0 * l->ndf[i], 1e-3);
-        TEST_RELATIVE(2 * law_area(l, l->theta[i]) - c, sum, 1e-3);
-    }
-    memset(f, 0, sizeof f);
-    TEST(!merl_iterate(l, f, &f0));
-    free(l);
-}
-
 static void refused(size_t size, const char *reason)
 {
     profile rows;
@@ -147,7 +121,6 @@ static void test_refusals(void)
 int main(void)
 {
     bytes = malloc(SIZE);
-    test_eigenvector();
     if (!test_quick())
         test_ggx(0.1);
     test_ggx(0.3);

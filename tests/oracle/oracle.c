@@ -1,5 +1,5 @@
 #include "cli/sort.h"
-#include "harness/constants.h"
+#include "harness/test.h"
 #include "oracle/oracle.h"
 
 #include <math.h>

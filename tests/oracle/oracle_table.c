@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "harness/constants.h"
+#include "harness/test.h"
 #include "vndf_build.h"
 
 /* ---- bytes ---- */

@@ -8,13 +8,13 @@
 
 enum { CASE_TEXT = 8192 };
 
-/* Reads text as the file tests/x.scene; NULL and an error. */
+/* Reads text as the file x.scene of the folder at hand; NULL and an error. */
 static inline scene *case_read(const char *text, vndf_error *error)
 {
     char copy[CASE_TEXT];
     snprintf(copy, sizeof copy, "%s", text);
     *error = (vndf_error){VNDF_OK, ""};
-    return scene_read_text(VNDF_SOURCE_DIR "/tests/x.scene", copy, strlen(copy), error);
+    return scene_read_text("x.scene", copy, strlen(copy), error);
 }
 
 /* A scene that has to be good. */

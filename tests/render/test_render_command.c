@@ -7,15 +7,7 @@
 #  define _XOPEN_SOURCE 700
 #  include "harness/run_program.h"
 
-static const run_outcome *run(const char *const *words, int status)
-{
-    const run_outcome *o = run_program(&run_plain, words);
-    if (!TEST(o->status == status))
-        run_tell(words, o);
-    return o;
-}
-
-#  define RUN(status, ...) run((const char *const[]){"render", __VA_ARGS__, NULL}, status)
+#  define RUN(status, ...) run_expect(status, NULL, RUN_LIST("render", __VA_ARGS__))
 
 static void test_refusals(void)
 {
@@ -40,7 +32,7 @@ static void test_refusals(void)
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         const char *words[10] = {"render"};
         memcpy(words + 1, bad[i].words, sizeof bad[i].words);
-        TEST_HAS(run(words, 2)->text, bad[i].says);
+        TEST_HAS(run_expect(2, NULL, words)->text, bad[i].says);
     }
     TEST(run_count(".", "x.") == 0 && run_count(".", ".tmp") == 0);
 }

@@ -100,7 +100,7 @@ enum { IMAGE, MESH, SCENE };
 /* Nothing comes of the bytes, and the reason is said with the name and the place. */
 static void refused(int kind, const char *bytes, size_t size, const char *says)
 {
-    static const char *const starts[] = {"x: ", "x.obj:", VNDF_SOURCE_DIR "/tests/x.scene:"};
+    static const char *const starts[] = {"x: ", "x.obj:", "x.scene:"};
     image map = {.rgb = NULL};
     geometry g = {0};
     vndf_error error = {VNDF_OK, ""};

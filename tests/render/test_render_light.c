@@ -68,14 +68,34 @@ static double corner_factor(double a, double b)
 
 #define LAMP "material lamp light radiance 8 8 8\n"
 
-static void test_floor(const char *lights, double want)
+#define PANEL "rectangle corner -1 2 -0.5 edge-u 2 0 0 edge-v 0 0 1 material lamp\n"
+#define ABOVE "sphere centre 0 2 0 radius 0.25 material lamp\n"
+#define ASIDE "sphere centre 4 3 0 radius 0.25 material lamp\n"
+
+static void test_floors(void)
 {
-    char text[2048];
-    snprintf(text, sizeof text, FLOOR "%s", lights);
-    scene *s = case_point(text);
-    if (!case_agrees(case_light(s, SAMPLER_VISIBLE, test_amount(64, 512, 512)), want, 1e-4))
-        fprintf(stderr, "    %s", lights);
-    scene_free(s);
+    const double above = 0.5 * 8 * 0.25 * 0.25 / (2 * 2), aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0);
+    const double panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
+    const struct {
+        const char *lights;
+        double want;
+    } floors[] = {
+        {ABOVE, above},
+        {ASIDE, aside},
+        {PANEL, panel},
+        {"sphere centre 0 2.2 0 radius 0.1 material lamp\n" ASIDE PANEL, panel + aside}, /* the panel hides it */
+        {PANEL "rectangle corner -1 1.999999 -0.5 edge-u 1 0 0 edge-v 0 0 1 material floor\n", panel / 2},
+        {"rectangle corner -1 2 0.5 edge-u 2 0 0 edge-v 0 0 -1 material lamp\n" ASIDE, aside}, /* shines up */
+        {"sphere centre 0 0 0 radius 40 material lamp\n", 0}, /* all is inside, where it does not shine */
+    };
+    for (size_t i = 0; i < sizeof floors / sizeof *floors; i++) {
+        char text[2048];
+        snprintf(text, sizeof text, FLOOR LAMP "%s", floors[i].lights);
+        scene *s = case_point(text);
+        if (!case_agrees(case_light(s, SAMPLER_VISIBLE, test_amount(64, 512, 512)), floors[i].want, 1e-4))
+            fprintf(stderr, "    %s", floors[i].lights);
+        scene_free(s);
+    }
 }
 
 /* ---- the sky ---- */
@@ -179,27 +199,6 @@ static void test_samplers(const char *kind, double order[3])
     scene_free(s);
 }
 
-static void test_all_floors(void)
-{
-    const double above = 0.5 * 8 * 0.25 * 0.25 / (2 * 2), aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0);
-    const double panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
-#define PANEL "rectangle corner -1 2 -0.5 edge-u 2 0 0 edge-v 0 0 1 material lamp\n"
-    test_floor(LAMP "sphere centre 0 2 0 radius 0.25 material lamp\n", above);
-    test_floor(LAMP "sphere centre 4 3 0 radius 0.25 material lamp\n", aside);
-    test_floor(LAMP PANEL, panel);
-    test_floor(
-        LAMP
-        "sphere centre 0 2.2 0 radius 0.1 material lamp\nsphere centre 4 3 0 radius 0.25 material lamp\n" PANEL,
-        panel + aside); /* the panel hides the first */
-    test_floor(LAMP PANEL "rectangle corner -1 1.999999 -0.5 edge-u 1 0 0 edge-v 0 0 1 material floor\n",
-               panel / 2);
-    test_floor(LAMP "rectangle corner -1 2 0.5 edge-u 2 0 0 edge-v 0 0 -1 material lamp\n" /* its front is above */
-                    "sphere centre 4 3 0 radius 0.25 material lamp\n",
-               aside);
-    test_floor(LAMP "sphere centre 0 0 0 radius 40 material lamp\n",
-               0); /* all is inside, where it does not shine */
-}
-
 int main(void)
 {
     static const double alphas[] = {0.02, 0.1, 0.4, 1}, sizes[] = {0.05, 0.5, 3};
@@ -221,7 +220,7 @@ int main(void)
         test_furnace(lossless[i], DOME, 2e-3);
         test_furnace(lossless[i], ROOM, 0.5);
     }
-    test_all_floors();
+    test_floors();
     test_sky();
     return test_done();
 }

@@ -18,20 +18,6 @@ static int put_quarters(const char *name, const float (*pixels)[3])
     return fclose(file) == 0 && good;
 }
 
-/* A scene whose files are in the folder at hand. */
-static scene *here(const char *text)
-{
-    char copy[2048];
-    vndf_error error;
-    snprintf(copy, sizeof copy, "%s", text);
-    scene *s = scene_read_text("here", copy, strlen(copy), &error);
-    if (!TEST(s != NULL)) {
-        fprintf(stderr, "    %s\n", error.message);
-        exit(1);
-    }
-    return s;
-}
-
 /* The colours seen in the corners: 0 to 2, or 3 for none. */
 static void test_upright(const char *shapes, const char *camera, const int want[4])
 {
@@ -40,7 +26,7 @@ static void test_upright(const char *shapes, const char *camera, const int want[
              "film width 4 height 4\n%s\nintegrator depth 1\nenvironment constant 1 1 1\n"
              "image q file \"render_quarters.pfm\"\nmaterial m matte colour 1 1 1 colour-map q\n%s",
              camera, shapes);
-    scene *s = here(text);
+    scene *s = case_scene(text);
     film f = {.sum = NULL};
     case_render(&f, s, SAMPLER_VISIBLE, 64, 1);
     for (int i = 0; i < 4; i++) {
@@ -69,7 +55,7 @@ static void test_roughness(void)
     double light[2] = {0, 1};
     TEST(put_quarters("render_half.pfm", half));
     for (int i = 0; i < 2; i++) {
-        scene *s = here(texts[i]);
+        scene *s = case_scene(texts[i]);
         s->width = s->height = 8;
         light[i] = case_light(s, SAMPLER_VISIBLE, 64).value;
         scene_free(s);

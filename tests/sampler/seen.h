@@ -2,7 +2,6 @@
 #ifndef TESTS_SAMPLER_SEEN_H
 #define TESTS_SAMPLER_SEEN_H
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 #include "statistics/slopes.h"

@@ -2,7 +2,6 @@
 #ifndef TESTS_SOURCE_SOURCES_H
 #define TESTS_SOURCE_SOURCES_H
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "source/source.h"
 

@@ -3,7 +3,6 @@
 #include <float.h>
 #include <math.h>
 
-#include "harness/constants.h"
 #include "harness/test.h"
 #include "cli/sort.h"
 #include "statistics/grid.h"

@@ -1,7 +1,6 @@
 /* The file of a family gives back what was saved, to the byte; every truncation and every flip of a bit is refused, and
- * nothing is read beyond its end; where the checksums are put right again, it is refused, or each of its tables is
- * safe to use; and what breaks one rule of the format is refused with that rule's name. */
-#define _DEFAULT_SOURCE
+ * nothing is read beyond its end (as sanitizers see); where the checksums are put right again, it is refused, or each
+ * of its tables is safe to use; and what breaks one rule of the format is refused with that rule's name. */
 #include "harness/damage.h"
 #include "table/family/family.h"
 #include "vndf_build.h"

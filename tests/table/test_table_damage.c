@@ -1,7 +1,6 @@
-/* Every truncation and every single-bit flip of a shipped table is refused, and nothing is read beyond its end; where
- * the checksum is put right again, the table is refused or its samples are finite, unit and not below the surface and
- * its densities finite and positive: it may be wrong, never dangerous. Arguments: other tables. */
-#define _DEFAULT_SOURCE
+/* Every truncation and every single-bit flip of a shipped table is refused, and nothing is read beyond its end (as
+ * sanitizers see); where the checksum is put right again, the table is refused or its samples are finite, unit and not
+ * below the surface, and its densities finite and positive: it may be wrong, never dangerous. Arguments: tables. */
 #include "harness/damage.h"
 
 static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)

@@ -31,25 +31,20 @@ static void locate(const judge_view *v, const answer *a, double *theta, double *
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
 }
 
-static void place_borders(double *border, size_t parts, double low, double high, double sorted[PILOTS])
-{
-    sort_numbers(sorted, PILOTS);
-    for (size_t i = 0; i <= parts; i++)
-        border[i] = i % 2 ? fmin(fmax(sorted[PILOTS * i / parts], low), high)
-                          : low + (high - low) * (double)i / (double)parts;
-    sort_numbers(border, parts + 1);
-}
-
 static void place_bins(judge_view *v, const answer *pilots)
 {
     double theta[PILOTS], phi[PILOTS];
     for (size_t i = 0; i < PILOTS; i++) {
         locate(v, &pilots[i], &theta[i], &phi[i]);
-        if (isnan(theta[i]))
-            theta[i] = phi[i] = 0;
+        phi[i] = isnan(theta[i]) ? 0 : phi[i];
+        theta[i] = isnan(theta[i]) ? 0 : fmin(theta[i], pi / 2);
     }
-    place_borders(v->ring, JUDGE_RINGS, 0, pi / 2, theta);
-    place_borders(v->sector, JUDGE_SECTORS, -pi, pi, phi);
+    sort_numbers(theta, PILOTS);
+    sort_numbers(phi, PILOTS);
+    bins_borders(v->ring, JUDGE_RINGS, 0, pi / 2, theta, PILOTS);
+    bins_borders(v->sector, JUDGE_SECTORS, -pi, pi, phi, PILOTS);
+    sort_numbers(v->ring, JUDGE_RINGS + 1);
+    sort_numbers(v->sector, JUDGE_SECTORS + 1);
 }
 
 static void take_sample(judge_view *v, const answer *a, double counts[JUDGE_BINS + 1])

@@ -101,8 +101,4 @@ typedef enum merl_channel { MERL_RED, MERL_GREEN, MERL_BLUE, MERL_LUMINANCE } me
  * light that the model has elsewhere, and F0 of each channel by itself, diffuse light counted in. */
 int merl_read(data_file *file, merl_channel channel, profile *rows);
 
-/* The fixed point for f[] at the bins of *l, from any D there, and its F0; negative where nothing is known: D is that
- * of the bin before. 0 if there is no light. */
-int merl_iterate(law *l, const double *f, double *f0);
-
 #endif

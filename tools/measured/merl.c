@@ -102,7 +102,9 @@ static void read_probes(search *s)
 
 /* ---- the search ---------------------------------------------------------------------------------- */
 
-int merl_iterate(law *l, const double *f, double *f0)
+/* The fixed point for f[] at the bins of *l, from any D there, and its F0; negative where nothing is known: D is that
+ * of the bin before. 0 if there is no light. */
+static int iterate(law *l, const double *f, double *f0)
 {
     double before = 0;
     if (!(law_normalise(l) > 0)) {
@@ -132,7 +134,7 @@ static double try_diffuse(search *s, double diffuse)
     double f[HALVES];
     for (int i = 0; i < HALVES; i++)
         f[i] = s->back[i] < 0 ? -1 : fmax(s->back[i] - diffuse, 0);
-    if (!merl_iterate(&s->law, f, &s->f0))
+    if (!iterate(&s->law, f, &s->f0))
         return 1;
     double found = 0, left = 0; /* light without the diffuse part, and all of it */
     for (size_t i = 0; i < s->count; i++) {
@@ -210,7 +212,7 @@ static int search_file(data_file *file, search *s, profile *rows)
     for (int i = 0; i < 3; i++) { /* F0 of each channel by itself, with its own D; diffuse light counts in */
         s->channel = (merl_channel)i;
         read_back(s);
-        if (merl_iterate(&s->law, s->back, &s->f0))
+        if (iterate(&s->law, s->back, &s->f0))
             note(file, "f0_%s %.4g", names[i], s->f0);
     }
     return 1;

@@ -22,12 +22,11 @@ static const double pi = 3.14159265358979323846;
 
 enum { PILOTS = 2001 };
 
-/* Every other border is even between low and high, the rest are quantiles of what is sorted. */
-static void place_borders(double *border, size_t parts, double low, double high, const double *sorted)
+void bins_borders(double *border, size_t parts, double low, double high, const double *sorted, size_t count)
 {
     for (size_t i = 0; i <= parts; i++)
-        border[i] = i % 2 ? sorted[PILOTS * i / (parts + 1)]
-                          : low + (high - low) * (double)i / (double)(parts + parts % 2);
+        border[i] =
+            i % 2 ? sorted[count * i / (parts + 1)] : low + (high - low) * (double)i / (double)(parts + parts % 2);
 }
 
 /* Infinite at the horizon. */
@@ -56,12 +55,12 @@ bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed)
     const double median = slope[PILOTS / 2], scale = median > 1e-12 ? fmin(median, 1e12) : 1e-12;
     map.stretch_x = ax * scale;
     map.stretch_y = ay * scale;
-    place_borders(map.slope, BINS_THETA, 0, pi / 2, slope);
+    bins_borders(map.slope, BINS_THETA, 0, pi / 2, slope, PILOTS);
     for (size_t i = 0; i <= BINS_THETA; i++) /* even ones are so in theta' */
         map.slope[i] = i % 2 ? map.slope[i] / scale : tan(map.slope[i]);
     map.slope[BINS_THETA] = HUGE_VAL;
     sort_numbers(map.slope, BINS_THETA + 1);
-    place_borders(map.phi, BINS_PHI, -pi, pi, turn);
+    bins_borders(map.phi, BINS_PHI, -pi, pi, turn, PILOTS);
     sort_numbers(map.phi, BINS_PHI + 1);
     return map;
 }

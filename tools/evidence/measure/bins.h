@@ -37,7 +37,9 @@ size_t bins_place(const bin_map *map, vndf_vec3 wm);
 double bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 wi,
                       double probability[BINS_COUNT]);
 
-/* For bins of other kinds: which of `parts` intervals of ascending borders holds x. */
+/* For bins of other kinds: borders, in no order yet, of which every other is even between low and high and the rest are
+ * quantiles of what is sorted; and which of `parts` intervals of ascending borders holds x. */
+void bins_borders(double *border, size_t parts, double low, double high, const double *sorted, size_t count);
 size_t bins_interval(const double *border, size_t parts, double x);
 
 #endif
