@@ -358,7 +358,7 @@ static int load(subjects *s, char **files, int count)
 
 int main(int argc, char **argv)
 {
-    subjects s;
+    static subjects s; /* until the end: nothing is freed */
     export_effects effects = {0};
     char why[EFFECTS_ERROR_MAX];
     if (argc < 5 || (strcmp(argv[2], "normals") != 0 && !effects_read(&effects, argv[2], why)))
