@@ -87,6 +87,7 @@ static void test_wrong(void)
         if (!TEST_HAS(judged(2, sampler("0.3", broken[i][0]), NULL), broken[i][1]))
             fprintf(stderr, "  %s\n", broken[i][0]);
     TEST_HAS(judged(2, "./no-such-sampler", NULL), "'./no-such-sampler' ended with status 127: there is no such");
+    TEST_HAS(judged(2, "yes nan", NULL), "'yes nan' writes without an end");
     TEST_HAS(judged(2, sampler("0.3", NULL), RUN_LIST("--alpha", "0.3")), "--alpha is for --ndf");
     TEST(strcmp(judged(1, sampler("0.3", "{$NF = 0; print}"), RUN_LIST("-q")), "") == 0);
 }
