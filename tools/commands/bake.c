@@ -13,12 +13,14 @@
 static const char name[] = "vndf bake";
 
 static const char *const help[] = {
-    "usage: vndf bake FILE|ggx|beckmann [options] DIR\n"
+    "usage: vndf bake FILE|ggx|beckmann [options] -o DIR\n"
     "\n"
     "Tables for renderers that look up what others sample, of this distribution, in DIR: for each a picture, numbers\n"
     "for numpy (.npy), a texture of half floats (.dds) and arrays for C (.h), GLSL and JavaScript; and index.html,\n"
     "which shows them all with their errors. The same words give the same bytes.\n"
     "\n"
+    "  -o DIR           the folder, made if it is not there; else empty, or with tables of this command: files of the\n"
+    "                   same names are replaced, others stay. Interrupted, the command leaves it as it was\n"
     "  --what dfg,energy,ltc,prefilter,anisotropic  only these (default the first four). dfg: scale and bias of\n"
     "                   the split sum, and E_avg; energy: E and E_avg of a mirror and of glass; ltc: linearly\n"
     "                   transformed cosines for area lights; prefilter: taps for environments; anisotropic: such\n"
@@ -29,11 +31,8 @@ static const char *const help[] = {
     "  --shape grid|cycles|ospray  order, places and masking of energy, as a path tracer has them (default grid)\n"
     "  --format npy,dds,c,glsl,js  only files of these forms\n"
     "\n"
-    "DIR is made if it is not there. If it is, it has to be empty or to hold tables of this command, which are\n"
-    "replaced. Interrupted, the command leaves DIR as it was.\n"
-    "\n"
-    "example: vndf bake tables/hazy.vndf --what dfg,ltc haze\n"
-    "         vndf bake ggx --what energy --shape cycles --format npy energy\n",
+    "example: vndf bake tables/hazy.vndf --what dfg,ltc -o haze\n"
+    "         vndf bake ggx --what energy --shape cycles --format npy -o energy\n",
     NULL};
 
 /* Which words of a list were given, a bit each; without the option those of `otherwise`. */
@@ -109,7 +108,7 @@ static void print(const arguments *given, const baked_list *list, const char *fo
 static int bake(const arguments *given, bake_settings *s, unsigned what)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
-    const char *folder = given->positional.item[1];
+    const char *folder = option_value(given, "-o");
     const bake_shape shape = (bake_shape)option_choice(given, "--shape", BAKE_GRID);
     char made_by[1024];
     baked_list list = {.count = 0};
@@ -144,6 +143,8 @@ static int run(const arguments *given)
 {
     unsigned long long size = 64;
     chosen_distribution chosen;
+    if (!option_value(given, "-o"))
+        return complain(name, "-o DIR is missing");
     if (!option_count(given, "--size", 4, 256, &size) ||
         !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
@@ -158,5 +159,4 @@ static int run(const arguments *given)
 }
 
 const subcommand command_bake = {
-    name, "tables for engines: DFG, energy, area lights (LTC), prefilter", "FILE|ggx|beckmann DIR", 2, 2, run,
-    help};
+    name, "tables for engines: DFG, energy, area lights (LTC), prefilter", "FILE|ggx|beckmann", 1, 1, run, help};

@@ -68,24 +68,42 @@ static void print_views(figures *f, const judge_view *views, int has_truth)
     figures_list_end(f);
 }
 
-/* The first bins without a sample; azimuths are those of the surface. */
-static void print_holes(figures *f, const judge_view *views)
+/* A bin in figures; azimuths are those of the surface. */
+static void print_bin(figures *f, const judge_view *v, size_t bin)
 {
     static const char *const names[4] = {"theta_from", "theta_to", "phi_from", "phi_to"};
-    enum { SHOWN = 12 };
     const double degrees = 180 / acos(-1);
-    figures_list(f, "holes");
-    for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && f->records < SHOWN; i++) {
-        const judge_view *v = &views[i / JUDGE_BINS];
-        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SECTORS], *phi = &v->sector[i % JUDGE_SECTORS];
-        const double ends[4] = {theta[0], theta[1], v->turn + phi[0], v->turn + phi[1]};
-        if (!judge_is_hole(v, i % JUDGE_BINS))
-            continue;
-        figures_record(f);
-        figures_number(f, "theta_of_wi", 3, v->theta, "degrees");
-        for (int k = 0; k < 4; k++)
-            figures_number(f, names[k], 4, ends[k] * degrees, "degrees");
-        figures_number(f, "expected", 4, v->expected[i % JUDGE_BINS], "samples");
+    const double *theta = &v->ring[bin / JUDGE_SECTORS], *phi = &v->sector[bin % JUDGE_SECTORS];
+    const double ends[4] = {theta[0], theta[1], v->turn + phi[0], v->turn + phi[1]};
+    figures_record(f);
+    figures_number(f, "theta_of_wi", 3, v->theta, "degrees");
+    for (int k = 0; k < 4; k++)
+        figures_number(f, names[k], 4, ends[k] * degrees, "degrees");
+    figures_number(f, "expected", 4, v->expected[bin], "samples");
+    figures_number(f, "observed", 4, v->observed[bin], "samples");
+}
+
+/* The first bins without a sample; and where a direction's samples do not follow the density, the bin that is farthest
+ * off. */
+static void print_bins(figures *f, const judge_view *views, double level)
+{
+    enum { SHOWN = 12 };
+    figures_list(f, "first holes");
+    for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && f->records < SHOWN; i++)
+        if (judge_is_hole(&views[i / JUDGE_BINS], i % JUDGE_BINS))
+            print_bin(f, &views[i / JUDGE_BINS], i % JUDGE_BINS);
+    figures_list_end(f);
+    figures_list(f, "farthest off");
+    for (const judge_view *v = views; v < views + JUDGE_VIEWS; v++) {
+        size_t most = 0;
+        double worst = -1;
+        for (size_t i = 0; i < JUDGE_BINS && v->bins.p < level; i++) {
+            const double off = v->observed[i] - v->expected[i], by = off * off / fmax(v->expected[i], 5);
+            most = by > worst ? i : most;
+            worst = fmax(worst, by);
+        }
+        if (worst >= 0)
+            print_bin(f, v, most);
     }
     figures_list_end(f);
 }
@@ -103,7 +121,7 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
     figures_text(&f, "command", task->command);
     figures_number(&f, "samples", 9, (double)task->samples, "of each direction");
     print_views(&f, views, has_truth);
-    print_holes(&f, views);
+    print_bins(&f, views, level);
     figures_list(&f, "verdict");
     for (int id = 0; id <= JUDGE_NUMBERS; id++) {
         const int is_p = id == JUDGE_NUMBERS;
@@ -115,7 +133,7 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
         const int is_good = is_p ? p >= level : worst <= limits[id];
         figures_record(&f);
         figures_text(&f, "of", names[id]);
-        figures_number(&f, "worst", 3, worst, "");
+        figures_number(&f, is_p ? "least p" : "worst", 3, worst, "");
         figures_number(&f, "limit", 3, is_p ? level : limits[id], "");
         figures_truth(&f, "good", is_good);
         if (!is_good)

@@ -158,7 +158,8 @@ int geometry_add(geometry *g, const shape *s)
 void geometry_place(geometry *g, size_t first, double size, double radians, vec3 move)
 {
     const frame turned = {{cos(radians), 0, -sin(radians)}, {0, 1, 0}, {sin(radians), 0, cos(radians)}};
-    for (shape *s = g->shapes + first; s < g->shapes + g->count; s++) {
+    for (size_t k = first; k < g->count; k++) {
+        shape *s = &g->shapes[k];
         s->corner = along(move, size, out_of(&turned, s->corner));
         s->edge_u = scale(out_of(&turned, s->edge_u), size);
         s->edge_v = scale(out_of(&turned, s->edge_v), size);

@@ -1,6 +1,6 @@
 #version 330
 // Direct light of a rectangle by linearly transformed cosines, and of an environment by the split sum, from the tables
-// of `vndf bake tables/hazy.vndf --what dfg,ltc haze`: ltc_inverse.dds, ltc_norm.dds and dfg.dds as textures with linear
+// of `vndf bake tables/hazy.vndf --what dfg,ltc -o haze`: ltc_inverse.dds, ltc_norm.dds and dfg.dds as textures with linear
 // filtering, clamped at their edges.
 uniform sampler2D ltc_inverse, ltc_norm, dfg;
 uniform vec3 corner[4]; // of the light, in turn, as seen from the point
