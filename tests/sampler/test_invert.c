@@ -15,6 +15,7 @@ static float moved(float u, int steps)
     return (float)fmin(1, fmax(0, (double)u + steps * 0x1p-24));
 }
 
+/* How far four steps of the numbers move their normal, which is wm. */
 static double led_by_steps(const seen *s, const slope_frame *f, float u1, float u2, vndf_vec3 wm)
 {
     double most = 0;
@@ -39,23 +40,27 @@ static vndf_vec3 between(vndf_vec3 a, vndf_vec3 b, float t)
     return (vndf_vec3){w.x * per, w.y * per, w.z * per};
 }
 
-/* The normal of these numbers or, with `t` above 0, one between that and a normal of the same lobe. */
+/* The normal of two of these numbers or, with `t` above 0, one between that and the normal of the others, where D is
+ * not so small that no number stands for it. */
 static int comes_back(const seen *s, const float u[4], float t, double *lost)
 {
     const float u1 = u[0], u2 = u[1];
     int drawn = 0, lobe = 0;
     float v1 = -1, v2 = -1;
-    vndf_vec3 wm = between(seen_draw(s, u1, u2, NULL), seen_draw(s, u[2], u[3], NULL), t);
+    vndf_vec3 wm = seen_draw(s, u1, u2, NULL), other = between(wm, seen_draw(s, u[2], u[3], NULL), t);
+    if (s->kind != SEEN_MIXTURE && seen_pdf(s, other) > 1e-3f * seen_pdf(s, wm))
+        wm = other;
     if (s->kind == SEEN_MIXTURE) {
         vndf_mixture_sample(&s->mixture, u1, u2, NULL, &drawn);
         lobe = vndf_mixture_invert(&s->mixture, wm, drawn, &v1, &v2);
     } else
         vndf_invert(&s->view, wm, &v1, &v2);
     slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi);
-    *lost = seen_apart(&f, wm, seen_draw(s, v1, v2, NULL));
+    const vndf_vec3 back = seen_draw(s, v1, v2, NULL);
+    *lost = seen_apart(&f, wm, back);
     if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
-    return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, v1, v2, wm);
+    return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, v1, v2, back);
 }
 
 /* Surfaces, matrices with a mean slope, and mixtures of both with a lobe of weight 0. */
