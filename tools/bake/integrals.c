@@ -56,10 +56,14 @@ static double part_of(int i, int side)
     return s * (1 - s) * t * (1 - t);
 }
 
-/* Their numbers; the sum of their parts. */
-static double fill_numbers(bake_points *p, int side)
+/* The samples from one direction; the sum of their parts, or 0: there is no such material. */
+static double samples_from(const vndf_description *of, const double wi[3], int side, bake_points *p)
 {
+    vndf_material material;
+    vndf_error error;
     double whole = 0;
+    if (vndf_material_resolve(of, &material, &error) != VNDF_OK)
+        return 0;
     for (int i = 0; i < side * side; i++) {
         double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
         p->u[0][i] = (float)(s * s * (3 - 2 * s));
@@ -67,6 +71,7 @@ static double fill_numbers(bake_points *p, int side)
         p->u[2][i] = 0.5f;
         whole += part_of(i, side);
     }
+    bake_sample(&material, wi, (size_t)(side * side), p);
     return whole;
 }
 
@@ -74,14 +79,9 @@ static double fill_numbers(bake_points *p, int side)
 bake_sum bake_mean(const vndf_description *of, const double wi[3], int side)
 {
     static bake_points p;
-    vndf_material material;
-    vndf_error error;
     bake_sum sum = {0, 0};
-    if (vndf_material_resolve(of, &material, &error) != VNDF_OK)
-        return sum;
-    const double whole = fill_numbers(&p, side);
-    bake_sample(&material, wi, (size_t)(side * side), &p);
-    for (int i = 0; i < side * side; i++) {
+    const double whole = samples_from(of, wi, side, &p);
+    for (int i = 0; i < side * side && whole > 0; i++) {
         sum.all += part_of(i, side) / whole * (double)p.weight[0][i];
         sum.grazing += part_of(i, side) / whole * (double)p.weight[1][i];
     }
@@ -98,24 +98,20 @@ bake_sum bake_direction(const bake_settings *s, float alpha, double cosine)
 /* The mean of weights that masking has no part in, times 1/(1 + Lambda(wi) + Lambda(wo)). */
 static double mean_masked_alike(const vndf_description *of, const double wi[3], int side)
 {
-    const vndf_surface surface = {of->distribution, of->alpha_x, of->alpha_y};
     static bake_points p;
-    vndf_description bare = *of;
-    vndf_material material;
-    vndf_error error;
+    const vndf_surface surface = {of->distribution, of->alpha_x, of->alpha_y};
     const vndf_vec3 in = {(float)wi[0], (float)wi[1], (float)wi[2]};
-    double sum = 0, whole = 0, lambda = 1 + (double)vndf_lambda(&surface, in);
+    vndf_description bare = *of;
     bare.effects.masking = VNDF_MASKING_NONE;
-    if (vndf_material_resolve(&bare, &material, &error) != VNDF_OK)
-        return 0;
-    whole = fill_numbers(&p, side);
-    bake_sample(&material, wi, (size_t)(side * side), &p);
-    for (int i = 0; i < side * side; i++) {
+    const double whole = samples_from(&bare, wi, side, &p), lambda = 1 + (double)vndf_lambda(&surface, in);
+    double sum = 0;
+    for (int i = 0; i < side * side && whole > 0; i++) {
         const vndf_vec3 out = {p.wo[0][i], p.wo[1][i], fabsf(p.wo[2][i])};
         if (p.weight[0][i] > 0)
-            sum += part_of(i, side) * (double)p.weight[0][i] / (lambda + (double)vndf_lambda(&surface, out));
+            sum +=
+                part_of(i, side) / whole * (double)p.weight[0][i] / (lambda + (double)vndf_lambda(&surface, out));
     }
-    return sum / whole;
+    return sum;
 }
 
 double bake_glass(const bake_settings *s, float alpha, double cosine, double eta)

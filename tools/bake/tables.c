@@ -189,7 +189,7 @@ int bake_energy(const bake_settings *s, bake_shape shaped, baked_list *list)
                                         "glass_average", "glass_inside",   "glass_inside_average"};
     const shape *h = &shapes[shaped];
     bake_settings host = *s;
-    host.masks_alike = h->masks_alike;
+    host.masks_alike = h->masks_alike && s->masking == VNDF_MASKING_HEIGHT_CORRELATED;
     for (int k = 0; k < 6; k++) {
         const int glass = k > 1, average = k % 2, inside = k > 3;
         const size_t n = glass ? h->glass : h->mirror, count[] = {n, n, n};

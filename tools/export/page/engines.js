@@ -49,7 +49,7 @@ function drawCube(light) {
   gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
 }
 
-// One more sample of each pixel; where something changed, `frames` of them anew.
+// Adds so many samples to each pixel, and shows what they say.
 function drawEngines(frames) {
   const light = LIGHTS.indexOf(settings.light), alpha = surfaceOf(settings.a).alpha[0];
   const surface = {...surfaceOf(settings.a), alpha: [alpha, alpha], turn: 0, roughness: Math.min(Math.sqrt(alpha), 1)};
