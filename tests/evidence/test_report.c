@@ -68,7 +68,9 @@ static void check_page(void)
     for (int i = 0; i < 4; i++) {
         size_t size;
         char *text = run_file(names[i], &size);
-        TEST(text && strncmp(text, heads[i], strlen(heads[i])) == 0);
+        const char *begin =
+            text ? strstr(text, heads[i]) : NULL; /* a table of two distributions names them first */
+        TEST(begin && (begin == text || (i == 2 && strncmp(text, "distribution,", 13) == 0)));
         TEST(text && (i > 1 || is_well_formed(i ? text : text + strlen(heads[0]))));
         for (size_t k = 0; text && i == 0 && k < sizeof parts / sizeof *parts; k++)
             TEST_HAS(text, parts[k]);
@@ -117,7 +119,8 @@ int main(void)
     TEST(run_put("page/note.txt", "")); /* it is still there when the page is replaced */
     TEST(run_copy(VNDF_SOURCE_DIR "/tables/example.csv", "a&<b>.csv")); /* a name that HTML has to escape */
     if (!test_quick()) {
-        TEST_HAS(run_said(text, NULL, "report --csv a&<b>.csv --seconds=1 page"), "replaced the report in ");
+        TEST_HAS(run_said(text, NULL, "report --csv a&<b>.csv --with beckmann --seconds=1 page"),
+                 "replaced the report in ");
         check_page();
     }
     TEST(run_count("page", "") == 5 && system("rm -r page *.csv") == 0);
