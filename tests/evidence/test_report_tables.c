@@ -6,21 +6,22 @@
 
 static void test_advice(const char *name, vndf_source *source, int is_good)
 {
-    static report_subject s;
+    subject s;
+    size_t at = 0;
     vndf_error error = {VNDF_OK, ""};
     progress p = progress_begin("", 0);
     const evidence_plan plan = {.seconds = 3600, .progress = &p};
-    subject_begin(&s.of, source, name);
-    if (TEST(s.of.source && report_choose(&s, &plan, &error) == VNDF_OK)) {
-        const vndf_certificate finest = vndf_distribution_info(s.of.table[SIZE_FINE]).certificate,
-                               chosen = vndf_distribution_info(s.of.table[s.chosen]).certificate;
-        TEST(report_keeps(s.of.table[s.chosen]) == is_good);
-        for (size_t i = 0; i < s.chosen; i++)
-            TEST(!report_keeps(s.of.table[i]));
-        TEST(s.chosen > 0);
+    subject_begin(&s, source, name);
+    if (TEST(s.source && report_choose(&s, &at, &plan, &error) == VNDF_OK)) {
+        const vndf_certificate finest = vndf_distribution_info(s.table[SIZE_FINE]).certificate,
+                               chosen = vndf_distribution_info(s.table[at]).certificate;
+        TEST(report_keeps(s.table[at]) == is_good);
+        for (size_t i = 0; i < at; i++)
+            TEST(!report_keeps(s.table[i]));
+        TEST(at > 0);
         TEST(chosen.tv <= fmaxf(0.03f, 1.25f * finest.tv) && chosen.tv_above <= 1e-3f && chosen.max_weight <= 2);
     }
-    subject_free(&s.of);
+    subject_free(&s);
 }
 
 int main(void)

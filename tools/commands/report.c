@@ -40,7 +40,7 @@ static int add_subjects(report *r, const arguments *given)
         return complain(name, "--with is given more than %d times", REPORT_SUBJECTS - 1);
     vndf_source *source = source_from_words(given, "student-t:2.5");
     for (size_t i = 0; source; i++) {
-        subject_begin(&r->subject[r->count++].of, source, source_name(source));
+        subject_begin(&r->subject[r->count++], source, source_name(source));
         if (i == with.count)
             return STATUS_GOOD;
         source = vndf_source_family(with.item[i], &error);
@@ -53,16 +53,14 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
     vndf_error error = {VNDF_OK, ""};
     int status = add_subjects(r, given);
     for (size_t i = 0; i < r->count && status == STATUS_GOOD; i++)
-        if (report_choose(&r->subject[i], plan, &error) != VNDF_OK)
-            status = complain(name, "%s: %s", r->subject[i].of.name, error.message);
+        if (report_choose(&r->subject[i], &r->chosen[i], plan, &error) != VNDF_OK)
+            status = complain(name, "%s: %s", r->subject[i].name, error.message);
     if (status != STATUS_GOOD)
         return status;
-    r->batch = method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
-    plan->at_hand = &r->subject[0].of;
-    if (evidence_run(plan, &r->rows, &error) != VNDF_OK)
-        return complain(name, "%s", error.message);
-    report_note_times(r);
-    return STATUS_GOOD;
+    r->batch = (evidence_column)(COL_NS + (int)vndf_instructions_used(VNDF_INSTRUCTIONS_BEST));
+    plan->at_hand = &r->subject[0];
+    r->found = evidence_run(plan, &error);
+    return r->found ? STATUS_GOOD : complain(name, "%s", error.message);
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */
@@ -74,13 +72,13 @@ static int write_page(html_page *page, const report *r)
     fputs(
         "<p class=\"lead\">Visible normals sampled from tables: what accuracy costs in time and memory, for <code>",
         page->html);
-    svg_escape(page->html, vndf_source_description(r->subject[0].of.source));
+    svg_escape(page->html, vndf_source_description(r->subject[0].source));
     fprintf(
         page->html,
         "</code>. Batches ran on %s.</p>\n<nav><a href=\"#advice\">Which table</a> <a href=\"#frontier\">Error "
         "and time</a> <a href=\"#time\">What a sample costs</a> <a href=\"#normals\">Density and "
         "samples</a></nav>\n",
-        r->batch);
+        method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)));
     int good =
         report_advice(page, r) && report_frontier(page, r) && report_times(page, r) && report_normals(page, r);
     page_end(page);
@@ -110,8 +108,8 @@ static int run(const arguments *given)
     for (size_t i = 0; i < page.count && status == STATUS_GOOD && !is_quiet; i++)
         printf("%s/%s\n", path, page.name[i]);
     for (size_t i = 0; i < r.count; i++)
-        subject_free(&r.subject[i].of);
-    rows_free(&r.rows);
+        subject_free(&r.subject[i]);
+    evidence_free(r.found);
     return status;
 }
 
