@@ -93,5 +93,5 @@ int png_write(FILE *file, const unsigned char *pixels, size_t width, size_t heig
     else
         fwrite(image, 1, (size_t)(to - image), file);
     free(image);
-    return !ferror(file);
+    return palette || !ferror(file);
 }
