@@ -6,7 +6,7 @@
  * that set alone. */
 #include "sampler/seen.h"
 
-enum { MOST = 300 };
+enum { MOST = 600 };
 
 /* The arrays of inputs; the last two are weights of lobes. */
 enum { XX, XY, YX, YY, MEAN_X, MEAN_Y, WI_X, WI_Y, WI_Z, U1, U2, NX, NY, NZ, W0, W1, INPUTS };
