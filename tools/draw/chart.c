@@ -116,6 +116,8 @@ static void draw_ticks(const picture *p, int is_y)
     tick t[TICKS_MAX];
     const size_t count = find_ticks(axis, t);
     for (int is_named = 0; is_named < 2; is_named++) {
+        if (!is_named && axis->scale == CHART_LINEAR)
+            continue;
         fprintf(p->file, "<path class=\"grid%s\" d=\"", is_named ? "" : " fine");
         for (size_t i = 0; i < count; i++)
             if (t[i].is_named == is_named)

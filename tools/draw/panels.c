@@ -160,9 +160,7 @@ static void draw_grid(const disc *d)
         double degrees = d->rim_degrees * third / 3, r = d->radius * sin(degrees * pi / 360) / d->rim;
         svg_circle(d->file, "axis", d->x, d->y, r, third == 3 ? 1.2 : 0.7);
         snprintf(label, sizeof label, "%.4g°", degrees);
-        fputs("<g style=\"stroke:#fff;stroke-width:3;paint-order:stroke;fill:#212529\">", d->file);
-        svg_text(d->file, "tick", SVG_START, d->x + 0.707 * r + 3, d->y + 0.707 * r + 11, label);
-        fputs("</g>\n", d->file);
+        svg_text(d->file, "tick halo", SVG_START, d->x + 0.707 * r + 3, d->y + 0.707 * r + 11, label);
     }
 }
 

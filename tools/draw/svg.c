@@ -12,6 +12,7 @@ void svg_style(FILE *file)
         ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
         ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}.pen{stroke:#212529;stroke-width:1.6;fill:none}\n"
         ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}.edge{stroke:#fff;fill:none}\n"
+        ".halo{stroke:#fff;stroke-width:3;paint-order:stroke;fill:#212529}\n"
         ".l0{stroke:#0072b2}.f0{fill:#0072b2}.t0{fill:#005f96}.l1{stroke:#d55e00}.f1{fill:#d55e00}.t1{fill:#a94a00}\n"
         ".l2{stroke:#009e73}.f2{fill:#009e73}.t2{fill:#007354}.l3{stroke:#6f42c1}.f3{fill:#6f42c1}.t3{fill:#5a34a0}\n"
         ".l4{stroke:#6c757d}.f4{fill:#6c757d}.t4{fill:#545b62}\n"
@@ -99,7 +100,7 @@ int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t colum
             "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "
             "xlink:href=\"data:image/png;base64,",
             box.x, box.y, box.width, box.height);
-    int good = png_write_base64(file, index, columns, rows, palette);
+    int good = png_write(file, index, columns, rows, palette);
     fputs("\"/>\n", file);
     return good;
 }

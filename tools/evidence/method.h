@@ -85,7 +85,6 @@ typedef enum method_call {
 
 struct method {
     char name[64];
-    const char *instructions; /* "scalar", "portable", "avx2", "avx512" */
     row_kind kind;
     size_t memory, file_bytes; /* as in rows */
     int moments;
@@ -125,8 +124,6 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
 
 /* The exported kernel in C, with the numbers of a table, or its GGX. */
 method method_exported(const vndf_distribution *d, const char *name);
-
-const char *method_instructions_name(vndf_instructions set);
 
 /* ---- sets of effects of vndf_bsdf.h, each a method that scatters light ---------------------------- */
 

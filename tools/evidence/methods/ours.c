@@ -171,8 +171,7 @@ static const char *const calls[METHOD_CALLS] = {
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
 {
     vndf_info info = vndf_distribution_info(d);
-    method m = {.instructions = method_instructions_name(limit),
-                .kind = call != METHOD_SAMPLE ? ROW_CALL
+    method m = {.kind = call != METHOD_SAMPLE ? ROW_CALL
                         : info.memory         ? ROW_TABLE
                                               : ROW_CLOSED,
                 .memory = info.memory,
@@ -205,13 +204,4 @@ void method_release(method *m)
     if (m->release && m->state)
         m->release((void *)m->state);
     m->state = NULL;
-}
-
-const char *method_instructions_name(vndf_instructions set)
-{
-    static const char *const names[] = {[VNDF_INSTRUCTIONS_BEST] = "scalar",
-                                        [VNDF_INSTRUCTIONS_PORTABLE] = "portable",
-                                        [VNDF_INSTRUCTIONS_AVX2] = "avx2",
-                                        [VNDF_INSTRUCTIONS_AVX512] = "avx512"};
-    return names[set];
 }

@@ -94,15 +94,6 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
     fputs(". ", html);
     if (ns > 0)
         fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", ns, batch);
-    for (int fewer = 0; fewer < 2 && is_good; fewer++) { /* what is cheaper: a smaller file, or fewer moments */
-        const int is_there = fewer ? size->moments > 2 : chosen >= 3;
-        const vndf_distribution *other = is_there ? s->table[chosen - (fewer ? 1 : 3)] : NULL;
-        if (!other || report_keeps(other))
-            continue;
-        fputs(fewer ? " One moment fewer would mean " : " The next smaller file would mean ", html);
-        write_limits(html, other, 0);
-        fputs("; with the weight it is unbiased all the same.", html);
-    }
     fputs("<code>vndf build ", html);
     svg_escape(html, vndf_source_description(s->source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
@@ -135,11 +126,6 @@ static void add_rows(text_table *t, const report *r, const subject *s, size_t ch
 int report_advice(html_page *page, const report *r)
 {
     text_table t = {.rows = 0};
-    page_section(
-        page, "advice", "Which table, and how many moments",
-        "Every table is exact with its weight; a coarse one costs noise. The advice is the smallest with weights up to "
-        "2 and a total variation (TV) up to 0.001 above the horizon, so that the weight may be left out where a bias "
-        "below half a step of 8 bits does not matter, and 0.03 below it. All are of the certificates of the tables.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++) {
         write_advice(page->html, r, &r->subject[i], r->chosen[i]);

@@ -90,8 +90,7 @@ int report_frontier(html_page *page, const report *r)
     if (!alone)
         return 0;
     snprintf(title, sizeof title, "Tables of %s beside other methods", r->subject[0].name);
-    snprintf(batch, sizeof batch, "in a batch, %s",
-             method_instructions_name(vndf_instructions_used(VNDF_INSTRUCTIONS_BEST)));
+    snprintf(batch, sizeof batch, "in a batch, %s", r->instructions);
     fill(&f, r, batch);
     chart c = {.title = title,
                .box = {0, 0, 1080, 640},
@@ -102,11 +101,6 @@ int report_frontier(html_page *page, const report *r)
                .series = f.series,
                .count = SERIES_COUNT};
     chart_fit(&c, 7);
-    page_section(
-        page, "frontier", "Error against time",
-        "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
-        "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
-        "Methods in the band at the bottom are exact but for the rounding of floats.");
     fputs("<figure class=\"scroll wide\" title=\"error against time\">\n", page->html);
     chart_draw(page->html, &c, 0);
     fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
@@ -119,11 +113,6 @@ int report_frontier(html_page *page, const report *r)
 int report_times(html_page *page, const report *r)
 {
     text_table t = {.rows = 0};
-    page_section(
-        page, "time", "What a sample costs",
-        "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
-        "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
-        "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.");
     for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++) {
         table_row(&t);
         table_text(&t, "distribution", of->of->name);
@@ -148,11 +137,6 @@ int report_times(html_page *page, const report *r)
 int report_normals(html_page *page, const report *r)
 {
     static const double thetas[] = {0, 60, 100};
-    page_section(
-        page, "normals", "Density and samples",
-        "D against the angle of the normal, and the normals visible from three directions, the last below the "
-        "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "
-        "seen from above in an equal-area projection. A ring or an arrow marks the incident direction.");
     for (size_t i = 0; i < r->count; i++) {
         const vndf_surface advised = {r->subject[i].table[r->chosen[i]], 1, 1},
                            finest = {r->subject[i].table[SIZE_FINE], 1, 1};

@@ -15,7 +15,8 @@ typedef struct report {
     size_t chosen[REPORT_SUBJECTS];   /* the table to ship */
     size_t count;
     evidence *found;       /* for the one at hand */
-    evidence_column batch; /* by the best instructions of this machine */
+    evidence_column batch; /* by the best instructions of this machine, and their name */
+    const char *instructions;
 } report;
 
 /* Builds all tables and chooses. VNDF_OK, or the status and error that stopped it. */
@@ -27,7 +28,7 @@ int report_keeps(const vndf_distribution *table);
 /* What was measured of a table, or NaN. */
 double report_number(const report *r, const vndf_distribution *table, evidence_column c);
 
-/* A section each; 0 after a complaint. */
+/* The inside of a section each; 0 after a complaint. */
 int report_advice(html_page *page, const report *r);
 int report_frontier(html_page *page, const report *r);
 int report_times(html_page *page, const report *r);
