@@ -48,19 +48,19 @@ static void judge_surface(judged_surface *to, const vndf_surface *s, vndf_vec3 w
     to->judged = (bins_sampler){bins_frame_from(&shape, wi), draw, density, to};
 }
 
-/* A bin by the midpoints of SIDE times SIDE parts, even in atan(R) and in the azimuth; without mean slope. */
+/* A bin by the midpoints of parts that are even in atan(R) and in the azimuth; without mean slope. */
 static double sum_over(const judged_surface *of, const double slopes[BINS_RINGS + 1], size_t bin)
 {
-    enum { SIDE = 200 };
+    enum { RINGS = 2000, SECTORS = 20 }; /* finer where there may be a jump */
     const bins_frame *f = &of->judged.frame;
     const double *slope = slopes + bin / BINS_SECTORS, turn = atan2(f->y, f->x);
-    const double from = atan(slope[0]), step = (atan(slope[1]) - from) / SIDE;
+    const double from = atan(slope[0]), step = (atan(slope[1]) - from) / RINGS;
     double sum = 0;
-    for (int i = 0; i < SIDE; i++) {
+    for (int i = 0; i < RINGS; i++) {
         const double theta = from + step * (i + 0.5), r = tan(theta), level = -f->c / (f->s * r);
-        const double reach = acos(fmin(fmax(level, -1), 1)), wide = 2 * reach / BINS_SECTORS / SIDE;
-        for (int j = 0; j < SIDE; j++) {
-            const double phi = turn - reach + wide * ((double)(bin % BINS_SECTORS) * SIDE + j + 0.5);
+        const double reach = acos(fmin(fmax(level, -1), 1)), wide = 2 * reach / BINS_SECTORS / SECTORS;
+        for (int j = 0; j < SECTORS; j++) {
+            const double phi = turn - reach + wide * ((double)(bin % BINS_SECTORS) * SECTORS + j + 0.5);
             const double x = f->xx * r * cos(phi), y = f->yy * r * sin(phi), z = 1 / sqrt(1 + x * x + y * y);
             const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
             sum += (double)vndf_pdf(&of->view, wm) * z * z * z * f->xx * f->yy * r * (1 + r * r) * wide * step;

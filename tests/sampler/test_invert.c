@@ -105,7 +105,7 @@ static double coordinate(const seen *s, int which, double u, double other)
     const bins_frame f = bins_frame_from(&s->of.lobe[0].surface, s->wi);
     double n[3], length = hypot(f.s, f.c), facing;
     bins_over(&f, which ? seen_draw(s, (float)other, (float)u, NULL) : seen_draw(s, (float)u, (float)other, NULL),
-               n);
+              n);
     if (d == vndf_beckmann())
         return n[which] / n[2];
     if (d == vndf_ggx()) {

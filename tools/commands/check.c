@@ -335,8 +335,8 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
     c.to = figures_begin(given);
     c.bar = progress_begin(name, option_value(given, "-q") != NULL);
-    int failed = (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) ||
-                 check_consistency(&c) != STATUS_GOOD;
+    int failed =
+        (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) || check_consistency(&c) != STATUS_GOOD;
     if (!failed) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);

@@ -176,7 +176,8 @@ static const double narrowest = 0x1p-23;
 static panel measure(const bins_sampler *judged, double low, double high)
 {
     panel of = {.low = low, .high = high};
-    double middle = (low + high) / 2, half = (high - low) / 2, at_slope[BINS_SECTORS], few[BINS_SECTORS] = {0}, before = 0;
+    double middle = (low + high) / 2, half = (high - low) / 2, at_slope[BINS_SECTORS], few[BINS_SECTORS] = {0},
+           before = 0;
     for (int i = 0; i < NODES; i++) {
         double sum = 0;
         integrate_sectors(judged, exp(middle + half * node[i]), at_slope);
