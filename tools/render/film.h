@@ -70,10 +70,8 @@ typedef struct comparison {
 /* Renders the ways in turns, so that a busy machine slows all of them alike. 0 if it was stopped. */
 int comparison_run(comparison *c);
 
-/* A number for all pixels, and for all but fireflies, the worst thousandth of them. */
 typedef struct measured {
     double value, spread; /* and its standard deviation */
-    double trimmed;
 } measured;
 
 /* Of films of fewer than VERDICT_SAMPLES nothing is known: fireflies that they do not have are missing in their
@@ -102,8 +100,7 @@ typedef struct finding {
     verdict is;
 } finding;
 
-/* 0 if there is no memory. */
-int comparison_find(const comparison *c, finding found[SAMPLERS]);
+void comparison_find(const comparison *c, finding found[SAMPLERS]);
 
 /* A sheet: the films of all ways side by side, and below them the noise of each pixel, beside its light, from 1%
  * (black) to 100% (white) by its logarithm. 0 if there is no memory. */
