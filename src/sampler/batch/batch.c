@@ -59,14 +59,15 @@ const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limi
 
 /* ---- calls ---- */
 
-vndf_call vndf_call_of(const vndf_affine_batch *b)
+vndf_call vndf_call_of(const vndf_batch *b)
 {
     const unsigned surface = (1u << VNDF_READ_WI_X) - 1, direction = (1u << VNDF_READ_A) - 1 - surface;
-    const vndf_call call = {.distribution = b->distribution,
-                            .count = b->count,
-                            .shared = (b->shared & VNDF_SHARED_ALPHA ? surface : 0) |
-                                      (b->shared & VNDF_SHARED_WI ? direction : 0),
-                            .read = {b->xx, b->xy, b->yx, b->yy, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z}};
+    const vndf_call call = {
+        .distribution = b->distribution,
+        .count = b->count,
+        .shared = (b->shared & VNDF_SHARED_ALPHA ? surface : 0) | (b->shared & VNDF_SHARED_WI ? direction : 0),
+        .read = {b->alpha_x, b->xy, b->yx, b->alpha_y, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z},
+        .diagonal = !b->xy && !b->yx && !b->mean_x && !b->mean_y};
     return call;
 }
 
@@ -76,33 +77,19 @@ typedef struct arrays {
     float *write[VNDF_WRITES];
 } arrays;
 
-static void run(vndf_call call, vndf_instructions limit, vndf_task task, arrays a)
+static void run(const vndf_batch *b, vndf_task task, arrays a)
 {
     vndf_prepared prepared;
+    vndf_call call = vndf_call_of(b);
     const int one_by_one = !call.distribution || task == VNDF_TASK_INVERT;
     const vndf_lanes *lanes =
-        one_by_one ? &vndf_one_by_one : vndf_lanes_for(call.count, vndf_is_table(call.distribution), limit);
+        one_by_one ? &vndf_one_by_one : vndf_lanes_for(call.count, vndf_is_table(call.distribution), b->limit);
     call.task = task;
     call.prepared = &prepared;
     memcpy(call.read + VNDF_READ_A, a.given, sizeof a.given);
     memcpy(call.write, a.write, sizeof a.write);
     lanes->prepare(call.distribution, &prepared);
     lanes->run(&call);
-}
-
-static void run_affine(const vndf_affine_batch *b, vndf_task task, arrays a)
-{
-    run(vndf_call_of(b), b->limit, task, a);
-}
-
-/* Roughness is a diagonal matrix. */
-static void run_plain(const vndf_batch *b, vndf_task task, arrays a)
-{
-    const vndf_affine_batch affine = {b->distribution, b->count, b->shared, b->limit, b->alpha_x, NULL,   NULL,
-                                      b->alpha_y,      NULL,     NULL,      b->wi_x,  b->wi_y,    b->wi_z};
-    vndf_call call = vndf_call_of(&affine);
-    call.diagonal = 1;
-    run(call, b->limit, task, a);
 }
 
 static void run_mixture(const vndf_mixture_batch *b, vndf_task task, arrays a)
@@ -130,97 +117,48 @@ static arrays along(float *to)
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    run_plain(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, NULL));
+    run(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, NULL));
 }
 
 void vndf_sample_weight_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
                           float *weight)
 {
-    run_plain(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, weight));
+    run(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, weight));
 }
 
 void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
 {
-    run_plain(b, VNDF_TASK_PDF, given(wm, pdf));
+    run(b, VNDF_TASK_PDF, given(wm, pdf));
 }
 
 void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
 {
-    run_plain(b, VNDF_TASK_VISIBLE, given(wm, visible));
+    run(b, VNDF_TASK_VISIBLE, given(wm, visible));
 }
 
 void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
 {
-    run_plain(b, VNDF_TASK_INVERT, (arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
+    run(b, VNDF_TASK_INVERT, (arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
 }
 
 void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
 {
-    run_plain(b, VNDF_TASK_NDF, given(wm, ndf));
+    run(b, VNDF_TASK_NDF, given(wm, ndf));
 }
 
 void vndf_projected_area_n(const vndf_batch *b, float *area)
 {
-    run_plain(b, VNDF_TASK_AREA, along(area));
+    run(b, VNDF_TASK_AREA, along(area));
 }
 
 void vndf_lambda_n(const vndf_batch *b, float *lambda)
 {
-    run_plain(b, VNDF_TASK_LAMBDA, along(lambda));
+    run(b, VNDF_TASK_LAMBDA, along(lambda));
 }
 
 void vndf_g1_n(const vndf_batch *b, float *g1)
 {
-    run_plain(b, VNDF_TASK_G1, along(g1));
-}
-
-/* ---- affine surfaces ---- */
-
-void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
-                          float *pdf)
-{
-    run_affine(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, NULL));
-}
-
-void vndf_affine_sample_weight_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
-                                 float *pdf, float *weight)
-{
-    run_affine(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, weight));
-}
-
-void vndf_affine_pdf_n(const vndf_affine_batch *b, vndf_normals wm, float *pdf)
-{
-    run_affine(b, VNDF_TASK_PDF, given(wm, pdf));
-}
-
-void vndf_affine_visible_n(const vndf_affine_batch *b, vndf_normals wm, float *visible)
-{
-    run_affine(b, VNDF_TASK_VISIBLE, given(wm, visible));
-}
-
-void vndf_affine_invert_n(const vndf_affine_batch *b, vndf_normals wm, float *u1, float *u2)
-{
-    run_affine(b, VNDF_TASK_INVERT, (arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
-}
-
-void vndf_affine_ndf_n(const vndf_affine_batch *b, vndf_normals wm, float *ndf)
-{
-    run_affine(b, VNDF_TASK_NDF, given(wm, ndf));
-}
-
-void vndf_affine_projected_area_n(const vndf_affine_batch *b, float *area)
-{
-    run_affine(b, VNDF_TASK_AREA, along(area));
-}
-
-void vndf_affine_lambda_n(const vndf_affine_batch *b, float *lambda)
-{
-    run_affine(b, VNDF_TASK_LAMBDA, along(lambda));
-}
-
-void vndf_affine_g1_n(const vndf_affine_batch *b, float *g1)
-{
-    run_affine(b, VNDF_TASK_G1, along(g1));
+    run(b, VNDF_TASK_G1, along(g1));
 }
 
 /* ---- mixtures ---- */

@@ -52,7 +52,7 @@ typedef struct vndf_call {
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
     size_t count;
     const int *at; /* which elements of the arrays; NULL: the first */
-    int diagonal;  /* roughness: xx and yy have to be above 0 */
+    int diagonal;  /* roughness alone: xx and yy have to be above 0 */
 } vndf_call;
 
 /* Element i of what `run` writes equals, to the bit, the call for one element. No distribution is NULL in lanes. */
@@ -75,7 +75,7 @@ extern const vndf_lanes vndf_one_by_one;
 const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit);
 
 /* The surfaces and directions of a batch. */
-vndf_call vndf_call_of(const vndf_affine_batch *batch);
+vndf_call vndf_call_of(const vndf_batch *batch);
 
 /* A task on mixtures: numbers u1 and u2, or a normal; results as above, and the lobes that were drawn. */
 void vndf_run_mixtures(const vndf_mixture_batch *batch, vndf_task task, const float *const given[3],

@@ -276,25 +276,18 @@ HERE void draw_side(const block *b, table_direction *w, drawn *n, real *weight, 
     }
 }
 
-STEP void draw(const block *b, table_direction *w, drawn *n, real *weight)
+STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const int weigh)
 {
     if (b->below)
-        draw_side(b, w, n, weight, 0, 1);
+        draw_side(b, w, n, weight, weigh, 1);
     else
-        draw_side(b, w, n, weight, 0, 0);
-}
-
-STEP void draw_weighed(const block *b, table_direction *w, drawn *n, real *weight)
-{
-    if (b->below)
-        draw_side(b, w, n, weight, 1, 1);
-    else
-        draw_side(b, w, n, weight, 1, 0);
+        draw_side(b, w, n, weight, weigh, 0);
 }
 
 /* The densities of given normals, whose `facing` is over the reach of the direction. */
-HERE void density_side(const block *b, table_direction *w, unit_normal *n, real *density, const int below)
+STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
 {
+    const int below = b->below;
     seen v[GROUPS];
     given at[GROUPS];
     see(b->t, b->groups, w, v, below);
@@ -303,30 +296,15 @@ HERE void density_side(const block *b, table_direction *w, unit_normal *n, real 
         density[g] = table_density(b->t, v[g], at[g], n[g].facing, below);
 }
 
-STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
+STEP void table_areas(const block *b, table_direction *w, real *area)
 {
-    if (b->below)
-        density_side(b, w, n, density, 1);
-    else
-        density_side(b, w, n, density, 0);
-}
-
-HERE void area_side(const block *b, table_direction *w, real *area, const int below)
-{
+    const int below = b->below;
     seen v[GROUPS];
     see(b->t, b->groups, w, v, below);
     if (b->task != VNDF_TASK_DRAWN_AREA)
         find_areas(b->t, b->groups, v, area, below);
     for (int g = 0; b->task == VNDF_TASK_DRAWN_AREA && g < b->groups; g++)
         area[g] = law_drawn_area(v[g], below);
-}
-
-STEP void table_areas(const block *b, table_direction *w, real *area)
-{
-    if (b->below)
-        area_side(b, w, area, 1);
-    else
-        area_side(b, w, area, 0);
 }
 
 /* D times the determinant of given normals. */
@@ -364,7 +342,7 @@ HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
             laws[g] = beckmann_see(f.ux, f.uy, f.uz);
     }
     if (kind == VNDF_KIND_TABLE)
-        (b->write[4] ? draw_weighed : draw)(b, w, n, weight);
+        draw(b, w, n, weight, b->write[4] != NULL);
     for (int g = 0; kind == VNDF_KIND_BECKMANN && g < b->groups; g++) /* long enough for a loop of its own */
         n[g] = beckmann_draw(laws[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
     for (int g = 0; g < b->groups; g++) {

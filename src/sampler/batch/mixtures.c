@@ -23,7 +23,7 @@ typedef struct mixed {
     size_t first;
     int count;
     float weight[LOBES][BLOCK], share[LOBES][BLOCK], value[LOBES][BLOCK];
-    int valid[BLOCK];
+    int weighed[BLOCK], valid[BLOCK]; /* whether weights are valid; and surfaces, where these matter */
 } mixed;
 
 /* A task on the elements `at` of a lobe, or on all of them, with these numbers or this normal. */
@@ -55,7 +55,7 @@ static void set_weights(mixed *m)
     for (int l = 0; l < m->of->count; l++)
         for (int i = 0; i < m->count; i++)
             m->weight[l][i] = m->of->weight[l][m->of->shared_weights ? 0 : m->first + (size_t)i];
-    vndf_weigh_lobes(m->of->count, m->count, BLOCK, m->weight[0], m->valid);
+    vndf_weigh_lobes(m->of->count, m->count, BLOCK, m->weight[0], m->weighed);
 }
 
 static void set_shares(mixed *m, vndf_task area)
@@ -198,9 +198,10 @@ void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, const float 
     of.lanes = complete ? vndf_lanes_for(b->count, 0, b->limit) : &vndf_one_by_one;
     for (int l = 0; l < of.count; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
-        const vndf_affine_batch surface = {a->distribution, b->count,  b->shared, b->limit, a->xx,   a->xy,  a->yx,
-                                           a->yy,           a->mean_x, a->mean_y, b->wi_x,  b->wi_y, b->wi_z};
+        const vndf_batch surface = {a->distribution, b->count, b->shared, b->limit, a->xx,     a->yy,    b->wi_x,
+                                    b->wi_y,         b->wi_z,  a->xy,     a->yx,    a->mean_x, a->mean_y};
         of.call[l] = vndf_call_of(&surface);
+        of.call[l].diagonal = 0;
         of.call[l].prepared = &of.prepared[l];
         of.weight[l] = a->weight;
         of.lanes->prepare(a->distribution, &of.prepared[l]);
@@ -212,6 +213,7 @@ void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, const float 
             here[i] = inputs && inputs[i] ? inputs[i] + m.first : NULL;
         if (m.first == 0 || !of.shared_weights)
             set_weights(&m);
+        memcpy(m.valid, m.weighed, sizeof m.valid);
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
         if (task == VNDF_TASK_SAMPLE)
