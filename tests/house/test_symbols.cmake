@@ -1,6 +1,6 @@
 # The shared library exports the functions that the headers declare with VNDF_API, all of them and nothing
-# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_, and it has no
-# variable that can be written.
+# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_, and it has
+# no variable that can be written.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT NM)

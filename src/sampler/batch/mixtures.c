@@ -8,8 +8,8 @@
 
 enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
 
-/* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what a
- * task found. */
+/* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
+ * a task found. */
 typedef struct mixed {
     const vndf_mixture_batch *of;
     const vndf_lanes *lanes;
