@@ -242,9 +242,7 @@ typedef struct vndf_roughness {
 typedef struct vndf_material {
     vndf_description is; /* as it was given, but for the numbers that stand for a default */
     struct {
-        const struct vndf_routines *routines; /* made for its effects */
-        const struct vndf_routines *specular; /* the same without retroreflection, */
-        const struct vndf_routines *single;   /* and without compensation */
+        const struct vndf_routines *routines; /* of its scattering */
         vndf_affine surface;                  /* of hits that bring none */
         float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
         double per_wavelength;                /* one over their number */
@@ -264,7 +262,7 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 /* What compensation takes of a hit; private. */
 struct vndf_compensation {
     float alpha;
-    float gain;                     /* Turquin: (1 - E)/E of reflection, 1/E of both lobes */
+    float gain[VNDF_WAVELENGTHS];   /* of single scattering */
     float lost;                     /* Kulla & Conty: 1 - E(wi), */
     float per, beyond;              /* 1/(pi (1 - E_avg)) of this side and of the other, */
     float share;                    /* the part of the samples, */
