@@ -88,8 +88,8 @@ static vndf_status check_combination(const vndf_description *is, vndf_error *err
          "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos have Smith's masking by "
          "height: masking must be VNDF_MASKING_HEIGHT_CORRELATED"},
         {compensates && transmits && !(both && e->fresnel == VNDF_FRESNEL_DIELECTRIC),
-         "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be VNDF_LOBES_REFLECTION, or "
-         "VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC"},
+         "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be VNDF_LOBES_REFLECTION, "
+         "or VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC"},
         {compensates && tilts,
          "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos are of one distribution "
          "without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE"},
