@@ -2,8 +2,7 @@
  * with a message that names the file and hold no memory then, or D is a curve over ascending angles and slopes are
  * finite; and no slopes crash what looks for their law: its rows are a curve, or it says why not. */
 #include "fuzz/fuzz.h"
-#include "measured/brdf.h"
-#include "measured/surface.h"
+#include "measured/measured.h"
 
 static void judge(int good, profile *rows, const data_file *file)
 {

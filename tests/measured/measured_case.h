@@ -4,7 +4,7 @@
 #define TESTS_MEASURED_MEASURED_CASE_H
 
 #include "harness/test.h"
-#include "measured/surface.h"
+#include "measured/measured.h"
 
 /* A file that is exactly as long as its bytes are, for sanitizers. */
 static inline data_file case_file(const void *bytes, size_t size)

@@ -135,7 +135,7 @@ static int write_png(FILE *file, const baked *b)
                 float v = (b->value[at * (size_t)b->channels + c] - low[c]) / fmaxf(high[c] - low[c], 1e-30f);
                 rgb[(y * width + x) * 3 + k] = (unsigned char)lrintf(255 * fminf(fmaxf(v, 0), 1));
             }
-    int good = png_write_rgb(file, rgb, width, height);
+    int good = png_write(file, rgb, width, height, NULL);
     free(rgb);
     return good;
 }

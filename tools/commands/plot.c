@@ -7,9 +7,7 @@
 #include "command.h"
 #include "cli/subject.h"
 #include "cli/output.h"
-#include "draw/chart.h"
 #include "draw/panels.h"
-#include "draw/svg.h"
 
 static const char name[] = "vndf plot";
 
@@ -64,15 +62,15 @@ static int draw_figure(FILE *file, const figure_plan *figure)
     size_t columns = columns_of(figure), rows = (figure->count + columns - 1) / columns;
     double width = 2 * margin + left_width + disc_width * (double)columns;
     double height = header + disc_height * (double)(rows > 1 ? rows : 1) + (rows > 1 ? margin : 120);
-    panel_box left = {margin, header, left_width, height - header - 80};
-    chart_begin_alone(file, width, height,
-                      "a distribution of normals, and the normals visible from some directions");
+    svg_box left = {margin, header, left_width, height - header - 80};
+    svg_begin(file, (svg_box){0, 0, width, height},
+              "a distribution of normals, and the normals visible from some directions", 1);
     draw_header(file, figure, width);
     panel_ndf(file, left, &figure->surface);
     int good = panel_key(file, margin + 20, height - 72);
     for (size_t i = 0; i < figure->count && good; i++) {
-        panel_box box = {margin + left_width + disc_width * (double)(i % columns),
-                         header + disc_height * (double)(i / columns), disc_width, disc_height};
+        svg_box box = {margin + left_width + disc_width * (double)(i % columns),
+                       header + disc_height * (double)(i / columns), disc_width, disc_height};
         good = panel_disc(file, box, &figure->surface, figure->theta[i], (unsigned)(i + 1));
     }
     fputs("</svg>\n", file);

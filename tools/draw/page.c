@@ -10,7 +10,6 @@
 
 #include "cli/arguments.h"
 #include "command.h"
-#include "draw/chart.h"
 #include "draw/svg.h"
 #include "vndf.h"
 
@@ -172,7 +171,7 @@ int page_begin(html_page *page, const char *title)
             page->command);
     svg_escape(page->html, title);
     fprintf(page->html, "</title>\n<style>\n%s", style);
-    chart_style(page->html);
+    svg_style(page->html);
     fputs("</style>\n</head>\n<body>\n<h1>", page->html);
     svg_escape(page->html, title);
     fputs("</h1>\n", page->html);

@@ -1,4 +1,4 @@
-#include "measured/surface.h"
+#include "measured/measured.h"
 
 #include <math.h>
 #include <stdlib.h>
