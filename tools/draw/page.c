@@ -122,18 +122,6 @@ void page_link(html_page *page, const char *what)
             name, what);
 }
 
-int page_data(html_page *page, const char *name, const char *what, text_table t)
-{
-    FILE *data = page_file(page, name);
-    int good = data && table_print(data, &t, FIGURES_CSV);
-    table_free(&t);
-    if (good)
-        page_link(page, what);
-    else if (data)
-        complain(page->command, "no memory");
-    return good;
-}
-
 /* ---- the page ------------------------------------------------------------------------------------ */
 
 static const char style[] =
