@@ -200,8 +200,7 @@ static void set_lobes(mixed *m, const vndf_mixture_batch *b)
     }
 }
 
-void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, const float *const inputs[3],
-                       float *const write[VNDF_WRITES], int *lobe)
+void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays a, int *lobe)
 {
     mixed m; /* large: nothing of it is set but what is read */
     float to[4][BLOCK];
@@ -211,19 +210,19 @@ void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, const float 
         const float *here[3];
         m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
         for (int i = 0; i < 3; i++)
-            here[i] = inputs[i] ? inputs[i] + m.first : NULL;
+            here[i] = a.given[i] ? a.given[i] + m.first : NULL;
         if (m.first == 0 || !(b->shared & VNDF_SHARED_WEIGHT))
             set_weights(&m);
         memcpy(m.valid, m.weighed, (size_t)m.count * sizeof(int));
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
         if (task == VNDF_TASK_SAMPLE)
-            sample_mixtures(&m, here, to, chosen, write[3] != NULL);
+            sample_mixtures(&m, here, to, chosen, a.write[3] != NULL);
         else
             sum_mixtures(&m, task, here, to[0]);
         for (int w = 0; w < 4; w++)
-            if (write[w])
-                memcpy(write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
+            if (a.write[w])
+                memcpy(a.write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
         if (lobe)
             memcpy(lobe + m.first, chosen, (size_t)m.count * sizeof(int));
     }
