@@ -25,34 +25,11 @@ static const view_case CASES[] = {
 };
 enum { CASE_COUNT = sizeof CASES / sizeof *CASES };
 
-/* A sampler of a surface of a distribution. */
-typedef struct judged_surface {
-    vndf_view view;
-    bins_sampler judged;
-} judged_surface;
-
-static vndf_vec3 draw(const void *of, float u1, float u2, float *pdf)
-{
-    return vndf_sample(&((const judged_surface *)of)->view, u1, u2, pdf);
-}
-
-static float density(const void *of, vndf_vec3 wm)
-{
-    return vndf_pdf(&((const judged_surface *)of)->view, wm);
-}
-
-static void judge_surface(judged_surface *to, const vndf_surface *s, vndf_vec3 wi)
-{
-    const vndf_affine shape = {s->distribution, s->alpha_x, 0, 0, s->alpha_y, 0, 0};
-    to->view = vndf_view_from(s, wi);
-    to->judged = (bins_sampler){bins_frame_from(&shape, wi), draw, density, to};
-}
-
 /* A bin by the midpoints of parts that are even in atan(R) and in the azimuth; without mean slope. */
-static double sum_over(const judged_surface *of, const double slopes[BINS_RINGS + 1], size_t bin)
+static double sum_over(const bins_sampler *of, const double slopes[BINS_RINGS + 1], size_t bin)
 {
     enum { RINGS = 2000, SECTORS = 20 }; /* finer where there may be a jump */
-    const bins_frame *f = &of->judged.frame;
+    const bins_frame *f = &of->frame;
     const double *slope = slopes + bin / BINS_SECTORS, turn = atan2(f->y, f->x);
     const double from = atan(slope[0]), step = (atan(slope[1]) - from) / RINGS;
     double sum = 0;
@@ -63,7 +40,7 @@ static double sum_over(const judged_surface *of, const double slopes[BINS_RINGS 
             const double phi = turn - reach + wide * ((double)(bin % BINS_SECTORS) * SECTORS + j + 0.5);
             const double x = f->xx * r * cos(phi), y = f->yy * r * sin(phi), z = 1 / sqrt(1 + x * x + y * y);
             const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
-            sum += (double)vndf_pdf(&of->view, wm) * z * z * z * f->xx * f->yy * r * (1 + r * r) * wide * step;
+            sum += (double)of->pdf(of->of, wm) * z * z * z * f->xx * f->yy * r * (1 + r * r) * wide * step;
         }
     }
     return sum;
@@ -78,13 +55,14 @@ static void test_view(const view_case *at)
     const vndf_vec3 wi = oracle_direction(at->theta, at->phi);
     if (!TEST(table != NULL))
         return;
-    judged_surface of;
+    const vndf_affine shape = {table, at->alpha_x, 0, 0, at->alpha_y, 0, 0};
+    const vndf_view view = vndf_view_from(&surface, wi);
+    const bins_sampler of = bins_of_view(&view, &shape, wi);
     double slope[BINS_RINGS + 1];
-    judge_surface(&of, &surface, wi);
-    bins_place(&of.judged, 7, slope);
+    bins_place(&of, 7, slope);
     /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
     const double beyond = strcmp(at->slope, "(1+r*r)^-1.55") == 0 ? 3e-3 : 2e-6;
-    double mass = 0, rounding = bins_integrate(&of.judged, slope, probability);
+    double mass = 0, rounding = bins_integrate(&of, slope, probability);
     for (size_t i = 0; i < BINS_COUNT; i++)
         mass += probability[i];
     if (!(TEST_NEAR(mass, 1, beyond + rounding) & TEST(rounding < (at->bin_error > 0 ? 5e-6 : 2e-3))))
@@ -102,11 +80,13 @@ static void test_view(const view_case *at)
 static void test_ends(void)
 {
     const vndf_surface surface = {vndf_ggx(), 1, 1};
-    judged_surface of;
+    const vndf_affine shape = {vndf_ggx(), 1, 0, 0, 1, 0, 0};
+    const vndf_vec3 wi = oracle_direction(30, 0);
+    const vndf_view view = vndf_view_from(&surface, wi);
+    const bins_sampler of = bins_of_view(&view, &shape, wi);
     double slope[BINS_RINGS + 1];
-    judge_surface(&of, &surface, oracle_direction(30, 0));
-    bins_place(&of.judged, 7, slope);
-    const bins_frame *f = &of.judged.frame;
+    bins_place(&of, 7, slope);
+    const bins_frame *f = &of.frame;
     TEST(bins_bin(f, slope, (vndf_vec3){0, 0, 1}) / BINS_SECTORS == 0);
     TEST(bins_bin(f, slope, (vndf_vec3){1, 0, 0}) / BINS_SECTORS == BINS_RINGS - 1);
     slope[BINS_RINGS - 1] = 1e20 / f->xx;

@@ -53,59 +53,20 @@ static double halve(grid_density *f, const void *of, const double x[2], const do
            halve(f, of, x, ys[1], b[1], allowed, halvings - 1);
 }
 
-double grid_integral(grid_density *f, const void *of, const double x[2], const double y[2], double allowed)
+static double integral(grid_density *f, const void *of, const double x[2], const double y[2], double allowed)
 {
     return halve(f, of, x, y, rule(f, of, x, y), allowed, 24);
-}
-
-/* Where interval i is cut first: towards neighbours that are much narrower (before, after), and again, more finely,
- * where nothing was found in it, towards those that hold something. What is there may reach into it by less than the
- * points of a rule are apart. Returns how many parts there are. */
-enum { CUTS = 7, WIDE = 8 };
-
-static size_t cut(double at[CUTS + 1], const double *border, size_t i, size_t count, const int held[2], int again)
-{
-    static const double part[3] = {1.0 / 8192, 1.0 / 512, 1.0 / 32};
-    const double from = border[i], to = border[i + 1], width = to - from;
-    const int before = again ? held[0] : i > 0 && width > WIDE * (from - border[i - 1]);
-    const int after = again ? held[1] : i + 1 < count && width > WIDE * (border[i + 2] - to);
-    size_t parts = 0;
-    at[parts++] = from;
-    for (int k = !again; before && k < 3; k++)
-        at[parts++] = from + width * part[k];
-    for (int k = 2; after && k >= !again; k--)
-        at[parts++] = to - width * part[k];
-    at[parts] = to;
-    return parts;
-}
-
-/* Of bin i; 0 where there is nothing to be looked for again. */
-static double expect(const grid *g, grid_density *density, const void *of, size_t i, int again, double allowed)
-{
-    const size_t row = i / g->columns, column = i % g->columns;
-    const double *here = g->expected + i;
-    const int rows[2] = {row > 0 && here[-(ptrdiff_t)g->columns] > 0, row + 1 < g->rows && here[g->columns] > 0},
-              columns[2] = {column > 0 && here[-1] > 0, column + 1 < g->columns && here[1] > 0};
-    double x[CUTS + 1], y[CUTS + 1], sum = 0;
-    if (!(g->x[row] < g->x[row + 1] && g->y[column] < g->y[column + 1]) ||
-        (again && !(rows[0] || rows[1] || columns[0] || columns[1])))
-        return 0;
-    size_t across = cut(x, g->x, row, g->rows, rows, again),
-           along = cut(y, g->y, column, g->columns, columns, again);
-    for (size_t part = 0; part < across * along; part++)
-        sum += grid_integral(density, of, x + part / along, y + part % along, allowed);
-    return sum;
 }
 
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed)
 {
     double mass = 0;
-    for (int again = 0; again < 2; again++)
-        for (size_t i = 0; i < g->elsewhere; i++)
-            if (!again || g->expected[i] <= allowed * samples)
-                g->expected[i] = samples * expect(g, density, of, i, again, allowed);
-    for (size_t i = 0; i < g->elsewhere; i++)
-        mass += g->expected[i] / samples;
+    for (size_t i = 0; i < g->elsewhere; i++) {
+        const double *x = g->x + i / g->columns, *y = g->y + i % g->columns;
+        const double within = integral(density, of, x, y, allowed);
+        g->expected[i] = samples * within;
+        mass += within;
+    }
     g->expected[g->elsewhere] = fmax(1 - mass, 0) * samples;
     return mass;
 }

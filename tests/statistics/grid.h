@@ -20,14 +20,10 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
 
 size_t grid_bin(const grid *g, double x, double y);
 
-/* The integral over a rectangle, which is halved, the way that changes more, until that changes less than `allowed`,
- * or a hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an
- * edge. */
-typedef double grid_density(double x, double y, const void *of);
-double grid_integral(grid_density *density, const void *of, const double x[2], const double y[2], double allowed);
-
 /* Writes the integral over every bin, times `samples`, to `expected`, and what they leave of 1 to the last;
- * returns the integral of all. */
+ * returns the integral of all. A bin is halved, the way that changes more, until that changes less than `allowed`, or a
+ * hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an edge. */
+typedef double grid_density(double x, double y, const void *of);
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed);
 
 /* Of all bins together; those that expect less than 5 are pooled with their neighbours. */

@@ -235,16 +235,6 @@ static const float roughness[][2] = {{1, 1}, {0.05f, 0.4f}};
 
 enum { ANGLES = sizeof angles / sizeof angles[0], TESTS = 2 * ANGLES };
 
-static vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
-{
-    return vndf_sample(view, u1, u2, pdf);
-}
-
-static float density(const void *view, vndf_vec3 wm)
-{
-    return vndf_pdf(view, wm);
-}
-
 /* Samples of some views against the density over bins: the library against itself, without another reference. */
 static void check_chi_square(checking *c)
 {
@@ -259,7 +249,7 @@ static void check_chi_square(checking *c)
         const vndf_vec3 wi = direction_from(theta, i < ANGLES ? 0 : 25);
         const vndf_affine shape = {c->distribution, surface.alpha_x, 0, 0, surface.alpha_y, 0, 0};
         const vndf_view view = vndf_view_from(&surface, wi);
-        const bins_sampler judged = {bins_frame_from(&shape, wi), draw, density, &view};
+        const bins_sampler judged = bins_of_view(&view, &shape, wi);
         progress_show((double)i / TESTS, "chi-square", &c->bar);
         const bins_result of = bins_chi_square(&judged, (size_t)c->samples, c->seed + 1000 * (i + 1));
         const double mass_limit = 1e-5 + of.rounding;

@@ -3,11 +3,10 @@
  *
  * Nothing in it is singular; but the lobe may have parts of very different width, and tails that fall by a power so low
  * that slopes of 1e20 count. D is isotropic, so all that is steep in a density lies at a constant R: the borders of a
- * table's cells, jumps and rings. Along the azimuth it is smooth to the horizon of wi, where the sectors end, but for
- * the right angle to wi, where the law of a table has an edge. So at one slope all bins of a ring are integrated over
- * their azimuths by Gauss' rule, and over log(R) all of them together, adaptively: the panel whose two rules differ
- * most is halved next. (A quadrature in two dimensions for each bin chases the roundings of a narrow ring for
- * minutes.) */
+ * table's cells, jumps and rings. Along the azimuth it is smooth to the horizon of wi, where the sectors end. So at one
+ * slope all bins of a ring are integrated over their azimuths by Gauss' rule, and over log(R) all of them together,
+ * adaptively: the panel whose two rules differ most is halved next. (A quadrature in two dimensions for each bin chases
+ * the roundings of a narrow ring for minutes.) */
 #include "evidence/measure/bins.h"
 
 #include <float.h>
@@ -61,6 +60,21 @@ static double polar(const bins_frame *f, vndf_vec3 wm, double *azimuth)
     bins_over(f, wm, n);
     *azimuth = atan2(n[1], n[0]);
     return n[2] > 0 ? hypot(n[0], n[1]) / n[2] : HUGE_VAL;
+}
+
+static vndf_vec3 draw_of_view(const void *view, float u1, float u2, float *pdf)
+{
+    return vndf_sample(view, u1, u2, pdf);
+}
+
+static float pdf_of_view(const void *view, vndf_vec3 wm)
+{
+    return vndf_pdf(view, wm);
+}
+
+bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi)
+{
+    return (bins_sampler){bins_frame_from(shape, wi), draw_of_view, pdf_of_view, view};
 }
 
 /* ---- bins ---------------------------------------------------------------------------------------- */
@@ -133,17 +147,12 @@ static double integrate_arc(const bins_sampler *judged, double slope, double low
     return sum * fabs(f->det) * slope * slope;
 }
 
-/* Sectors are cut at the right angles to wi. */
 static void integrate_sectors(const bins_sampler *judged, double slope, double to[BINS_SECTORS])
 {
-    const double wide = 2 * reach(&judged->frame, slope) / BINS_SECTORS, right = pi / 2;
+    const double wide = 2 * reach(&judged->frame, slope) / BINS_SECTORS;
     for (int i = 0; i < BINS_SECTORS; i++) {
-        const double end = (i + 1 - BINS_SECTORS / 2) * wide;
-        to[i] = 0;
-        for (double low = (i - BINS_SECTORS / 2) * wide, high; low < end; low = high) {
-            high = low < -right ? fmin(end, -right) : low < right ? fmin(end, right) : end;
-            to[i] += integrate_arc(judged, slope, low, high);
-        }
+        const double low = (i - BINS_SECTORS / 2) * wide;
+        to[i] = wide > 0 ? integrate_arc(judged, slope, low, low + wide) : 0;
     }
 }
 

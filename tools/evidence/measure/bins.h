@@ -34,6 +34,9 @@ typedef struct bins_sampler {
     const void *of;
 } bins_sampler;
 
+/* Of a view of the library's; it has to outlive the sampler. */
+bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi);
+
 enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTORS };
 
 typedef struct bins_result {
