@@ -62,7 +62,8 @@ static const language languages[] = {
      "vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cuda", "CUDA", 0, 0, NULL, NULL, "",
      "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {; "
-     "ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; POINTER: const float *__restrict__ ; root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
+     "ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; POINTER: const float *__restrict__ ; "
+     "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
      "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
      "FUNCTION: static inline $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
