@@ -21,7 +21,8 @@
 //         const auto [wm, pdf] = vndf::sample(view, 0.25f, 0.5f);
 //         std::vector<float> u1(1000, 0.25f), u2(1000, 0.5f), x(1000), y(1000), z(1000), density(1000);
 //         const vndf_batch many = {*table, 1000, VNDF_SHARED_ALPHA | VNDF_SHARED_WI, VNDF_INSTRUCTIONS_BEST,
-//                                  &metal.alpha_x, &metal.alpha_y, &view.wi.x, &view.wi.y, &view.wi.z};
+//                                  &metal.alpha_x, &metal.alpha_y, &view.wi.x, &view.wi.y, &view.wi.z,
+//                                  {}, {}, {}, {}}; // no matrix, no mean slope
 //         if (const auto drawn = vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), density); !drawn)
 //             return std::puts(drawn.message()), 1;
 //         std::printf("%g %g %g %g\n", wm.x - x[0], wm.y - y[0], wm.z - z[0], pdf - density[0]);

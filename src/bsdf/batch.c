@@ -73,10 +73,15 @@ static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t
     const vndf_material *m = b->material;
     size_t shape = b->shared & VNDF_SHARED_ALPHA ? 0 : first, directions = b->shared & VNDF_SHARED_WI ? 1 : count;
     const vndf_normals wm = {to->x, to->y, to->z};
-    vndf_batch part = {
-        m->is.distribution, count,          b->shared | (b->alpha_x ? 0u : (unsigned)VNDF_SHARED_ALPHA),
-        b->limit,           &m->is.alpha_x, &m->is.alpha_y,
-        to->wi_x,           to->wi_y,       to->wi_z};
+    vndf_batch part = {.distribution = m->is.distribution,
+                       .count = count,
+                       .shared = b->shared | (b->alpha_x ? 0u : (unsigned)VNDF_SHARED_ALPHA),
+                       .limit = b->limit,
+                       .alpha_x = &m->is.alpha_x,
+                       .alpha_y = &m->is.alpha_y,
+                       .wi_x = to->wi_x,
+                       .wi_y = to->wi_y,
+                       .wi_z = to->wi_z};
     if (b->alpha_x) {
         part.alpha_x = b->alpha_x + shape;
         part.alpha_y = b->alpha_y + shape;

@@ -171,8 +171,8 @@ void test_batches()
     const vndf_surface s = {*table, 0.3f, 0.1f};
     const vndf_view view = vndf_view_from(&s, wi);
     const unsigned shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
-    const vndf_batch many = {*table, 3,     shared, VNDF_INSTRUCTIONS_BEST, &s.alpha_x, &s.alpha_y,
-                             &wi.x,  &wi.y, &wi.z};
+    const vndf_batch many = {
+        *table, 3, shared, VNDF_INSTRUCTIONS_BEST, &s.alpha_x, &s.alpha_y, &wi.x, &wi.y, &wi.z, {}, {}, {}, {}};
     const std::vector<float> u1 = {0.1f, 0.5f, 0.9f};
     const std::array<float, 3> u2 = {0.2f, 0.4f, 0.8f};
     std::vector<float> x(3), y(3), z(3), pdf(3), lower(2);

@@ -1,10 +1,8 @@
 # The shared library exports the functions that the headers declare with VNDF_API, all of them and nothing
-# else, with the version of src/vndf.map, which lists them; every external symbol of the static library begins with
-# vndf_. With RENEW: writes src/vndf.map from the headers, for those who declare a function or change the version.
+# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_.
 cmake_minimum_required(VERSION 3.16)
 
-if(RENEW)
-elseif(NOT NM)
+if(NOT NM)
     message("SKIPPED: no nm was found")
     return()
 elseif(SANITIZE)
@@ -46,25 +44,6 @@ if(count EQUAL 0)
 endif()
 
 string(REGEX REPLACE "^([0-9]+\\.[0-9]+).*$" "VNDF_\\1" node ${VERSION})
-list(TRANSFORM declared REPLACE "(.+)" "        \\1<semicolon>\n" OUTPUT_VARIABLE functions)
-string(REPLACE ";" "" functions "${functions}")
-string(REPLACE "<semicolon>" ";" functions "${functions}")
-set(expected "# What the shared library exports. `cmake --build BUILD --target symbols` writes it from the headers.
-${node} {
-    global:
-${functions}    local:
-        *;
-};
-")
-if(RENEW)
-    file(WRITE ${SOURCE}/src/vndf.map "${expected}")
-    return()
-endif()
-file(READ ${SOURCE}/src/vndf.map map)
-if(NOT map STREQUAL expected)
-    message(SEND_ERROR "src/vndf.map is not what the headers declare for ${node}: the target `symbols` writes it")
-endif()
-
 read_symbols(exported -D --defined-only ${SHARED_LIBRARY})
 # Newer versions of nm print that of a symbol behind it.
 if(NOT node IN_LIST exported AND NOT exported MATCHES "@@${node}(;|$)")

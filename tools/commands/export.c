@@ -10,7 +10,7 @@
 #include "command.h"
 #include "commands/parts/named_tables.h"
 #include "export/document.h"
-#include "measured/brdf.h"
+#include "measured/measured.h"
 
 static const char name[] = "vndf export";
 
