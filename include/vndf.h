@@ -422,7 +422,7 @@ typedef struct vndf_mixture_batch {
 } vndf_mixture_batch;
 
 /* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert, and
- * may be NULL for -1. Scratch is on the stack: some 250 KiB, unoptimised up to 650 KiB. */
+ * may be NULL for -1. Scratch is on the stack: some 290 KiB, unoptimised up to 2.2 MiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
