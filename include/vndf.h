@@ -1,24 +1,7 @@
 /* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
  *
- *     int main(void)
- *     {
- *         vndf_error error;
- *         vndf_distribution *table = vndf_load("tables/example.vndf", &error);
- *         if (!table)
- *             return puts(error.message), 1;
- *         vndf_surface metal = {table, 0.3f, 0.1f}; // alpha_x, alpha_y
- *         vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
- *         vndf_view view = vndf_view_from(&metal, wi); // once for each hit
- *         float pdf, weight;
- *         vndf_vec3 wm = vndf_sample_weight(&view, 0.25f, 0.5f, &pdf, &weight);
- *         printf("wm (%g, %g, %g), pdf %g, weight %g\n", wm.x, wm.y, wm.z, pdf, weight);
- *         vndf_free(table);
- *         return 0;
- *     }
+ * README.md has an example.
  *
- * needs <stdio.h>, this header, the library and a table that was made offline, by `vndf build` or vndf_build.h.
- *
- * Map
  *     distributions   vndf_load, vndf_load_memory, vndf_free; vndf_ggx, vndf_beckmann; vndf_distribution_info
  *     surfaces        vndf_surface {distribution, alpha_x, alpha_y}, vndf_affine {distribution, matrix, mean},
  *                     vndf_mixture of up to eight of these
