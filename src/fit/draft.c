@@ -116,7 +116,7 @@ int vndf_draft_from(vndf_table_draft *t, vndf_knots *knots, unsigned moments)
                             .squarings = knots->squarings,
                             .normalization = profile->normalization,
                             .scale = profile->scale,
-                            .source = profile->description};
+                            .source = profile->source->description};
     double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
     vndf_cell *cell = malloc(count * sizeof *cell);
     ray *rays = NULL;

@@ -35,8 +35,6 @@ typedef struct vndf_panel {
 /* The public oracle (vndf_build.h) is a profile without a guard. */
 typedef struct vndf_reference {
     const vndf_source *source;
-    char *description; /* the source, and how closely the build looks at it; owned */
-    double sampled;    /* the given `finest`; 0: none */
     vndf_guard *guard; /* of the build; NULL for an oracle that may be shared between threads */
     double normalization, scale;
     size_t count;            /* of panels */
@@ -50,9 +48,8 @@ typedef struct vndf_reference {
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The profile keeps the
- * guard, which must live as long or be set to NULL. The resolution may be NULL and is copied. */
-vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
-                                vndf_error *error);
+ * guard, which must live as long or be set to NULL. */
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
 /* P(R) at canonical scale; 0 once the guard has stopped the build. */
@@ -129,8 +126,8 @@ typedef struct vndf_proof {
     size_t edge_count;
 } vndf_proof;
 
-/* By bounds, for a source that has them; where they are not enough by values, as far apart as `finest` allows, which is
- * put. 0 if there is no memory or the build must end; free the edges either way. */
+/* By bounds, for a source that has them; by values of another, as far apart as profile->finest, which is put. 0 if
+ * there is no memory or the build must end; free the edges either way. */
 int vndf_proof_from(vndf_proof *proof, vndf_profile *profile);
 
 #endif
