@@ -1,11 +1,12 @@
 /* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
  *
  * Map
- *     sources    vndf_source_slope_expression, vndf_source_ndf_expression, vndf_source_csv_file, vndf_source_rows,
- *                vndf_source_family, vndf_source_slope_callback, vndf_source_ndf_callback: a distribution that a
- * user brings, at any scale, normalised or not; vndf_source_p22, vndf_source_free tables     vndf_build,
- * vndf_save; vndf_certify measures a table, vndf_reference is the truth it is measured by families
- * vndf_build_family, vndf_family_save
+ *
+ * - sources: vndf_source_slope_expression, vndf_source_ndf_expression, vndf_source_csv_file, vndf_source_rows,
+ *   vndf_source_family, vndf_source_slope_callback, vndf_source_ndf_callback: a distribution that a user brings, at any
+ *   scale, normalised or not; vndf_source_p22, vndf_source_free
+ * - tables: vndf_build, vndf_save; vndf_certify measures a table
+ * - families: vndf_build_family, vndf_family_save
  *
  * The conventions of vndf.h hold. */
 #ifndef VNDF_BUILD_H
@@ -156,15 +157,6 @@ VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_bui
 /* Measures a table against a source: the certificate that vndf_build would write. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
-
-/* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the
- * unit problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
- * features that a build finds. A slow oracle, valid while the source lives; 0 for NULL. */
-typedef struct vndf_reference vndf_reference;
-VNDF_API vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error);
-VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);
-VNDF_API double vndf_reference_area(const vndf_reference *reference, double theta);
-VNDF_API void vndf_reference_free(vndf_reference *reference);
 
 /* Writes the table to a file: first to a temporary file beside it, vndf.NUMBER.tmp, which is flushed to the disk
  * and renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced

@@ -1,6 +1,6 @@
 /* From a source to its profile, or to the reason why it is no microsurface: panels are made, a proof looks between
  * their points, and where it finds more, panels are made anew with edges there. Then slopes and values are brought to
- * canonical scale. The public oracle is a profile without a table. */
+ * canonical scale. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -185,33 +185,7 @@ void vndf_profile_free(vndf_profile *profile)
     free(profile);
 }
 
-/* ---- the public oracle ---- */
-
-vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error)
+double vndf_profile_claimed(const vndf_profile *profile)
 {
-    vndf_guard guard = vndf_guard_from(NULL, NULL);
-    if (!source)
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a source is needed");
-    vndf_profile *profile = source ? vndf_profile_from(source, &guard, error) : NULL;
-    if (profile)
-        profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
-    return profile;
-}
-
-double vndf_reference_p22(const vndf_reference *reference, double r)
-{
-    return reference ? reference->normalization * vndf_source_p22(reference->source, r) : 0.0;
-}
-
-double vndf_reference_area(const vndf_reference *reference, double theta)
-{
-    if (!reference)
-        return 0.0;
-    double s = sin(theta) * reference->scale, c = cos(theta);
-    return vndf_profile_below(reference, s, fabs(c)).below + fmax(c, 0.0);
-}
-
-void vndf_reference_free(vndf_reference *reference)
-{
-    vndf_profile_free(reference);
+    return 1e-10 * fmin(fmax(profile->scale, 1e-4), 1.0);
 }
