@@ -26,6 +26,7 @@ typedef struct vndf_strip {
     double f, along;       /* of f and of R f */
     double p0, p1;         /* P22 inside both ends */
     double r[2], mass[2];  /* two points: f dR = mass */
+    double beyond[3];      /* integrals of R f, f and f/R from the edge on */
 } vndf_strip;
 
 typedef struct vndf_strips {

@@ -29,6 +29,13 @@ typedef struct view {
     vndf_cell cell;
 } view;
 
+/* |drawn - true|; what is drawn far too rarely counts more often, since it decides the largest weight. */
+static double miss_of(double seen, double drawn)
+{
+    const double rarely = 2, more = 6;
+    return seen > rarely * drawn ? more * seen : fabs(seen - drawn);
+}
+
 /* Half the integral of |drawn - true| for the weight w1 R^2 + w0 R; *density: the largest relative error. */
 static double miss_by(const view *v, double w1, double w0, double *density)
 {
@@ -38,7 +45,7 @@ static double miss_by(const view *v, double w1, double w0, double *density)
     for (size_t i = v->from; i < v->end; i++) {
         double next = vndf_drawn_before(&drawn, v->knots->xi[i + 1 - v->from]),
                seen = w1 * s[i].along + w0 * s[i].f;
-        sum += fabs(seen - (next - before));
+        sum += miss_of(seen, next - before);
         *density = seen > 0 ? fmax(*density, fabs((next - before) / seen - 1)) : *density;
         before = next;
     }
@@ -74,7 +81,7 @@ static double miss_below(const view *v, size_t edge)
                 continue;
             }
             double next = vndf_drawn_before(&drawn, (k->xi[i + 1 - v->from] - xi0) * per);
-            sum += fabs(part - (next - before));
+            sum += miss_of(part, next - before);
             before = next;
         }
     }
@@ -85,7 +92,7 @@ static double miss_below(const view *v, size_t edge)
  * the horizon, or of what is left of it below, while that is not much smaller. */
 static double area_miss(const view *v)
 {
-    const double smaller = 0.02;
+    const double smaller = 0.02, narrow = 2e-3; /* the error falls as the fourth power of h */
     vndf_knots *k = v->knots;
     double x0 = v->cell.x, h = v->cell.power > 0 ? v->cell.z : v->cell.h, z = v->cell.z - h / 2;
     size_t low = v->from, high = v->end;
@@ -94,7 +101,7 @@ static double area_miss(const view *v)
         *(k->rim[middle].z > z ? &low : &high) = middle;
     }
     size_t middle = low > v->from ? low : high;
-    if (middle >= v->end || middle > k->last)
+    if (h < narrow || middle >= v->end || middle > k->last)
         return 0;
     vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
     if (v->cell.power == 0)

@@ -15,6 +15,7 @@ typedef struct maker {
     double mass, along; /* of what is gathered: integrals of f and R f, */
     int pieces, little; /* of how many panels; whether that is next to nothing */
     int starved;
+    double knot; /* the next */
 } maker;
 
 static double edge_of(const maker *m)
@@ -98,10 +99,12 @@ static void gather(maker *m, double from, double to)
     m->along += mass[0] * r[0] + mass[1] * r[1];
 }
 
-/* Ends what is gathered at a slope, as one point. */
+/* Ends what is gathered at a slope, as one point; at the float before it where that is next to nothing, else behind and
+ * so far that knots can stand at both ends. */
 static void end_gathered(maker *m, double slope)
 {
-    double from = edge_of(m), to = float_at(slope, HUGE_VALF);
+    double from = edge_of(m), behind = fmin(fmax(slope, from * (1 + VNDF_GRAIN / 2)), m->knot);
+    double to = m->little ? float_at(slope, 0) : float_at(behind, HUGE_VALF);
     if (m->pieces > 0 && to > from) {
         gather(m, slope, to);
         double mean = m->mass > 0 ? fmin(fmax(m->along / m->mass, from), to) : from + (to - from) / 2;
@@ -155,7 +158,8 @@ static void add_piece(maker *m, size_t i, double from, double to, double parts)
     const vndf_panel *p = &m->profile->panel[i];
     int whole = from == p->r && to == p[1].r, little = parts == 0;
     if (little || to - from < VNDF_GRAIN / 2 * to) {
-        if (little != m->little || (!little && to - edge_of(m) >= VNDF_GRAIN * to))
+        int full = to - edge_of(m) >= VNDF_GRAIN * to && float_at(from, HUGE_VALF) <= to; /* a float is in it */
+        if (little != m->little || (!little && full))
             end_gathered(m, from);
         m->little = little;
         if (m->pieces++ == 0)
@@ -170,6 +174,8 @@ static void add_piece(maker *m, size_t i, double from, double to, double parts)
     end_gathered(m, from);
     double begin = edge_of(m), width = to - begin;
     size_t first = m->to->count;
+    if (!(width > 0))
+        return;
     for (double left = width / closer; parts < 0 && left > 2 * VNDF_GRAIN * to; left /= closer)
         add_strip(m, to - left);
     double count = ceil(fmin(parts, 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
@@ -195,7 +201,7 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
     for (size_t i = 0; i < profile->count && !m.starved; i++) {
         double per = need[i] * count / (all * log(p[i + 1].r / p[i].r));
         for (double from = p[i].r, to; from < p[i + 1].r; from = to) {
-            double end = p[i + 1].r, slope = next < knots ? (double)knot[next] : HUGE_VAL;
+            double end = p[i + 1].r, slope = m.knot = next < knots ? (double)knot[next] : HUGE_VAL;
             to = fmin(slope, end);
             if (to > from)
                 add_piece(&m, i, from, to, per * log(to / from));
@@ -211,6 +217,11 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
         end_gathered(&m, end);
         push(&m, HUGE_VAL, r, mass);
         scale(strips, 0, 1); /* two points are too few in panels that knots have cut where waves are many */
+        for (vndf_strip *s = strips->at + strips->count; s-- > strips->at;) {
+            s->beyond[0] = s[1].beyond[0] + s->along;
+            s->beyond[1] = s[1].beyond[1] + s->f;
+            s->beyond[2] = s[1].beyond[2] + s->m0;
+        }
     }
     vndf_guard_spend(profile->guard, 2 * (double)strips->count);
     free(need);
@@ -219,17 +230,22 @@ int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const flo
 
 vndf_area vndf_strips_area(const vndf_strips *strips, size_t edge)
 {
+    const double far = 32; /* times rho: from there on two terms of the series in rho/R are enough */
     vndf_area sum = {0, 0, 0};
     double rho = strips->at[edge].edge;
-    for (size_t i = 2 * edge; i < 2 * strips->count; i++) {
-        double r = strips->at[i / 2].r[i % 2], mass = strips->at[i / 2].mass[i % 2] / PI;
-        if (!(r > rho && mass > 0))
-            continue;
-        double kernel = vndf_kernel_below(r, rho), root = sqrt((r - rho) * (r + rho));
-        sum.below += mass * kernel / (1 + rho);
-        sum.turned += mass * (rho > 1e-10 * r ? (root - kernel) / rho : PI / 2);
-        sum.along += mass * root;
-    }
+    const vndf_strip *s = &strips->at[edge];
+    for (; s < strips->at + strips->count && !(s->edge > far * rho); s++)
+        for (int i = 0; i < 2; i++) {
+            double r = s->r[i], mass = s->mass[i] / PI;
+            double kernel = r > rho ? vndf_kernel_below(r, rho) : 0, root = sqrt(fmax((r - rho) * (r + rho), 0));
+            sum.below += mass * kernel;
+            sum.turned += mass * (rho > 0 ? (root - kernel) / rho : PI / 2);
+            sum.along += mass * root;
+        }
+    sum.below += (s->beyond[0] - PI / 2 * rho * s->beyond[1] + rho * rho / 2 * s->beyond[2]) / PI;
+    sum.turned += (PI / 2 * s->beyond[1] - rho * s->beyond[2]) / PI;
+    sum.along += (s->beyond[0] - rho * rho / 2 * s->beyond[2]) / PI;
+    sum.below /= 1 + rho;
     return sum;
 }
 
