@@ -1,24 +1,7 @@
 /* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
  *
- *     int main(void)
- *     {
- *         vndf_error error;
- *         vndf_distribution *table = vndf_load("tables/example.vndf", &error);
- *         if (!table)
- *             return puts(error.message), 1;
- *         vndf_surface metal = {table, 0.3f, 0.1f}; // alpha_x, alpha_y
- *         vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
- *         vndf_view view = vndf_view_from(&metal, wi); // once for each hit
- *         float pdf, weight;
- *         vndf_vec3 wm = vndf_sample_weight(&view, 0.25f, 0.5f, &pdf, &weight);
- *         printf("wm (%g, %g, %g), pdf %g, weight %g\n", wm.x, wm.y, wm.z, pdf, weight);
- *         vndf_free(table);
- *         return 0;
- *     }
+ * README.md has an example.
  *
- * needs <stdio.h>, this header, the library and a table that was made offline, by `vndf build` or vndf_build.h.
- *
- * Map
  *     distributions   vndf_load, vndf_load_memory, vndf_free; vndf_ggx, vndf_beckmann; vndf_distribution_info
  *     surfaces        vndf_surface {distribution, alpha_x, alpha_y}, vndf_affine {distribution, matrix, mean},
  *                     vndf_mixture of up to eight of these
@@ -26,7 +9,7 @@
  *                     vndf_pdf, vndf_visible, vndf_invert; vndf_mixture_view_from with calls of its own
  *     any direction   vndf_ndf, vndf_p22, vndf_projected_area, vndf_lambda, vndf_g1, vndf_g2, and the same
  *                     with vndf_affine_ and vndf_mixture_
- *     many at once    the same calls with _n at their ends
+ *     many at once    the same calls with _n at their ends, for surfaces of both kinds, and of mixtures
  *     families        vndf_family_load, vndf_family_at: a parameter of the distribution that is a texture
  *     GPUs            vndf_numbers, and the kernels of `vndf export`
  *
@@ -257,7 +240,10 @@ typedef enum vndf_instructions {
 VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
 
 /* `count` surfaces and incident directions, the arguments of vndf_view_from. An array holds `count` numbers; if
- * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment. */
+ * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment.
+ *
+ * With any of the last four arrays surfaces are vndf_affine (below), M = (alpha_x xy; yx alpha_y), and NULL is for 0;
+ * VNDF_SHARED_ALPHA is for all of them. */
 enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
 
 typedef struct vndf_batch {
@@ -267,6 +253,7 @@ typedef struct vndf_batch {
     vndf_instructions limit;
     const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
+    const float *xy, *yx, *mean_x, *mean_y;
 } vndf_batch;
 
 /* Normals, structure of arrays, `count` each. */
@@ -413,33 +400,10 @@ VNDF_API float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
 
-/* ---- many affine surfaces and mixtures at once ---------------------------------------------------- */
+/* ---- many mixtures at once ---------------------------------------------------------------------- */
 
-/* Like vndf_batch. xy, yx, mean_x and mean_y may each be NULL, for 0. VNDF_SHARED_ALPHA is for the matrix and the
- * mean slope. */
-typedef struct vndf_affine_batch {
-    const vndf_distribution *distribution;
-    size_t count;
-    unsigned shared;
-    vndf_instructions limit;
-    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y;
-    const float *wi_x, *wi_y, *wi_z;
-} vndf_affine_batch;
-
-/* As vndf_sample_n and the others. */
-VNDF_API void vndf_affine_sample_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
-                                   vndf_normals wm, float *pdf);
-VNDF_API void vndf_affine_sample_weight_n(const vndf_affine_batch *batch, const float *u1, const float *u2,
-                                          vndf_normals wm, float *pdf, float *weight);
-VNDF_API void vndf_affine_pdf_n(const vndf_affine_batch *batch, vndf_normals wm, float *pdf);
-VNDF_API void vndf_affine_visible_n(const vndf_affine_batch *batch, vndf_normals wm, float *visible);
-VNDF_API void vndf_affine_invert_n(const vndf_affine_batch *batch, vndf_normals wm, float *u1, float *u2);
-VNDF_API void vndf_affine_ndf_n(const vndf_affine_batch *batch, vndf_normals wm, float *ndf);
-VNDF_API void vndf_affine_projected_area_n(const vndf_affine_batch *batch, float *area);
-VNDF_API void vndf_affine_lambda_n(const vndf_affine_batch *batch, float *lambda);
-VNDF_API void vndf_affine_g1_n(const vndf_affine_batch *batch, float *g1);
-
-/* A lobe of `count` mixtures: arrays as those of vndf_affine_batch, and the weights. */
+/* A lobe of `count` mixtures: the numbers of a vndf_affine, of which xy, yx, mean_x and mean_y may each be NULL for 0,
+ * and the weights. */
 typedef struct vndf_lobe_batch {
     const vndf_distribution *distribution;
     const float *xx, *xy, *yx, *yy, *mean_x, *mean_y, *weight;
@@ -458,7 +422,7 @@ typedef struct vndf_mixture_batch {
 } vndf_mixture_batch;
 
 /* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert, and
- * may be NULL for -1. Scratch is on the stack: some 140 KiB, unoptimised up to 650 KiB. */
+ * may be NULL for -1. Scratch is on the stack: some 250 KiB, unoptimised up to 650 KiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);

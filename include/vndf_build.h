@@ -1,12 +1,8 @@
 /* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
  *
- * Map
- *
- * - sources: vndf_source_slope_expression, vndf_source_ndf_expression, vndf_source_csv_file, vndf_source_rows,
- *   vndf_source_family, vndf_source_slope_callback, vndf_source_ndf_callback: a distribution that a user brings, at any
- *   scale, normalised or not; vndf_source_p22, vndf_source_free
- * - tables: vndf_build, vndf_save; vndf_certify measures a table
- * - families: vndf_build_family, vndf_family_save
+ *     sources     vndf_source_...: a distribution that a user brings, at any scale, normalised or not
+ *     tables      vndf_build, vndf_save; vndf_certify measures a table
+ *     families    vndf_build_family, vndf_family_save
  *
  * The conventions of vndf.h hold. */
 #ifndef VNDF_BUILD_H

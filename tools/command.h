@@ -23,7 +23,6 @@ typedef struct subcommand {
 } subcommand;
 
 extern const subcommand command_build, command_info, command_check, command_sample, command_plot, command_report,
-    command_bench, command_bench_effects, command_bake, command_export, command_explore, command_render,
-    command_judge;
+    command_bench, command_bake, command_export, command_explore, command_render, command_judge;
 
 #endif

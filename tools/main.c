@@ -8,13 +8,19 @@
 #include "command.h"
 #include "vndf.h"
 
-static const subcommand *const subcommands[] = {&command_build,   &command_info,
-                                                &command_check,   &command_sample,
-                                                &command_plot,    &command_report,
-                                                &command_bench,   &command_bench_effects,
-                                                &command_bake,    &command_export,
-                                                &command_explore, &command_render,
-                                                &command_judge,   NULL};
+static const subcommand *const subcommands[] = {&command_build,
+                                                &command_info,
+                                                &command_check,
+                                                &command_sample,
+                                                &command_plot,
+                                                &command_report,
+                                                &command_bench,
+                                                &command_bake,
+                                                &command_export,
+                                                &command_explore,
+                                                &command_render,
+                                                &command_judge,
+                                                NULL};
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 
@@ -68,23 +74,16 @@ static void help_text(const subcommand *of, char text[HELP_MAX])
     memcpy(last, every, length);
 }
 
-/* `bench effects` is two words, which are looked for first. */
-static const subcommand *find_command(int argc, const char *const *argv, int *used)
+static const subcommand *find_command(const char *word)
 {
-    const char *names[WORDS_MAX] = {"--help", "--version", "help"}, *hint = NULL, *word = NULL;
-    char two[128];
+    const char *names[WORDS_MAX] = {"--help", "--version", "help"};
     size_t count = 3;
-    for (const subcommand *const *c = subcommands; *c; c++)
+    for (const subcommand *const *c = subcommands; *c; c++) {
         names[count++] = (*c)->name + strlen("vndf ");
-    snprintf(two, sizeof two, "%.60s %.60s", argv[0], argc > 1 ? argv[1] : "");
-    for (*used = argc > 1 ? 2 : 1; *used > 0 && !hint; --*used) {
-        word = *used == 2 ? two : argv[0];
-        for (const subcommand *const *c = subcommands; *c; c++)
-            if (strcmp((*c)->name + strlen("vndf "), word) == 0)
-                return *c;
-        hint = nearest_word(word, names, count);
-        hint = hint && *used == 2 && !strchr(hint, ' ') ? NULL : hint;
+        if (strcmp(names[count - 1], word) == 0)
+            return *c;
     }
+    const char *hint = nearest_word(word, names, count);
     if (hint)
         complain("vndf", "there is no command '%s'; did you mean '%s'?", word, hint);
     else if (strchr(word, '.'))
@@ -145,7 +144,6 @@ static int dispatch(int argc, char **argv)
 {
     static char help[HELP_MAX];
     static arguments given;
-    int used = 0;
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
     if (asks(argv[1], "--version", "-V"))
@@ -159,9 +157,8 @@ static int dispatch(int argc, char **argv)
         list_text(help);
         return print(help);
     }
-    argc -= 1 + is_help;
-    argv += 1 + is_help;
-    const subcommand *c = find_command(argc, (const char *const *)argv, &used);
+    const int used = 2 + is_help;
+    const subcommand *c = find_command(argv[used - 1]);
     if (!c)
         return STATUS_USE;
     help_text(c, help);

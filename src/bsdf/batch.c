@@ -73,10 +73,15 @@ static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t
     const vndf_material *m = b->material;
     size_t shape = b->shared & VNDF_SHARED_ALPHA ? 0 : first, directions = b->shared & VNDF_SHARED_WI ? 1 : count;
     const vndf_normals wm = {to->x, to->y, to->z};
-    vndf_batch part = {
-        m->is.distribution, count,          b->shared | (b->alpha_x ? 0u : (unsigned)VNDF_SHARED_ALPHA),
-        b->limit,           &m->is.alpha_x, &m->is.alpha_y,
-        to->wi_x,           to->wi_y,       to->wi_z};
+    vndf_batch part = {.distribution = m->is.distribution,
+                       .count = count,
+                       .shared = b->shared | (b->alpha_x ? 0u : (unsigned)VNDF_SHARED_ALPHA),
+                       .limit = b->limit,
+                       .alpha_x = &m->is.alpha_x,
+                       .alpha_y = &m->is.alpha_y,
+                       .wi_x = to->wi_x,
+                       .wi_y = to->wi_y,
+                       .wi_z = to->wi_z};
     if (b->alpha_x) {
         part.alpha_x = b->alpha_x + shape;
         part.alpha_y = b->alpha_y + shape;
@@ -95,7 +100,8 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
 {
     const vndf_material *m = b->material;
     int in_blocks = m->is.effects.shape == VNDF_SHAPE_ALIGNED && m->is.effects.normals == VNDF_NORMALS_VISIBLE &&
-                    m->own.routines->scatter;
+                    m->is.effects.reflection == VNDF_REFLECTION_SPECULAR &&
+                    m->own.routines == &vndf_routines_single;
     vndf_bsdf hit;
     block drawn;
     for (size_t i = 0; i < b->count; i++) {
@@ -105,10 +111,11 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
         step_to(b, i, &hit);
         if (in_blocks && at == 0)
             draw_block(b, u, i, rest < BLOCK ? rest : BLOCK, &drawn);
-        if (in_blocks && hit.material == m) {
+        if (in_blocks && hit.own.area > 0.0f) {
             const vndf_drawn_normal n = {
                 {drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
-            m->own.routines->scatter(&hit, &n, own[2], &s);
+            if (!vndf_scatter(&hit, &n, own[2], &s))
+                s = vndf_scattered_nothing;
         } else
             vndf_bsdf_sample(&hit, own, &s);
         put(&scattered, i, &s, m->is.wavelengths);
@@ -124,8 +131,8 @@ static void look(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed
     for (size_t i = 0; i < b->count; i++) {
         float f[VNDF_WAVELENGTHS];
         step_to(b, i, &hit);
-        hit.material->own.routines->eval(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0,
-                                         value ? f : NULL, pdf ? pdf + i : NULL);
+        vndf_bsdf_look(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0, value ? f : NULL,
+                       pdf ? pdf + i : NULL);
         for (int n = 0; value && n < b->material->is.wavelengths; n++)
             value[n][i] = f[n];
     }

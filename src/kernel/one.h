@@ -21,11 +21,6 @@ typedef __m128 mask;
 typedef int mask;
 #endif
 
-HERE real set(float x)
-{
-    return x;
-}
-
 #if defined(VNDF_KERNEL_SSE2)
 
 /* Lane 0 is x; with gcc without an instruction that clears the others. */
@@ -80,24 +75,10 @@ HERE real pick(mask m, real yes, real no)
     return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
 }
 
-#else
-
-#  include "kernel/plain.h"
-
 #endif
 
+#include "kernel/plain.h"
 #include "kernel/rows.h"
-
-/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
-HERE real least(real a, real b)
-{
-    return a < b ? a : b;
-}
-
-HERE real most(real a, real b)
-{
-    return a > b ? a : b;
-}
 
 HERE real root(real x)
 {

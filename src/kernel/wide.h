@@ -15,21 +15,6 @@ typedef int mask;
 
 #include "kernel/plain.h"
 
-HERE real set(double x)
-{
-    return x;
-}
-
-HERE real least(real a, real b)
-{
-    return a < b ? a : b;
-}
-
-HERE real most(real a, real b)
-{
-    return a > b ? a : b;
-}
-
 HERE real root(real x)
 {
     return sqrt(x);

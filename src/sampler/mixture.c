@@ -2,47 +2,31 @@
  * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A, in which A_i is the area
  * that is drawn of it, and the density is the whole sum. Shares are kept themselves, never as differences of running
  * sums: that of a faint lobe has all its digits. */
-#include <float.h>
-
+#include "sampler/lobes.h"
 #include "sampler/sampler.h"
-#include "sampler/state.h"
 
 /* ---- views ---- */
 
-/* The sum of the weights, scaled so that the largest is 1; 0 if they are invalid. */
-static float weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_LOBES])
+/* The weights of a mixture over their sum; 0 if they are invalid. */
+static int weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_LOBES])
 {
-    float largest = 0.0f, sum = 0.0f;
+    int valid = 0;
     if (!mixture || mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
-        return 0.0f;
-    for (int i = 0; i < mixture->count; i++) {
-        float w = mixture->lobe[i].weight;
-        if (!(w >= 0.0f && w <= FLT_MAX))
-            return 0.0f;
-        largest = most(largest, w);
-    }
-    if (!(largest > 0.0f))
-        return 0.0f;
-    for (int i = 0; i < mixture->count; i++) {
-        weight[i] = mixture->lobe[i].weight / largest;
-        sum += weight[i];
-    }
+        return 0;
     for (int i = 0; i < mixture->count; i++)
-        weight[i] /= sum;
-    return sum;
+        weight[i] = mixture->lobe[i].weight;
+    vndf_weigh_lobes(mixture->count, 1, 1, weight, &valid);
+    return valid;
 }
 
-/* What areas make of the weights; where no lobe sees an area that a float can hold, the weights alone count. */
 static void shares_of(const vndf_mixture_view *view, float (*area)(const vndf_view *view), float share[])
 {
-    float sum = 0.0f, total = 0.0f;
+    float weight[VNDF_MIXTURE_LOBES];
     for (int i = 0; i < view->count; i++) {
-        share[i] = view->part[i].weight * area(&view->part[i].view);
-        sum += share[i];
-        total += view->part[i].weight;
+        weight[i] = view->part[i].weight;
+        share[i] = area(&view->part[i].view);
     }
-    for (int i = 0; i < view->count; i++)
-        share[i] = sum > FLT_MIN ? share[i] / sum : view->part[i].weight / total;
+    vndf_share_lobes(view->count, 1, 1, weight, share);
 }
 
 vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
@@ -50,7 +34,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
     vndf_mixture_view view;
     float weight[VNDF_MIXTURE_LOBES], share[VNDF_MIXTURE_LOBES];
     view.count = 0;
-    if (!(weights_of(mixture, weight) > 0.0f))
+    if (!weights_of(mixture, weight))
         return view;
     for (int i = 0; i < mixture->count; i++) {
         vndf_mixture_part *part = &view.part[view.count];
@@ -138,28 +122,30 @@ int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, f
 
 /* ---- the whole ---- */
 
-float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
+/* A function of the views, weighed. */
+typedef float of_view(const vndf_view *view, vndf_vec3 w);
+
+static float sum_of_views(const vndf_mixture_view *view, of_view *function, vndf_vec3 w)
 {
     float sum = 0.0f;
     for (int i = 0; i < view->count; i++)
-        sum += view->part[i].weight * vndf_view_ndf(&view->part[i].view, wm);
-    return least(sum, FLT_MAX);
+        sum += view->part[i].weight * function(&view->part[i].view, w);
+    return sum;
+}
+
+float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
+{
+    return least(sum_of_views(view, vndf_view_ndf, wm), FLT_MAX);
 }
 
 float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w)
 {
-    float sum = 0.0f;
-    for (int i = 0; i < view->count; i++)
-        sum += view->part[i].weight * vndf_view_area(&view->part[i].view, w);
-    return sum;
+    return sum_of_views(view, vndf_view_area, w);
 }
 
 float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w)
 {
-    float sum = 0.0f;
-    for (int i = 0; i < view->count; i++)
-        sum += view->part[i].weight * vndf_view_cosine(&view->part[i].view, w);
-    return sum;
+    return sum_of_views(view, vndf_view_cosine, w);
 }
 
 /* A function of the surfaces, weighed. */
@@ -168,7 +154,7 @@ typedef float of_surface(const vndf_affine *surface, vndf_vec3 w);
 static float weighed_sum(const vndf_mixture *mixture, of_surface *function, vndf_vec3 w)
 {
     float weight[VNDF_MIXTURE_LOBES], sum = 0.0f;
-    if (!(weights_of(mixture, weight) > 0.0f))
+    if (!weights_of(mixture, weight))
         return 0.0f;
     for (int i = 0; i < mixture->count; i++)
         sum += weight[i] > 0.0f ? weight[i] * function(&mixture->lobe[i].surface, w) : 0.0f;

@@ -10,31 +10,30 @@ typedef struct vndf_mapped {
     affine_map m;
 } vndf_mapped;
 
-VNDF_INLINE vndf_mapped mapped(const vndf_distribution *d, affine_map m)
+VNDF_INLINE vndf_mapped mapped(const vndf_affine *a, const int plain)
 {
-    vndf_mapped s = {d, affine_measured(m)};
-    s.distribution = any(affine_is_valid(s.m)) ? d : NULL;
+    vndf_mapped s = {0};
+    if (!a->distribution || (plain && (!(a->xx > 0.0f) || !(a->yy > 0.0f))))
+        return s;
+    float unit = a->distribution->unit;
+    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, plain, 0.0f};
+    s.m = affine_measured(m);
+    s.distribution = any(affine_is_valid(s.m)) ? a->distribution : NULL;
     return s;
 }
 
 VNDF_INLINE vndf_mapped affine_mapped(const vndf_affine *a)
 {
-    vndf_mapped none = {0};
-    if (!a || !a->distribution)
-        return none;
-    float unit = a->distribution->unit;
-    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, 0, 0.0f};
-    return mapped(a->distribution, m);
+    const vndf_affine none = {0};
+    return mapped(a ? a : &none, 0);
 }
 
 VNDF_INLINE vndf_mapped surface_mapped(const vndf_surface *s)
 {
-    vndf_mapped none = {0};
-    if (!s || !s->distribution || !(s->alpha_x > 0.0f) || !(s->alpha_y > 0.0f))
-        return none;
-    float unit = s->distribution->unit;
-    affine_map m = {s->alpha_x * unit, 0.0f, 0.0f, s->alpha_y * unit, 0.0f, 0.0f, 1, 0.0f};
-    return mapped(s->distribution, m);
+    vndf_affine a = {0};
+    if (s)
+        a.distribution = s->distribution, a.xx = s->alpha_x, a.yy = s->alpha_y;
+    return mapped(&a, 1);
 }
 
 VNDF_INLINE int is_direction(vndf_vec3 w)

@@ -112,7 +112,7 @@ int main(int arguments, char **argument)
         for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
             vndf_effects effects = oracle_effects(i);
             for (size_t k = 0; k < SETTING_COUNT && is_tried(&effects); k++)
-                if (++count % every == 0)
+                if (++count % every == 0 || (effects.normals == VNDF_NORMALS_BOUNDED && count % 3 == 0))
                     test_one(&ndf, &effects, &SETTINGS[k], ++done + 1000 * n, samples, level);
         }
         oracle_ndf_close(&ndf);

@@ -5,7 +5,7 @@
  *
  *   formulas      vndf_bsdf_eval and vndf_bsdf_pdf, where directions are sampled and where they are spread over the
  *                 sphere: within 1e-5 (matrices 3e-5, their densities 1e-4) from roughness 0.01 on. The law of bounded
- *                 normals is the library's own: chi-squares are for it
+ *                 normals is the library's own: it leaves no hole, and chi-squares are for it
  *   weight        f |cos_o| over the density, and the density vndf_bsdf_pdf: within 1e-5 for 99.9% of the samples
  *                 (weights of normals that are not visible ones 98%), but for tails beyond r^-3.6
  *   bound         visible normals, from cosine 0.01 on: at most 1, on tables the largest weight of the certificate;
@@ -96,6 +96,8 @@ static int check_formulas(hit *h, vndf_vec3 wo, finding *found)
         good &= TEST(agrees((double)f[w], want[w], plain ? 1e-5 : 3e-5));
     if (density->value >= 0)
         good &= TEST(agrees((double)pdf, *density, plain ? 1e-5 : 1e-4));
+    else
+        good &= TEST(pdf > 0 || !(want[0].value - want[0].spread > 1e-6));
     *(want[0].value > 0 ? &found->positive : &found->zero) += 1;
     if (!good)
         fprintf(stderr, "    eval %.9g want %.9g +- %.2g; pdf %.9g want %.9g +- %.2g\n", (double)f[0],

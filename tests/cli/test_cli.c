@@ -10,7 +10,6 @@ static const struct {
     {"did you mean '--version'?", "--versoin"},
     {"did you mean `vndf info a.vndf`?", "a.vndf"},
     {"there is no command 'bulid'; did you mean 'build'?", "help bulid"},
-    {"did you mean 'bench effects'?", "help bench efects"},
     {"one word too many", "help build sample"},
     {"did you mean '--theta'?", "sample ggx --thta 3"},
     {"did you mean '--alpha'?", "sample ggx -a 3"},
@@ -79,7 +78,19 @@ static const struct {
     {"the parameter 'x' is not a number", "sample two.vndfs@x --theta 60 -n 9 -o x.csv"},
     {"must end in .svg", "plot ggx -o x.png"},
     {"must end in .csv, .md or .json", "bench --only caps -o x.txt"},
+    {"vndf bench: no method or distribution has 'bilinaer' in its name; did you mean 'bilinear'?",
+     "bench --only bilinaer"},
+    {"no set of effects or distribution has 'no-such-effect'", "bench --effects --only no-such-effect"},
+    {"--theta '90' is not in the range", "bench --effects --theta 90"},
+    {"--theta is for --effects", "bench --theta 80"},
+    {"unknown family 'nonsense'", "bench --family nonsense"},
+    {"cannot write 'no/a.csv'", "bench --only ggx --seconds 0.1 -o no/a.csv"},
     {"--with: column 1: unknown family 'foo'", "report --with foo x"},
+    {"DIR is missing", "report"},
+    {"'.' has files in it, and no page of `vndf report`", "report ."},
+    {"'text.txt' is no folder", "report text.txt"},
+    {"cannot make the folder 'no/x'", "report no/x"}, /* before anything is measured */
+    {"column", "report --slope exp(-r x"},
     {"--samples '10' is not in the range", "check ggx --samples 10"},
     {"a closed form was not made of a CSV", "check ggx --csv text.txt"},
 };
@@ -99,9 +110,8 @@ int main(void)
         if (!(TEST(o->status == 2) & TEST_HAS(o->text, refusals[i].says)))
             fprintf(stderr, "  '%s' for vndf %s:\n%s", refusals[i].says, refusals[i].words, o->text);
     }
-    TEST_HAS(
-        run_expect(2, table, RUN_LIST("bench", "effects", "--distribution", "-", "--distribution", "-"))->text,
-        "cannot read stdin: it is read already");
+    TEST_HAS(run_expect(2, table, RUN_LIST("export", "-", "-", "--language", "c", "-o", "x.h"))->text,
+             "cannot read stdin: it is read already");
     TEST(remove("text.txt") == 0 && remove("two.vndfs") == 0);
     return run_end(folder);
 }

@@ -7,7 +7,6 @@
 
 static char help[RUN_TEXT];
 
-/* "build", or "bench effects" */
 static void test_command(const char *man, const char *name)
 {
     char line[96], option[64], item[3][72];
@@ -47,7 +46,7 @@ static const char ask_bash[] =
     "ask() { COMP_WORDS=(\"$@\"); COMP_CWORD=$(($# - 1)); _vndf \"${VNDF_PROGRAM:-" VNDF_PROGRAM "}\"; "
     "printf '%s,' \"${COMPREPLY[@]}\"; echo; }\n"
     "ask vndf bui\nask vndf build --mom\nask vndf sample 'a ta'\nask vndf build no\nask vndf build --kn\n"
-    "ask vndf bench effects --the\nask vndf bench --the\nask vndf help plo\n";
+    "ask vndf bench --the\nask vndf help plo\n";
 
 int main(void)
 {
@@ -59,18 +58,17 @@ int main(void)
     TEST(man && run_put("vndf.1", man));
     TEST(strcmp(run_said(head, NULL, "--help"), run_said(help, NULL, "help")) == 0);
     for (const char *at = head; man && (at = strstr(at, "\n  ")) != NULL; at++) {
-        const int is_effects = strncmp(at + 3, "bench effects", 13) == 0;
-        snprintf(name, sizeof name, "%.*s", is_effects ? 13 : (int)strcspn(at + 3, " "), at + 3);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(at + 3, " "), at + 3);
         if (isalpha((unsigned char)*name) && ++count)
             test_command(man, name);
     }
-    TEST(count >= 13);
+    TEST(count >= 12);
     free(man);
     TEST(run_put("ask.bash", ask_bash) && run_put("a table.vndf", ""));
     if (reads("groff", "-man -ww -Tascii -P-cbou vndf.1"))
         TEST(system("grep -q 'vndf build' said && grep -q '(1+0.8\\*cos(6\\*r))' said") == 0);
     if (reads("bash", "ask.bash"))
-        TEST(run_has("said", "build,\n--moments,\na table.vndf,\n,\n--knots,\n--theta,\n,\nplot,\n"));
+        TEST(run_has("said", "build,\n--moments,\na table.vndf,\n,\n--knots,\n--theta,\nplot,\n"));
     TEST(system("rm -f said vndf.1 ask.bash 'a table.vndf'") == 0);
     return run_end(folder);
 }

@@ -247,7 +247,6 @@ int main(void)
     test_reader("build --csv gloss.csv -o ", "gloss.csv");
     test_reader("sample table.csv --theta 60 -n 10 -o ", "table.csv");
     test_reader("bench --csv gloss.csv --only ggx --seconds 0.1 -o ", "gloss.csv");
-    test_reader("bench effects --distribution table.csv --seconds 0.01 -o ", "table.csv");
     test_reader("render all.png --spp 1 -o ", "all.png"); /* a scene, which reads both others */
     test_reader("render all.png --spp 1 -o ", "table.png");
     test_reader("render all.png --spp 1 -o ", "mesh.png");

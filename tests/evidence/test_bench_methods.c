@@ -45,7 +45,7 @@ static void test_visible(method m, const vndf_distribution *d)
     static const double thetas[] = {5, 60, 88};
     for (int i = 0; i < 3 && m.each; i++)
         if (!TEST(chi_square_of(&m, d, thetas[i], i == 1 ? 0.1f : 0.7f) > level))
-            fprintf(stderr, "  %s, %s: at %g degrees\n", m.name, m.instructions, thetas[i]);
+            fprintf(stderr, "  %s, set %d: at %g degrees\n", m.name, (int)m.limit, thetas[i]);
 }
 
 /* It notices: the normals of one distribution are not those of another, nor all normals the visible ones. */

@@ -74,7 +74,7 @@ static inline run_child run_start(const run_setting *s, const char *const *words
 {
     int ends[2];
     run_child c = {-1, -1};
-    const char *other = getenv("VNDF_PROGRAM"), *program = other ? other : VNDF_PROGRAM; /* see test_mutants */
+    const char *other = getenv("VNDF_PROGRAM"), *program = other ? other : VNDF_PROGRAM; /* see mutants.py */
     char *argv[RUN_WORDS + 2] = {(char *)(size_t)(const void *)program};
     for (int i = 0; i < RUN_WORDS && words[i]; i++)
         argv[i + 1] = (char *)(size_t)(const void *)words[i];

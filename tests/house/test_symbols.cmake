@@ -1,10 +1,9 @@
 # The shared library exports the functions that the headers declare with VNDF_API, all of them and nothing
-# else, with the version of src/vndf.map, which lists them; every external symbol of the static library begins with
-# vndf_. With RENEW: writes src/vndf.map from the headers, for those who declare a function or change the version.
+# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_, and it has
+# no variable that can be written.
 cmake_minimum_required(VERSION 3.16)
 
-if(RENEW)
-elseif(NOT NM)
+if(NOT NM)
     message("SKIPPED: no nm was found")
     return()
 elseif(SANITIZE)
@@ -46,25 +45,6 @@ if(count EQUAL 0)
 endif()
 
 string(REGEX REPLACE "^([0-9]+\\.[0-9]+).*$" "VNDF_\\1" node ${VERSION})
-list(TRANSFORM declared REPLACE "(.+)" "        \\1<semicolon>\n" OUTPUT_VARIABLE functions)
-string(REPLACE ";" "" functions "${functions}")
-string(REPLACE "<semicolon>" ";" functions "${functions}")
-set(expected "# What the shared library exports. `cmake --build BUILD --target symbols` writes it from the headers.
-${node} {
-    global:
-${functions}    local:
-        *;
-};
-")
-if(RENEW)
-    file(WRITE ${SOURCE}/src/vndf.map "${expected}")
-    return()
-endif()
-file(READ ${SOURCE}/src/vndf.map map)
-if(NOT map STREQUAL expected)
-    message(SEND_ERROR "src/vndf.map is not what the headers declare for ${node}: the target `symbols` writes it")
-endif()
-
 read_symbols(exported -D --defined-only ${SHARED_LIBRARY})
 # Newer versions of nm print that of a symbol behind it.
 if(NOT node IN_LIST exported AND NOT exported MATCHES "@@${node}(;|$)")
@@ -87,4 +67,12 @@ foreach(name IN LISTS external)
         message(SEND_ERROR "${name} in the static library does not begin with vndf_: rename it or make it static")
     endif()
 endforeach()
+
+# No state, so threads share distributions and views freely (test_render_command has a picture made by many).
+execute_process(COMMAND ${NM} --format=sysv ${STATIC_LIBRARY} OUTPUT_VARIABLE output ERROR_QUIET)
+if(NOT output MATCHES "[|][.]text\n")
+    message(SEND_ERROR "nm tells no sections of the static library")
+elseif(output MATCHES "\n([^\n]*)[|]([.]t?data|[.]t?bss|[*]COM[*])\n")
+    message(SEND_ERROR "the static library has a variable that can be written: ${CMAKE_MATCH_1}")
+endif()
 message("${count} functions are declared")

@@ -34,8 +34,6 @@ run(0 export ggx --rgl --alpha 0.4 --f0 0.9,0.6,0.3 -o out.bsdf)
 expect("export prints on stdout" "x${output}" STREQUAL x)
 run(0 build --rgl out.bsdf --max-bytes 2048 -o in.vndf)
 has(output "source --rgl out.bsdf (crc32 ")
-number(f0 f0)
-expect("F0 is ${f0}, 0.6 went out" f0 GREATER 0.598 AND f0 LESS 0.602)
 number(scale scale) # the median slope of GGX is its alpha
 expect("the median slope is ${scale}, 0.4 went out" scale GREATER 0.3998 AND scale LESS 0.4002)
 run(0 export in.vndf --rgl --wavelengths 400,700 --f0 0.5 -o spectral.bsdf)

@@ -3,8 +3,6 @@
  * iteration that ends at something else than D. */
 #include "measured/measured_case.h"
 
-#include "measured/brdf.h"
-
 enum { PLANE = 90 * 90 * 180, SIZE = 12 + 3 * 8 * PLANE };
 
 static const double unit_of[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};

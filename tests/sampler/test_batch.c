@@ -6,7 +6,7 @@
  * that set alone. */
 #include "sampler/seen.h"
 
-enum { MOST = 300 };
+enum { MOST = 600 };
 
 /* The arrays of inputs; the last two are weights of lobes. */
 enum { XX, XY, YX, YY, MEAN_X, MEAN_Y, WI_X, WI_Y, WI_Z, U1, U2, NX, NY, NZ, W0, W1, INPUTS };
@@ -16,7 +16,7 @@ enum { OUTPUTS = 5 };
 enum { SAMPLE = QUANTITIES, WEIGHT, INVERT, CALLS };
 static const char *const call_names[] = {"sample", "sample_weight", "invert"};
 
-/* One batch; `flat`: xy, yx and the mean slopes are NULL. */
+/* One batch; `flat`: yx and the mean slopes are NULL. */
 typedef struct batch_case {
     seen_kind kind;
     const vndf_distribution *d;
@@ -33,7 +33,7 @@ static float value_in(const batch_case *b, int input, size_t i)
                          : input <= WI_Z ? VNDF_SHARED_WI
                          : input >= W0   ? VNDF_SHARED_WEIGHT
                                          : 0;
-    const int absent = b->flat && (input == XY || input == YX || input == MEAN_X || input == MEAN_Y);
+    const int absent = b->flat && (input == YX || input == MEAN_X || input == MEAN_Y);
     return absent ? 0 : b->in[input][b->shared & bit ? 0 : i];
 }
 
@@ -82,12 +82,15 @@ static size_t expect(const batch_case *b, int which, size_t i, float out[OUTPUTS
 
 static void run_surface(const batch_case *b, int which, float *const out[OUTPUTS])
 {
-    const vndf_batch of = {b->d,      b->count,    b->shared & 3, b->limit,   b->in[XX],
-                           b->in[YY], b->in[WI_X], b->in[WI_Y],   b->in[WI_Z]};
-    const vndf_normals to = {out[0], out[1], out[2]}, wm = {b->in[NX], b->in[NY], b->in[NZ]};
+    float *const *in = b->in, *const none[INPUTS] = {NULL}, *const *m = b->flat ? none : in;
+    vndf_batch of = {.distribution = b->d, .count = b->count, .shared = b->shared & 3, .limit = b->limit};
+    of.alpha_x = in[XX], of.alpha_y = in[YY], of.wi_x = in[WI_X], of.wi_y = in[WI_Y], of.wi_z = in[WI_Z];
+    if (b->kind == SEEN_AFFINE)
+        of.xy = in[XY], of.yx = m[YX], of.mean_x = m[MEAN_X], of.mean_y = m[MEAN_Y];
+    const vndf_normals to = {out[0], out[1], out[2]}, wm = {in[NX], in[NY], in[NZ]};
     switch (which) {
-    case SAMPLE: vndf_sample_n(&of, b->in[U1], b->in[U2], to, out[3]); break;
-    case WEIGHT: vndf_sample_weight_n(&of, b->in[U1], b->in[U2], to, out[3], out[4]); break;
+    case SAMPLE: vndf_sample_n(&of, in[U1], in[U2], to, out[3]); break;
+    case WEIGHT: vndf_sample_weight_n(&of, in[U1], in[U2], to, out[3], out[4]); break;
     case DENSITY: vndf_pdf_n(&of, wm, out[0]); break;
     case VISIBLE: vndf_visible_n(&of, wm, out[0]); break;
     case INVERT: vndf_invert_n(&of, wm, out[0], out[1]); break;
@@ -98,33 +101,14 @@ static void run_surface(const batch_case *b, int which, float *const out[OUTPUTS
     }
 }
 
-static void run_affine(const batch_case *b, int which, float *const out[OUTPUTS])
-{
-    float *const *in = b->in, *const none[INPUTS] = {NULL}, *const *m = b->flat ? none : in;
-    const vndf_affine_batch of = {b->d,   b->count,  b->shared & 3, b->limit, in[XX],   m[XY],   m[YX],
-                                  in[YY], m[MEAN_X], m[MEAN_Y],     in[WI_X], in[WI_Y], in[WI_Z]};
-    const vndf_normals to = {out[0], out[1], out[2]}, wm = {in[NX], in[NY], in[NZ]};
-    switch (which) {
-    case SAMPLE: vndf_affine_sample_n(&of, in[U1], in[U2], to, out[3]); break;
-    case WEIGHT: vndf_affine_sample_weight_n(&of, in[U1], in[U2], to, out[3], out[4]); break;
-    case DENSITY: vndf_affine_pdf_n(&of, wm, out[0]); break;
-    case VISIBLE: vndf_affine_visible_n(&of, wm, out[0]); break;
-    case INVERT: vndf_affine_invert_n(&of, wm, out[0], out[1]); break;
-    case NDF: vndf_affine_ndf_n(&of, wm, out[0]); break;
-    case AREA: vndf_affine_projected_area_n(&of, out[0]); break;
-    case LAMBDA: vndf_affine_lambda_n(&of, out[0]); break;
-    default: vndf_affine_g1_n(&of, out[0]);
-    }
-}
-
 static void run_mixture(const batch_case *b, int which, float *const out[OUTPUTS])
 {
     static int lobe[MOST];
     float *const *in = b->in, *const none[INPUTS] = {NULL}, *const *m = b->flat ? none : in;
     vndf_mixture_batch of = {.count = b->count, .shared = b->shared, .limit = b->limit, .lobes = 2};
     of.wi_x = in[WI_X], of.wi_y = in[WI_Y], of.wi_z = in[WI_Z];
-    of.lobe[0] = (vndf_lobe_batch){b->d, in[XX], m[XY], m[YX], in[YY], m[MEAN_X], m[MEAN_Y], in[W0]};
-    of.lobe[1] = (vndf_lobe_batch){vndf_ggx(), in[XX], m[YX], m[XY], in[YY], m[MEAN_X], m[MEAN_Y], in[W1]};
+    of.lobe[0] = (vndf_lobe_batch){b->d, in[XX], in[XY], m[YX], in[YY], m[MEAN_X], m[MEAN_Y], in[W0]};
+    of.lobe[1] = (vndf_lobe_batch){vndf_ggx(), in[XX], m[YX], in[XY], in[YY], m[MEAN_X], m[MEAN_Y], in[W1]};
     const vndf_normals to = {out[0], out[1], out[2]}, wm = {in[NX], in[NY], in[NZ]};
     switch (which) {
     case SAMPLE: vndf_mixture_sample_n(&of, in[U1], in[U2], to, out[3], lobe); break;
@@ -158,7 +142,7 @@ static void test_call(batch_case *b, int which, int in_place, const char *name)
         out[i] = in_place ? b->in[places[i]] : room[i] + 1;
         out[i][b->count] = 12345;
     }
-    (b->kind == SEEN_SURFACE ? run_surface : b->kind == SEEN_AFFINE ? run_affine : run_mixture)(b, which, out);
+    (b->kind == SEEN_MIXTURE ? run_mixture : run_surface)(b, which, out);
     for (size_t j = 0; j < outputs; j++) {
         for (size_t i = 0; i < b->count && wrong == b->count; i++)
             if (memcmp(&out[j][i], &want[i][j], sizeof(float)) != 0)
@@ -184,13 +168,18 @@ static void test_call(batch_case *b, int which, int in_place, const char *name)
 
 /* ---- inputs ---- */
 
-static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, int extreme, unsigned long long *state)
+/* Directions from everywhere, mostly from below, all from above or all from below, some of them level. */
+enum { MIXED, MOSTLY_BELOW, ALL_ABOVE, ALL_BELOW, SIDES };
+
+static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, int extreme, int side,
+                 unsigned long long *state)
 {
     static const float odd[] = {NAN, INFINITY, 0, -1, 1e-42f, 1e30f, 1, -0.0f};
     for (size_t i = 0; i < MOST + 2; i++) {
         const double length = extreme ? random_decade(state, -37, 38.4) : 1;
         vndf_vec3 wi = random_direction(state, i % 3 ? 0 : -1);
         double z = i % 7 == 0 ? random_decade(state, -12, -2) : (double)wi.z;
+        z = side < ALL_ABOVE ? z : i % 21 == 0 ? 0 : side == ALL_ABOVE ? fabs(z) : -fabs(z);
         float numbers[INPUTS];
         for (int j = 0; j < INPUTS; j++)
             numbers[j] = j == XX || j == YY ? (float)random_decade(state, extreme ? -18 : -4, extreme ? 18 : 1)
@@ -199,7 +188,7 @@ static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, int ext
         seen s = seen_surface(d, numbers[XX], numbers[YY], wi);
         vndf_vec3 wm = i % 3 ? seen_draw(&s, numbers[U1], numbers[U2], NULL) : random_direction(state, -0.2);
         numbers[WI_X] = (float)(length * (double)wi.x), numbers[WI_Y] = (float)(length * (double)wi.y);
-        numbers[WI_Z] = (float)(length * (i % 14 == 0 ? -z : z));
+        numbers[WI_Z] = (float)(length * (side < ALL_ABOVE && (i % 14 == 0) != side ? -z : z));
         numbers[NX] = wm.x, numbers[NY] = wm.y, numbers[NZ] = wm.z;
         if (i % 9 == 0)
             numbers[U1 + i / 9 % 2] = i % 2 ? 1.0f : 0.0f;
@@ -219,7 +208,7 @@ static void test_limit(const subject *of, vndf_instructions limit)
         batch_case b = {SEEN_SURFACE, of->d, counts[round % 8], (unsigned)(round / 2 % 8), round % 3 == 1,
                         limit,        {NULL}};
         const int extreme = round % 4 == 2; /* for matrices no such range is promised */
-        fill(in, of->d, extreme, &state);
+        fill(in, of->d, extreme, (int)(round / 3 % SIDES), &state);
         set_flushing(round % 5 == 2);
         for (int i = 0; i < INPUTS; i++)
             b.in[i] = in[i] + 1;

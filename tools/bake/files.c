@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/files.h"
+#include "cli/arguments.h"
 #include "draw/png.h"
 #include "draw/svg.h"
 
@@ -135,7 +136,7 @@ static int write_png(FILE *file, const baked *b)
                 float v = (b->value[at * (size_t)b->channels + c] - low[c]) / fmaxf(high[c] - low[c], 1e-30f);
                 rgb[(y * width + x) * 3 + k] = (unsigned char)lrintf(255 * fminf(fmaxf(v, 0), 1));
             }
-    int good = png_write_rgb(file, rgb, width, height);
+    int good = png_write(file, rgb, width, height, NULL);
     free(rgb);
     return good;
 }

@@ -12,8 +12,7 @@
 #include "command.h"
 #include "commands/parts/describe.h"
 #include "core/checksum.h"
-#include "measured/brdf.h"
-#include "measured/surface.h"
+#include "measured/measured.h"
 #include "vndf_build.h"
 
 static const char name[] = "vndf build";

@@ -3,54 +3,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "draw/svg.h"
-
-static const double radius = 4, text_height = 12, glyph_width = 6.5;
-
-/* ---- colours ------------------------------------------------------------------------------------- */
-
-/* For curves and marks; for texts, which need more contrast. */
-typedef struct ink {
-    const char *mark, *text;
-} ink;
-
-static const ink light[CHART_COLOURS] = {{"#0072b2", "#005f96"},
-                                         {"#d55e00", "#a94a00"},
-                                         {"#009e73", "#007354"},
-                                         {"#6f42c1", "#5a34a0"},
-                                         {"#6c757d", "#545b62"}};
-static const ink dark[CHART_COLOURS] = {{"#4da3e0", "#7fbfec"},
-                                        {"#f0803c", "#f4a06d"},
-                                        {"#2fc59a", "#5ad6b2"},
-                                        {"#b395f0", "#c5aef4"},
-                                        {"#9aa3ab", "#b3bac1"}};
-
-static void write_rules(FILE *file, const ink *inks)
-{
-    for (int i = 0; i < CHART_COLOURS; i++)
-        fprintf(file, ".l%d{stroke:%s}.f%d{fill:%s}.t%d{fill:%s}\n", i, inks[i].mark, i, inks[i].mark, i,
-                inks[i].text);
-}
-
-void chart_style(FILE *file)
-{
-    fputs(
-        ".chart{font:12px 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif}\n"
-        ".chart .line{fill:none;stroke-width:2;stroke-linejoin:round}\n"
-        ".chart .mark{stroke-width:2}.chart .hollow{fill:none}\n"
-        ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}\n"
-        ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
-        ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}.pen{stroke:#212529;stroke-width:1.6;fill:none}\n"
-        ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}.edge{stroke:#fff;fill:none}\n",
-        file);
-    write_rules(file, light);
-    fputs("@media screen and (prefers-color-scheme:dark){\n"
-          ".paper{fill:#16191d}.ink{fill:#e9ecef}.quiet{fill:#b6bec6}.pen{stroke:#e9ecef}.edge{stroke:#16191d}\n"
-          ".grid{stroke:#343a40}.axis{stroke:#868e96}.lead{stroke:#868e96}\n",
-          file);
-    write_rules(file, dark);
-    fputs("}\n", file);
-}
+static const double text_height = 12, glyph_width = 6.5;
 
 /* ---- axes ---------------------------------------------------------------------------------------- */
 
@@ -69,7 +22,7 @@ void chart_fit(chart *c, double decades)
         double low = HUGE_VAL, high = 0;
         for (const chart_series *s = c->series; s < c->series + c->count; s++)
             for (size_t i = 0; i < s->count; i++) {
-                const double at = is_y ? s->y[i] : s->x[i];
+                const double at = is_y ? s->point[i].y : s->point[i].x;
                 if (at > 0 && at < 1e37) {
                     low = fmin(low, at);
                     high = fmax(high, at);
@@ -87,6 +40,33 @@ void chart_fit(chart *c, double decades)
     }
 }
 
+enum { TICKS_MAX = 256 };
+
+typedef struct tick {
+    double at;
+    int is_named;
+} tick;
+
+/* Linear axes have a tick every step. Logarithmic ones have decades, where there are many every second of them with
+ * a name, and small ticks at 2 to 9 between; where fewer than three decades are shown, 2 and 5 have names too. */
+static size_t find_ticks(const chart_axis *axis, tick to[TICKS_MAX])
+{
+    size_t count = 0;
+    const int is_log = axis->scale == CHART_LOG;
+    const double many = is_log ? log10(axis->high / axis->low) : 0, step = is_log ? 1 : axis->step;
+    const double first = is_log ? floor(log10(axis->low)) : ceil(axis->low / step);
+    for (double i = first; count < TICKS_MAX - 9; i++)
+        for (int digit = 1; digit < (is_log ? 10 : 2); digit++) {
+            const double at = is_log ? digit * pow(10, i) : i * step, place = place_of(axis, at);
+            if (!(place < 1 + 1e-9))
+                return count;
+            if (place > -1e-9)
+                to[count++] = (tick){at, digit == 1 ? fmod(i, many > 9 ? 2 : 1) == 0
+                                                    : many < 2.5 && (digit == 2 || digit == 5)};
+        }
+    return count;
+}
+
 /* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
  * not. */
 static void name_number(const chart_axis *axis, char name[16], double value)
@@ -101,7 +81,7 @@ static void name_number(const chart_axis *axis, char name[16], double value)
         snprintf(name, 16, "%.6g", value);
 }
 
-/* ---- the picture --------------------------------------------------------------------------------- */
+/* ---- the frame ----------------------------------------------------------------------------------- */
 
 typedef struct box {
     double left, top, right, bottom;
@@ -128,63 +108,51 @@ static double pixel(const picture *p, int is_y, double value)
     return p->top + p->height * (1 - place_of(&p->c->y, value));
 }
 
-static void write_line(FILE *file, const char *kind, double x1, double y1, double x2, double y2)
-{
-    fprintf(file, "<path class=\"%s\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", kind, x1, y1, x2, y2);
-}
-
-static void draw_tick(picture *p, int is_y, double value, int is_named)
+/* Lines across the frame, those without a name finer, and names. */
+static void draw_ticks(const picture *p, int is_y)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    const double place = place_of(axis, value), bottom = p->top + p->height + p->band, at = pixel(p, is_y, value);
-    const char *kind = is_named ? "grid" : "grid fine";
-    char name[16] = "";
-    if (!(place > -1e-9 && place < 1 + 1e-9))
-        return;
-    if (is_named)
-        name_number(axis, name, value);
-    write_line(p->file, kind, is_y ? p->left : at, is_y ? at : p->top, is_y ? p->left + p->width : at,
-               is_y ? at : bottom);
-    svg_text(p->file, "tick quiet", is_y ? SVG_END : SVG_MIDDLE, is_y ? p->left - 6 : at,
-             is_y ? at + 4 : bottom + 16, name);
+    tick t[TICKS_MAX];
+    const size_t count = find_ticks(axis, t);
+    for (int is_named = 0; is_named < 2; is_named++) {
+        if (!is_named && axis->scale == CHART_LINEAR)
+            continue;
+        fprintf(p->file, "<path class=\"grid%s\" d=\"", is_named ? "" : " fine");
+        for (size_t i = 0; i < count; i++)
+            if (t[i].is_named == is_named)
+                fprintf(p->file, is_y ? "M%.1f %.1fh%.1f" : "M%.1f %.1fv%.1f",
+                        is_y ? p->left : pixel(p, 0, t[i].at), is_y ? pixel(p, 1, t[i].at) : p->top,
+                        is_y ? p->width : p->height + p->band);
+        fputs("\"/>\n", p->file);
+    }
+    fprintf(p->file, "<text class=\"tick quiet\" text-anchor=\"%s\">", is_y ? "end" : "middle");
+    for (size_t i = 0; i < count; i++)
+        if (t[i].is_named) {
+            char text[16];
+            name_number(axis, text, t[i].at);
+            fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : pixel(p, 0, t[i].at),
+                    is_y ? pixel(p, 1, t[i].at) + 4 : p->top + p->height + p->band + 16, text);
+        }
+    fputs("</text>\n", p->file);
 }
 
-/* Linear axes have a tick every step. Logarithmic ones have decades, where there are many every second of them with
- * a name, and small ticks at 2 to 9 between; where fewer than three decades are shown, 2 and 5 have names too. */
-static void draw_ticks(picture *p, int is_y)
-{
-    const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    if (axis->scale == CHART_LINEAR) {
-        for (double i = ceil(axis->low / axis->step); i * axis->step <= axis->high * (1 + 1e-9); i++)
-            draw_tick(p, is_y, i * axis->step, 1);
-        return;
-    }
-    double many = log10(axis->high / axis->low);
-    int first = (int)floor(log10(axis->low)), last = (int)ceil(log10(axis->high));
-    for (int power = first; power <= last; power++) {
-        draw_tick(p, is_y, pow(10, power), power % (many > 9 ? 2 : 1) == 0);
-        for (int digit = 2; digit < 10; digit++)
-            draw_tick(p, is_y, digit * pow(10, power), many < 2.5 && (digit == 2 || digit == 5));
-    }
-}
-
-static void draw_frame(picture *p)
+static void draw_frame(const picture *p)
 {
     FILE *file = p->file;
-    double bottom = p->top + p->height + p->band;
+    const double bottom = p->top + p->height + p->band;
     draw_ticks(p, 0);
     draw_ticks(p, 1);
     svg_text(file, "ink", SVG_MIDDLE, p->left + p->width / 2, bottom + 38, p->c->x.label);
     fprintf(file, "<g transform=\"translate(15 %.1f) rotate(-90)\">", p->top + p->height / 2);
     svg_text(file, "ink", SVG_MIDDLE, 0, 0, p->c->y.label);
     fprintf(file, "</g>\n<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p->left,
-            p->top, p->width, p->height + p->band);
+            p->top, p->width, p->height);
     if (p->band > 0) {
-        write_line(file, "axis", p->left, p->top + p->height, p->left + p->width, p->top + p->height);
+        fprintf(file, "<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p->left,
+                p->top + p->height, p->width, p->band);
         svg_text(file, "tick quiet", SVG_END, p->left - 6, bottom - p->band / 2 + 4, p->c->zero);
     }
-    if (p->c->title)
-        svg_text(file, "title ink", SVG_START, p->left, 18, p->c->title);
+    svg_text(file, "title ink", SVG_START, p->left, 18, p->c->title);
 }
 
 /* ---- series -------------------------------------------------------------------------------------- */
@@ -195,43 +163,46 @@ static void take(picture *p, double x, double y, double around)
         p->taken[p->count++] = (box){x - around, y - around, x + around, y + around};
 }
 
-static int is_inside(const picture *p, double x, double y)
+static int is_inside(const picture *p, const chart_point *at)
 {
-    double across = place_of(&p->c->x, x), up = place_of(&p->c->y, y);
-    return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (p->band > 0 && y == 0));
+    double across = place_of(&p->c->x, at->x), up = place_of(&p->c->y, at->y);
+    return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (p->band > 0 && at->y == 0));
 }
 
 static const char *const dashes[] = {"", "", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""};
+static const char *const outlines[] = {"", "m-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0",
+                                       "m-8 0a8 8 0 1 0 16 0a8 8 0 1 0-16 0", "m-3.6-3.6h7.2v7.2h-7.2z",
+                                       "m0-5l4.7 8.4h-9.4z"};
 
 static void draw_line(picture *p, const chart_series *s)
 {
     double last_x = NAN, last_y = NAN;
     fprintf(p->file, "<path class=\"line l%u\"%s d=\"", s->colour, dashes[s->line]);
-    for (size_t i = 0; i < s->count; i++) {
-        double x = pixel(p, 0, s->x[i]), y = pixel(p, 1, s->y[i]);
-        if (is_inside(p, s->x[i], s->y[i])) {
+    for (const chart_point *at = s->point; at < s->point + s->count; at++) {
+        double x = pixel(p, 0, at->x), y = pixel(p, 1, at->y);
+        if (is_inside(p, at)) {
             fprintf(p->file, "%c%.1f %.1f", isnan(last_x) ? 'M' : 'L', x, y);
-            double steps = s->texts && !isnan(last_x) ? ceil(hypot(x - last_x, y - last_y) / 6) : 0;
+            double steps = s->mark && !isnan(last_x) ? ceil(hypot(x - last_x, y - last_y) / 6) : 0;
             for (double k = 0; k < steps; k++) /* labels keep off the line */
                 take(p, last_x + (x - last_x) * k / steps, last_y + (y - last_y) * k / steps, 3);
         }
-        last_x = is_inside(p, s->x[i], s->y[i]) ? x : (double)NAN;
+        last_x = is_inside(p, at) ? x : (double)NAN;
         last_y = y;
     }
     fputs("\"/>\n", p->file);
 }
 
-static void draw_mark(FILE *file, chart_mark mark, unsigned colour, double x, double y)
+static void draw_marks(picture *p, const chart_series *s)
 {
-    static const char *const outlines[] = {"", "", "", "M-3.6-3.6h7.2v7.2h-7.2z", "M0-5L4.7 3.4H-4.7z"};
-    if (mark == CHART_DOT)
-        fprintf(file, "<circle class=\"f%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y, radius);
-    else if (mark == CHART_RING)
-        fprintf(file, "<circle class=\"mark hollow l%u\" cx=\"%.1f\" cy=\"%.1f\" r=\"%.1f\"/>\n", colour, x, y,
-                radius + 4);
-    else
-        fprintf(file, "<path class=\"f%u\" transform=\"translate(%.1f %.1f)\" d=\"%s\"/>\n", colour, x, y,
-                outlines[mark]);
+    const int is_ring = s->mark == CHART_RING;
+    fprintf(p->file, "<path class=\"%s%u\" d=\"", is_ring ? "mark hollow l" : "f", s->colour);
+    for (const chart_point *at = s->point; at < s->point + s->count; at++)
+        if (is_inside(p, at)) {
+            const double x = pixel(p, 0, at->x), y = pixel(p, 1, at->y);
+            fprintf(p->file, "M%.1f %.1f%s", x, y, outlines[s->mark]);
+            take(p, x, y, is_ring ? 10 : 6);
+        }
+    fputs("\"/>\n", p->file);
 }
 
 static double text_width(const char *text)
@@ -242,19 +213,21 @@ static double text_width(const char *text)
     return glyphs * glyph_width;
 }
 
-/* The entries one after the other, from the left of the frame. */
+/* The names one after the other, from the left of the frame. */
 static void draw_key(const picture *p)
 {
     double x = p->left, y = p->top - 14;
-    for (size_t i = 0; i < p->c->key_count; i++) {
-        const chart_key *key = &p->c->key[i];
-        if (key->mark != CHART_NO_MARK)
-            draw_mark(p->file, key->mark, key->colour, x + 6, y);
+    for (const chart_series *s = p->c->series; s < p->c->series + p->c->count; s++) {
+        if (!s->name)
+            continue;
+        if (s->mark)
+            fprintf(p->file, "<path class=\"%s%u\" d=\"M%.1f %.1f%s\"/>\n",
+                    s->mark == CHART_RING ? "mark hollow l" : "f", s->colour, x + 6, y, outlines[s->mark]);
         else
-            fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n",
-                    key->line == CHART_NO_LINE ? " swatch" : "", key->colour, dashes[key->line], x - 2, y);
-        svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, key->text);
-        x += 36 + text_width(key->text);
+            fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n", s->line ? "" : " swatch",
+                    s->colour, dashes[s->line], x - 2, y);
+        svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, s->name);
+        x += 36 + text_width(s->name);
     }
 }
 
@@ -294,8 +267,8 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
     if (least_covered > area / 3 || p->count == BOXES_MAX)
         return;
     if (chosen > 14)
-        write_line(p->file, "lead", x, y, fmin(fmax(x, best.left), best.right),
-                   fmin(fmax(y, best.top), best.bottom));
+        fprintf(p->file, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x, y,
+                fmin(fmax(x, best.left), best.right), fmin(fmax(y, best.top), best.bottom));
     p->taken[p->count++] = best;
     char kind[16];
     snprintf(kind, sizeof kind, "name t%u", colour);
@@ -304,60 +277,31 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
 
 /* ---- the whole ----------------------------------------------------------------------------------- */
 
-static void draw_inside(FILE *file, const chart *c)
+void chart_draw(FILE *file, const chart *c, int is_alone)
 {
-    const double band = c->zero ? c->band : 0, top = (c->title ? 30 : 10) + (c->key_count ? 20 : 0);
-    picture p = {file, c, 66, top, c->width - 66 - 20, c->height - top - 50 - band, band, {{0, 0, 0, 0}}, 0, 0};
+    const double band = c->zero ? c->band : 0, top = 50;
+    picture p = {.file = file,
+                 .c = c,
+                 .left = 66,
+                 .top = top,
+                 .width = c->box.width - 66 - 20,
+                 .height = c->box.height - top - 50 - band,
+                 .band = band};
+    svg_begin(file, c->box, c->title, is_alone);
     draw_frame(&p);
     draw_key(&p);
     for (double x = 0; band > 0 && x < p.width; x += 6)
         take(&p, p.left + x, p.top + p.height, 3);
     for (const chart_series *s = c->series; s < c->series + c->count; s++) {
-        if (s->line != CHART_NO_LINE)
+        if (s->line && s->count)
             draw_line(&p, s);
-        for (size_t i = 0; i < s->count && s->mark != CHART_NO_MARK; i++)
-            if (is_inside(&p, s->x[i], s->y[i])) {
-                const double x = pixel(&p, 0, s->x[i]), y = pixel(&p, 1, s->y[i]);
-                draw_mark(file, s->mark, s->colour, x, y);
-                take(&p, x, y, radius + (s->mark == CHART_RING ? 6 : 2));
-            }
+        if (s->mark && s->count)
+            draw_marks(&p, s);
     }
     p.marks = p.count;
     for (const chart_series *s = c->series; s < c->series + c->count; s++)
-        for (size_t i = 0; s->texts && i < s->count; i++)
-            if (s->texts[i][0] && is_inside(&p, s->x[i], s->y[i]))
-                label_point(&p, pixel(&p, 0, s->x[i]), pixel(&p, 1, s->y[i]), s->colour, s->texts[i]);
+        for (const chart_point *at = s->point; at < s->point + s->count; at++)
+            if (at->label[0] && is_inside(&p, at))
+                label_point(&p, pixel(&p, 0, at->x), pixel(&p, 1, at->y), s->colour, at->label);
     fputs("</svg>\n", file);
-}
-
-static void open_element(FILE *file, double left, double top, double width, double height, const char *about)
-{
-    fprintf(
-        file,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart\" "
-        "x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
-        "aria-label=\"",
-        left, top, width, height, width, height);
-    svg_escape(file, about);
-    fputs("\">\n", file);
-}
-
-void chart_draw(FILE *file, const chart *c)
-{
-    open_element(file, c->left, c->top, c->width, c->height, c->title);
-    draw_inside(file, c);
-}
-
-void chart_begin_alone(FILE *file, double width, double height, const char *about)
-{
-    open_element(file, 0, 0, width, height, about);
-    fputs("<style>\n", file);
-    chart_style(file);
-    fputs("</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n", file);
-}
-
-void chart_draw_alone(FILE *file, const chart *c)
-{
-    chart_begin_alone(file, c->width, c->height, c->title);
-    draw_inside(file, c);
 }

@@ -7,7 +7,6 @@
 #include "cli/sort.h"
 #include "cli/subject.h"
 #include "draw/chart.h"
-#include "draw/svg.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -30,40 +29,35 @@ static double round_angle(double degrees)
 
 /* ---- D ------------------------------------------------------------------------------------------- */
 
-void panel_ndf(FILE *file, panel_box box, const vndf_surface *surface)
+void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
 {
-    double x[POINTS], y[2][POINTS], roughest = fmax((double)surface->alpha_x, (double)surface->alpha_y);
-    double scale = vndf_distribution_info(surface->distribution).scale;
-    double widest = scale > 0 ? round_angle(atan(8 * scale * roughest) * 180 / pi) : 90;
-    int is_round = surface->alpha_x == surface->alpha_y;
-    int has_ggx = is_round && scale > 0 && surface->distribution != vndf_ggx();
+    static chart_point point[2][POINTS];
+    const double roughest = fmax((double)surface->alpha_x, (double)surface->alpha_y),
+                 scale = vndf_distribution_info(surface->distribution).scale;
+    const double widest = scale > 0 ? round_angle(atan(8 * scale * roughest) * 180 / pi) : 90;
+    const int is_round = surface->alpha_x == surface->alpha_y,
+              has_ggx = is_round && scale > 0 && surface->distribution != vndf_ggx();
     /* GGX at alpha = 1 has the median slope 1, so alpha times the scale is the GGX of the same median. */
-    float alpha = (float)((double)surface->alpha_x * scale);
+    const float alpha = (float)((double)surface->alpha_x * scale);
     const vndf_surface ggx = {vndf_ggx(), alpha, alpha};
     for (int i = 0; i < POINTS; i++) {
-        x[i] = widest * fmax(i, 0.3) / (POINTS - 1); /* at the pole itself D may be unbounded */
-        y[0][i] = (double)vndf_ndf(surface, direction_from(x[i], 0));
-        y[1][i] = (double)vndf_ndf(has_ggx ? &ggx : surface, direction_from(x[i], is_round ? 0 : 90));
+        const double x = widest * fmax(i, 0.3) / (POINTS - 1); /* at the pole itself D may be unbounded */
+        point[0][i] = (chart_point){.x = x, .y = (double)vndf_ndf(surface, direction_from(x, 0))};
+        point[1][i] = (chart_point){
+            .x = x, .y = (double)vndf_ndf(has_ggx ? &ggx : surface, direction_from(x, is_round ? 0 : 90))};
     }
     const chart_series series[2] = {
-        {x, y[0], POINTS, 0, CHART_NO_MARK, CHART_SOLID, NULL},
-        {x, y[1], POINTS, is_round ? 4 : 2, CHART_NO_MARK, is_round ? CHART_DASHED : CHART_SOLID, NULL}};
-    const chart_key key[2] = {{is_round ? "D" : "D along x", 0, CHART_NO_MARK, CHART_SOLID},
-                              {is_round ? "GGX of the same median slope" : "D along y", series[1].colour,
-                               CHART_NO_MARK, series[1].line}};
+        {is_round ? "D" : "D along x", 0, CHART_NO_MARK, CHART_SOLID, point[0], POINTS},
+        {is_round ? "GGX of the same median slope" : "D along y", is_round ? 4 : 2, CHART_NO_MARK,
+         is_round ? CHART_DASHED : CHART_SOLID, point[1], POINTS}};
     chart c = {.title = "distribution of normals",
-               .left = box.x,
-               .top = box.y,
-               .width = box.width,
-               .height = box.height,
+               .box = box,
                .x = {CHART_LINEAR, 0, widest, widest / 3, "angle of the normal θm (degrees)"},
                .y = {CHART_LOG, 0, 0, 0, "D(θm) (per steradian)"},
                .series = series,
-               .count = is_round && !has_ggx ? 1 : 2,
-               .key = key,
-               .key_count = is_round && !has_ggx ? 1 : 2};
+               .count = is_round && !has_ggx ? 1 : 2};
     chart_fit(&c, 7);
-    chart_draw(file, &c);
+    chart_draw(file, &c, 0);
 }
 
 /* ---- discs --------------------------------------------------------------------------------------- */
@@ -139,8 +133,8 @@ static int draw_density(disc *d)
     for (size_t i = 0; i < SIDE * SIDE; i++)
         index[i] = density[i] < 0 ? 0 : svg_shade(d->maximum > 0 ? sqrt(density[i] / d->maximum) : 0);
     free(density);
-    return svg_raster(d->file, d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius, index, SIDE,
-                      SIDE);
+    const svg_box box = {d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius};
+    return svg_raster(d->file, box, index, SIDE, SIDE);
 }
 
 /* One path of zero-length strokes with round ends: 12 bytes a dot instead of 60. */
@@ -158,18 +152,24 @@ static void draw_dots(const disc *d, unsigned seed)
     fputs("\"/>\n", d->file);
 }
 
+/* Circles at thirds of the angle of the rim, and what they are. */
 static void draw_grid(const disc *d)
 {
+    const double per_sine = d->radius / d->rim, half = d->rim_degrees * pi / 360; /* of the rim's angle */
     svg_circle(d->file, "edge", d->x, d->y, d->radius + 4, 8);
+    fputs("<path class=\"axis\" d=\"", d->file);
     for (int third = 1; third <= 3; third++) {
-        char label[32];
-        double degrees = d->rim_degrees * third / 3, r = d->radius * sin(degrees * pi / 360) / d->rim;
-        svg_circle(d->file, "axis", d->x, d->y, r, third == 3 ? 1.2 : 0.7);
-        snprintf(label, sizeof label, "%.4g°", degrees);
-        fputs("<g style=\"stroke:#fff;stroke-width:3;paint-order:stroke;fill:#212529\">", d->file);
-        svg_text(d->file, "tick", SVG_START, d->x + 0.707 * r + 3, d->y + 0.707 * r + 11, label);
-        fputs("</g>\n", d->file);
+        const double r = per_sine * sin(half * third / 3);
+        fprintf(d->file, "M%.1f %.1fa%.1f %.1f 0 1 0 %.1f 0a%.1f %.1f 0 1 0 %.1f 0", d->x - r, d->y, r, r, 2 * r,
+                r, r, -2 * r);
     }
+    fputs("\"/>\n<text class=\"tick halo\">", d->file);
+    for (int third = 1; third <= 3; third++) {
+        const double r = 0.707 * per_sine * sin(half * third / 3);
+        fprintf(d->file, "<tspan x=\"%.1f\" y=\"%.1f\">%.4g°</tspan>", d->x + r + 3, d->y + r + 11,
+                d->rim_degrees * third / 3);
+    }
+    fputs("</text>\n", d->file);
 }
 
 /* Shows wi itself: a ring on the disc, or an arrow beyond the rim that points to it. */
@@ -188,25 +188,27 @@ static void draw_direction(const disc *d)
             d->x + d->radius * px, d->y, d->x + d->radius * px, d->y);
 }
 
-int panel_disc(FILE *file, panel_box box, const vndf_surface *surface, double theta, unsigned seed)
+int panel_disc(FILE *file, svg_box box, const vndf_surface *surface, double theta, unsigned seed)
 {
     char title[64], note[64] = "no normal is visible";
     disc d = {.file = file, .radius = fmin(box.width - 60, box.height - 70) / 2, .wi = direction_from(theta, 0)};
-    d.x = box.x + box.width / 2;
-    d.y = box.y + 28 + d.radius;
+    d.x = box.width / 2;
+    d.y = 28 + d.radius;
     d.view = vndf_view_from(surface, d.wi);
     d.rim_degrees = rim_angle(&d, seed);
     d.rim = sin(d.rim_degrees * pi / 360);
+    snprintf(title, sizeof title, "incident at θ = %.4g°", theta);
+    svg_begin(file, box, title, 0);
     if (!draw_density(&d))
         return 0;
     draw_grid(&d);
     draw_dots(&d, seed);
     draw_direction(&d);
-    snprintf(title, sizeof title, "incident at θ = %.4g°", theta);
     if (d.maximum > 0)
         snprintf(note, sizeof note, "darkest: %.3g per steradian", d.maximum);
-    svg_text(file, "title ink", SVG_MIDDLE, d.x, box.y + 16, title);
+    svg_text(file, "title ink", SVG_MIDDLE, d.x, 16, title);
     svg_text(file, "tick quiet", SVG_MIDDLE, d.x, d.y + d.radius + 22, note);
+    fputs("</svg>\n", file);
     return 1;
 }
 
@@ -218,7 +220,7 @@ int panel_key(FILE *file, double x, double y)
     for (int i = 0; i < 255; i++)
         index[i] = (unsigned char)(i + 1);
     svg_text(file, "ink", SVG_START, x, y, "density of visible normals, relative to the darkest of each disc");
-    int good = svg_raster(file, x, y + 8, 300, 12, index, 255, 1);
+    int good = svg_raster(file, (svg_box){x, y + 8, 300, 12}, index, 255, 1);
     for (int i = 0; i < 4; i++)
         svg_text(file, "tick quiet",
                  i == 3 ? SVG_END

@@ -10,87 +10,7 @@
 
 #include "core/checksum.h"
 
-typedef struct bytes {
-    unsigned char *data; /* owned by the caller of put_*; large enough for all */
-    size_t size;
-} bytes;
-
-static void put(bytes *out, const void *data, size_t size)
-{
-    memcpy(out->data + out->size, data, size);
-    out->size += size;
-}
-
-static void put_big_endian(bytes *out, uint32_t value)
-{
-    for (int shift = 24; shift >= 0; shift -= 8)
-        out->data[out->size++] = (unsigned char)(value >> shift & 255u);
-}
-
-static void put_chunk(bytes *out, const char name[4], const unsigned char *data, size_t size)
-{
-    put_big_endian(out, (uint32_t)size);
-    size_t start = out->size;
-    put(out, name, 4);
-    if (size)
-        put(out, data, size);
-    put_big_endian(out, vndf_crc32(0, out->data + start, size + 4));
-}
-
-static uint32_t adler_of(const unsigned char *data, size_t size)
-{
-    uint32_t a = 1, b = 0;
-    for (size_t i = 0; i < size; i++) {
-        a = (a + data[i]) % 65521;
-        b = (b + a) % 65521;
-    }
-    return b << 16 | a;
-}
-
-static void put_zlib(bytes *out, const unsigned char *data, size_t size)
-{
-    enum { BLOCK_MAX = 65535 };
-    put(out, "\x78\x01", 2); /* deflate, a window of 32 KiB, no dictionary */
-    for (size_t at = 0, count; at < size; at += count) {
-        count = size - at < BLOCK_MAX ? size - at : BLOCK_MAX;
-        const unsigned char low = (unsigned char)(count & 255u), high = (unsigned char)(count >> 8);
-        const unsigned char head[5] = {at + count == size, low, high, (unsigned char)(low ^ 255u),
-                                       (unsigned char)(high ^ 255u)};
-        put(out, head, 5);
-        put(out, data + at, count);
-    }
-    put_big_endian(out, adler_of(data, size));
-}
-
-/* The file of rows of `row` bytes; the caller frees image->data. 0 if there is no memory. */
-static int make_file(bytes *image, const unsigned char *pixels, size_t row, size_t width, size_t height,
-                     const png_colour *palette)
-{
-    const size_t size = (row + 1) * height, room = size + size / 8192 + 2048;
-    bytes rows = {calloc(size ? size : 1, 1), 0}, head = {(unsigned char[13]){0}, 0}, stream = {malloc(room), 0};
-    *image = (bytes){malloc(room), 0};
-    int good = rows.data && stream.data && image->data;
-    if (good) {
-        for (size_t y = 0; y < height; y++)
-            memcpy(rows.data + y * (row + 1) + 1, pixels + y * row, row);
-        put_zlib(&stream, rows.data, size);
-        put_big_endian(&head, (uint32_t)width);
-        put_big_endian(&head, (uint32_t)height);
-        /* 8 bits; a palette, or red, green and blue; the one method of each kind, no interlace */
-        put(&head, palette ? "\x08\x03\0\0\0" : "\x08\x02\0\0\0", 5);
-        put(image, "\x89PNG\r\n\x1a\n", 8);
-        put_chunk(image, "IHDR", head.data, head.size);
-        if (palette) {
-            put_chunk(image, "PLTE", &palette[0].red, 256 * sizeof palette[0]);
-            put_chunk(image, "tRNS", (const unsigned char[1]){0}, 1); /* the first colour; the rest is opaque */
-        }
-        put_chunk(image, "IDAT", stream.data, stream.size);
-        put_chunk(image, "IEND", NULL, 0);
-    }
-    free(rows.data);
-    free(stream.data);
-    return good;
-}
+enum { BLOCK_MAX = 65535 };
 
 void base64_write(FILE *file, const unsigned char *data, size_t size)
 {
@@ -106,22 +26,72 @@ void base64_write(FILE *file, const unsigned char *data, size_t size)
     }
 }
 
-int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
-                     const png_colour palette[256])
+static unsigned char *put(unsigned char *to, const void *data, size_t size)
 {
-    bytes image;
-    int good = make_file(&image, index, width, width, height, palette);
-    if (good)
-        base64_write(file, image.data, image.size);
-    free(image.data);
-    return good;
+    memcpy(to, data, size);
+    return to + size;
 }
 
-int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height)
+static unsigned char *put_big_endian(unsigned char *to, size_t value)
 {
-    bytes image;
-    int good = make_file(&image, rgb, 3 * width, width, height, NULL) &&
-               fwrite(image.data, 1, image.size, file) == image.size;
-    free(image.data);
-    return good;
+    for (int shift = 24; shift >= 0; shift -= 8)
+        *to++ = (unsigned char)(value >> shift & 255u);
+    return to;
+}
+
+/* The length before the name of a chunk and the CRC behind its data, which ends at `to`. */
+static unsigned char *end_chunk(unsigned char *name, unsigned char *to)
+{
+    put_big_endian(name - 4, (size_t)(to - name) - 4);
+    return put_big_endian(to, vndf_crc32(0, name, (size_t)(to - name)));
+}
+
+static unsigned char *put_chunk(unsigned char *to, const char name[4], const void *data, size_t size)
+{
+    return end_chunk(to + 4, put(put(to + 4, name, 4), data, size));
+}
+
+/* Pixels in rows of `row` bytes, with the filters, as a zlib stream. */
+static unsigned char *put_zlib(unsigned char *to, const unsigned char *pixels, size_t row, size_t height)
+{
+    const size_t size = (row + 1) * height;
+    uint32_t a = 1, b = 0;       /* Adler's sums */
+    to = put(to, "\x78\x01", 2); /* deflate, a window of 32 KiB, no dictionary */
+    for (size_t at = 0; at < size; at++) {
+        if (at % BLOCK_MAX == 0) {
+            const size_t left = size - at, count = left < BLOCK_MAX ? left : BLOCK_MAX;
+            const unsigned char low = (unsigned char)(count & 255u), high = (unsigned char)(count >> 8);
+            const unsigned char head[5] = {left <= BLOCK_MAX, low, high, (unsigned char)(low ^ 255u),
+                                           (unsigned char)(high ^ 255u)};
+            to = put(to, head, 5);
+        }
+        *to = at % (row + 1) == 0 ? 0 : *pixels++;
+        a = (a + *to++) % 65521;
+        b = (b + a) % 65521;
+    }
+    return put_big_endian(to, b << 16 | a);
+}
+
+int png_write(FILE *file, const unsigned char *pixels, size_t width, size_t height, const png_colour *palette)
+{
+    const size_t row = palette ? width : 3 * width, size = (row + 1) * height;
+    unsigned char head[13], *image = malloc(size + size / 8192 + 2048), *to = image;
+    if (!image)
+        return 0;
+    /* 8 bits; a palette, or red, green and blue; the one method of each kind, no interlace */
+    put(put_big_endian(put_big_endian(head, width), height), palette ? "\x08\x03\0\0\0" : "\x08\x02\0\0\0", 5);
+    to = put_chunk(put(to, "\x89PNG\r\n\x1a\n", 8), "IHDR", head, sizeof head);
+    if (palette) {
+        to = put_chunk(to, "PLTE", palette, 256 * sizeof palette[0]);
+        to = put_chunk(to, "tRNS", "", 1); /* the first colour; the rest is opaque */
+    }
+    unsigned char *data = put(to + 4, "IDAT", 4);
+    to = end_chunk(to + 4, put_zlib(data, pixels, row, height));
+    to = put_chunk(to, "IEND", "", 0);
+    if (palette)
+        base64_write(file, image, (size_t)(to - image));
+    else
+        fwrite(image, 1, (size_t)(to - image), file);
+    free(image);
+    return palette || !ferror(file);
 }

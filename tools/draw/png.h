@@ -1,4 +1,4 @@
-/* Images as PNG: with a palette, in base64, for a data: URI; and of red, green and blue, to a file. */
+/* Images as PNG, and bytes as base64. */
 #ifndef TOOLS_DRAW_PNG_H
 #define TOOLS_DRAW_PNG_H
 
@@ -12,12 +12,8 @@ typedef struct png_colour {
 /* Bytes as text, without line breaks. */
 void base64_write(FILE *file, const unsigned char *data, size_t size);
 
-/* Writes width x height palette indices (rows from the top) as base64; index 0 is transparent. 0 if there is no
- * memory. */
-int png_write_base64(FILE *file, const unsigned char *index, size_t width, size_t height,
-                     const png_colour palette[256]);
-
-/* Writes width x height pixels of three bytes, rows from the top. 0 if there is no memory or writing fails. */
-int png_write_rgb(FILE *file, const unsigned char *rgb, size_t width, size_t height);
+/* Writes width x height pixels, rows from the top: a file of three bytes a pixel; or, of indices into a palette whose
+ * first colour is transparent, base64 for a data: URI. 0 if there is no memory or the file cannot be written. */
+int png_write(FILE *file, const unsigned char *pixels, size_t width, size_t height, const png_colour *palette);
 
 #endif

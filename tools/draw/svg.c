@@ -2,6 +2,46 @@
 
 #include "draw/png.h"
 
+void svg_style(FILE *file)
+{
+    fputs(
+        ".chart{font:12px 'Helvetica Neue',Arial,'DejaVu Sans',sans-serif}\n"
+        ".chart .line{fill:none;stroke-width:2;stroke-linejoin:round}\n"
+        ".chart .mark{stroke-width:2}.chart .hollow{fill:none}\n"
+        ".chart .tick,.chart .name{font-size:11px}.chart .title{font-size:14px;font-weight:600}"
+        ".chart .large{font-size:18px}\n"
+        ".chart .swatch{stroke-width:6}.chart .lead{fill:none;stroke-width:.7}.chart .fine{stroke-width:.4}\n"
+        ".paper{fill:#fff}.ink{fill:#212529}.quiet{fill:#495057}.pen{stroke:#212529;stroke-width:1.6;fill:none}\n"
+        ".grid{stroke:#dee2e6}.axis{fill:none;stroke:#868e96}.lead{stroke:#868e96}.edge{stroke:#fff;fill:none}\n"
+        ".halo{stroke:#fff;stroke-width:3;paint-order:stroke;fill:#212529}\n"
+        ".l0{stroke:#0072b2}.f0{fill:#0072b2}.t0{fill:#005f96}.l1{stroke:#d55e00}.f1{fill:#d55e00}.t1{fill:#a94a00}\n"
+        ".l2{stroke:#009e73}.f2{fill:#009e73}.t2{fill:#007354}.l3{stroke:#6f42c1}.f3{fill:#6f42c1}.t3{fill:#5a34a0}\n"
+        ".l4{stroke:#6c757d}.f4{fill:#6c757d}.t4{fill:#545b62}\n"
+        "@media screen and (prefers-color-scheme:dark){\n"
+        ".paper{fill:#16191d}.ink{fill:#e9ecef}.quiet{fill:#b6bec6}.pen{stroke:#e9ecef}.edge{stroke:#16191d}\n"
+        ".grid{stroke:#343a40}\n"
+        ".l0{stroke:#4da3e0}.f0{fill:#4da3e0}.t0{fill:#7fbfec}.l1{stroke:#f0803c}.f1{fill:#f0803c}.t1{fill:#f4a06d}\n"
+        ".l2{stroke:#2fc59a}.f2{fill:#2fc59a}.t2{fill:#5ad6b2}.l3{stroke:#b395f0}.f3{fill:#b395f0}.t3{fill:#c5aef4}\n"
+        ".l4{stroke:#9aa3ab}.f4{fill:#9aa3ab}.t4{fill:#b3bac1}}\n",
+        file);
+}
+
+void svg_begin(FILE *file, svg_box box, const char *about, int is_alone)
+{
+    fprintf(
+        file,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" class=\"chart\" "
+        "x=\"%.0f\" y=\"%.0f\" width=\"%.0f\" height=\"%.0f\" viewBox=\"0 0 %.0f %.0f\" role=\"img\" "
+        "aria-label=\"",
+        box.x, box.y, box.width, box.height, box.width, box.height);
+    svg_escape(file, about);
+    fputs(is_alone ? "\">\n<style>\n" : "\">\n", file);
+    if (!is_alone)
+        return;
+    svg_style(file);
+    fputs("</style>\n<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n", file);
+}
+
 void svg_escape(FILE *file, const char *text)
 {
     for (; *text; text++) {
@@ -52,8 +92,7 @@ unsigned char svg_shade(double density)
     return (unsigned char)(1 + (int)(254 * clipped + 0.5));
 }
 
-int svg_raster(FILE *file, double x, double y, double width, double height, const unsigned char *index,
-               size_t columns, size_t rows)
+int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows)
 {
     png_colour palette[256] = {{255, 255, 255}};
     for (int i = 1; i < 256; i++)
@@ -61,8 +100,8 @@ int svg_raster(FILE *file, double x, double y, double width, double height, cons
     fprintf(file,
             "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "
             "xlink:href=\"data:image/png;base64,",
-            x, y, width, height);
-    int good = png_write_base64(file, index, columns, rows, palette);
+            box.x, box.y, box.width, box.height);
+    int good = png_write(file, index, columns, rows, palette);
     fputs("\"/>\n", file);
     return good;
 }

@@ -1,12 +1,12 @@
 /* Evidence: what it costs to sample, and what a sample is worth; the inside of `vndf bench` and `vndf report`.
  *
- *     method.h     what a method is, the blocks of inputs it runs over, and the row of numbers that is measured of it;
- *                  the methods are in methods/, materials with their sets of effects among them
- *     row.c        the one list of columns, the printers
- *     list.c       which methods of which distributions: entries, made ready, and which of them are needed
+ *     method.h     what a method is, and the blocks of inputs it runs over; the methods are in methods/, materials with
+ *                  their sets of effects among them
+ *     list.c       a row for each method of each distribution, made ready, and which of them are needed
  *     verify.c     whether the results of a method are right, before it is timed
  *     worth.c      error and variance of a method from one direction
- *     evidence.c   all of these in order, and time in turns, into rows
+ *     evidence.c   all of these in order, and time in turns, into the numbers of the rows
+ *     row.c        the one list of columns, the printer
  *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
  *     page/        what `vndf report` writes
  *
@@ -14,6 +14,7 @@
 #ifndef TOOLS_EVIDENCE_EVIDENCE_H
 #define TOOLS_EVIDENCE_EVIDENCE_H
 
+#include "cli/figures.h"
 #include "cli/progress.h"
 #include "evidence/method.h"
 #include "vndf_build.h"
@@ -27,7 +28,7 @@ typedef struct table_size {
     const char *name;
 } table_size;
 
-enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9, MATERIALS_MAX = 8, ENTRIES_MAX = 256 };
+enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9 };
 extern const table_size table_sizes[SIZES];
 
 /* A D and its tables, which are built when they are wanted. */
@@ -41,16 +42,14 @@ typedef struct subject {
 void subject_begin(subject *s, vndf_source *source, const char *name);
 void subject_free(subject *s);
 
+/* Normals: the tables of the D at hand, the closed forms, and the published methods; or materials of GGX, Beckmann and
+ * the default table of that D, each with every set of effects. */
 typedef struct evidence_plan {
-    subject *at_hand; /* normals: its tables, the closed forms, and the published methods; NULL: materials */
-    struct {
-        const char *name;
-        const vndf_distribution *distribution;
-    } of[MATERIALS_MAX]; /* of materials */
-    size_t count;
-    float alpha_x, alpha_y;
-    double theta;     /* of the direction that variance is measured for */
-    const char *only; /* NULL, or a part of the method, distribution or instructions of the rows wanted */
+    subject *at_hand;
+    int is_of_materials;
+    float alpha_x, alpha_y; /* of materials; and the direction that their variance is measured for */
+    double theta;
+    const char *only; /* NULL, or a part of the method or distribution of the rows wanted */
     double seconds;   /* to spend in all, roughly; building the tables may take longer */
     progress *progress;
     double start; /* on the clock */
@@ -62,40 +61,77 @@ int evidence_go_on(const evidence_plan *plan, const char *what);
 /* Builds table i if it was not. NULL and an error, "interrupted" for one, if it cannot be. */
 const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan *plan, vndf_error *error);
 
-/* VNDF_OK and rows that the caller frees, or the status and error that stopped it. */
-vndf_status evidence_run(const evidence_plan *plan, evidence_rows *found, vndf_error *error);
+/* ---- rows: what is measured of one method for one distribution ----------------------------------- */
 
-/* ---- entries ------------------------------------------------------------------------------------- */
+typedef enum evidence_column {
+    COL_ALPHA_X, /* of materials: roughness */
+    COL_ALPHA_Y,
+    COL_MEMORY, /* bytes that its tables take when loaded; 0 for closed forms */
+    COL_FILE,   /* bytes of the file of a table of ours */
+    COL_MOMENTS,
+    COL_WRONG,    /* 1: its results failed verification, so nothing was timed */
+    COL_NS,       /* per sample, a direction each (view, sample, density; hit and sample): median of the turns */
+    COL_PORTABLE, /* the same in a batch, by three sets of instructions */
+    COL_AVX2,
+    COL_AVX512,
+    COL_SHARED, /* SHARE samples, values, densities of one direction or hit */
+    COL_EVAL,
+    COL_PDF,
+    COL_SPREAD,   /* half of what lies between the quartiles of ns, over its median */
+    COL_RATIO,    /* ns over that of spherical caps, or of bare reflection, of the same run */
+    COL_TV,       /* largest total variation to the true visible normals from above the horizon */
+    COL_TV_BELOW, /* of tables of ours: from all directions */
+    COL_WEIGHT,   /* largest true/drawn density that was met; of materials the largest weight */
+    COL_SOBOL,  /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of caps (measure/stratified.h) */
+    COL_EFF_60, /* 1/(variance time) over that of all normals: albedo of gold at 60 and 85 degrees, a small light */
+    COL_EFF_85,
+    COL_EFF_LIGHT,
+    COL_MEAN, /* of weights of a material from one direction: mean, its standard error, part of samples lost */
+    COL_NOISE,
+    COL_LOST,
+    COL_VARIANCE,
+    COL_EFF_VISIBLE, /* 1/(variance time) over that of visible normals */
+    COLUMNS
+} evidence_column;
 
-/* What is timed: each, shared, eval, density of a method. */
-enum { SERIES = 4, TURNS_MOST = 501 };
+/* A method is a row with up to SETS ways to call it: one by one, and in batches by each set of instructions. What is
+ * timed, in the order of COL_NS and the columns behind it: these, and shared, eval and density of the first. */
+enum { SETS = VNDF_INSTRUCTIONS_AVX512 + 1, SERIES = SETS + 3, TURNS_MOST = 501, ROWS_MAX = 96 };
 
-typedef struct entry entry;
-struct entry {
-    method m;
+typedef struct evidence_row evidence_row;
+struct evidence_row {
+    method m[SETS]; /* without `each` where this machine cannot run it */
     const method_reference *of;
     block_law law;
-    int is_shown, is_needed; /* needed: shown, or the yardstick of what is */
-    entry *beside;           /* what its time is compared with: caps or bare reflection; NULL: nothing */
-    entry *normals;          /* what its worth is compared with: all normals, of materials visible ones; or NULL */
+    int is_shown, is_needed;        /* needed: shown, or the yardstick of what is */
+    evidence_row *beside, *normals; /* what time is compared with, and what worth is; NULL: nothing */
     double variance[3]; /* of normals, for efficiencies: of the albedo at 60 and 85 degrees, of the small light */
     double ns[SERIES][TURNS_MOST]; /* of each turn */
-    evidence_row row;
+    double number[COLUMNS];        /* NaN where it does not apply or was not measured */
 };
 
-typedef struct evidence_list {
-    entry entry[ENTRIES_MAX];
+typedef struct evidence {
+    evidence_row row[ROWS_MAX];
     size_t count;
     subject student; /* time for a D that everybody has, beside that at hand */
-    method_reference reference[MATERIALS_MAX];
+    method_reference reference[4];
     const evidence_plan *plan;
     vndf_error *error;
-} evidence_list;
+} evidence;
 
-/* Everything the plan asks for: at most 8 x 28 materials fit. Free it whatever this returns; an error if a table
- * or a material cannot be made or `only` fits nothing. */
-vndf_status evidence_list_make(evidence_list *list, const evidence_plan *plan, vndf_error *error);
-void evidence_list_free(evidence_list *list);
+/* The rows that a plan asks for, measured; the subject of the plan has to outlive them. NULL and an error if something
+ * stopped it. */
+evidence *evidence_run(const evidence_plan *plan, vndf_error *error);
+void evidence_free(evidence *of);
+
+/* Text and Markdown are for people, without the columns that no row has. CSV and JSON have every number of every
+ * row. 0 if there was no memory. */
+int evidence_print(FILE *file, const evidence *all, figures_form form);
+
+/* ---- parts of it --------------------------------------------------------------------------------- */
+
+/* All rows, not yet measured; an error if a table or a material cannot be made or `only` fits nothing. */
+vndf_status evidence_list(evidence *to);
 
 /* Whether the method's results are right: unit normals above the surface that face wi (where the method says
  * so), densities positive and finite, the same bits as the scalar call where that is promised; of materials
@@ -116,7 +152,7 @@ void worth_of_normals(const method *m, const method_reference *reference, double
 
 /* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
 int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      evidence_row *found);
+                      double found[COLUMNS]);
 
 /* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */
 double worth_fresnel(double cosine, double n, double k);

@@ -1,11 +1,9 @@
 /* The one list of columns, which every printer reads. */
-#include "evidence/method.h"
-
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "draw/table.h"
+#include "evidence/evidence.h"
 
 /* How a column is named and shown to people; without a heading it is for files alone. A terminal has no room for
  * those that are wide. */
@@ -23,15 +21,18 @@ static const struct {
     [COL_MOMENTS] = {"moments", NULL, NULL, 1, NUMBER},
     [COL_WRONG] = {"wrong", NULL, NULL, 1, NUMBER},
     [COL_NS] = {"ns", "ns", NULL, 1, TIME},
-    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER | WIDE},
-    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER},
+    [COL_PORTABLE] = {"portable_ns", "batch", NULL, 1, TIME},
+    [COL_AVX2] = {"avx2_ns", "avx2", NULL, 1, TIME},
+    [COL_AVX512] = {"avx512_ns", "avx512", NULL, 1, TIME},
     [COL_SHARED] = {"shared_ns", "shared", NULL, 1, TIME},
     [COL_EVAL] = {"eval_ns", "eval", NULL, 1, TIME},
     [COL_PDF] = {"pdf_ns", "pdf", NULL, 1, TIME},
+    [COL_SPREAD] = {"spread", "spread", "%.1f%%", 100, NUMBER | WIDE},
+    [COL_RATIO] = {"ratio", "ratio", "%.3g", 1, NUMBER},
     [COL_TV] = {"tv", "TV", "%.1e", 1, NUMBER},
     [COL_TV_BELOW] = {"tv_below", "below", "%.1e", 1, NUMBER | WIDE},
     [COL_WEIGHT] = {"max_weight", "weight", "%.4g", 1, NUMBER},
-    [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER},
+    [COL_SOBOL] = {"stratified", "Sobol'", "%.2f", 1, NUMBER | WIDE},
     [COL_EFF_60] = {"efficiency_60", "eff 60", "%.3g", 1, NUMBER | WIDE},
     [COL_EFF_85] = {"efficiency_85", "eff 85", "%.3g", 1, NUMBER | WIDE},
     [COL_EFF_LIGHT] = {"efficiency_light", "eff light", "%.3g", 1, NUMBER | WIDE},
@@ -43,27 +44,19 @@ static const struct {
 };
 
 static const char legend_normals[] =
-    "set: of instructions. memory: bytes of its tables when loaded; file: of a table of ours on disk.\n"
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); ratio: to spherical caps; shared: 256 samples of one direction.\n"
-    "TV, below: largest total variation to the true visible normals from above the horizon and from all\n"
-    "directions; weight: largest true over drawn density. Sobol': RMSE of 64 scrambled Sobol' points\n"
-    "over that of spherical caps. eff: 1/(variance time) over that of all normals, for the albedo of\n"
-    "gold at 60 and 85 degrees and under a small light.\n";
+    "quartiles); batch, avx2, avx512: the same by batches, compiled for every machine and for these;\n"
+    "shared: 256 samples of one direction; ratio: to spherical caps. memory: bytes of its tables when\n"
+    "loaded; file: of a table of ours on disk. TV, below: largest total variation to the true visible\n"
+    "normals from above the horizon and from all directions; weight: largest true over drawn density.\n"
+    "Sobol': RMSE of 64 scrambled Sobol' points over that of spherical caps. eff: 1/(variance time) over\n"
+    "that of all normals, for the albedo of gold at 60 and 85 degrees and under a small light.\n";
 
-static const char legend_effects[] =
+static const char legend_materials[] =
     "ns: hit and sample, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); ratio: to bare reflection; shared, eval, pdf: one hit for 256. Of the weights from one\n"
+    "quartiles); shared, eval, pdf: one hit for 256; ratio: to bare reflection. Of the weights from one\n"
     "direction: the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the\n"
     "same with visible normals.\n";
-
-void rows_free(evidence_rows *of)
-{
-    free(of->row);
-    *of = (evidence_rows){NULL, 0};
-}
-
-/* ---- for people ---------------------------------------------------------------------------------- */
 
 static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
 {
@@ -80,50 +73,36 @@ static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
 }
 
 /* Whether a reader is shown the column: some row has a number in it. */
-static int is_shown(const evidence_rows *all, evidence_column c, int is_wide)
+static int is_told(const evidence *all, evidence_column c, int is_wide)
 {
-    for (size_t i = 0; i < all->count; i++)
-        if (!isnan(all->row[i].number[c]))
+    for (const evidence_row *r = all->row; r < all->row + all->count; r++)
+        if (r->is_shown && !isnan(r->number[c]))
             return columns[c].heading && (is_wide || !(columns[c].style & WIDE));
     return 0;
 }
 
-static void put_row(text_table *t, const evidence_rows *all, const evidence_row *r, int is_wide)
-{
-    table_text(t, "distribution", r->distribution);
-    table_text(t, r->kind == ROW_EFFECT ? "effects" : "method", r->method);
-    table_word(t, "set", r->instructions);
-    for (evidence_column c = 0; c < COLUMNS; c++)
-        if (is_shown(all, c, is_wide))
-            put_cell(t, r, c);
-}
-
-/* Every number, for files. */
-static void put_whole_row(text_table *t, const evidence_row *r)
+int evidence_print(FILE *file, const evidence *all, figures_form form)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
-    table_text(t, "method", r->method);
-    table_text(t, "distribution", r->distribution);
-    table_word(t, "instructions", r->instructions);
-    table_word(t, "kind", kinds[r->kind]);
-    for (evidence_column c = 0; c < COLUMNS; c++)
-        table_number(t, columns[c].key, "%.6g", r->number[c]);
-}
-
-int evidence_print(FILE *file, const evidence_rows *all, figures_form form)
-{
-    const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON;
+    const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON, is_of_materials = all->plan->is_of_materials;
     text_table t = {.rows = 0};
     for (const evidence_row *r = all->row; r < all->row + all->count; r++) {
+        if (!r->is_shown)
+            continue;
         table_row(&t);
+        table_text(&t, "distribution", r->of->name);
+        table_text(&t, is_of_materials && !is_whole ? "effects" : "method", r->m->name);
         if (is_whole)
-            put_whole_row(&t, r);
-        else
-            put_row(&t, all, r, form != FIGURES_TEXT);
+            table_word(&t, "kind", kinds[r->m->kind]);
+        for (evidence_column c = 0; c < COLUMNS; c++)
+            if (is_whole)
+                table_number(&t, columns[c].key, "%.6g", r->number[c]);
+            else if (is_told(all, c, form != FIGURES_TEXT))
+                put_cell(&t, r, c);
     }
     int good = table_print(file, &t, form);
     table_free(&t);
     if (good && !is_whole)
-        good = fprintf(file, "\n%s", all->row[0].kind == ROW_EFFECT ? legend_effects : legend_normals) > 0;
+        good = fprintf(file, "\n%s", is_of_materials ? legend_materials : legend_normals) > 0;
     return good;
 }

@@ -90,11 +90,11 @@ static double variance_of(double sum, double square, double count)
 }
 
 int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      evidence_row *found)
+                      double found[COLUMNS])
 {
     const vndf_vec3 wi = direction_from(theta, 25);
     const double n = (double)(blocks * BLOCK);
-    double sum[2] = {0, 0}, square[2] = {0, 0}, lost = 0, most = 0, *to = found->number;
+    double sum[2] = {0, 0}, square[2] = {0, 0}, lost = 0, most = 0;
     block_law of = *law;
     of.theta = theta;
     for (size_t i = 0; i < 2 * blocks; i++) {
@@ -110,11 +110,11 @@ int worth_of_material(const method *m, const block_law *law, double theta, block
             most = fmax(most, weight);
         }
     }
-    to[COL_MEAN] = (sum[0] + sum[1]) / (2 * n);
-    to[COL_VARIANCE] = variance_of(sum[0] + sum[1], square[0] + square[1], 2 * n);
-    to[COL_NOISE] = sqrt(to[COL_VARIANCE] / (2 * n));
-    to[COL_LOST] = lost / (2 * n);
-    to[COL_WEIGHT] = most;
+    found[COL_MEAN] = (sum[0] + sum[1]) / (2 * n);
+    found[COL_VARIANCE] = variance_of(sum[0] + sum[1], square[0] + square[1], 2 * n);
+    found[COL_NOISE] = sqrt(found[COL_VARIANCE] / (2 * n));
+    found[COL_LOST] = lost / (2 * n);
+    found[COL_WEIGHT] = most;
     const double noise = sqrt((variance_of(sum[0], square[0], n) + variance_of(sum[1], square[1], n)) / n);
     return fabs(sum[0] - sum[1]) / n <= noise_limit * noise + 1e-5;
 }

@@ -1,4 +1,4 @@
-#include "measured/data.h"
+#include "measured/measured.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -14,6 +14,8 @@ int refuse(data_file *file, const char *format, ...)
     va_start(list, format);
     vsnprintf(file->refused + length, sizeof file->refused - (size_t)length, format, list);
     va_end(list);
+    for (char *c = file->refused; *c; c++)
+        *c = (unsigned char)*c < ' ' || *c == 127 ? '?' : *c;
     return 0;
 }
 
@@ -60,42 +62,4 @@ int profile_write(FILE *file, const profile *from, const char *title)
     for (size_t i = 0; i < from->count; i++)
         fprintf(file, "%.17g,%.17g\n", from->x[i], from->value[i]);
     return fflush(file) == 0 && !ferror(file);
-}
-
-/* Noise is seen in the fourth differences of logarithms, which a curve that is smooth at these steps hardly has: one
- * deviation gives them sqrt(70), and their median does not see jumps. Passes of (1 2 1)/4 smooth until the next one
- * would move the values by more than that. */
-int profile_smooth(profile *p, data_file *file)
-{
-    enum { PASSES_MOST = 1 << 14 };
-    size_t n = 0;
-    double noise = 0;
-    while (n < p->count && p->value[n] > 0)
-        n++;
-    double *given = malloc((3 * n + 1) * sizeof *given), *now = given + n, *next = now + n;
-    if (!given)
-        return refuse(file, "there is no memory for %zu rows", p->count);
-    for (size_t i = 0; i < n; i++)
-        now[i] = given[i] = log(p->value[i]);
-    for (size_t i = 4; i < n; i++)
-        next[i - 4] = fabs(now[i - 4] - 4 * now[i - 3] + 6 * now[i - 2] - 4 * now[i - 1] + now[i]);
-    if (n > 4) {
-        sort_numbers(next, n - 4);
-        noise = next[(n - 4) / 2] / (0.6745 * sqrt(70));
-    }
-    note(file, "noise %.2g", noise);
-    for (int pass = 0; pass < PASSES_MOST && n > 4; pass++) {
-        double square = 0;
-        for (size_t i = 0; i < n; i++) {
-            next[i] = i + 1 == n ? now[i] : (now[i ? i - 1 : 1] + 2 * now[i] + now[i + 1]) / 4;
-            square += (next[i] - given[i]) * (next[i] - given[i]) / (double)n;
-        }
-        if (!(sqrt(square) <= noise))
-            break;
-        memcpy(now, next, n * sizeof *now);
-    }
-    for (size_t i = 0; i < n; i++)
-        p->value[i] = exp(now[i]);
-    free(given);
-    return 1;
 }

@@ -12,20 +12,21 @@
  *     wavelengths                of spectra, nm
  *     jacobian [1] = 1           rgb and spectra are still to be multiplied by D/(4 A)
  *
- * In: D, and how well the model explains the light that the file holds beside it.
- *
  * Out: D stands at NORMALS + 1 angles. The vndf is coarser in theta by FINE, and each of its numbers is the mean over
  * the cells beside it, so that no ring of D falls between two of them: what is reflected there has to be drawn as
- * well. rgb is fitted (tensor.h) to R at POINTS^2 places of each cell, so that the light of a cell where wo meets the
- * horizon is right. */
+ * well. rgb is fitted (tensor.h) to R = G2/G1(wi) at POINTS^2 places of each cell, so that the light of a cell where wo
+ * meets the horizon is right. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "measured/brdf.h"
+#include "cli/sort.h"
+#include "measured/measured.h"
 #include "measured/tensor.h"
+#include "render/vector.h"
 
-enum { ANGLES_LEAST = 8, ANGLES_MOST = 65536, GRID_MOST = 4096, PROBES = 24 };                          /* in */
+enum { ANGLES_LEAST = 8, ANGLES_MOST = 65536, PASSES_MOST = 1 << 14 }; /* in */
+static const double anisotropy_most = 0.05;
 enum { NORMALS = 2048, FINE = 8, THETAS = NORMALS / FINE + 1, PHIS = 65, INCIDENTS = 48, AREAS = 257 }; /* out */
 enum { SIDE = 32, POINTS = 4, FINE_SIDE = (SIDE - 1) * POINTS, STEPS = 8 };
 
@@ -36,14 +37,14 @@ static double angle_at(double part, double whole)
     return PI / 2 * u * u;
 }
 
-/* ---- in: D --------------------------------------------------------------------------------------- */
+/* ---- in ------------------------------------------------------------------------------------------ */
 
 /* The means of the field `ndf` over azimuths, which begin and end at the same place, unless D is too anisotropic. */
 static int read_ndf(data_file *file, profile *rows)
 {
     tensor ndf;
     double off = 0, whole = 0;
-    if (!tensor_find(file, "ndf", TENSOR_F32, 2, &ndf))
+    if (!tensor_find(file, "ndf", 2, &ndf))
         return 0;
     const size_t azimuths = ndf.shape[0], angles = ndf.shape[1];
     if (azimuths < 1 || angles < ANGLES_LEAST || angles > ANGLES_MOST)
@@ -69,117 +70,55 @@ static int read_ndf(data_file *file, profile *rows)
     }
     off = whole > 0 ? off / 2 / whole : 0;
     note(file, "residual_isotropy %.3g", off);
-    return off <= RGL_ANISOTROPY_MOST ||
+    return off <= anisotropy_most ||
            refuse(file,
                   "D is anisotropic: %.3g of all normals would have to turn about z to make it isotropic, %.3g is "
                   "the most",
-                  off, RGL_ANISOTROPY_MOST);
+                  off, anisotropy_most);
 }
 
-/* ---- model --------------------------------------------------------------------------------------- */
-
-/* What wi at theta_i sees at (u, v) of the vndf: R of the model, given areas at an angle from z, and (1 - wi.m)^5. 0
- * if wo is below the horizon. */
-static int model_at(double area(const void *of, double theta), const void *of, double theta_i, double u, double v,
-                    double *left, double *rise)
+/* Finds the relative noise of D, which is symmetric about theta = 0, and smooths it by as much as keeps it within that.
+ * Noise is seen in the fourth differences of logarithms, which a curve that is smooth at these steps hardly has: one
+ * deviation gives them sqrt(70), and their median does not see jumps. Passes of (1 2 1)/4 smooth until the next one
+ * would move the values by more than that. */
+static int smooth(profile *p, data_file *file)
 {
-    const vec3 wi = direction_at(theta_i, 0), m = direction_at(angle_at(u, 1), (2 * v - 1) * PI);
-    const vec3 wo = direction_mirrored(wi, m);
-    *rise = model_schlick(fmax(dot(wi, m), 0));
-    *left = wo.z > 0 ? model_masked(area(of, theta_i), fmax(wi.z, 0), area(of, acos(fmin(wo.z, 1))), wo.z) : 0;
-    return wo.z > 0;
-}
-
-/* ---- in: how well D explains the light ----------------------------------------------------------- */
-
-/* The fields that are needed, of lengths that fit each other. */
-static int find_light(data_file *file, tensor *theta_i, tensor *vndf, tensor *values)
-{
-    tensor flag;
-    if (!tensor_find(file, "theta_i", TENSOR_F32, 1, theta_i) || !tensor_find(file, "vndf", TENSOR_F32, 4, vndf) ||
-        !(tensor_find(file, "rgb", TENSOR_F32, 5, values) ||
-          tensor_find(file, "spectra", TENSOR_F32, 5, values)) ||
-        !tensor_find(file, "jacobian", TENSOR_U8, 1, &flag) || flag.shape[0] != 1 ||
-        *(const unsigned char *)flag.data != 1)
-        return 0;
-    const size_t *v = vndf->shape, *s = values->shape, sides[4] = {v[2], v[3], s[3], s[4]};
-    int good = v[0] > 0 && s[0] > 0 && v[1] == theta_i->shape[0] && s[1] == v[1] && s[2] > 0;
-    for (int i = 0; i < 4; i++)
-        good = good && sides[i] >= 2 && sides[i] <= GRID_MOST;
-    for (size_t i = 0; i < tensor_count(vndf) && good; i++)
-        good = tensor_at(vndf, i) >= 0;
-    return good;
-}
-
-static double area_of_law(const void *of, double theta)
-{
-    return law_area(of, theta);
-}
-
-/* Up to PROBES x PROBES places of the grid of one incident direction: the mean of the channels, of which negative ones
- * are noise, and R of the model; returns how many. */
-static size_t probe_incident(const tensor *values, size_t incident, double theta_i, const warp *to, const law *of,
-                             probe *probes)
-{
-    const size_t *s = values->shape;
-    size_t count = 0;
-    for (size_t i = 0; i < PROBES * PROBES; i++) {
-        const size_t row = s[3] <= PROBES ? i / PROBES : (2 * (i / PROBES) + 1) * s[3] / (2 * PROBES);
-        const size_t column = s[4] <= PROBES ? i % PROBES : (2 * (i % PROBES) + 1) * s[4] / (2 * PROBES);
-        double u, v, left, rise, found = 0;
-        if (row >= s[3] || column >= s[4])
-            continue;
-        for (size_t channel = 0; channel < s[2]; channel++) {
-            const double value = tensor_at(values, ((incident * s[2] + channel) * s[3] + row) * s[4] + column);
-            found += isfinite(value) ? fmax(value, 0) / (double)s[2] : 0;
-        }
-        warp_sample(to, (double)column / (double)(s[4] - 1), (double)row / (double)(s[3] - 1), &u, &v);
-        if (model_at(area_of_law, of, theta_i, u, v, &left, &rise))
-            probes[count++] = (probe){found, left * (1 - rise), left * rise, 1, 1};
+    size_t n = 0;
+    double noise = 0;
+    while (n < p->count && p->value[n] > 0)
+        n++;
+    double *given = malloc((3 * n + 1) * sizeof *given), *now = given + n, *next = now + n;
+    if (!given)
+        return refuse(file, "there is no memory for %zu rows", p->count);
+    for (size_t i = 0; i < n; i++)
+        now[i] = given[i] = log(p->value[i]);
+    for (size_t i = 4; i < n; i++)
+        next[i - 4] = fabs(now[i - 4] - 4 * now[i - 3] + 6 * now[i - 2] - 4 * now[i - 1] + now[i]);
+    if (n > 4) {
+        sort_numbers(next, n - 4);
+        noise = next[(n - 4) / 2] / (0.6745 * sqrt(70));
     }
-    return count;
-}
-
-/* Fields that are not there, or not right, are no reason to refuse D. */
-static int note_light(data_file *file, const profile *rows)
-{
-    vndf_source *source = profile_source(rows, file);
-    law *found = source ? malloc(sizeof *found) : NULL;
-    tensor theta, vndf, values;
-    reflectance fitted;
-    warp to;
-    const int good = found || (source && refuse(file, "there is no memory"));
-    if (found && law_of_source(found, source) > 0 && find_light(file, &theta, &vndf, &values)) {
-        const size_t incidents = theta.shape[0], cells = vndf.shape[2] * vndf.shape[3];
-        double *density = malloc(cells * sizeof *density);
-        probe *probes = malloc((incidents * PROBES * PROBES + 1) * sizeof *probes);
-        size_t count = 0;
-        for (size_t i = 0; i < incidents && density && probes; i++) {
-            const double theta_i = tensor_at(&theta, i);
-            for (size_t k = 0; k < cells; k++)
-                density[k] = tensor_at(&vndf, i * cells + k);
-            if (!(theta_i >= 0 && theta_i < 85 * PI / 180) ||
-                !warp_make(&to, density, (int)vndf.shape[3], (int)vndf.shape[2]))
-                continue;
-            count += probe_incident(&values, i, theta_i, &to, found, probes + count);
-            warp_free(&to);
+    note(file, "noise %.2g", noise);
+    for (int pass = 0; pass < PASSES_MOST && n > 4; pass++) {
+        double square = 0;
+        for (size_t i = 0; i < n; i++) {
+            next[i] = i + 1 == n ? now[i] : (now[i ? i - 1 : 1] + 2 * now[i] + now[i + 1]) / 4;
+            square += (next[i] - given[i]) * (next[i] - given[i]) / (double)n;
         }
-        if (model_reflectance(probes, count, &fitted))
-            note(file, "f0 %.4g\nf90 %.4g\nresidual_reflectance %.3g", fitted.f0, fitted.f90, fitted.residual);
-        free(probes);
-        free(density);
+        if (!(sqrt(square) <= noise))
+            break;
+        memcpy(now, next, n * sizeof *now);
     }
-    if (good)
-        file->refused[0] = '\0';
-    free(found);
-    vndf_source_free(source);
-    return good;
+    for (size_t i = 0; i < n; i++)
+        p->value[i] = exp(now[i]);
+    free(given);
+    return 1;
 }
 
 int rgl_read(data_file *file, profile *rows)
 {
     *rows = (profile){0};
-    if (read_ndf(file, rows) && profile_smooth(rows, file) && note_light(file, rows))
+    if (read_ndf(file, rows) && smooth(rows, file))
         return 1;
     profile_free(rows);
     return 0;
@@ -202,6 +141,31 @@ typedef struct rgl_arrays {
     double low_grid[SIDE * SIDE], high_grid[SIDE * SIDE], light_grid[SIDE * SIDE];
 } rgl_arrays;
 
+static double ndf_at(const vndf_surface *surface, double theta)
+{
+    return (double)vndf_ndf(surface, (vndf_vec3){(float)sin(theta), 0.0f, (float)fmax(cos(theta), 0)});
+}
+
+static double area_at(const vndf_surface *surface, double theta)
+{
+    return (double)vndf_projected_area(surface, (vndf_vec3){(float)sin(theta), 0.0f, (float)cos(theta)});
+}
+
+/* What wi at theta_i sees at (u, v) of the vndf: R with heights correlated, finite at grazing incidence, and
+ * (1 - wi.m)^5. 0 if wo is below the horizon. */
+static int model_at(const vndf_surface *surface, double theta_i, double u, double v, double *left, double *rise)
+{
+    const double theta = angle_at(u, 1), phi = (2 * v - 1) * PI, cos_i = fmax(cos(theta_i), 0);
+    const vec3 wi = vec(sin(theta_i), 0, cos(theta_i));
+    const vec3 m = vec(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta));
+    const double cos_o = 2 * dot(wi, m) * m.z - wi.z, area_i = area_at(surface, theta_i);
+    *rise = pow(1 - fmax(dot(wi, m), 0), 5);
+    *left = 0;
+    if (cos_o > 0)
+        *left = area_i * cos_o / (area_i * cos_o + area_at(surface, acos(fmin(cos_o, 1))) * cos_i - cos_i * cos_o);
+    return cos_o > 0;
+}
+
 /* D, its areas, and of visible normals what does not depend on wi: D max(0, wi.m) over the unit square is, but for a
  * constant, the positive part of cos(theta_i) along + sin(theta_i) cos(phi) across. At 90 degrees D may have no
  * bound: the last number gives its cell, which is linear in u, the integral of D. */
@@ -210,12 +174,12 @@ static void fill_ndf(rgl_arrays *a)
     enum { PARTS = 64 };
     double last = 0;
     for (int i = 0; i < NORMALS; i++)
-        a->ndf[0][i] = (float)model_ndf(a->surface, angle_at(i, NORMALS));
+        a->ndf[0][i] = (float)ndf_at(a->surface, angle_at(i, NORMALS));
     for (int i = 0; i < PARTS; i++)
-        last += 2 * model_ndf(a->surface, angle_at(NORMALS - 1 + (i + 0.5) / PARTS, NORMALS)) / PARTS;
+        last += 2 * ndf_at(a->surface, angle_at(NORMALS - 1 + (i + 0.5) / PARTS, NORMALS)) / PARTS;
     a->ndf[0][NORMALS] = (float)fmax(last - (double)a->ndf[0][NORMALS - 1], 0);
     for (int i = 0; i < AREAS; i++)
-        a->sigma[0][i] = (float)model_area(a->surface, angle_at(i, AREAS - 1));
+        a->sigma[0][i] = (float)area_at(a->surface, angle_at(i, AREAS - 1));
     memcpy(a->ndf[1], a->ndf[0], sizeof a->ndf[0]);
     memcpy(a->sigma[1], a->sigma[0], sizeof a->sigma[0]);
     for (int i = 0; i <= NORMALS; i++) {
@@ -223,11 +187,6 @@ static void fill_ndf(rgl_arrays *a)
         a->along[i] = part * fmax(cos(theta), 0);
         a->across[i] = part * sin(theta);
     }
-}
-
-static double area_of_surface(const void *of, double theta)
-{
-    return model_area(of, theta);
 }
 
 /* The visible normals of one incident direction, the mean over the cells on both sides of each point, weighed by a
@@ -255,7 +214,7 @@ static int fill_incident(rgl_arrays *a, int incident, const rgl_form *form)
         f0 += form->f0[k] * (form->is_spectral ? 1.0 / form->channels : of_channel[k]);
     for (int i = 0; i < FINE_SIDE * FINE_SIDE; i++) {
         warp_sample(&to, (i % FINE_SIDE + 0.5) / FINE_SIDE, ((double)(i / FINE_SIDE) + 0.5) / FINE_SIDE, &u, &v);
-        a->is_seen[i] = model_at(area_of_surface, a->surface, theta_i, u, v, &left, &rise) ? 1.0f : 0.0f;
+        a->is_seen[i] = model_at(a->surface, theta_i, u, v, &left, &rise) ? 1.0f : 0.0f;
         a->low[i] = (float)(left * (1 - rise));
         a->high[i] = (float)(left * rise);
         a->light[i] = (float)(left * (f0 * (1 - rise) + rise));

@@ -8,10 +8,10 @@
  * matrix.
  *
  * Bins of |u| hold equal parts of the slopes, and finer ones of the tail; the rows are multiplied until the curve
- * through them has the mass of every bin. After the last row a tail follows, unless it had too much mass beyond the
- * longest slope: then slopes end abruptly, and the curve ends with 0 there. Errors come from the spread between 64
- * parts of the surface: neighbouring slopes are not independent, parts nearly are. */
-#include "measured/surface.h"
+ * through them has the mass of every bin. After the last row a tail follows, unless slopes end abruptly: then the
+ * curve ends with 0 there. Errors come from the spread between 64 parts of the surface: neighbouring slopes are not
+ * independent, parts nearly are. */
+#include "measured/measured.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,8 +27,9 @@ static const double RATIO_MOST = 100;                    /* of the axes of the s
 static const double SLOPE_LEAST = 1e-3, SLOPE_MOST = 10; /* medians that surfaces have */
 static const double WIDER = 1.01;                        /* one edge of a bin over the edge before, at least */
 static const double LEFT_MOST = 0.01;                    /* by which a bin may be missed, of the whole */
-static const double BEYOND_MOST = 0.25; /* what a tail may have beyond the data, of the last bin's mass */
-static const double SHORT_MOST = 0.2;   /* what may lack of that mass */
+/* Slopes end abruptly where the longest is shorter than this times the one that TAIL_LEAST slopes are beyond; of the
+ * light tail of Beckmann's distribution it is 1.18 for 2^24 slopes. */
+static const double ABRUPT = 1.05;
 
 int slopes_make(slope_set *made, size_t room, data_file *file)
 {
@@ -158,6 +159,7 @@ static int unstretch(slope_set *slopes, data_file *file)
 /* The part of the slopes that lies between two lengths, and how sure that is. */
 typedef struct slope_bins {
     size_t count, samples;
+    int has_end;
     double edge[BINS_MOST + 1]; /* edge[count] is infinite, or where slopes end abruptly */
     double mass[BINS_MOST];
     double middle[BINS_MOST]; /* a row's place */
@@ -201,7 +203,8 @@ static int find_edges(slope_bins *b, const slope_set *slopes, data_file *file)
         if (edge > WIDER * before && edge - before >= 2 * slopes->quantum && WIDER * edge < b->longest)
             b->edge[++b->count] = edge;
     }
-    b->edge[++b->count] = INFINITY;
+    b->has_end = b->longest < ABRUPT * sorted[b->samples > TAIL_LEAST ? b->samples - TAIL_LEAST : 0];
+    b->edge[++b->count] = b->has_end ? b->longest : INFINITY;
     free(sorted);
     return b->count >= BINS_LEAST ||
            refuse(
@@ -212,7 +215,7 @@ static int find_edges(slope_bins *b, const slope_set *slopes, data_file *file)
 }
 
 /* Rows stand where the mean square of the lengths in a bin is, since for a density that falls evenly in r^2 it has
- * its mean there. The last bin has no end, and a heavy tail no mean square: there it is the mean of the logarithm.
+ * its mean there. A heavy tail has no mean square: there it is the mean of the logarithm.
  * Errors are relative, of each mass, from the spread between parts: its variance over surfaces made of parts drawn
  * again. */
 static void find_masses(slope_bins *b, const slope_set *slopes, data_file *file)
@@ -237,7 +240,7 @@ static void find_masses(slope_bins *b, const slope_set *slopes, data_file *file)
     for (size_t i = 0; i < b->count; i++) {
         const double some = fmax(number[i], 1);
         b->mass[i] = number[i] / n;
-        b->middle[i] = i == last ? exp(logarithm / some) : sqrt(b->middle[i] / some);
+        b->middle[i] = i == last && !b->has_end ? exp(logarithm / some) : sqrt(b->middle[i] / some);
         b->error[i] = sqrt(square[i]) / some;
         b->below[i] = i ? b->below[i - 1] + b->mass[i - 1] : 0;
         median = b->below[i] < 0.5 ? i : median;
@@ -292,16 +295,15 @@ double slope_mass(const vndf_source *source, double from, double to)
  * mass of half a slope. */
 static int make_rows(const slope_bins *b, data_file *file, profile *rows)
 {
-    const int has_end = isfinite(b->edge[b->count]);
-    const size_t last = b->count - 1;
-    if (!profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count + (has_end ? 2 : 0), file))
+    const size_t last = b->count - 1, more = b->has_end ? 2 : 0;
+    if (!profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, b->count + more, file))
         return 0;
     for (size_t i = 0; i < b->count; i++) {
         const double next = isfinite(b->edge[i + 1]) ? b->edge[i + 1] : 2 * b->middle[i] - b->edge[i];
         rows->x[i] = b->middle[i];
         rows->value[i] = b->mass[i] / (next * next - b->edge[i] * b->edge[i]);
     }
-    if (has_end) {
+    if (b->has_end) {
         const double step = (b->longest - b->edge[last]) / (b->mass[last] * (double)b->samples);
         rows->x[last + 1] = b->longest;
         rows->x[last + 2] = b->longest + fmax(step, 1e-9 * b->longest);
@@ -340,37 +342,19 @@ static double match(const slope_bins *b, profile *rows, data_file *file)
     return left;
 }
 
-/* Rows whose curve has the masses of the bins; 0 and the reason if there is no such curve. A curve with a tail needs
- * the mass of the last bin, and little of it beyond the data: of n independent slopes in the bin a right tail has the
- * mass of one beyond the longest, and seldom that of four; the error says how large n is. If it has not, the last bin
- * ends at the longest slope. */
-static int find_rows(slope_bins *b, data_file *file, profile *rows)
+/* Rows whose curve has the masses of the bins; 0 and the reason if there is no such curve. */
+static int find_rows(const slope_bins *b, data_file *file, profile *rows)
 {
-    const size_t last = b->count - 1;
-    const double from = b->edge[last],
-                 most = fmin(4 * b->error[last] * b->error[last], BEYOND_MOST) * b->mass[last];
-    double left = 1;
-    for (int has_end = 0; has_end < 2; has_end++) {
-        if (has_end) {
-            b->edge[b->count] = b->longest;
-            b->middle[last] = sqrt((from * from + b->longest * b->longest) / 2);
-        }
-        left = make_rows(b, file, rows) ? match(b, rows, file) : -1;
-        vndf_source *source = left < 0 ? NULL : profile_source(rows, file);
-        if (!source)
-            break;
-        const double beyond = slope_mass(source, b->longest, has_end ? rows->x[rows->count - 1] : INFINITY);
-        const int is_tail =
-            beyond <= most && slope_mass(source, from, INFINITY) >= (1 - SHORT_MOST) * b->mass[last];
+    const double left = make_rows(b, file, rows) ? match(b, rows, file) : -1;
+    vndf_source *source = left >= 0 && left < LEFT_MOST ? profile_source(rows, file) : NULL;
+    if (source) {
+        const double end = b->has_end ? rows->x[rows->count - 1] : INFINITY;
+        note(file, "residual_bins %.2g\nmass_beyond %.2g", left, slope_mass(source, b->longest, end));
         vndf_source_free(source);
-        if (left < LEFT_MOST && (is_tail || has_end)) {
-            note(file, "residual_bins %.2g\nmass_beyond %.2g", left, beyond);
-            return 1;
-        }
-        profile_free(rows);
+        return 1;
     }
     profile_free(rows);
-    return left < 0
+    return left < LEFT_MOST
                ? 0
                : refuse(file, "no smooth curve has the masses of %zu bins; %.2g of all is wrong", b->count, left);
 }
@@ -380,13 +364,12 @@ int slopes_law(slope_set *slopes, data_file *file, profile *rows)
     slope_bins *b = calloc(1, sizeof *b);
     *rows = (profile){0};
     int good = b != NULL || refuse(file, "there is no memory for the bins");
-    if (good && centre(slopes, file) && unstretch(slopes, file) && find_edges(b, slopes, file)) {
+    good = good && centre(slopes, file) && unstretch(slopes, file) && find_edges(b, slopes, file);
+    if (good) {
         find_masses(b, slopes, file);
+        note_isotropy(slopes, b, file);
         good = find_rows(b, file, rows);
-        if (good)
-            note_isotropy(slopes, b, file);
-    } else
-        good = 0;
+    }
     free(b);
     return good;
 }

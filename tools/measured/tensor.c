@@ -42,10 +42,10 @@ static int find_numbers(data_file *file, size_t at, uint64_t begin, tensor *foun
     return 1;
 }
 
-int tensor_find(data_file *file, const char *name, tensor_type type, int dimensions, tensor *found)
+int tensor_find(data_file *file, const char *name, int dimensions, tensor *found)
 {
     const unsigned char *b = file->bytes;
-    *found = (tensor){.name = name, .type = type, .dimensions = dimensions};
+    *found = (tensor){.name = name, .type = TENSOR_F32, .dimensions = dimensions};
     if (file->size == 0 || memcmp(b, head, file->size < 12 ? file->size : 12) != 0)
         return refuse(file, "this is no tensor file; it would begin with tensor_file");
     if (file->size < HEAD)
@@ -65,9 +65,9 @@ int tensor_find(data_file *file, const char *name, tensor_type type, int dimensi
         at += fixed + 8 * sides;
         if (length != strlen(name) || memcmp(text, name, length) != 0)
             continue;
-        if (sides != (size_t)dimensions || behind[2] != (int)type)
+        if (sides != (size_t)dimensions || behind[2] != TENSOR_F32)
             return refuse(file, "field '%s' has the type %d and %zu dimensions; the type %d and %d are needed",
-                          name, behind[2], sides, (int)type, dimensions);
+                          name, behind[2], sides, TENSOR_F32, dimensions);
         return find_numbers(file, at - 8 * sides, little_whole(behind + 3, 8), found);
     }
     return refuse(file, "it has no field '%s'", name);

@@ -5,10 +5,10 @@
 #ifndef TOOLS_MEASURED_TENSOR_H
 #define TOOLS_MEASURED_TENSOR_H
 
-#include "measured/data.h"
+#include "measured/measured.h"
 
 enum { TENSOR_DIMENSIONS = 6 };
-typedef enum tensor_type { TENSOR_U8 = 1, TENSOR_F32 = 10 } tensor_type; /* those that are read and written */
+typedef enum tensor_type { TENSOR_U8 = 1, TENSOR_F32 = 10 } tensor_type; /* those that are written */
 
 /* A field of a file: floats, or bytes for TENSOR_U8. */
 typedef struct tensor {
@@ -21,8 +21,8 @@ typedef struct tensor {
 
 size_t tensor_count(const tensor *of);
 
-/* The field of this name, type and number of dimensions; its data are bytes of the file. */
-int tensor_find(data_file *file, const char *name, tensor_type type, int dimensions, tensor *found);
+/* The field of floats of this name and number of dimensions; its data are bytes of the file. */
+int tensor_find(data_file *file, const char *name, int dimensions, tensor *found);
 
 /* Number i of a field of floats that was read. */
 double tensor_at(const tensor *of, size_t i);

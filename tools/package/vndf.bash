@@ -2,7 +2,6 @@
 _vndf()
 {
     local current=${COMP_WORDS[COMP_CWORD]} command=${COMP_WORDS[1]} words='' files=-f
-    [[ $command == bench && ${COMP_WORDS[2]} == effects ]] && command='bench effects'
     if ((COMP_CWORD == 1)) || [[ $command == help ]]; then
         files='' words="$("$1" --help | sed -n 's/^  \([a-z]*\) .*/\1/p') help --help --version --man"
     elif [[ $current == -* ]]; then

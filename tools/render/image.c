@@ -227,7 +227,7 @@ int image_write_png(FILE *file, const image *written, float exposure)
         return 0;
     for (size_t i = 0; i < count; i++)
         rgb[i] = srgb(exposure * written->rgb[i]);
-    int good = png_write_rgb(file, rgb, (size_t)written->width, (size_t)written->height);
+    int good = png_write(file, rgb, (size_t)written->width, (size_t)written->height, NULL);
     free(rgb);
     return good && fflush(file) == 0 && !ferror(file);
 }

@@ -1,6 +1,7 @@
-/* Batches: which instruction set they run on, and the arrays of each call. Lanes (lanes_block.c, mixture_lanes.h) take
- * all surfaces; single elements, lobes without a distribution, and all calls where the compiler has no lanes, go one by
- * one. */
+/* Batches: which instruction set they run on, and the arrays of each call. Lanes (lanes_block.c) take all surfaces;
+ * single elements, inverses, what has no distribution, and all calls where the compiler has no lanes, go one by one. */
+#include <string.h>
+
 #include "sampler/batch/call.h"
 #include "table/table.h"
 
@@ -24,15 +25,14 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 }
 
 /* Sixteen lanes first put a table into columns, which takes as long as they gain on 256 samples. */
-static vndf_lanes *lanes_for(const vndf_call *call, vndf_instructions limit)
+const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit)
 {
-    vndf_instructions used = vndf_instructions_used(limit);
-    if (used == VNDF_INSTRUCTIONS_AVX512 && call->count <= 256 && !call->mixed &&
-        vndf_is_table(call->lobe->distribution))
-        used = VNDF_INSTRUCTIONS_AVX2;
-    return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16
-           : used == VNDF_INSTRUCTIONS_AVX2 ? vndf_lanes_8
-                                            : vndf_lanes_4;
+    const vndf_instructions used = vndf_instructions_used(limit);
+    if (count <= 1)
+        return &vndf_one_by_one;
+    if (used == VNDF_INSTRUCTIONS_AVX512 && !(table && count <= 256))
+        return &vndf_lanes_16;
+    return used >= VNDF_INSTRUCTIONS_AVX2 ? &vndf_lanes_8 : &vndf_lanes_4;
 }
 
 #else
@@ -43,233 +43,163 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-static vndf_lanes *lanes_for(const vndf_call *call, vndf_instructions limit)
+const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit)
 {
-    (void)call;
+    (void)table;
     (void)limit;
 #  if defined(__GNUC__)
-    return vndf_lanes_4;
-#  else
-    return vndf_one_by_one;
+    if (count > 1)
+        return &vndf_lanes_4;
 #  endif
+    (void)count;
+    return &vndf_one_by_one;
 }
 
 #endif
 
 /* ---- calls ---- */
 
-static const unsigned SURFACE = 1u << VNDF_READ_XX | 1u << VNDF_READ_XY | 1u << VNDF_READ_YX | 1u << VNDF_READ_YY |
-                                1u << VNDF_READ_MEAN_X | 1u << VNDF_READ_MEAN_Y;
-static const unsigned DIRECTION = 1u << VNDF_READ_WI_X | 1u << VNDF_READ_WI_Y | 1u << VNDF_READ_WI_Z;
-
-static vndf_lobe_call lobe_of(const vndf_affine_batch *b, const vndf_call *call)
+vndf_call vndf_call_of(const vndf_batch *b)
 {
-    const vndf_lobe_call lobe = {b->distribution,
-                                 (b->shared & VNDF_SHARED_ALPHA ? SURFACE : 0) |
-                                     (b->shared & VNDF_SHARED_WI ? DIRECTION : 0),
-                                 {b->xx, b->xy, b->yx, b->yy, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z,
-                                  call->given[0], call->given[1], call->given[2]}};
-    return lobe;
-}
-
-static void run_affine(const vndf_affine_batch *b, vndf_call call)
-{
-    const vndf_lobe_call lobe = lobe_of(b, &call);
-    call.count = b->count;
-    call.lobe = &lobe;
-    (b->distribution && b->count > 1 ? lanes_for(&call, b->limit) : vndf_one_by_one)(&call);
-}
-
-/* Roughness is a diagonal matrix. */
-static void run_plain(const vndf_batch *b, vndf_call call)
-{
-    const vndf_affine_batch affine = {b->distribution, b->count, b->shared, b->limit, b->alpha_x, NULL,   NULL,
-                                      b->alpha_y,      NULL,     NULL,      b->wi_x,  b->wi_y,    b->wi_z};
-    call.diagonal = 1;
-    run_affine(&affine, call);
-}
-
-static void run_mixture(const vndf_mixture_batch *b, vndf_call call)
-{
-    vndf_lobe_call lobe[VNDF_MIXTURE_LOBES] = {{NULL, 0, {NULL}}};
-    int whole = b->lobes >= 1 && b->lobes <= VNDF_MIXTURE_LOBES && b->count > 1;
-    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
-        const vndf_lobe_batch *a = &b->lobe[l];
-        const vndf_affine_batch of = {a->distribution, b->count,  b->shared, b->limit, a->xx,   a->xy,  a->yx,
-                                      a->yy,           a->mean_x, a->mean_y, b->wi_x,  b->wi_y, b->wi_z};
-        lobe[l] = lobe_of(&of, &call);
-        lobe[l].shared |= b->shared & VNDF_SHARED_WEIGHT ? 1u << VNDF_READ_WEIGHT : 0;
-        lobe[l].read[VNDF_READ_WEIGHT] = a->weight;
-        whole = whole && a->distribution;
-    }
-    call.count = b->count;
-    call.mixed = 1;
-    call.lobes = b->lobes;
-    call.lobe = lobe;
-    (whole ? lanes_for(&call, b->limit) : vndf_one_by_one)(&call);
-}
-
-/* What is asked for: samples; something of given normals; something of directions. */
-static vndf_call sample_call(const float *u1, const float *u2, vndf_normals wm, float *pdf, float *weight,
-                             int *lobe)
-{
+    const unsigned surface = (1u << VNDF_READ_WI_X) - 1, direction = (1u << VNDF_READ_A) - 1 - surface;
     const vndf_call call = {
-        .task = VNDF_TASK_SAMPLE, .given = {u1, u2}, .write = {wm.x, wm.y, wm.z, pdf, weight}, .drawn = lobe};
+        .distribution = b->distribution,
+        .count = b->count,
+        .shared = (b->shared & VNDF_SHARED_ALPHA ? surface : 0) | (b->shared & VNDF_SHARED_WI ? direction : 0),
+        .read = {b->alpha_x, b->xy, b->yx, b->alpha_y, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z},
+        .diagonal = !b->xy && !b->yx && !b->mean_x && !b->mean_y};
     return call;
 }
 
-static vndf_call given_call(vndf_task task, vndf_normals wm, float *first, float *second)
+static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
-    const vndf_call call = {.task = task, .given = {wm.x, wm.y, wm.z}, .write = {first, second}};
-    return call;
-}
-
-static vndf_call area_call(vndf_task task, float *to)
-{
-    const vndf_call call = {.task = task, .write = {to}};
-    return call;
+    vndf_prepared prepared;
+    vndf_call call = vndf_call_of(b);
+    const int one_by_one = !call.distribution || task == VNDF_TASK_INVERT;
+    const vndf_lanes *lanes =
+        one_by_one ? &vndf_one_by_one : vndf_lanes_for(call.count, vndf_is_table(call.distribution), b->limit);
+    call.task = task;
+    call.prepared = &prepared;
+    memcpy(call.read + VNDF_READ_A, a.given, sizeof a.given);
+    memcpy(call.write, a.write, sizeof a.write);
+    lanes->prepare(call.distribution, &prepared);
+    lanes->run(&call);
 }
 
 /* ---- surfaces ---- */
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    run_plain(b, sample_call(u1, u2, wm, pdf, NULL, NULL));
+    run(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf, NULL}});
 }
 
 void vndf_sample_weight_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
                           float *weight)
 {
-    run_plain(b, sample_call(u1, u2, wm, pdf, weight, NULL));
+    run(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf, weight}});
 }
 
 void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
 {
-    run_plain(b, given_call(VNDF_TASK_PDF, wm, pdf, NULL));
+    run(b, VNDF_TASK_PDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {pdf}});
 }
 
 void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
 {
-    run_plain(b, given_call(VNDF_TASK_VISIBLE, wm, visible, NULL));
+    run(b, VNDF_TASK_VISIBLE, (vndf_arrays){{wm.x, wm.y, wm.z}, {visible}});
 }
 
 void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
 {
-    run_plain(b, given_call(VNDF_TASK_INVERT, wm, u1, u2));
+    run(b, VNDF_TASK_INVERT, (vndf_arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
 }
 
 void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
 {
-    run_plain(b, given_call(VNDF_TASK_NDF, wm, ndf, NULL));
+    run(b, VNDF_TASK_NDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {ndf}});
 }
 
 void vndf_projected_area_n(const vndf_batch *b, float *area)
 {
-    run_plain(b, area_call(VNDF_TASK_AREA, area));
+    run(b, VNDF_TASK_AREA, (vndf_arrays){.write = {area}});
 }
 
 void vndf_lambda_n(const vndf_batch *b, float *lambda)
 {
-    run_plain(b, area_call(VNDF_TASK_LAMBDA, lambda));
+    run(b, VNDF_TASK_LAMBDA, (vndf_arrays){.write = {lambda}});
 }
 
 void vndf_g1_n(const vndf_batch *b, float *g1)
 {
-    run_plain(b, area_call(VNDF_TASK_G1, g1));
-}
-
-/* ---- affine surfaces ---- */
-
-void vndf_affine_sample_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
-                          float *pdf)
-{
-    run_affine(b, sample_call(u1, u2, wm, pdf, NULL, NULL));
-}
-
-void vndf_affine_sample_weight_n(const vndf_affine_batch *b, const float *u1, const float *u2, vndf_normals wm,
-                                 float *pdf, float *weight)
-{
-    run_affine(b, sample_call(u1, u2, wm, pdf, weight, NULL));
-}
-
-void vndf_affine_pdf_n(const vndf_affine_batch *b, vndf_normals wm, float *pdf)
-{
-    run_affine(b, given_call(VNDF_TASK_PDF, wm, pdf, NULL));
-}
-
-void vndf_affine_visible_n(const vndf_affine_batch *b, vndf_normals wm, float *visible)
-{
-    run_affine(b, given_call(VNDF_TASK_VISIBLE, wm, visible, NULL));
-}
-
-void vndf_affine_invert_n(const vndf_affine_batch *b, vndf_normals wm, float *u1, float *u2)
-{
-    run_affine(b, given_call(VNDF_TASK_INVERT, wm, u1, u2));
-}
-
-void vndf_affine_ndf_n(const vndf_affine_batch *b, vndf_normals wm, float *ndf)
-{
-    run_affine(b, given_call(VNDF_TASK_NDF, wm, ndf, NULL));
-}
-
-void vndf_affine_projected_area_n(const vndf_affine_batch *b, float *area)
-{
-    run_affine(b, area_call(VNDF_TASK_AREA, area));
-}
-
-void vndf_affine_lambda_n(const vndf_affine_batch *b, float *lambda)
-{
-    run_affine(b, area_call(VNDF_TASK_LAMBDA, lambda));
-}
-
-void vndf_affine_g1_n(const vndf_affine_batch *b, float *g1)
-{
-    run_affine(b, area_call(VNDF_TASK_G1, g1));
+    run(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}});
 }
 
 /* ---- mixtures ---- */
 
+static float at(const float *array, int shared, size_t i)
+{
+    return array ? array[shared ? 0 : i] : 0.0f;
+}
+
+static vndf_mixture_view mixture_view_at(const vndf_mixture_batch *b, size_t i)
+{
+    const int one = (b->shared & VNDF_SHARED_ALPHA) != 0, one_wi = (b->shared & VNDF_SHARED_WI) != 0;
+    vndf_mixture m = {.count = b->lobes};
+    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
+        const vndf_lobe_batch *o = &b->lobe[l];
+        m.lobe[l].surface =
+            (vndf_affine){o->distribution,   at(o->xx, one, i),     at(o->xy, one, i),    at(o->yx, one, i),
+                          at(o->yy, one, i), at(o->mean_x, one, i), at(o->mean_y, one, i)};
+        m.lobe[l].weight = at(o->weight, (b->shared & VNDF_SHARED_WEIGHT) != 0, i);
+    }
+    return vndf_mixture_view_from(
+        &m, (vndf_vec3){at(b->wi_x, one_wi, i), at(b->wi_y, one_wi, i), at(b->wi_z, one_wi, i)});
+}
+
 void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
                            float *pdf, int *lobe)
 {
-    run_mixture(b, sample_call(u1, u2, wm, pdf, NULL, lobe));
+    vndf_run_mixtures(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf}}, lobe);
 }
 
 void vndf_mixture_pdf_n(const vndf_mixture_batch *b, vndf_normals wm, float *pdf)
 {
-    run_mixture(b, given_call(VNDF_TASK_PDF, wm, pdf, NULL));
+    vndf_run_mixtures(b, VNDF_TASK_PDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {pdf}}, NULL);
 }
 
 void vndf_mixture_visible_n(const vndf_mixture_batch *b, vndf_normals wm, float *visible)
 {
-    run_mixture(b, given_call(VNDF_TASK_VISIBLE, wm, visible, NULL));
+    vndf_run_mixtures(b, VNDF_TASK_VISIBLE, (vndf_arrays){{wm.x, wm.y, wm.z}, {visible}}, NULL);
 }
 
 void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const int *asked, float *u1, float *u2,
                            int *lobe)
 {
-    vndf_call call = given_call(VNDF_TASK_INVERT, wm, u1, u2);
-    call.asked = asked;
-    call.drawn = lobe;
-    run_mixture(b, call);
+    for (size_t i = 0; i < b->count; i++) {
+        const vndf_mixture_view view = mixture_view_at(b, i);
+        const vndf_vec3 normal = {wm.x[i], wm.y[i], wm.z[i]};
+        const int found = vndf_mixture_invert(&view, normal, asked ? asked[i] : -1, &u1[i], &u2[i]);
+        if (lobe)
+            lobe[i] = found;
+    }
 }
 
 void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf)
 {
-    run_mixture(b, given_call(VNDF_TASK_NDF, wm, ndf, NULL));
+    vndf_run_mixtures(b, VNDF_TASK_NDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {ndf}}, NULL);
 }
 
 void vndf_mixture_projected_area_n(const vndf_mixture_batch *b, float *area)
 {
-    run_mixture(b, area_call(VNDF_TASK_AREA, area));
+    vndf_run_mixtures(b, VNDF_TASK_AREA, (vndf_arrays){.write = {area}}, NULL);
 }
 
 void vndf_mixture_lambda_n(const vndf_mixture_batch *b, float *lambda)
 {
-    run_mixture(b, area_call(VNDF_TASK_LAMBDA, lambda));
+    vndf_run_mixtures(b, VNDF_TASK_LAMBDA, (vndf_arrays){.write = {lambda}}, NULL);
 }
 
 void vndf_mixture_g1_n(const vndf_mixture_batch *b, float *g1)
 {
-    run_mixture(b, area_call(VNDF_TASK_G1, g1));
+    vndf_run_mixtures(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}}, NULL);
 }

@@ -1,4 +1,5 @@
-/* A call for many elements, as the dispatcher (batch.c) hands it to the lanes (lanes_block.c). */
+/* A call for many elements, as the dispatcher (batch.c) hands it to the lanes (lanes_block.c). Batches of mixtures
+ * (mixtures.c) are made of such calls for their lobes. */
 #ifndef VNDF_SAMPLER_BATCH_CALL_H
 #define VNDF_SAMPLER_BATCH_CALL_H
 
@@ -8,16 +9,15 @@ typedef enum vndf_task {
     VNDF_TASK_SAMPLE,
     VNDF_TASK_PDF,
     VNDF_TASK_VISIBLE,
-    VNDF_TASK_INVERT,
     VNDF_TASK_NDF,
     VNDF_TASK_AREA,
     VNDF_TASK_DRAWN_AREA, /* of lobes, for their shares */
     VNDF_TASK_LAMBDA,
-    VNDF_TASK_G1
+    VNDF_TASK_G1,
+    VNDF_TASK_INVERT /* one by one */
 } vndf_task;
 
-/* Arrays that are read: matrix, mean slope, direction, the two numbers of a sample or the given normal, and the weight
- * of a lobe. */
+/* Arrays that are read: matrix, mean slope, direction, and the two numbers of a sample or the given normal. */
 enum {
     VNDF_READ_XX,
     VNDF_READ_XY,
@@ -31,44 +31,59 @@ enum {
     VNDF_READ_A,
     VNDF_READ_B,
     VNDF_READ_C,
-    VNDF_READ_WEIGHT,
     VNDF_READS
 };
 
-/* Arrays that are written: normal, density and weight of a sample; two numbers of an inverse; else one. */
+/* Arrays that are written: normal, density and weight of a sample; an area and 1 if the surface is valid, else 0; two
+ * numbers of an inverse; else one. */
 enum { VNDF_WRITES = 5 };
 
-/* What a surface, or a lobe of mixtures, reads. */
-typedef struct vndf_lobe_call {
-    const vndf_distribution *distribution;
-    unsigned shared;               /* bit i: read[i] points to one number for all */
-    const float *read[VNDF_READS]; /* NULL for zeros */
-} vndf_lobe_call;
+/* A distribution as lanes read it, which is made once for a call. */
+typedef struct vndf_prepared {
+    _Alignas(64) unsigned char bytes[1 << 14];
+} vndf_prepared;
 
 typedef struct vndf_call {
     vndf_task task;
-    const float *given[3];     /* numbers, or a normal: what each lobe reads from VNDF_READ_A on */
-    float *write[VNDF_WRITES]; /* NULL for what is not asked for */
-    const int *asked;          /* the lobes of an inverse of mixtures; NULL for -1 */
-    int *drawn;                /* the lobes that mixtures drew from, or NULL */
+    const vndf_distribution *distribution;
+    const vndf_prepared *prepared;
+    unsigned shared;               /* bit i: read[i] points to one number for all */
+    const float *read[VNDF_READS]; /* NULL for zeros */
+    float *write[VNDF_WRITES];     /* NULL for what is not asked for */
     size_t count;
-    int diagonal; /* roughness: xx and yy have to be above 0 */
-    int mixed;    /* mixtures of `lobes` lobes, 1 to VNDF_MIXTURE_LOBES; else the surface is the one lobe */
-    int lobes;
-    const vndf_lobe_call *lobe;
+    const int *at; /* which elements of the arrays; NULL: the first */
+    int diagonal;  /* roughness alone: xx and yy have to be above 0 */
 } vndf_call;
 
-/* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL. */
-typedef void vndf_lanes(const vndf_call *call);
+/* Element i of what `run` writes equals, to the bit, the call for one element. No distribution is NULL in lanes. */
+typedef struct vndf_lanes {
+    void (*prepare)(const vndf_distribution *distribution, vndf_prepared *prepared);
+    void (*run)(const vndf_call *call);
+} vndf_lanes;
 
 #if defined(__GNUC__)
-vndf_lanes vndf_lanes_4;
+extern const vndf_lanes vndf_lanes_4;
 #endif
 #if VNDF_HAS_WIDE_LANES /* the build compiles them */
-vndf_lanes vndf_lanes_8, vndf_lanes_16;
+extern const vndf_lanes vndf_lanes_8, vndf_lanes_16;
 #endif
 
-/* The same by the calls for one (elements.c): distributions may be NULL, and the number of lobes any. */
-vndf_lanes vndf_one_by_one;
+/* The same by the calls for one (elements.c): the distribution may be NULL. */
+extern const vndf_lanes vndf_one_by_one;
+
+/* The best lanes up to `limit` for so many elements; `table`: of a table that is prepared for this call alone. */
+const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit);
+
+/* The surfaces and directions of a batch. */
+vndf_call vndf_call_of(const vndf_batch *batch);
+
+/* What is read beside the surface, numbers u1 and u2 or a normal, and what is written. */
+typedef struct vndf_arrays {
+    const float *given[3];
+    float *write[VNDF_WRITES];
+} vndf_arrays;
+
+/* A task on mixtures; `lobe` for the lobes that were drawn, or NULL. */
+void vndf_run_mixtures(const vndf_mixture_batch *batch, vndf_task task, vndf_arrays arrays, int *lobe);
 
 #endif

@@ -1,20 +1,20 @@
-/* Batches one element after the other, by the calls for one: single elements, lobes without a distribution, and all
- * where the compiler has no lanes. */
+/* Batches one element after the other, by the calls for one: single elements, lobes without a distribution, inverses,
+ * and all where the compiler has no lanes. */
 #include "sampler/batch/call.h"
+#include "sampler/sampler.h"
 
-static float number(const vndf_lobe_call *c, int which, size_t i)
+static float number(const vndf_call *c, int which, size_t i)
 {
     const float *array = c->read[which];
     return array ? array[c->shared >> which & 1 ? 0 : i] : 0.0f;
 }
 
-static vndf_vec3 triple(const vndf_lobe_call *c, int first, size_t i)
+static vndf_vec3 triple(const vndf_call *c, int first, size_t i)
 {
-    vndf_vec3 v = {number(c, first, i), number(c, first + 1, i), number(c, first + 2, i)};
-    return v;
+    return (vndf_vec3){number(c, first, i), number(c, first + 1, i), number(c, first + 2, i)};
 }
 
-static vndf_affine surface_at(const vndf_lobe_call *c, size_t i)
+static void run_one(const vndf_call *c, size_t i)
 {
     vndf_affine s = {c->distribution,
                      number(c, VNDF_READ_XX, i),
@@ -23,87 +23,44 @@ static vndf_affine surface_at(const vndf_lobe_call *c, size_t i)
                      number(c, VNDF_READ_YY, i),
                      number(c, VNDF_READ_MEAN_X, i),
                      number(c, VNDF_READ_MEAN_Y, i)};
-    return s;
-}
-
-static void put_normal(const vndf_call *c, size_t i, vndf_vec3 wm)
-{
-    c->write[0][i] = wm.x;
-    c->write[1][i] = wm.y;
-    c->write[2][i] = wm.z;
-}
-
-static float *place_of(const vndf_call *c, int which, size_t i)
-{
-    return c->write[which] ? &c->write[which][i] : NULL;
-}
-
-static void one_surface(const vndf_call *c, size_t i)
-{
-    vndf_affine s = surface_at(c->lobe, i);
-    const vndf_vec3 wi = triple(c->lobe, VNDF_READ_WI_X, i), wm = triple(c->lobe, VNDF_READ_A, i);
+    const vndf_vec3 wi = triple(c, VNDF_READ_WI_X, i), given = triple(c, VNDF_READ_A, i);
     const vndf_surface rough = {s.distribution, s.xx, s.yy};
-    float *to = &c->write[0][i], *pdf = place_of(c, 3, i), *weight = place_of(c, 4, i), u1, u2;
-    vndf_view view;
-    if (c->task < VNDF_TASK_NDF)
-        view = c->diagonal ? vndf_view_from(&rough, wi) : vndf_affine_view_from(&s, wi);
+    const vndf_view view = c->diagonal ? vndf_view_from(&rough, wi) : vndf_affine_view_from(&s, wi);
+    vndf_vec3 wm;
+    float to[VNDF_WRITES] = {0.0f};
     if (c->diagonal && !(s.xx > 0.0f && s.yy > 0.0f))
         s.distribution = NULL; /* which is invalid */
     switch (c->task) {
     case VNDF_TASK_SAMPLE:
-        put_normal(c, i,
-                   weight ? vndf_sample_weight(&view, wm.x, wm.y, pdf, weight)
-                          : vndf_sample(&view, wm.x, wm.y, pdf));
+        wm = c->write[4] ? vndf_sample_weight(&view, given.x, given.y, &to[3], &to[4])
+                         : vndf_sample(&view, given.x, given.y, &to[3]);
+        to[0] = wm.x, to[1] = wm.y, to[2] = wm.z;
         break;
-    case VNDF_TASK_PDF: *to = vndf_pdf(&view, wm); break;
-    case VNDF_TASK_VISIBLE: *to = vndf_visible(&view, wm); break;
-    case VNDF_TASK_INVERT:
-        vndf_invert(&view, wm, &u1, &u2);
-        *to = u1;
-        c->write[1][i] = u2;
-        break;
-    case VNDF_TASK_NDF: *to = vndf_affine_ndf(&s, wm); break;
-    case VNDF_TASK_LAMBDA: *to = vndf_affine_lambda(&s, wi); break;
-    case VNDF_TASK_G1: *to = vndf_affine_g1(&s, wi); break;
-    default: *to = vndf_affine_projected_area(&s, wi);
+    case VNDF_TASK_PDF: to[0] = vndf_pdf(&view, given); break;
+    case VNDF_TASK_VISIBLE: to[0] = vndf_visible(&view, given); break;
+    case VNDF_TASK_INVERT: vndf_invert(&view, given, &to[0], &to[1]); break;
+    case VNDF_TASK_NDF: to[0] = vndf_affine_ndf(&s, given); break;
+    case VNDF_TASK_LAMBDA: to[0] = vndf_affine_lambda(&s, wi); break;
+    case VNDF_TASK_G1: to[0] = vndf_affine_g1(&s, wi); break;
+    case VNDF_TASK_AREA: to[0] = vndf_affine_projected_area(&s, wi); break;
+    case VNDF_TASK_DRAWN_AREA: to[0] = view.distribution ? vndf_view_drawn_area(&view) : 0.0f; break;
     }
+    to[1] = c->task == VNDF_TASK_AREA || c->task == VNDF_TASK_DRAWN_AREA ? view.distribution != NULL : to[1];
+    for (int w = 0; w < VNDF_WRITES; w++)
+        if (c->write[w])
+            c->write[w][i] = to[w];
 }
 
-static void one_mixture(const vndf_call *c, size_t i)
+static void prepare(const vndf_distribution *distribution, vndf_prepared *prepared)
 {
-    const vndf_vec3 wi = triple(c->lobe, VNDF_READ_WI_X, i), wm = triple(c->lobe, VNDF_READ_A, i);
-    float *to = &c->write[0][i], u1, u2;
-    int lobe = -1;
-    vndf_mixture m = {.count = c->lobes};
-    vndf_mixture_view view;
-    for (int l = 0; l < c->lobes && l < VNDF_MIXTURE_LOBES; l++) {
-        m.lobe[l].surface = surface_at(&c->lobe[l], i);
-        m.lobe[l].weight = number(&c->lobe[l], VNDF_READ_WEIGHT, i);
-    }
-    if (c->task < VNDF_TASK_NDF)
-        view = vndf_mixture_view_from(&m, wi);
-    switch (c->task) {
-    case VNDF_TASK_SAMPLE:
-        put_normal(c, i, vndf_mixture_sample(&view, wm.x, wm.y, place_of(c, 3, i), &lobe));
-        break;
-    case VNDF_TASK_PDF: *to = vndf_mixture_pdf(&view, wm); break;
-    case VNDF_TASK_VISIBLE: *to = vndf_mixture_visible(&view, wm); break;
-    case VNDF_TASK_INVERT:
-        lobe = vndf_mixture_invert(&view, wm, c->asked ? c->asked[i] : -1, &u1, &u2);
-        *to = u1;
-        c->write[1][i] = u2;
-        break;
-    case VNDF_TASK_NDF: *to = vndf_mixture_ndf(&m, wm); break;
-    case VNDF_TASK_LAMBDA: *to = vndf_mixture_lambda(&m, wi); break;
-    case VNDF_TASK_G1: *to = vndf_mixture_g1(&m, wi); break;
-    default: *to = vndf_mixture_projected_area(&m, wi);
-    }
-    if (c->drawn)
-        c->drawn[i] = lobe;
+    (void)distribution;
+    (void)prepared;
 }
 
-void vndf_one_by_one(const vndf_call *call)
+static void run(const vndf_call *call)
 {
     for (size_t i = 0; i < call->count; i++)
-        (call->mixed ? one_mixture : one_surface)(call, i);
+        run_one(call, call->at ? (size_t)call->at[i] : i);
 }
+
+const vndf_lanes vndf_one_by_one = {prepare, run};

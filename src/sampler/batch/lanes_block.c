@@ -1,8 +1,8 @@
 /* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
  *
- * A call goes block by block. A block sets the frames of its elements; splits them by the side of the horizon from
- * which a table is seen; takes each side through the steps of the kernel (draw.h), each a short loop over the block;
- * and puts the results together again. Short loops, since a processor overlaps few iterations of a long one. */
+ * A call goes block by block. The elements of a block are valid and, where a table is seen, on one side of the horizon:
+ * where some are not, those of each side are put together first. A block goes through the steps of the kernel, each a
+ * short loop, since a processor overlaps few iterations of a long one. */
 #ifndef VNDF_LANES
 #define VNDF_LANES 4
 #endif
@@ -30,15 +30,16 @@ enum { BLOCK = 128, GROUPS = BLOCK / LANES };
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
-/* A block of a call, or of a lobe of it: where its inputs lie, all of them readable up to the last lane, and valid;
- * which elements are. */
+/* Up to BLOCK elements of a call: where their inputs lie, readable to the last lane, and where results go; below: a
+ * table is seen from below the horizon. */
 typedef struct block {
-    const vndf_lobe_call *lobe;
     vndf_task task;
+    vndf_kind kind;
+    float unit;
     table t;
-    int groups, plain; /* plain: of all its surfaces (kernel/surface.h) */
+    int groups, plain, below; /* plain: of all its surfaces (kernel/surface.h) */
     const float *read[VNDF_READS];
-    mask valid[GROUPS];
+    float *write[VNDF_WRITES];
 } block;
 
 HERE real input(const block *b, int which, int g)
@@ -46,66 +47,45 @@ HERE real input(const block *b, int which, int g)
     return load(b->read[which] + g * LANES);
 }
 
-/* ---- frames ---- */
+/* Of the numbers u1 and u2: in [0, 1], 0 for NaN. */
+HERE real unit_input(const block *b, int which, int g)
+{
+    return least(most(input(b, which, g), set(0.0f)), set(1.0f));
+}
 
-/* What of frames is needed to the end: f without m, which is read again, u, `grow` and `size`; the direction of (ux,
- * uy) of a table. */
-typedef struct frames {
-    frame f[GROUPS];
-    real ex[GROUPS], ey[GROUPS];
-} frames;
-
-/* The elements of one side of the horizon, or of a block: height uz; s, c and rho of the direction, and rho^2 as two
- * parts; what is drawn with or given; results. */
-enum { S, C, RHO, SQUARE, UNDER, GIVEN_A, GIVEN_B, GIVEN_C, GIVEN_D, SIDE_READS };
-enum { RESULT_A, RESULT_B, RESULT_C, RESULT_D, RESULT_E, SIDE_WRITES };
-
-typedef struct side {
-    row height, read[SIDE_READS], write[SIDE_WRITES];
-} side;
+HERE void put(const block *b, int which, int g, real x)
+{
+    store(b->write[which] + g * LANES, x);
+}
 
 /* A matrix in units of the distribution's slopes. */
-HERE affine_map map_at(const block *b, int g)
+HERE affine_map map_at(const block *b, int g, const int plain)
 {
-    const float unit = b->lobe->distribution->unit;
     const real zero = set(0.0f);
-    affine_map m = {input(b, VNDF_READ_XX, g) * unit,
+    affine_map m = {input(b, VNDF_READ_XX, g) * b->unit,
                     zero,
                     zero,
-                    input(b, VNDF_READ_YY, g) * unit,
+                    input(b, VNDF_READ_YY, g) * b->unit,
                     zero,
                     zero,
-                    b->plain,
+                    plain,
                     zero};
-    if (!m.plain) {
-        m.xy = input(b, VNDF_READ_XY, g) * unit;
-        m.yx = input(b, VNDF_READ_YX, g) * unit;
+    if (!plain) {
+        m.xy = input(b, VNDF_READ_XY, g) * b->unit;
+        m.yx = input(b, VNDF_READ_YX, g) * b->unit;
         m.mean_x = input(b, VNDF_READ_MEAN_X, g);
         m.mean_y = input(b, VNDF_READ_MEAN_Y, g);
     }
     return affine_measured(m);
 }
 
-HERE frame frame_at(const block *b, int g)
+HERE frame frame_at(const block *b, int g, const int plain)
 {
-    return frame_of(map_at(b, g), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+    return frame_of(map_at(b, g, plain), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                     input(b, VNDF_READ_WI_Z, g));
 }
 
-/* Puts the direction of a frame at group g of a side. */
-HERE table_direction put_direction(side *s, int g, frame f)
-{
-    table_direction w = table_direction_of(f);
-    store(s->height + g * LANES, f.uz);
-    store(s->read[S] + g * LANES, w.s);
-    store(s->read[C] + g * LANES, w.c);
-    store(s->read[RHO] + g * LANES, w.rho);
-    store(s->read[SQUARE] + g * LANES, w.square);
-    store(s->read[UNDER] + g * LANES, w.under);
-    return w;
-}
-
-/* ---- sides of the horizon ---- */
+/* ---- searches ---- */
 
 /* The knot of entry `at` of a step of searches. */
 HERE whole knot_of(table t, whole at, int level)
@@ -120,43 +100,27 @@ HERE whole step_slope(table t, real square, real under, whole at, int level)
 }
 
 /* The cells of slopes whose squares have these two parts. */
-HERE void find_slopes(table t, int groups, const float *square, const float *under, whole *i)
+HERE void find_slopes(table t, int groups, const real *square, const real *under, whole *i)
 {
     for (int g = 0; g < groups; g++) {
-        real a = load(square + g * LANES), b = load(under + g * LANES);
         whole at = set_whole(1);
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
-            at = step_slope(t, a, b, at, level);
+            at = step_slope(t, square[g], under[g], at, level);
         i[g] = at;
     }
     LANES_UNROLLED
     for (int level = FIRST_LEVELS; level < LEVELS; level++)
         for (int g = 0; level < t.levels && g < groups; g++)
-            i[g] = step_slope(t, load(square + g * LANES), load(under + g * LANES), i[g], level);
+            i[g] = step_slope(t, square[g], under[g], i[g], level);
     for (int g = 0; g < groups; g++)
         i[g] = (i[g] - set_whole(1 << t.levels)) * set_whole(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++) {
             whole next = least_whole(i[g] + step, set_whole(t.cells));
             real r = look(t, VNDF_KNOT, next).a;
-            i[g] = pick_whole(at_most((r * r) * load(under + g * LANES), load(square + g * LANES)), next, i[g]);
+            i[g] = pick_whole(at_most((r * r) * under[g], square[g]), next, i[g]);
         }
-}
-
-HERE void see_side(table t, int groups, const side *s, seen *v, const int below)
-{
-    whole cell[GROUPS];
-    if (below)
-        find_slopes(t, groups, s->read[SQUARE], s->read[UNDER], cell);
-    for (int g = 0; g < groups; g++) {
-        const float *at = s->read[0] + g * LANES;
-        real height = load(at + C * BLOCK), across = load(at + S * BLOCK), rho = load(at + RHO * BLOCK);
-        if (below)
-            v[g] = law_see_below(t, across, height, rho, cell[g]);
-        else
-            v[g] = law_see_above(t, across, height, rho);
-    }
 }
 
 /* law_sum, whose fourth term is 0 for fewer moments. */
@@ -206,20 +170,6 @@ HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int be
     return r;
 }
 
-/* Areas of what is seen. */
-HERE void find_areas(table t, int groups, const seen *v, real *area, const int below)
-{
-    row square, under;
-    whole cell[GROUPS];
-    for (int g = 0; g < groups; g++)
-        store(square + g * LANES, v[g].rho * v[g].rho);
-    for (int g = 0; g < GROUPS; g++)
-        store(under + g * LANES, set(1.0f));
-    find_slopes(t, groups, square, under, cell);
-    for (int g = 0; g < groups; g++)
-        area[g] = law_area_in(t, v[g], cell[g], below);
-}
-
 /* Cells of samples. */
 HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
 {
@@ -241,32 +191,68 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *
             r[g] = step_rows(t, v[g], a[g], r[g], step, below);
 }
 
-/* The azimuths of u1. */
-HERE void draw_azimuths(int groups, const arc *k, const float *u1, bearing *a, const int below)
+/* ---- tables ---- */
+
+/* How a table sees directions. */
+HERE void see(table t, int groups, const table_direction *w, seen *v, const int below)
 {
-    real start[GROUPS];
-    for (int g = 0; g < groups; g++)
-        start[g] = arc_start(k[g], arc_half(load(u1 + g * LANES)), below);
-    for (int g = 0; g < groups; g++) {
-        real u = load(u1 + g * LANES);
-        a[g] = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
+    whole cell[GROUPS];
+    real square[GROUPS], under[GROUPS];
+    for (int g = 0; below && g < groups; g++) {
+        square[g] = w[g].square;
+        under[g] = w[g].under;
     }
+    if (below)
+        find_slopes(t, groups, square, under, cell);
+    for (int g = 0; g < groups; g++)
+        v[g] = below ? law_see_below(t, w[g].s, w[g].c, w[g].rho, cell[g])
+                     : law_see_above(t, w[g].s, w[g].c, w[g].rho);
+}
+
+/* Areas of what is seen. */
+HERE void find_areas(table t, int groups, const seen *v, real *area, const int below)
+{
+    real square[GROUPS], under[GROUPS];
+    whole cell[GROUPS];
+    for (int g = 0; g < groups; g++) {
+        square[g] = v[g].rho * v[g].rho;
+        under[g] = set(1.0f);
+    }
+    find_slopes(t, groups, square, under, cell);
+    for (int g = 0; g < groups; g++)
+        area[g] = law_area_in(t, v[g], cell[g], below);
+}
+
+/* The given normals, with their cells. */
+HERE void place_given(table t, int groups, const unit_normal *n, given *at)
+{
+    real square[GROUPS], under[GROUPS];
+    whole cell[GROUPS];
+    for (int g = 0; g < groups; g++) {
+        at[g] = table_given_slope(n[g].x, n[g].y, n[g].z);
+        square[g] = at[g].square;
+        under[g] = at[g].under;
+    }
+    find_slopes(t, groups, square, under, cell);
+    for (int g = 0; g < groups; g++)
+        at[g].cell = cell[g];
 }
 
 /* Normals in the frames of their directions, with K, and their weights. */
-HERE void draw_side(table t, int groups, side *s, const int weigh, const int below)
+HERE void draw_side(const block *b, table_direction *w, drawn *n, real *weight, const int weigh, const int below)
 {
+    const table t = b->t;
+    const int groups = b->groups;
     seen v[GROUPS];
     aim a[GROUPS];
     reached r[GROUPS];
     found f[GROUPS];
     drawn_length d[GROUPS];
     arc k[GROUPS];
-    bearing turned[GROUPS];
-    real area[GROUPS];
-    see_side(t, groups, s, v, below);
+    real start[GROUPS], area[GROUPS];
+    see(t, groups, w, v, below);
     for (int g = 0; g < groups; g++)
-        a[g] = table_aim(v[g], load(s->read[GIVEN_B] + g * LANES), below);
+        a[g] = table_aim(v[g], unit_input(b, VNDF_READ_B, g), below);
     find_cells(t, groups, v, a, r, below);
     for (int g = 0; g < groups; g++)
         f[g] = table_cell(t, v[g], a[g], r[g], below);
@@ -274,291 +260,116 @@ HERE void draw_side(table t, int groups, side *s, const int weigh, const int bel
         d[g] = table_length(t, v[g], f[g], law_invert(f[g].at, f[g].before), below);
     for (int g = 0; g < groups; g++)
         k[g] = table_arc(v[g], d[g].r, below);
-    draw_azimuths(groups, k, s->read[GIVEN_A], turned, below);
+    for (int g = 0; g < groups; g++)
+        start[g] = arc_start(k[g], arc_half(unit_input(b, VNDF_READ_A, g)), below);
     for (int g = 0; g < groups; g++) {
-        drawn n = table_normal(v[g], d[g], k[g], turned[g]);
-        store(s->write[RESULT_A] + g * LANES, n.x);
-        store(s->write[RESULT_B] + g * LANES, n.y);
-        store(s->write[RESULT_C] + g * LANES, n.z);
-        store(s->write[RESULT_D] + g * LANES, n.density);
+        real u = unit_input(b, VNDF_READ_A, g);
+        bearing turned = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
+        n[g] = table_normal(v[g], d[g], k[g], turned);
     }
-    if (weigh)
-        find_areas(t, groups, v, area, below);
-    for (int g = 0; weigh && g < groups; g++) {
+    if (!weigh)
+        return;
+    find_areas(t, groups, v, area, below);
+    for (int g = 0; g < groups; g++) {
         place in = law_invert(f[g].at, f[g].before);
-        real weight = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
-        store(s->write[RESULT_E] + g * LANES, weight);
+        weight[g] = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
     }
 }
 
-/* The given normals, with their cells. */
-HERE void place_given(table t, int groups, const side *s, given *n)
+STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const int weigh)
 {
-    row square, under;
-    whole cell[GROUPS];
-    for (int g = 0; g < groups; g++) {
-        const float *at = s->read[0] + g * LANES;
-        n[g] =
-            table_given_slope(load(at + GIVEN_A * BLOCK), load(at + GIVEN_B * BLOCK), load(at + GIVEN_C * BLOCK));
-        store(square + g * LANES, n[g].square);
-        store(under + g * LANES, n[g].under);
-    }
-    find_slopes(t, groups, square, under, cell);
-    for (int g = 0; g < groups; g++)
-        n[g].cell = cell[g];
+    if (b->below)
+        draw_side(b, w, n, weight, weigh, 1);
+    else
+        draw_side(b, w, n, weight, weigh, 0);
 }
 
-HERE void density_side(table t, int groups, side *s, const int below)
+/* The densities of given normals, whose `facing` is over the reach of the direction. */
+STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
 {
+    const int below = b->below;
     seen v[GROUPS];
-    given n[GROUPS];
-    see_side(t, groups, s, v, below);
-    place_given(t, groups, s, n);
-    for (int g = 0; g < groups; g++)
-        store(s->write[RESULT_A] + g * LANES,
-              table_density(t, v[g], n[g], load(s->read[GIVEN_D] + g * LANES), below));
+    given at[GROUPS];
+    see(b->t, b->groups, w, v, below);
+    place_given(b->t, b->groups, n, at);
+    for (int g = 0; g < b->groups; g++)
+        density[g] = table_density(b->t, v[g], at[g], n[g].facing, below);
 }
 
-HERE void invert_side(table t, int groups, side *s, const int below)
+STEP void table_areas(const block *b, table_direction *w, real *area)
 {
+    const int below = b->below;
     seen v[GROUPS];
-    given n[GROUPS];
-    see_side(t, groups, s, v, below);
-    place_given(t, groups, s, n);
-    for (int g = 0; g < groups; g++) {
-        real x = load(s->read[GIVEN_A] + g * LANES), y = load(s->read[GIVEN_B] + g * LANES);
-        pair u = table_invert(t, v[g], n[g], x, y, below);
-        store(s->write[RESULT_A] + g * LANES, u.a);
-        store(s->write[RESULT_B] + g * LANES, u.b);
-    }
-}
-
-HERE void area_side(table t, int groups, side *s, const int law_alone, const int below)
-{
-    seen v[GROUPS];
-    real area[GROUPS];
-    see_side(t, groups, s, v, below);
-    for (int g = 0; law_alone && g < groups; g++)
+    see(b->t, b->groups, w, v, below);
+    if (b->task != VNDF_TASK_DRAWN_AREA)
+        find_areas(b->t, b->groups, v, area, below);
+    for (int g = 0; b->task == VNDF_TASK_DRAWN_AREA && g < b->groups; g++)
         area[g] = law_drawn_area(v[g], below);
-    if (!law_alone)
-        find_areas(t, groups, v, area, below);
-    for (int g = 0; g < groups; g++)
-        store(s->write[RESULT_A] + g * LANES, area[g]);
 }
 
-/* What is done to a side. */
-typedef enum side_task { DRAW, WEIGH, DENSITY, INVERT, AREA, DRAWN_AREA } side_task;
-
-/* How many rows of a side that takes and gives. */
-static const struct side_rows {
-    int reads, writes;
-} side_rows[] = {{GIVEN_C, RESULT_E}, {GIVEN_C, SIDE_WRITES}, {SIDE_READS, RESULT_B},
-                 {GIVEN_D, RESULT_C}, {GIVEN_A, RESULT_B},    {GIVEN_A, RESULT_B}};
-
-HERE void do_side(side_task task, table t, int groups, side *s, const int below)
+/* D times the determinant of given normals. */
+STEP void p22_table(const block *b, unit_normal *n, real *p22)
 {
-    switch (task) {
-    case DRAW: draw_side(t, groups, s, 0, below); break;
-    case WEIGH: draw_side(t, groups, s, 1, below); break;
-    case DENSITY: density_side(t, groups, s, below); break;
-    case INVERT: invert_side(t, groups, s, below); break;
-    case AREA: area_side(t, groups, s, 0, below); break;
-    case DRAWN_AREA: area_side(t, groups, s, 1, below); break;
-    }
+    given at[GROUPS];
+    place_given(b->t, b->groups, n, at);
+    for (int g = 0; g < b->groups; g++)
+        p22[g] = table_p22(b->t, at[g]);
 }
 
-STEP void do_above(side_task task, table t, int groups, side *s)
+/* ---- tasks, of which the compiler knows the kind of distribution ---- */
+
+HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
 {
-    do_side(task, t, groups, s, 0);
-}
-
-STEP void do_below(side_task task, table t, int groups, side *s)
-{
-    do_side(task, t, groups, s, 1);
-}
-
-/* Some elements of a block, to be put together: which, how many, and in how many groups. */
-typedef struct some {
-    mask of[GROUPS];
-    int count, groups;
-#if VNDF_LANES < 16
-    uint8_t at[BLOCK];
-#endif
-} some;
-
-/* Counts the elements in e->of. */
-HERE void count_some(some *e, int groups)
-{
-    e->count = 0;
-    for (int g = 0; g < groups; g++) {
-#if VNDF_LANES == 16
-        e->count += __builtin_popcount(e->of[g]);
-#else
-        for (int l = 0; l < LANES; l++) {
-            e->at[e->count] = (uint8_t)(g * LANES + l);
-            e->count -= e->of[g][l];
-        }
-#endif
-    }
-    e->groups = (e->count + LANES - 1) / LANES;
-}
-
-/* Puts their numbers together; lanes that are left hold the first. */
-HERE void gather(const some *e, int groups, const float *from, float *to)
-{
-#if VNDF_LANES == 16 /* one instruction for sixteen copies. Lanes end within the row */
-    int count = 0;
-    for (int g = 0; g < groups; g++) {
-        _mm512_storeu_ps(to + count, _mm512_maskz_compress_ps(e->of[g], (__m512)load(from + g * LANES)));
-        count += __builtin_popcount(e->of[g]);
-    }
-#else
-    (void)groups;
-    for (int i = 0; i < e->count; i++)
-        to[i] = from[e->at[i]];
-#endif
-    for (int i = e->count; i < e->groups * LANES; i++)
-        to[i] = to[0];
-}
-
-/* Puts numbers back. */
-HERE void scatter(const some *e, int groups, const float *from, float *to)
-{
-#if VNDF_LANES == 16
-    int count = 0;
-    for (int g = 0; g < groups; g++) {
-        __m512 before = (__m512)load(to + g * LANES);
-        store(to + g * LANES, (real)_mm512_mask_expand_ps(before, e->of[g], _mm512_loadu_ps(from + count)));
-        count += __builtin_popcount(e->of[g]);
-    }
-#else
-    (void)groups;
-    for (int i = 0; i < e->count; i++)
-        to[e->at[i]] = from[i];
-#endif
-}
-
-/* A task on the elements of one side of a block, which are put together for it. */
-HERE void take_some(side_task task, table t, side *s, int groups, const int below)
-{
-    side own;
-    some e;
-    for (int g = 0; g < groups; g++) {
-        real height = load(s->height + g * LANES);
-        e.of[g] = below ? less(height, set(0.0f)) : at_most(set(0.0f), height);
-    }
-    count_some(&e, groups);
-    for (int r = 0; r < side_rows[task].reads; r++)
-        gather(&e, groups, s->read[r], own.read[r]);
-    (below ? do_below : do_above)(task, t, e.groups, &own);
-    for (int w = 0; w < side_rows[task].writes; w++)
-        scatter(&e, groups, own.write[w], s->write[w]);
-}
-
-/* A task on each side that has elements. */
-HERE void take_sides(side_task task, const block *b, side *s)
-{
-    real least_height = set(0.0f), most_height = set(-1.0f);
-    for (int g = 0; g < b->groups; g++) {
-        real height = load(s->height + g * LANES);
-        least_height = least(least_height, height);
-        most_height = most(most_height, height);
-    }
-    if (!any(less(least_height, set(0.0f))))
-        do_above(task, b->t, b->groups, s);
-    else if (!any(at_most(set(0.0f), most_height)))
-        do_below(task, b->t, b->groups, s);
-    else {
-        take_some(task, b->t, s, b->groups, 0);
-        take_some(task, b->t, s, b->groups, 1);
-    }
-}
-
-/* ---- samples ---- */
-
-/* Of the numbers u1 and u2: in [0, 1], 0 for NaN. */
-HERE real unit_input(const block *b, int which, int g)
-{
-    return least(most(input(b, which, g), set(0.0f)), set(1.0f));
-}
-
-/* Keeps what a sample needs of its frame to the end. */
-HERE void keep_frame(frames *at, int g, frame f)
-{
-    at->f[g].wx = f.wx;
-    at->f[g].wy = f.wy;
-    at->f[g].wz = f.wz;
-    at->f[g].determinant = f.determinant;
-    at->f[g].densest = f.densest;
-    at->f[g].near = f.near;
-}
-
-/* Writes the samples of a group; density and weight where that is asked for. */
-HERE void put_sample(const block *b, const frames *at, int g, drawn n, real weight, float *const to[VNDF_WRITES])
-{
-    frame f = at->f[g];
-    f.m = map_at(b, g);
-    sampled_normal s = frame_sampled(f, n);
-    mask valid = b->valid[g];
-    real zero = set(0.0f);
-    store(to[0] + g * LANES, pick(valid, s.x, zero));
-    store(to[1] + g * LANES, pick(valid, s.y, zero));
-    store(to[2] + g * LANES, pick(valid, s.z, set(1.0f)));
-    if (to[3])
-        store(to[3] + g * LANES, pick(valid, s.pdf, zero));
-    if (to[4])
-        store(to[4] + g * LANES, pick(valid, weight, zero));
-}
-
-HERE void sample_table(const block *b, float *const to[VNDF_WRITES])
-{
-    frames at;
-    side s;
-    const int weigh = to[4] != NULL;
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        table_direction w = put_direction(&s, g, f);
-        keep_frame(&at, g, f);
-        at.ex[g] = w.ex;
-        at.ey[g] = w.ey;
-        store(s.read[GIVEN_A] + g * LANES, unit_input(b, VNDF_READ_A, g));
-        store(s.read[GIVEN_B] + g * LANES, unit_input(b, VNDF_READ_B, g));
-    }
-    take_sides(weigh ? WEIGH : DRAW, b, &s);
-    for (int g = 0; g < b->groups; g++) {
-        const float *from = s.write[0] + g * LANES;
-        drawn n = {load(from), load(from + BLOCK), load(from + 2 * BLOCK), load(from + 3 * BLOCK)};
-        real weight = weigh ? load(s.write[RESULT_E] + g * LANES) : set(1.0f);
-        put_sample(b, &at, g, table_turned(at.ex[g], at.ey[g], n), weight, to);
-    }
-}
-
-HERE void sample_closed(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    frames at;
+    frame at[GROUPS]; /* what is needed to the end: the matrix is read again */
+    table_direction w[GROUPS];
     ggx_view caps[GROUPS];
     beckmann_view laws[GROUPS];
     drawn n[GROUPS];
+    real weight[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        keep_frame(&at, g, f);
-        if (kind == VNDF_KIND_GGX)
+        frame f = frame_at(b, g, plain);
+        at[g].wx = f.wx;
+        at[g].wy = f.wy;
+        at[g].wz = f.wz;
+        at[g].determinant = f.determinant;
+        at[g].densest = f.densest;
+        at[g].near = f.near;
+        if (kind == VNDF_KIND_TABLE)
+            w[g] = table_direction_of(f);
+        else if (kind == VNDF_KIND_GGX)
             caps[g] = ggx_see(f.ux, f.uy, f.uz);
         else
             laws[g] = beckmann_see(f.ux, f.uy, f.uz);
     }
+    if (kind == VNDF_KIND_TABLE)
+        draw(b, w, n, weight, b->write[4] != NULL);
+    for (int g = 0; kind == VNDF_KIND_BECKMANN && g < b->groups; g++) /* long enough for a loop of its own */
+        n[g] = beckmann_draw(laws[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
     for (int g = 0; g < b->groups; g++) {
-        real u1 = unit_input(b, VNDF_READ_A, g), u2 = unit_input(b, VNDF_READ_B, g);
-        if (kind == VNDF_KIND_GGX)
-            put_sample(b, &at, g, ggx_draw(caps[g], u1, u2), set(1.0f), to);
-        else
-            n[g] = beckmann_draw(laws[g], u1, u2); /* long enough for a loop of its own */
+        frame f = at[g];
+        f.m = map_at(b, g, plain);
+        if (kind == VNDF_KIND_TABLE)
+            n[g] = table_turned(w[g].ex, w[g].ey, n[g]);
+        else if (kind == VNDF_KIND_GGX)
+            n[g] = ggx_draw(caps[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
+        sampled_normal s = frame_sampled(f, n[g]);
+        put(b, 0, g, s.x);
+        put(b, 1, g, s.y);
+        put(b, 2, g, s.z);
+        if (b->write[3])
+            put(b, 3, g, s.pdf);
+        if (b->write[4])
+            put(b, 4, g, kind == VNDF_KIND_TABLE ? weight[g] : set(1.0f));
     }
-    for (int g = 0; kind == VNDF_KIND_BECKMANN && g < b->groups; g++)
-        put_sample(b, &at, g, n[g], set(1.0f), to);
 }
 
-/* ---- given normals ---- */
+HERE void sample(const block *b, const vndf_kind kind)
+{
+    if (b->plain) /* once more, where the compiler knows it */
+        sample_as(b, kind, 1);
+    else
+        sample_as(b, kind, 0);
+}
 
 /* The normal of a group in the unit problem, seen or not. */
 HERE unit_normal normal_at(const block *b, int g, frame f)
@@ -566,251 +377,160 @@ HERE unit_normal normal_at(const block *b, int g, frame f)
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
 }
 
-HERE void put_given(side *s, int g, unit_normal n)
-{
-    store(s->read[GIVEN_A] + g * LANES, n.x);
-    store(s->read[GIVEN_B] + g * LANES, n.y);
-    store(s->read[GIVEN_C] + g * LANES, n.z);
-}
-
-/* D times the determinant of given normals, D of a direction straight up if there is no other. */
-HERE void p22_table(table t, int groups, const side *s, real *p22)
-{
-    given n[GROUPS];
-    place_given(t, groups, s, n);
-    for (int g = 0; g < groups; g++)
-        p22[g] = table_p22(t, n[g]);
-}
-
-/* A density that a float can hold where the element and its normal are valid, else 0. */
-HERE void put_density(const frame *f, mask valid, int g, real density, float *to)
-{
-    store(to + g * LANES, pick(valid, frame_density(*f, density), set(0.0f)));
-}
-
 /* The drawn density, or the visible one; for closed forms they are the same. */
-HERE void density(const block *b, float *to, const vndf_kind kind, const int visible)
+HERE void density(const block *b, const vndf_kind kind, const int visible)
 {
     frame at[GROUPS]; /* `determinant` and `densest` are needed to the end */
-    mask valid[GROUPS];
-    side s;
-    real facing[GROUPS], reach[GROUPS], p22[GROUPS];
+    table_direction w[GROUPS];
+    unit_normal n[GROUPS];
+    real facing[GROUPS], reach[GROUPS], value[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        unit_normal n = normal_at(b, g, f);
-        mask up = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), n.facing));
-        valid[g] = both(b->valid[g], up);
-        if (kind == VNDF_KIND_GGX) {
-            real k = ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
-            put_density(&f, valid[g], g, k / f.determinant, to);
-            continue;
-        }
-        if (kind == VNDF_KIND_BECKMANN) {
-            real k = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
-            put_density(&f, valid[g], g, k / f.determinant, to);
-            continue;
-        }
-        table_direction w = put_direction(&s, g, f);
+        frame f = frame_at(b, g, b->plain);
+        n[g] = normal_at(b, g, f);
+        facing[g] = n[g].facing;
         at[g].determinant = f.determinant;
         at[g].densest = f.densest;
-        if (visible) {
-            put_given(&s, g, n);
-            facing[g] = n.facing;
-            reach[g] = frame_reach(f);
-        } else {
-            unit_normal m = table_unturned(w.ex, w.ey, n);
-            mask below = less(f.uz, set(0.0f));
-            m.x = pick(below, m.x, n.x);
-            m.y = pick(below, m.y, n.y);
-            put_given(&s, g, m);
-            store(s.read[GIVEN_D] + g * LANES, n.facing / frame_reach(f));
-        }
-    }
-    if (kind != VNDF_KIND_TABLE)
-        return;
-    take_sides(visible ? AREA : DENSITY, b, &s);
-    if (visible)
-        p22_table(b->t, b->groups, &s, p22);
-    for (int g = 0; g < b->groups; g++) {
-        real result = load(s.write[RESULT_A] + g * LANES), k = result / at[g].determinant;
-        if (visible)
-            k = p22[g] / at[g].determinant * (facing[g] / most(result * reach[g], set(1e-37f)));
-        put_density(&at[g], valid[g], g, k, to);
-    }
-}
-
-HERE void put_numbers(const block *b, int g, pair u, float *const to[VNDF_WRITES])
-{
-    mask valid = b->valid[g];
-    real zero = set(0.0f), one = set(1.0f);
-    store(to[0] + g * LANES, pick(valid, least(most(u.a, zero), one), zero));
-    store(to[1] + g * LANES, pick(valid, least(most(u.b, zero), one), zero));
-}
-
-/* The numbers of normals, which are held above the horizon. */
-HERE void invert(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    side s;
-    for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
-        unit_normal n = frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g),
-                                     most(input(b, VNDF_READ_C, g), set(0.0f)));
         if (kind == VNDF_KIND_GGX)
-            put_numbers(b, g, ggx_invert(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z), to);
+            value[g] = ggx_density(ggx_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
         else if (kind == VNDF_KIND_BECKMANN)
-            put_numbers(b, g, beckmann_invert(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z), to);
+            value[g] = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
         else {
-            table_direction w = put_direction(&s, g, f);
-            put_given(&s, g, table_unturned(w.ex, w.ey, n));
+            w[g] = table_direction_of(f);
+            reach[g] = frame_reach(f);
+            if (b->below && !visible)
+                n[g] = table_unturned(w[g].ex, w[g].ey, n[g]);
+            n[g].facing = n[g].facing / reach[g];
         }
     }
-    if (kind != VNDF_KIND_TABLE)
-        return;
-    take_sides(INVERT, b, &s);
+    if (kind == VNDF_KIND_TABLE && visible) {
+        table_areas(b, w, value);
+        p22_table(b, n, p22);
+    } else if (kind == VNDF_KIND_TABLE)
+        densities(b, w, n, value);
     for (int g = 0; g < b->groups; g++) {
-        pair u = {load(s.write[RESULT_A] + g * LANES), load(s.write[RESULT_B] + g * LANES)};
-        put_numbers(b, g, u, to);
+        real k = value[g] / at[g].determinant;
+        if (kind == VNDF_KIND_TABLE && visible)
+            k = p22[g] / at[g].determinant * (facing[g] / most(value[g] * reach[g], set(1e-37f)));
+        mask seen_at_all = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), facing[g]));
+        put(b, 0, g, pick(seen_at_all, frame_density(at[g], k), set(0.0f)));
     }
 }
 
-/* ---- the distribution itself ---- */
-
-HERE void ndf(const block *b, float *to, const vndf_kind kind)
+HERE void ndf(const block *b, const vndf_kind kind)
 {
-    side s;
-    mask up[GROUPS];
+    unit_normal n[GROUPS];
     real determinant[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_of(map_at(b, g), set(0.0f), set(0.0f), set(1.0f));
-        unit_normal n = normal_at(b, g, f);
-        up[g] = both(b->valid[g], at_most(set(0.0f), input(b, VNDF_READ_C, g)));
+        frame f = frame_of(map_at(b, g, b->plain), set(0.0f), set(0.0f), set(1.0f));
+        n[g] = normal_at(b, g, f);
         determinant[g] = f.determinant;
-        if (kind == VNDF_KIND_TABLE)
-            put_given(&s, g, n);
-        else
-            p22[g] = kind == VNDF_KIND_GGX ? ggx_p22(n.x, n.y, n.z) : beckmann_p22(n.x, n.y, n.z);
+        if (kind == VNDF_KIND_GGX)
+            p22[g] = ggx_p22(n[g].x, n[g].y, n[g].z);
+        else if (kind == VNDF_KIND_BECKMANN)
+            p22[g] = beckmann_p22(n[g].x, n[g].y, n[g].z);
     }
     if (kind == VNDF_KIND_TABLE)
-        p22_table(b->t, b->groups, &s, p22);
+        p22_table(b, n, p22);
     for (int g = 0; g < b->groups; g++) {
         real d = least(p22[g] / determinant[g], set(3.40282347e38f));
-        store(to + g * LANES, pick(up[g], d, set(0.0f)));
+        put(b, 0, g, pick(at_most(set(0.0f), input(b, VNDF_READ_C, g)), d, set(0.0f)));
     }
 }
 
 /* Areas, and what masking makes of them. */
-HERE void areas(const block *b, float *to, const vndf_kind kind)
+HERE void areas(const block *b, const vndf_kind kind)
 {
-    side s;
-    real area[GROUPS], cosine[GROUPS], scale[GROUPS];
+    table_direction w[GROUPS];
+    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g);
+        frame f = frame_at(b, g, b->plain);
         cosine[g] = f.uz * f.size;
         scale[g] = f.size;
-        if (kind == VNDF_KIND_TABLE) {
-            put_direction(&s, g, f);
-            area[g] = frame_reach(f);
-        } else
+        reach[g] = frame_reach(f);
+        if (kind == VNDF_KIND_TABLE)
+            w[g] = table_direction_of(f);
+        else
             area[g] = kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz);
     }
     if (kind == VNDF_KIND_TABLE)
-        take_sides(b->task == VNDF_TASK_DRAWN_AREA ? DRAWN_AREA : AREA, b, &s);
+        table_areas(b, w, area);
     for (int g = 0; g < b->groups; g++) {
-        real all = area[g];
-        if (kind == VNDF_KIND_TABLE)
-            all = load(s.write[RESULT_A] + g * LANES) * all;
-        all = all * scale[g];
+        real all = (kind == VNDF_KIND_TABLE ? area[g] * reach[g] : area[g]) * scale[g];
         if (b->task == VNDF_TASK_LAMBDA)
             all = lambda_of(all, cosine[g]);
         else if (b->task == VNDF_TASK_G1)
             all = g1_of(all, cosine[g]);
-        store(to + g * LANES, pick(b->valid[g], all, set(0.0f)));
+        put(b, 0, g, all);
+        if (b->write[1])
+            put(b, 1, g, set(1.0f));
+    }
+}
+
+HERE void block_of(const block *b, const vndf_kind kind)
+{
+    switch (b->task) {
+    case VNDF_TASK_SAMPLE: sample(b, kind); break;
+    case VNDF_TASK_PDF: density(b, kind, 0); break;
+    case VNDF_TASK_VISIBLE: density(b, kind, 1); break;
+    case VNDF_TASK_NDF: ndf(b, kind); break;
+    default: areas(b, kind);
+    }
+}
+
+STEP void run_block(const block *b)
+{
+    switch (b->kind) {
+    case VNDF_KIND_TABLE: block_of(b, VNDF_KIND_TABLE); break;
+    case VNDF_KIND_GGX: block_of(b, VNDF_KIND_GGX); break;
+    case VNDF_KIND_BECKMANN: block_of(b, VNDF_KIND_BECKMANN); break;
     }
 }
 
 /* ---- blocks ---- */
 
-HERE void sample(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    if (kind == VNDF_KIND_TABLE)
-        sample_table(b, to);
-    else
-        sample_closed(b, to, kind);
-}
+/* Some elements of a call: `at`, or the first, of its arrays from `first` on. */
+typedef struct elements {
+    size_t first;
+    const int *at;
+    int count;
+} elements;
 
-HERE void block_of(const block *b, float *const to[VNDF_WRITES], const vndf_kind kind)
-{
-    if (b->task == VNDF_TASK_SAMPLE && b->plain) { /* once more, where the compiler knows it */
-        block plain = *b;
-        plain.plain = 1;
-        sample(&plain, to, kind);
-    } else if (b->task == VNDF_TASK_SAMPLE)
-        sample(b, to, kind);
-    else if (b->task == VNDF_TASK_VISIBLE && kind == VNDF_KIND_TABLE)
-        density(b, to[0], kind, 1);
-    else if (b->task == VNDF_TASK_PDF || b->task == VNDF_TASK_VISIBLE)
-        density(b, to[0], kind, 0);
-    else if (b->task == VNDF_TASK_INVERT)
-        invert(b, to, kind);
-    else if (b->task == VNDF_TASK_NDF)
-        ndf(b, to[0], kind);
-    else
-        areas(b, to[0], kind);
-}
-
-/* One for each kind, which the compiler then knows. */
-STEP void run_block(const block *b, float *const to[VNDF_WRITES])
-{
-    switch (b->lobe->distribution->kind) {
-    case VNDF_KIND_TABLE: block_of(b, to, VNDF_KIND_TABLE); break;
-    case VNDF_KIND_GGX: block_of(b, to, VNDF_KIND_GGX); break;
-    case VNDF_KIND_BECKMANN: block_of(b, to, VNDF_KIND_BECKMANN); break;
-    }
-}
-
-/* Copies for the last lanes of a call, numbers that all elements share, and what became valid. */
 typedef struct copies {
-    row read[VNDF_READS], write[VNDF_WRITES], valid[VNDF_READ_A];
+    row read[VNDF_READS], write[VNDF_WRITES];
 } copies;
 
-static const row zeros;
-
-/* Where a block reads from: zeros, in place, or copies that go on, with the last element, to the last lane. What all
- * elements share is copied to `fresh` copies. */
-HERE void place_reads(block *b, size_t first, int count, int fresh, copies *c)
+/* Reads and writes in place, or copies that go on, with the last element, to the last lane. */
+HERE void enter(block *b, const vndf_call *call, const elements *e, copies *c)
 {
+    b->groups = (e->count + LANES - 1) / LANES;
+    const int in_place = !e->at && e->count == b->groups * LANES;
     for (int r = 0; r < VNDF_READS; r++) {
-        const float *from = b->lobe->read[r];
-        int one = (int)(b->lobe->shared >> r & 1), in_place = !one && count == b->groups * LANES;
-        b->read[r] = !from ? zeros : in_place ? from + first : c->read[r];
-        if (!from || in_place)
-            continue;
-        for (int g = 0; one && fresh && g < GROUPS; g++)
-            store(c->read[r] + g * LANES, set(*from));
-        for (int i = 0; !one && i < b->groups * LANES; i++)
-            c->read[r][i] = from[first + (size_t)(i < count ? i : count - 1)];
+        if (!call->read[r] || call->shared >> r & 1)
+            continue; /* which is the same for all blocks */
+        const float *from = call->read[r] + e->first;
+        b->read[r] = in_place ? from : c->read[r];
+        for (int i = 0; !in_place && i < e->count; i++)
+            c->read[r][i] = from[e->at ? e->at[i] : i];
+        for (int i = e->count; i < b->groups * LANES; i++)
+            c->read[r][i] = c->read[r][e->count - 1];
     }
+    for (int w = 0; w < VNDF_WRITES; w++)
+        b->write[w] = !call->write[w] ? NULL : in_place ? call->write[w] + e->first : c->write[w];
 }
 
-/* Elements whose matrix and direction are far from what is invalid. */
-HERE mask is_ordinary(const block *b, int g)
+/* Runs a block that was entered, and puts back what it copied. */
+HERE void run_entered(const block *b, const vndf_call *call, const elements *e)
 {
-    affine_map m = map_at(b, g);
-    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), z = input(b, VNDF_READ_WI_Z, g);
-    real sum = (size(x) + size(y)) + size(z), largest = most(sum, m.xx + m.yy);
-    mask regular = less(set(1e-12f), least(m.xx, m.yy));
-    if (!b->plain) {
-        real along = m.xx * m.yy, across = m.xy * m.yx, means = size(m.mean_x) + size(m.mean_y);
-        regular = less(1e-4f * (size(along) + size(across)) + 1e-24f, size(along - across));
-        largest = most(sum, ((size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy))) + means);
-    }
-    return both(both(less(largest, set(1e6f)), less(set(1e-9f), sum)), regular);
+    run_block(b);
+    for (int w = 0; w < VNDF_WRITES; w++)
+        for (int i = 0; b->write[w] && b->write[w] != call->write[w] + e->first && i < e->count; i++)
+            call->write[w][e->first + (size_t)(e->at ? e->at[i] : i)] = b->write[w][i];
 }
 
 /* Which elements of a group are valid. */
 HERE mask valid_at(const block *b, int g)
 {
-    mask valid = affine_is_valid(map_at(b, g));
+    mask valid = affine_is_valid(map_at(b, g, b->plain));
     if (b->plain)
         valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
     if (b->task != VNDF_TASK_NDF)
@@ -819,56 +539,129 @@ HERE mask valid_at(const block *b, int g)
     return valid;
 }
 
-/* Sets which elements are valid. If some are not, the block reads from copies, in which they have the unit matrix and a
- * direction straight up. */
-HERE void set_valid(block *b, copies *c)
+/* Elements above the horizon, those from which a table is seen from below, and those that are not valid; the first two
+ * are the values of a block's `below`. */
+enum { ABOVE, BELOW, INVALID, SORTS };
+
+/* Whether all elements are valid and plainly of one side, which b->below becomes: what frames make of the height hangs
+ * on no rounding. */
+HERE int is_one_sort(block *b, const int sided)
 {
-    const float valid_one[VNDF_READ_A] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 1.0f};
-    mask ordinary = same(set_whole(0), 0);
+    const mask none = less(set(0.0f), set(0.0f));
+    mask good = (mask)~none, below = none, above = none;
     for (int g = 0; g < b->groups; g++) {
-        b->valid[g] = is_ordinary(b, g);
-        ordinary = both(ordinary, b->valid[g]);
+        real height = input(b, VNDF_READ_WI_Z, g);
+        if (!b->plain)
+            height = height - (input(b, VNDF_READ_WI_X, g) * input(b, VNDF_READ_MEAN_X, g) +
+                               input(b, VNDF_READ_WI_Y, g) * input(b, VNDF_READ_MEAN_Y, g));
+        good = both(good, valid_at(b, g));
+        if (sided)
+            good = both(good, both(less(set(1e-30f), size(height)), less(size(height), set(1e30f))));
+        below = either(below, less(height, set(0.0f)));
+        above = either(above, less(set(0.0f), height));
     }
-    if (all(ordinary))
-        return;
-    for (int g = 0; g < b->groups; g++)
-        b->valid[g] = valid_at(b, g);
+    b->below = sided && any(below);
+    return all(good) && !(sided && any(below) && any(above));
+}
+
+/* The sort of each element. */
+HERE void sort_elements(const block *b, const int sided, int32_t *sorts)
+{
+    for (int g = 0; g < b->groups; g++) {
+        mask below = less(frame_at(b, g, b->plain).uz, set(0.0f));
+        whole side = pick_whole(below, set_whole(sided ? BELOW : ABOVE), set_whole(ABOVE));
+        whole sort = pick_whole(valid_at(b, g), side, set_whole(INVALID));
+        memcpy(sorts + g * LANES, &sort, sizeof sort);
+    }
+}
+
+/* Gives all elements but those of one sort the unit matrix and a direction on that side, in copies. */
+HERE void replace_others(block *b, const int32_t *sorts, int kept, copies *c)
+{
+    const float other[VNDF_READ_A] = {
+        1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, kept == BELOW ? -1.0f : 1.0f};
     for (int r = 0; r < VNDF_READ_A; r++) {
-        for (int g = 0; g < b->groups; g++)
-            store(c->valid[r] + g * LANES, pick(b->valid[g], input(b, r, g), set(valid_one[r])));
-        b->read[r] = c->valid[r];
+        for (int g = 0; g < b->groups; g++) {
+            whole sort;
+            memcpy(&sort, sorts + g * LANES, sizeof sort);
+            store(c->read[r] + g * LANES, pick(same(sort, kept), input(b, r, g), set(other[r])));
+        }
+        b->read[r] = c->read[r];
     }
 }
 
-static void surfaces(const vndf_call *call)
+/* Runs both sides, each put together; the larger one with all elements in place where that is nearly all of them. */
+STEP void run_sorts(const block *of, const vndf_call *call, elements e, const int sided, copies *c)
 {
-    const vndf_distribution *d = call->lobe->distribution;
-    table_copies table_parts;
-    copies c;
-    block b = {.lobe = call->lobe, .task = call->task, .plain = call->diagonal};
-    if (d->kind == VNDF_KIND_TABLE)
-        b.t = table_of(d, &table_parts);
-    for (size_t first = 0; first < call->count; first += BLOCK) {
-        int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
-        float *to[VNDF_WRITES];
-        b.groups = (count + LANES - 1) / LANES;
-        int in_place = count == b.groups * LANES;
-        place_reads(&b, first, count, first == 0, &c);
-        set_valid(&b, &c);
+    block b = *of, rest = *of;
+    copies own;
+    int32_t sorts[BLOCK];
+    int list[SORTS][BLOCK], count[SORTS] = {0};
+    sort_elements(&b, sided, sorts);
+    for (int i = 0; i < e.count; i++)
+        list[sorts[i]][count[sorts[i]]++] = e.at ? e.at[i] : i;
+    b.below = count[BELOW] > count[ABOVE];
+    rest.below = !b.below;
+    elements larger = {e.first, list[b.below], count[b.below]},
+             smaller = {e.first, list[rest.below], count[rest.below]};
+    enter(&rest, call, &smaller, &own);
+    if (4 * smaller.count < e.count) {
+        replace_others(&b, sorts, b.below, c);
+        larger = e;
+    } else
+        enter(&b, call, &larger, c);
+    run_entered(&b, call, &larger);
+    if (smaller.count > 0)
+        run_entered(&rest, call, &smaller);
+    for (int i = 0; i < count[INVALID]; i++)
         for (int w = 0; w < VNDF_WRITES; w++)
-            to[w] = !call->write[w] ? NULL : in_place ? call->write[w] + first : c.write[w];
-        run_block(&b, to);
-        for (int w = 0; !in_place && w < VNDF_WRITES; w++)
-            if (to[w])
-                memcpy(call->write[w] + first, to[w], (size_t)count * sizeof(float));
+            if (call->write[w])
+                call->write[w][e.first + (size_t)list[INVALID][i]] =
+                    call->task == VNDF_TASK_SAMPLE && w == 2 ? 1.0f : 0.0f;
+}
+
+/* ---- calls ---- */
+
+typedef struct prepared {
+    table t;
+    table_copies copies;
+} prepared;
+
+_Static_assert(sizeof(prepared) <= sizeof(vndf_prepared), "vndf_prepared is too small");
+
+static void prepare(const vndf_distribution *d, vndf_prepared *room)
+{
+    prepared *p = (prepared *)(void *)room;
+    if (d->kind == VNDF_KIND_TABLE)
+        p->t = table_of(d, &p->copies);
+}
+
+static void run(const vndf_call *call)
+{
+    static const row zeros;
+    row shared[VNDF_READS];
+    copies c;
+    const vndf_distribution *d = call->distribution;
+    const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
+    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->diagonal};
+    if (b.kind == VNDF_KIND_TABLE)
+        b.t = ((const prepared *)(const void *)call->prepared)->t;
+    for (int r = 0; r < VNDF_READS; r++) {
+        b.read[r] = call->read[r] ? shared[r] : zeros;
+        for (int g = 0; call->read[r] && call->shared >> r & 1 && g < GROUPS; g++)
+            store(shared[r] + g * LANES, set(*call->read[r]));
+    }
+    for (size_t first = 0; first < call->count; first += BLOCK) {
+        const int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
+        const elements e = {call->at ? 0 : first, call->at ? call->at + first : NULL, count};
+        enter(&b, call, &e, &c);
+        if (is_one_sort(&b, sided))
+            run_entered(&b, call, &e);
+        else
+            run_sorts(&b, call, e, sided, &c);
     }
 }
 
-#include "sampler/batch/mixture_lanes.h"
-
-void LANES_ENTRY(const vndf_call *call)
-{
-    (call->mixed ? mixtures : surfaces)(call);
-}
+const vndf_lanes LANES_ENTRY = {prepare, run};
 
 #endif

@@ -78,10 +78,7 @@ FOR_AVX512 static void each_avx512(const method *m, block *b, size_t first, size
 
 method method_ggx_caps_batch(vndf_instructions set)
 {
-    method m = {.name = "spherical caps (2023), batch",
-                .instructions = method_instructions_name(set),
-                .kind = ROW_PUBLISHED,
-                .limit = set};
+    method m = {.name = "spherical caps (2023), batch", .kind = ROW_PUBLISHED, .limit = set};
     if (vndf_instructions_used(set) == set)
         m.each = set == VNDF_INSTRUCTIONS_AVX512 ? each_avx512
                  : set == VNDF_INSTRUCTIONS_AVX2 ? each_avx2

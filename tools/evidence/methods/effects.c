@@ -206,7 +206,7 @@ static void release(void *state)
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error)
 {
     effect_case *of = calloc(1, sizeof *of);
-    method m = {.instructions = "scalar", .kind = ROW_EFFECT, .state = of, .release = release};
+    method m = {.kind = ROW_EFFECT, .state = of, .release = release};
     snprintf(m.name, sizeof m.name, "%s", set->name);
     if (!of)
         *error = (vndf_error){VNDF_ERROR_MEMORY, "no memory"};
@@ -215,10 +215,8 @@ method method_effect(const effect_set *set, const vndf_surface *surface, vndf_er
         return m;
     }
     const int is_batch = set->kind == EFFECT_BATCH;
-    if (is_batch) {
+    if (is_batch)
         m.limit = vndf_instructions_used(VNDF_INSTRUCTIONS_BEST);
-        m.instructions = method_instructions_name(m.limit);
-    }
     m.each = is_batch ? batch_each : each;
     m.shared = is_batch ? batch_shared : shared;
     m.eval = is_batch ? batch_eval : eval;

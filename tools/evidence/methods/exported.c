@@ -24,7 +24,7 @@ static void each(const method *m, block *b, size_t first, size_t count)
 
 method method_exported(const vndf_distribution *distribution, const char *name)
 {
-    method m = {.instructions = "scalar", .kind = ROW_EXPORTED, .each = each};
+    method m = {.kind = ROW_EXPORTED, .each = each};
     size_t count = distribution ? vndf_numbers(distribution, NULL, 0) : 0;
     snprintf(m.name, sizeof m.name, "%s, exported C", name);
     if (!count)

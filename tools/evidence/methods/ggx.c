@@ -56,9 +56,5 @@ static void shared(const method *m, block *b, size_t first, size_t count)
 
 method method_ggx_caps(void)
 {
-    return (method){.name = "spherical caps (2023)",
-                    .instructions = "scalar",
-                    .kind = ROW_PUBLISHED,
-                    .each = each,
-                    .shared = shared};
+    return (method){.name = "spherical caps (2023)", .kind = ROW_PUBLISHED, .each = each, .shared = shared};
 }

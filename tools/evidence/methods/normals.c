@@ -53,7 +53,6 @@ method method_all_normals(const method_reference *reference)
     if (t)
         t->scale = reference->scale;
     return (method){.name = "all normals (2007)",
-                    .instructions = "scalar",
                     .kind = ROW_PUBLISHED,
                     .memory = sizeof *t,
                     .state = t,

@@ -86,8 +86,14 @@ static void each_call(const method *m, block *b, size_t first, size_t count)
 
 static vndf_batch batch_of(const method *m, const block *b, size_t i, size_t count)
 {
-    return (vndf_batch){m->state,     count,        0,           m->limit, b->alpha + i, b->alpha + i,
-                        b->wi[0] + i, b->wi[1] + i, b->wi[2] + i};
+    return (vndf_batch){.distribution = m->state,
+                        .count = count,
+                        .limit = m->limit,
+                        .alpha_x = b->alpha + i,
+                        .alpha_y = b->alpha + i,
+                        .wi_x = b->wi[0] + i,
+                        .wi_y = b->wi[1] + i,
+                        .wi_z = b->wi[2] + i};
 }
 
 static vndf_normals drawn(block *b, size_t i)
@@ -111,10 +117,10 @@ static void batch_affine(const method *m, block *b, size_t first, size_t count)
         for (int k = 0; k < 6; k++)
             of[k][i] = number[k];
     }
-    vndf_affine_batch batch = {
-        m->state,         count,           0, m->limit, of[0], of[1], of[2], of[3], of[4], of[5], b->wi[0] + first,
-        b->wi[1] + first, b->wi[2] + first};
-    vndf_affine_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
+    vndf_batch batch = batch_of(m, b, first, count);
+    batch.alpha_x = of[0], batch.xy = of[1], batch.yx = of[2], batch.alpha_y = of[3];
+    batch.mean_x = of[4], batch.mean_y = of[5];
+    vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
 }
 
 static void batch_lobes(const method *m, block *b, size_t first, size_t count)
@@ -165,8 +171,7 @@ static const char *const calls[METHOD_CALLS] = {
 method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
 {
     vndf_info info = vndf_distribution_info(d);
-    method m = {.instructions = method_instructions_name(limit),
-                .kind = call != METHOD_SAMPLE ? ROW_CALL
+    method m = {.kind = call != METHOD_SAMPLE ? ROW_CALL
                         : info.memory         ? ROW_TABLE
                                               : ROW_CLOSED,
                 .memory = info.memory,
@@ -199,13 +204,4 @@ void method_release(method *m)
     if (m->release && m->state)
         m->release((void *)m->state);
     m->state = NULL;
-}
-
-const char *method_instructions_name(vndf_instructions set)
-{
-    static const char *const names[] = {[VNDF_INSTRUCTIONS_BEST] = "scalar",
-                                        [VNDF_INSTRUCTIONS_PORTABLE] = "portable",
-                                        [VNDF_INSTRUCTIONS_AVX2] = "avx2",
-                                        [VNDF_INSTRUCTIONS_AVX512] = "avx512"};
-    return names[set];
 }

@@ -170,7 +170,6 @@ method method_warp(const method_reference *reference)
     for (size_t slice = 0; w && slice < SLICES; slice++)
         fill_slice(w, reference, slice);
     return (method){.name = "bilinear warps, 8 x 128^2",
-                    .instructions = "scalar",
                     .kind = ROW_PUBLISHED,
                     .memory = sizeof *w,
                     .state = w,

@@ -44,18 +44,22 @@ static int keeps_what_it_can(const vndf_distribution *table, const vndf_distribu
     return good;
 }
 
-vndf_status report_choose(report_subject *s, const evidence_plan *plan, vndf_error *error)
+vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan, vndf_error *error)
 {
-    for (size_t i = 0; i < SIZES; i++) {
-        s->ns[i] = s->batch[i] = NAN;
-        if (!subject_table(&s->of, i, plan, error))
+    for (size_t i = 0; i < SIZES; i++)
+        if (!subject_table(s, i, plan, error))
             return error->status;
-    }
-    s->chosen = SIZES - 1;
-    for (size_t i = SIZES; i-- > 0;)
-        if (keeps_what_it_can(s->of.table[i], s->of.table[SIZES - 1]))
-            s->chosen = i;
+    for (*chosen = 0; !keeps_what_it_can(s->table[*chosen], s->table[SIZE_FINE]);)
+        ++*chosen;
     return VNDF_OK;
+}
+
+double report_number(const report *r, const vndf_distribution *table, evidence_column c)
+{
+    for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++)
+        if (of->m->kind == ROW_TABLE && of->m->state == table)
+            return of->number[c];
+    return NAN;
 }
 
 /* ---- sentences ----------------------------------------------------------------------------------- */
@@ -72,73 +76,66 @@ static void write_limits(FILE *html, const vndf_distribution *table, int is_kept
         }
 }
 
-static void write_advice(FILE *html, const report_subject *s)
+static void write_advice(FILE *html, const report *r, const subject *s, size_t chosen)
 {
-    const vndf_distribution *table = s->of.table[s->chosen];
-    const table_size *size = &table_sizes[s->chosen];
+    const vndf_distribution *table = s->table[chosen];
+    const table_size *size = &table_sizes[chosen];
+    const double ns = report_number(r, table, COL_NS), batch = report_number(r, table, r->batch);
     const int is_good = report_keeps(table);
     char bytes[TABLE_BYTES];
     table_bytes_text(bytes, (double)vndf_distribution_info(table).bytes);
     fputs("<p><strong>", html);
-    svg_escape(html, s->of.name);
+    svg_escape(html, s->name);
     fprintf(html, ": ship %s with %d moments.</strong> %s", bytes, size->moments,
             is_good
                 ? "It is the smallest that keeps all limits: "
                 : "None of those built keeps all limits; this is the smallest that comes near the finest, with ");
     write_limits(html, table, is_good);
     fputs(". ", html);
-    if (s->ns[s->chosen] > 0)
-        fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", s->ns[s->chosen], s->batch[s->chosen]);
-    for (int fewer = 0; fewer < 2 && is_good; fewer++) { /* what is cheaper: a smaller file, or fewer moments */
-        const int is_there = fewer ? size->moments > 2 : s->chosen >= 3;
-        const vndf_distribution *other = is_there ? s->of.table[s->chosen - (fewer ? 1 : 3)] : NULL;
-        if (!other || report_keeps(other))
-            continue;
-        fputs(fewer ? " One moment fewer would mean " : " The next smaller file would mean ", html);
-        write_limits(html, other, 0);
-        fputs("; with the weight it is unbiased all the same.", html);
-    }
+    if (ns > 0)
+        fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", ns, batch);
     fputs("<code>vndf build ", html);
-    svg_escape(html, vndf_source_description(s->of.source));
+    svg_escape(html, vndf_source_description(s->source));
     fprintf(html, " --max-bytes %zu --moments %d -o table.vndf</code></p>\n", size->bytes, size->moments);
 }
 
 /* ---- the table ----------------------------------------------------------------------------------- */
 
-static void add_rows(text_table *t, const report *r, const report_subject *s)
+static void add_rows(text_table *t, const report *r, const subject *s, size_t chosen)
 {
     for (size_t i = 0; i < SIZES; i++) {
-        const vndf_info info = vndf_distribution_info(s->of.table[i]);
+        const vndf_distribution *table = s->table[i];
+        const vndf_info info = vndf_distribution_info(table);
         table_row(t);
         if (r->count > 1)
-            table_text(t, "distribution", s->of.name);
+            table_text(t, "distribution", s->name);
         table_number(t, "file (bytes)", "%.0f", (double)info.bytes);
         table_number(t, "moments", "%.0f", info.moments);
         table_number(t, "in memory (bytes)", "%.0f", (double)info.memory);
         for (int k = 0; k < LIMITS; k++) {
-            table_number(t, limits[k].heading, limits[k].format, number_of(s->of.table[i], k));
-            table_mark(t, keeps(s->of.table[i], k) ? NULL : "no");
+            table_number(t, limits[k].heading, limits[k].format, number_of(table, k));
+            table_mark(t, keeps(table, k) ? NULL : "no");
         }
         table_number(t, "G1 error", "%.1e", (double)info.certificate.area_error);
-        table_number(t, "ns", "%.0f", s->ns[i]);
-        table_number(t, "batch ns", "%.1f", s->batch[i]);
-        table_row_mark(t, i == s->chosen ? "chosen" : NULL);
+        table_number(t, "ns", "%.0f", report_number(r, table, COL_NS));
+        table_number(t, "batch ns", "%.1f", report_number(r, table, r->batch));
+        table_row_mark(t, i == chosen ? "chosen" : NULL);
     }
 }
 
 int report_advice(html_page *page, const report *r)
 {
     text_table t = {.rows = 0};
-    page_section(
-        page, "advice", "Which table, and how many moments",
-        "Every table is exact with its weight; a coarse one costs noise. The advice is the smallest with weights up to "
-        "2 and a total variation (TV) up to 0.001 above the horizon, so that the weight may be left out where a bias "
-        "below half a step of 8 bits does not matter, and 0.03 below it. All are of the certificates of the tables.");
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++) {
-        write_advice(page->html, &r->subject[i]);
-        add_rows(&t, r, &r->subject[i]);
+        write_advice(page->html, r, &r->subject[i], r->chosen[i]);
+        add_rows(&t, r, &r->subject[i], r->chosen[i]);
     }
     fputs("</div>\n", page->html);
-    return table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
+    FILE *data = table_print_html(page->html, &t) ? page_file(page, "tables.csv") : NULL;
+    const int good = data && table_print(data, &t, FIGURES_CSV);
+    table_free(&t);
+    if (good)
+        page_link(page, "all tables");
+    return good;
 }

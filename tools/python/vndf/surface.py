@@ -107,7 +107,7 @@ class Surface(Rough):
     a ``mean`` slope, shape (2, ...), as filtered normal maps have them: slopes are M u + mean. alpha = 1 is the
     distribution as it was built. Single numbers that are no surface are refused; in arrays they scatter nothing."""
 
-    _prefix = "affine_"
+    _prefix = ""
 
     def __init__(
         self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
@@ -147,7 +147,9 @@ class Surface(Rough):
         shape: list[Any] = batch.addresses("shape", share=True)
         if len(shape) == 2:
             shape = [shape[0], None, None, shape[1], None, None]
-        return struct("vndf_affine_batch")(self.distribution._pointer, batch.count, batch.shared(), 0, *shape, *wi)
+        x, xy, yx, y, *mean = shape
+        head = (self.distribution._pointer, batch.count, batch.shared(), 0)
+        return struct("vndf_batch")(*head, x, y, *wi, xy, yx, *mean)
 
     def sample(self, wi: Any, u: Any) -> Sample:
         """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1], or a `numpy.random.default_rng()`
