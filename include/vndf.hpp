@@ -188,7 +188,6 @@ using density = std::function<double(double)>;
 
 using distribution = owner<vndf_distribution, vndf_free>;
 using family = owner<vndf_family, vndf_family_free>;
-using reference = owner<vndf_reference, vndf_reference_free>;
 using albedo = owner<vndf_albedo, vndf_albedo_free>;
 using source = owner<vndf_source, vndf_source_free, std::unique_ptr<density>>;
 

@@ -16,10 +16,36 @@
 #ifndef VNDF_BSDF_BSDF_H
 #define VNDF_BSDF_BSDF_H
 
-#include "bsdf/wide.h"
+#include "kernel/wide.h"
+#include "math/exp_log.h"
 #include "math/vector.h"
 #include "sampler/sampler.h"
 #include "vndf_bsdf.h"
+
+/* ---- the kernel for one double, with functions of src/math ---- */
+
+/* x as the calls of vndf.h take it. */
+HERE real narrow(real x)
+{
+    return (real)(float)x;
+}
+
+HERE real exp_of(real x)
+{
+    return vndf_exp(x);
+}
+
+HERE real log_of(real x)
+{
+    return vndf_log(x);
+}
+
+HERE real log_beyond(real x)
+{
+    return vndf_log1p(x);
+}
+
+#include "kernel/lobes.h"
 
 /* ---- routines of a material ---- */
 

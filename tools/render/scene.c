@@ -73,6 +73,7 @@ const char scene_grammar[] =
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
+    PATH_BYTES = 4096,
     STATEMENT_MAX = 64,               /* words */
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
@@ -343,17 +344,14 @@ static void set_three(const reader *r, const char *name, float to[3])
         to[i] = (float)c->number[i];
 }
 
-/* The path relative to the working folder, to be freed. NULL after a refusal. */
-static char *path_of(reader *r, const word *at)
+/* The path relative to the working folder. */
+static int path_of(reader *r, const word *at, char path[PATH_BYTES])
 {
     const char *slash = strrchr(r->name, '/');
-    const size_t folder = at->text[0] == '/' || !slash ? 0 : (size_t)(slash - r->name) + 1,
-                 letters = strlen(at->text);
-    char *path = letters ? malloc(folder + letters + 1) : NULL;
-    if (!path)
-        return refuse(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
-    memcpy(path, r->name, folder);
-    return memcpy(path + folder, at->text, letters + 1), path;
+    const int folder = at->text[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
+    const int letters = snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, at->text);
+    return (at->text[0] && letters < PATH_BYTES) ||
+           refuse(r, at, "a path has 1 to %d letters, with the folder of the scene", PATH_BYTES - 1);
 }
 
 /* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
@@ -442,13 +440,11 @@ static int read_image(reader *r)
     const int width = (int)number_of(r, "width", 512), height = (int)number_of(r, "height", 512);
     image *made = &s->images[s->image_count++];
     vndf_error error = {VNDF_OK, ""};
-    char *path = file ? path_of(r, file) : NULL;
-    if (file && !path)
+    char path[PATH_BYTES];
+    if (file && !path_of(r, file, path))
         return 0;
-    const int good =
-        path ? image_read_pfm(made, path, &error) : image_make_pattern(made, pattern->text, width, height, &error);
-    free(path);
-    if (!good)
+    if (!(file ? image_read_pfm(made, path, &error)
+               : image_make_pattern(made, pattern->text, width, height, &error)))
         return refuse(r, file ? file : pattern, "%s", error.message);
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX ||
@@ -462,13 +458,12 @@ enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 static vndf_distribution *make_table(reader *r, size_t form, const word *of, vndf_error *error)
 {
     if (form == TABLE) {
-        char *path = path_of(r, of);
-        const char *role = path ? files_note(path, 0) : NULL;
-        vndf_distribution *loaded = path && !role ? vndf_load(path, error) : NULL;
+        char path[PATH_BYTES];
+        const int is_path = path_of(r, of, path);
+        const char *role = is_path ? files_note(path, 0) : NULL;
         if (role)
             refuse_at(error, path, 0, 0, "this file is %s as well", role);
-        free(path);
-        return loaded;
+        return is_path && !role ? vndf_load(path, error) : NULL;
     }
     vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
                           : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
@@ -618,15 +613,15 @@ static int read_mesh(reader *r, int of)
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
     vndf_error error = {VNDF_OK, ""};
+    char path[PATH_BYTES];
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
-    char *path = path_of(r, file);
-    const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
-    free(path);
-    if (good)
-        geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180),
-                       vector_of(r, "move"));
-    return good;
+    if (!path_of(r, file, path))
+        return 0;
+    if (!obj_read(g, path, of, &error))
+        return refuse(r, file, "%s", error.message);
+    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
+    return 1;
 }
 
 /* ---- all of it ---- */
