@@ -48,7 +48,7 @@ static vndf_status check_optics(const vndf_description *is, vndf_error *error)
                             {"rotation", (double)is->rotation, -1e4, 1e4, e->shape == VNDF_SHAPE_ROTATED}};
     vndf_status status = check_numbers(whole, 3, error);
     for (int i = 0; status == VNDF_OK && i < (is->wavelengths ? is->wavelengths : 3); i++) {
-        char f0[24], eta[24], k[24];
+        char f0[32], eta[32], k[32];
         snprintf(f0, sizeof f0, "f0[%d]", i);
         snprintf(eta, sizeof eta, "conductor_eta[%d]", i);
         snprintf(k, sizeof k, "conductor_k[%d]", i);
