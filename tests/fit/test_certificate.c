@@ -79,18 +79,22 @@ static void test_claims(size_t index, size_t bytes)
     vndf_free(table);
 }
 
-/* Areas of the table against the oracle's, as near as certified. */
-static void test_areas(size_t index)
+/* Areas of the table against the oracle's, as near as certified, which is within 3e-4 in 16 KiB. There the strips that
+ * both areas and certificates are sums of show: where little is seen from below they err by up to 1e-4. */
+static void test_areas(size_t index, size_t bytes)
 {
     oracle o = oracle_get(index);
     vndf_certificate claim = {0};
-    vndf_distribution *table = oracle_build(o.name, 2048, &claim, NULL);
+    vndf_distribution *table = oracle_build(o.name, bytes, &claim, NULL);
+    if (bytes > 2048 && !TEST(claim.area_error < 3e-4f))
+        fprintf(stderr, "  %s: areas within %.3g\n", o.name, (double)claim.area_error);
     const vndf_surface surface = {table, 1, 1};
     for (double theta = 0.5; TEST(table != NULL) && theta < 170; theta += 7) {
         vndf_vec3 wi = oracle_direction(theta, 200);
         double s = hypot((double)wi.x, (double)wi.y), want = oracle_area(&o, s, (double)wi.z);
         if (want > 3e-9 * oracle_area(&o, 1, 0) &&
-            !TEST_RELATIVE((double)vndf_projected_area(&surface, wi), want, 1.1 * (double)claim.area_error + 2e-5))
+            !TEST_RELATIVE((double)vndf_projected_area(&surface, wi), want,
+                           1.1 * (double)claim.area_error + (bytes > 2048 ? 1e-4 : 2e-5)))
             fprintf(stderr, "  %s at %g degrees\n", o.name, theta);
     }
     vndf_free(table);
@@ -119,7 +123,7 @@ int main(void)
     for (size_t i = 0; i < ORACLE_COUNT; i++)
         test_claims(i, i % 2 ? 2048 : 8192);
     for (size_t i = 0; i < ORACLE_COUNT; i++)
-        test_areas(i);
+        test_areas(i, 2048), test_areas(i, 16384);
     test_horizon();
     return test_done();
 }
