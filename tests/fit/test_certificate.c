@@ -79,8 +79,8 @@ static void test_claims(size_t index, size_t bytes)
     vndf_free(table);
 }
 
-/* Areas of the table against the oracle's, as near as certified, which is within 3e-4 in 16 KiB; there the last digit of
- * floats shows where little is left of the area. */
+/* Areas of the table against the oracle's, as near as certified: within 3e-4 in 16 KiB, where the last digit of floats
+ * shows if little is left of the area. */
 static void test_areas(size_t index, size_t bytes)
 {
     oracle o = oracle_get(index);
