@@ -79,8 +79,8 @@ static void test_claims(size_t index, size_t bytes)
     vndf_free(table);
 }
 
-/* Areas of the table against the oracle's, as near as certified, which is within 3e-4 in 16 KiB. There the strips that
- * both areas and certificates are sums of show: where little is seen from below they err by up to 1e-4. */
+/* Areas of the table against the oracle's, as near as certified: within 3e-4 in 16 KiB, where the last digit of floats
+ * shows if little is left of the area. */
 static void test_areas(size_t index, size_t bytes)
 {
     oracle o = oracle_get(index);
@@ -94,7 +94,7 @@ static void test_areas(size_t index, size_t bytes)
         double s = hypot((double)wi.x, (double)wi.y), want = oracle_area(&o, s, (double)wi.z);
         if (want > 3e-9 * oracle_area(&o, 1, 0) &&
             !TEST_RELATIVE((double)vndf_projected_area(&surface, wi), want,
-                           1.1 * (double)claim.area_error + (bytes > 2048 ? 1e-4 : 2e-5)))
+                           1.1 * (double)claim.area_error + 2e-5 + (bytes > 2048 ? 2e-7 / want : 0)))
             fprintf(stderr, "  %s at %g degrees\n", o.name, theta);
     }
     vndf_free(table);
