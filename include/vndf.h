@@ -1,24 +1,7 @@
 /* vndf.h - sampling of visible normals for any isotropic distribution: the run time.
  *
- *     int main(void)
- *     {
- *         vndf_error error;
- *         vndf_distribution *table = vndf_load("tables/example.vndf", &error);
- *         if (!table)
- *             return puts(error.message), 1;
- *         vndf_surface metal = {table, 0.3f, 0.1f}; // alpha_x, alpha_y
- *         vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
- *         vndf_view view = vndf_view_from(&metal, wi); // once for each hit
- *         float pdf, weight;
- *         vndf_vec3 wm = vndf_sample_weight(&view, 0.25f, 0.5f, &pdf, &weight);
- *         printf("wm (%g, %g, %g), pdf %g, weight %g\n", wm.x, wm.y, wm.z, pdf, weight);
- *         vndf_free(table);
- *         return 0;
- *     }
+ * README.md has an example.
  *
- * needs <stdio.h>, this header, the library and a table that was made offline, by `vndf build` or vndf_build.h.
- *
- * Map
  *     distributions   vndf_load, vndf_load_memory, vndf_free; vndf_ggx, vndf_beckmann; vndf_distribution_info
  *     surfaces        vndf_surface {distribution, alpha_x, alpha_y}, vndf_affine {distribution, matrix, mean},
  *                     vndf_mixture of up to eight of these
@@ -47,27 +30,21 @@
  * estimator that divides by this density is unbiased at every size of the table: a coarse table costs variance,
  * never bias. The density is positive wherever the true one is, and the certificate holds the largest ratio of
  * both. No density is zero, infinite or NaN, and no normal is turned away from wi. The run time computes in float.
- * The density of a sample is that of a normal within one rounding (2^-23) of the normal returned, to 1e-5; beside
- * vndf_pdf of the normal returned it is
- *
- *     above the horizon within 1e-5 for 99.9% of the samples, 1e-4 for 99.99%,
- *     below the horizon within 1e-4 for 99.9% of the samples, 1e-3 for 99.99%,
- *
- * where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a tenth of its
- * slope. On smoother surfaces and in narrower lobes one rounding of wm moves the density itself.
+ * The density of a sample is that of a normal within one rounding (2^-23) of the normal returned, to 1e-5. Beside
+ * vndf_pdf of the normal returned it is within 1e-5 for 99.9% of the samples and 1e-4 for 99.99% above the horizon,
+ * 1e-4 and 1e-3 below it, where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a
+ * tenth of its slope: there one rounding of wm moves the density itself.
  *
  * Errors. Calls that allocate, read or write take a vndf_error*, which the caller owns and which may be NULL.
  * Calls on values (sample, pdf, ...) cannot fail: valid input gives finite results, and vndf_view_from states the
  * result of invalid input. The library keeps no state: distributions are immutable, and any number of threads may
  * call every function at once.
  *
- * Same bits everywhere. Single calls and batches, gcc and clang, -O0 and -O3, SSE2, AVX2, AVX-512 and NEON agree
- * to the bit: every function of this header uses only + - * / sqrt, comparisons, conversions and the bits of
- * numbers, without contraction. That needs IEEE 754 floats, rounding to nearest, and FLT_EVAL_METHOD 0 (32-bit
- * x86: -msse2 -mfpmath=sse), without which the sources do not compile. Where denormals are flushed to zero,
- * results are the same as long as none occurs. tests/corpus/same_bits.txt holds hashes to compare machines by.
- * Builds (vndf_build.h) use exp, log and pow of the C library: the last digits of a new table depend on the
- * machine, those of its samples do not. */
+ * Same bits everywhere. Single calls and batches, gcc and clang, -O0 and -O3, SSE2, AVX2, AVX-512 and NEON agree to
+ * the bit, but where denormals are flushed to zero: every function of this header uses only + - * / sqrt,
+ * comparisons, conversions and the bits of numbers, without contraction. That needs IEEE 754 floats, rounding to
+ * nearest, and FLT_EVAL_METHOD 0 (32-bit x86: -msse2 -mfpmath=sse). Builds (vndf_build.h) use exp, log and pow of the
+ * C library: the last digits of a new table depend on the machine, those of its samples do not. */
 #ifndef VNDF_H
 #define VNDF_H
 
@@ -439,7 +416,7 @@ typedef struct vndf_mixture_batch {
 } vndf_mixture_batch;
 
 /* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert, and
- * may be NULL for -1. Scratch is on the stack: some 250 KiB, unoptimised up to 650 KiB. */
+ * may be NULL for -1. Scratch is on the stack: some 290 KiB, unoptimised up to 2.2 MiB. */
 VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
                                     vndf_normals wm, float *pdf, int *lobe);
 VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);

@@ -1,12 +1,10 @@
-// vndf.hpp - what C lacks, in C++17: owners that free, errors as results or exceptions, sources made of callables,
-// and batches over arrays whose sizes are compared.
+// vndf.hpp - what C lacks, in C++17: owners that free, errors as results or exceptions, and sources made of callables.
 //
-// The calls of vndf.h, vndf_bsdf.h and vndf_build.h are C++ calls, and their comments hold: an
-// owner converts to the pointer that they take. This header adds neither state nor arithmetic.
+// The calls of vndf.h, vndf_bsdf.h and vndf_build.h are C++ calls, and their comments hold: an owner converts to the
+// pointer that they take. This header adds neither state nor arithmetic.
 //
 //     #include <cmath>
 //     #include <cstdio>
-//     #include <vector>
 //     #include <vndf.hpp>
 //
 //     int main()
@@ -19,16 +17,10 @@
 //         const vndf_surface metal = {*table, 0.3f, 0.1f};
 //         const vndf_view view = vndf_view_from(&metal, {0.6f, 0.0f, 0.8f});
 //         const auto [wm, pdf] = vndf::sample(view, 0.25f, 0.5f);
-//         std::vector<float> u1(1000, 0.25f), u2(1000, 0.5f), x(1000), y(1000), z(1000), density(1000);
-//         const vndf_batch many = {*table, 1000, VNDF_SHARED_ALPHA | VNDF_SHARED_WI, VNDF_INSTRUCTIONS_BEST,
-//                                  &metal.alpha_x, &metal.alpha_y, &view.wi.x, &view.wi.y, &view.wi.z,
-//                                  {}, {}, {}, {}}; // no matrix, no mean slope
-//         if (const auto drawn = vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), density); !drawn)
-//             return std::puts(drawn.message()), 1;
-//         std::printf("%g %g %g %g\n", wm.x - x[0], wm.y - y[0], wm.z - z[0], pdf - density[0]);
+//         std::printf("%.3f\n", pdf / vndf_pdf(&view, wm));
 //     }
 //
-// prints four zeros.
+// prints 1.000.
 //
 // Errors. What can fail returns a vndf::result: it converts to true or false, *result is the value, an empty owner
 // where it failed, message() says what went wrong, and value() throws a vndf::error. Nothing else throws but
@@ -51,7 +43,6 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
-#include <type_traits>
 #include <utility>
 
 #include "vndf.h"
@@ -197,7 +188,6 @@ using density = std::function<double(double)>;
 
 using distribution = owner<vndf_distribution, vndf_free>;
 using family = owner<vndf_family, vndf_family_free>;
-using reference = owner<vndf_reference, vndf_reference_free>;
 using albedo = owner<vndf_albedo, vndf_albedo_free>;
 using source = owner<vndf_source, vndf_source_free, std::unique_ptr<density>>;
 
@@ -320,57 +310,6 @@ inline weighted sample_weight(const vndf_view &view, float u1, float u2) noexcep
     weighted w;
     w.wm = vndf_sample_weight(&view, u1, u2, &w.pdf, &w.weight);
     return w;
-}
-
-// ---- many at once ---------------------------------------------------------------------------------
-
-// The coordinates of normals or directions: three arrays.
-class normals
-{
-  public:
-    template <class Array>
-    normals(Array &&x, Array &&y, Array &&z) noexcept
-        : c_{x.data(), y.data(), z.data()},
-          size_(x.size() == y.size() && x.size() == z.size() ? x.size() : ~std::size_t(0))
-    {
-    }
-    vndf_normals data() const noexcept { return c_; }
-    std::size_t size() const noexcept { return size_; }
-
-  private:
-    vndf_normals c_;
-    std::size_t size_; // the largest number if the arrays differ
-};
-
-// In the place of an array that a call allows to be NULL.
-struct none {
-    std::nullptr_t data() const noexcept { return nullptr; }
-};
-
-// Calls a batch of C, of any kind, over arrays that are as long as the batch; if one is not, it does nothing and
-// says which. Arrays are anything with data() and size(), temporary or not: std::vector, std::array, std::span,
-// `normals`.
-template <class Batch, class... Given, class... Arrays>
-result<nothing> run(void (*call)(const Batch *, Given...), const Batch &batch, Arrays &&...arrays)
-{
-    const auto has_all = [&](const auto &array) {
-        if constexpr (std::is_same_v<decltype(array), const none &>)
-            return true;
-        else
-            return array.size() == batch.count;
-    };
-    vndf_error error = {VNDF_ERROR_ARGUMENT, ""};
-    int place = 1;
-    for (const bool has : {has_all(arrays)...}) {
-        if (!has) {
-            std::snprintf(error.message, sizeof error.message,
-                          "array %d does not have the %zu elements of the batch", place, batch.count);
-            return error;
-        }
-        place++;
-    }
-    call(&batch, arrays.data()...);
-    return nothing();
 }
 
 } // namespace vndf

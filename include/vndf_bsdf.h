@@ -1,22 +1,14 @@
 /* vndf_bsdf.h - reflection and refraction on a rough surface of any distribution of normals.
  *
- * A material is a distribution (table, GGX, Beckmann), its roughness, its optics and a set of effects. The set is
- * resolved once, to routines made for it: an effect that is not chosen costs nothing when a ray arrives. At a hit
- * vndf_bsdf_at forms everything that depends on the incident direction alone; samples, values and densities start
- * from that.
+ * A material is a distribution (table, GGX, Beckmann), its roughness, its optics and a set of effects, which is
+ * resolved once: an effect that is not chosen costs nothing when a ray arrives. At a hit vndf_bsdf_at forms everything
+ * that depends on the incident direction alone; samples, values and densities start from that.
  *
- *     vndf_error error;
- *     vndf_material material;
- *     vndf_description glass = {.distribution = vndf_ggx(), .alpha_x = 0.1f, .alpha_y = 0.1f, .eta = 1.5f,
- *         .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
- *     if (vndf_material_resolve(&glass, &material, &error) != VNDF_OK)
- *         return 0;
- *     vndf_bsdf bsdf;
- *     vndf_scattered s;
+ *     vndf_material_resolve(&description, &material, &error);
  *     vndf_bsdf_at(&bsdf, &material, wi);
  *     vndf_bsdf_sample(&bsdf, u, &s);
  *
- * gives a direction s.wo with the density s.density and the weight s.weight.
+ * gives a direction s.wo with the density s.density and the weight s.weight; README.md has the whole example.
  *
  * The conventions of vndf.h hold: z is the geometric normal, directions are unit and point away from the surface,
  * wi is the known direction and wo the chosen one. Unlike there, a direction with z < 0 (below the mean plane,
@@ -35,9 +27,8 @@
  * Lambda belong to the given distribution (vndf_ndf, vndf_lambda), not to the density that a table draws with: the
  * weight holds the small ratio, so estimators are exact for a table of any size.
  *
- * A call carries one to four wavelengths at once, as the material says: three, red, green and blue, unless it says
- * another number. Numbers that do not depend on the wavelength are the same for all. Dispersion and absorption
- * belong to the renderer.
+ * A call carries one to four wavelengths at once, as the material says: three unless it says another number.
+ * Dispersion and absorption belong to the renderer.
  *
  * Mean slopes (VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
  * z = 0, as it does in masking (vndf.h): it divides reflection from transmission, and with its unit normal n all
@@ -46,25 +37,19 @@
  * A renderer that has |wo.z| in the place of vndf_bsdf_cosine gets it wrong. A reflected direction may point below
  * z = 0, into the geometry, and is then lost to a ray.
  *
- * Errors and invalid input. vndf_material_resolve refuses sets of effects that make no sense, and names the
- * reason: a conductor that transmits; both lobes without a Fresnel term to choose by; bounded normals that
- * transmit; V-cavity normals without V-cavity masking; a walk with other masking or normals than its own, or with
- * transmission alone; mean slopes and mixtures with a walk, with V-cavities or with normals that are not visible
- * ones; retroreflection with mean slopes, with mixtures or of transmission alone; compensation of these two, of
- * transmission alone, of another masking or without the right albedo. Calls on values cannot fail: NaN, infinity,
- * lengths below 1/2 or above 2 and invalid roughness scatter nothing (lobe 0; weights, values and densities 0).
- * Other lengths, and a cosine and a sine that belong to no angle, give finite numbers. The library keeps no state,
- * and gives the same bits everywhere, as vndf.h says.
+ * Errors and invalid input. vndf_material_resolve refuses sets of effects that make no sense, and says which must be
+ * what. Calls on values cannot fail: NaN, infinity, lengths below 1/2 or above 2 and invalid roughness scatter nothing
+ * (lobe 0; weights, values and densities 0). Other lengths, and a cosine and a sine that belong to no angle, give
+ * finite numbers. The library keeps no state, and gives the same bits everywhere, as vndf.h says.
  *
  * Accuracy. At roughness 1e-3 and above, 99.9% of the samples have the density, to 1e-5, of a direction within one
- * rounding (2^-23 in each coordinate) of the one returned, and the weight f |cos_o| over that density. With
- * visible normals of a closed form the weight is within 5e-6 of vndf_bsdf_eval and vndf_bsdf_pdf of the direction
- * returned. A rounding of wo turns the facet by 2^-23/(2 wi.wm) in reflection and by 2^-23 r/|r - 1| in
- * transmission, and changes the density with it: most on smooth surfaces, at grazing light and for r near 1. f is
- * reciprocal to 1e-4. Of tables whose tail is heavier than r^-3.6 more samples are off, far out in that tail: 1% of
- * them where it is r^-3.2. Facets of transmission whose z that rounding exceeds are taken to have z = 2^-23 (1 + r) of
- * |wi + r wo|: of a tail of r^-3.2 and alpha 0.05, 0.4, 1 those are 0.4%, 2% and 3% of all samples, whose
- * vndf_bsdf_pdf is too small, but not 0.
+ * rounding (2^-23 in each coordinate) of the one returned, and the weight f |cos_o| over that density; with visible
+ * normals of a closed form the weight is within 5e-6 of that. A rounding of wo turns the facet by 2^-23/(2 wi.wm) in
+ * reflection and by 2^-23 r/|r - 1| in transmission: most on smooth surfaces, at grazing light and for r near 1. f is
+ * reciprocal to 1e-4. Of tables whose tail is heavier than r^-3.6 more samples are off, far out in that tail: 1% where
+ * it is r^-3.2. Facets of transmission whose z that rounding exceeds are taken to have z = 2^-23 (1 + r) of |wi + r
+ * wo|: with a tail of r^-3.2 and alpha 0.05, 0.4, 1 those are 0.4%, 2% and 3% of all samples, whose vndf_bsdf_pdf is
+ * too small, but not 0.
  *
  * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
  * nothing set but distribution and roughness is a rough white mirror: it has no Fresnel term. */
@@ -242,9 +227,7 @@ typedef struct vndf_roughness {
 typedef struct vndf_material {
     vndf_description is; /* as it was given, but for the numbers that stand for a default */
     struct {
-        const struct vndf_routines *routines; /* made for its effects */
-        const struct vndf_routines *specular; /* the same without retroreflection, */
-        const struct vndf_routines *single;   /* and without compensation */
+        const struct vndf_routines *routines; /* of its scattering */
         vndf_affine surface;                  /* of hits that bring none */
         float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
         double per_wavelength;                /* one over their number */
@@ -264,7 +247,7 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 /* What compensation takes of a hit; private. */
 struct vndf_compensation {
     float alpha;
-    float gain;                     /* Turquin: (1 - E)/E of reflection, 1/E of both lobes */
+    float gain[VNDF_WAVELENGTHS];   /* of single scattering */
     float lost;                     /* Kulla & Conty: 1 - E(wi), */
     float per, beyond;              /* 1/(pi (1 - E_avg)) of this side and of the other, */
     float share;                    /* the part of the samples, */

@@ -1,11 +1,8 @@
 /* vndf_build.h - tables of visible normals from any isotropic distribution: the offline side.
  *
- * Map
- *     sources    vndf_source_slope_expression, vndf_source_ndf_expression, vndf_source_csv_file, vndf_source_rows,
- *                vndf_source_family, vndf_source_slope_callback, vndf_source_ndf_callback: a distribution that a
- * user brings, at any scale, normalised or not; vndf_source_p22, vndf_source_free tables     vndf_build,
- * vndf_save; vndf_certify measures a table, vndf_reference is the truth it is measured by families
- * vndf_build_family, vndf_family_save
+ *     sources     vndf_source_...: a distribution that a user brings, at any scale, normalised or not
+ *     tables      vndf_build, vndf_save; vndf_certify measures a table
+ *     families    vndf_build_family, vndf_family_save
  *
  * The conventions of vndf.h hold. */
 #ifndef VNDF_BUILD_H
@@ -70,7 +67,7 @@ VNDF_API const char *vndf_family_material(size_t index);
 
 /* A C function: D(cos theta_m), or P22(r), which is better for narrow distributions (1 - cos loses digits). It
  * returns the same value for the same argument. The name is copied into the table as its provenance. A feature
- * narrower than vndf_build_options.finest can hide between the samples of a function, unless a break marks it. */
+ * narrower than 1e-3 of its slope can hide between the samples of a function. */
 typedef double vndf_density_function(double x, void *user);
 VNDF_API vndf_source *vndf_source_ndf_callback(vndf_density_function *ndf, void *user, const char *name,
                                                vndf_error *error);
@@ -113,7 +110,6 @@ enum {
     VNDF_LIMIT_CSV_ROWS = 1 << 14,
     VNDF_LIMIT_CSV_LINE = 4096,     /* characters of a line */
     VNDF_LIMIT_CSV_BYTES = 1 << 24, /* of a file */
-    VNDF_LIMIT_BREAKS = 64,         /* of vndf_build_options */
     VNDF_LIMIT_BUILD_PANELS = 60000 /* pieces in which P22 is smooth to 1e-10 */
 };
 #define VNDF_LIMIT_BUILD_OPERATIONS 1e10
@@ -137,21 +133,15 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
  * escapes it: all hidden features together, however narrow they are, down to the spacing of doubles. It resolves
  * anything larger, or refuses the source and names the slope (VNDF_ERROR_DISTRIBUTION). A formula that cannot be
- * bounded, as one with gamma or lgamma of the slope, is refused, or sampled if `finest` is given. A callback can
- * only be sampled: features narrower than `finest` of their slope may escape.
- *
- * Breaks are slopes where a feature begins, ends, or has its peak: the builder looks at P22 to within 1e-12 of the
- * slope there. `finest` costs 280/finest evaluations. */
+ * bounded, as one with gamma or lgamma of the slope, is refused. A callback can only be sampled: features narrower
+ * than 1e-3 of their slope may escape; bring such a D as a formula or as rows. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
     double max_tv; /* about the smallest table that reaches this total variation above the horizon, and 30 times it
                     * below; 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
-    const double *breaks; /* slopes in the unit of the source, for any source; kept in the provenance */
-    size_t break_count;
-    double finest; /* relative width in slope, from 1e-9 to 1; 0: 1e-3 */
-    int moments;   /* 2, 3 or 4; 0: 4 */
+    int moments; /* 2, 3 or 4; 0: 4 */
 } vndf_build_options;
 
 /* Builds a table. options and certificate may be NULL. Returns NULL and an error if the source cannot be the
@@ -160,19 +150,9 @@ typedef struct vndf_build_options {
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 
-/* Measures a table against a source: the certificate that vndf_build would write. It uses the breaks and finest
- * that the table was built with; the provenance of the table ends with them, as --break R and --finest W. */
+/* Measures a table against a source: the certificate that vndf_build would write. */
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
-
-/* The reference by adaptive quadrature of the source, in double: normalised P22, and the projected area of the
- * unit problem at the angle theta (radians, 0 to pi), to a relative 1e-8 where P22 is smooth. It finds the narrow
- * features that a build with zeroed options finds. A slow oracle, valid while the source lives; 0 for NULL. */
-typedef struct vndf_reference vndf_reference;
-VNDF_API vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error);
-VNDF_API double vndf_reference_p22(const vndf_reference *reference, double r);
-VNDF_API double vndf_reference_area(const vndf_reference *reference, double theta);
-VNDF_API void vndf_reference_free(vndf_reference *reference);
 
 /* Writes the table to a file: first to a temporary file beside it, vndf.NUMBER.tmp, which is flushed to the disk
  * and renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced

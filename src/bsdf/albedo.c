@@ -152,8 +152,8 @@ static float kept_of(const vndf_material *lobe, int lobes, double cosine, double
         all += rest * (double)n.weight;
         for (int k = 0; k < lobes; k++) {
             vndf_scattered s;
-            lobe[k].own.routines->scatter(&hit[k], &n, 0.0f, &s);
-            sum += rest * (double)s.weight[0];
+            if (vndf_scatter(&hit[k], &n, 0.0f, &s))
+                sum += rest * (double)s.weight[0];
         }
     }
     return all > 0.0 ? (float)(sum / all) : 1.0f;

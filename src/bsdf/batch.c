@@ -100,7 +100,8 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
 {
     const vndf_material *m = b->material;
     int in_blocks = m->is.effects.shape == VNDF_SHAPE_ALIGNED && m->is.effects.normals == VNDF_NORMALS_VISIBLE &&
-                    m->own.routines->scatter;
+                    m->is.effects.reflection == VNDF_REFLECTION_SPECULAR &&
+                    m->own.routines == &vndf_routines_single;
     vndf_bsdf hit;
     block drawn;
     for (size_t i = 0; i < b->count; i++) {
@@ -110,10 +111,11 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
         step_to(b, i, &hit);
         if (in_blocks && at == 0)
             draw_block(b, u, i, rest < BLOCK ? rest : BLOCK, &drawn);
-        if (in_blocks && hit.material == m) {
+        if (in_blocks && hit.own.area > 0.0f) {
             const vndf_drawn_normal n = {
                 {drawn.x[at], drawn.y[at], drawn.z[at]}, drawn.density[at], drawn.weight[at]};
-            m->own.routines->scatter(&hit, &n, own[2], &s);
+            if (!vndf_scatter(&hit, &n, own[2], &s))
+                s = vndf_scattered_nothing;
         } else
             vndf_bsdf_sample(&hit, own, &s);
         put(&scattered, i, &s, m->is.wavelengths);
@@ -129,8 +131,8 @@ static void look(const vndf_bsdf_batch *b, vndf_normals wo, const uint64_t *seed
     for (size_t i = 0; i < b->count; i++) {
         float f[VNDF_WAVELENGTHS];
         step_to(b, i, &hit);
-        hit.material->own.routines->eval(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0,
-                                         value ? f : NULL, pdf ? pdf + i : NULL);
+        vndf_bsdf_look(&hit, vndf_vec3_of(wo.x[i], wo.y[i], wo.z[i]), seed ? seed[i] : 0, value ? f : NULL,
+                       pdf ? pdf + i : NULL);
         for (int n = 0; value && n < b->material->is.wavelengths; n++)
             value[n][i] = f[n];
     }

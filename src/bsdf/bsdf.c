@@ -5,9 +5,16 @@
 
 static int nothing(vndf_bsdf *b, const vndf_material *material)
 {
-    b->material = &vndf_materials_of_nothing[material->is.wavelengths];
+    b->material = material;
     b->own.view.kind = VNDF_HIT_LEVEL;
+    b->own.area = 0.0f;
     return 0;
+}
+
+/* A refused material has no routines. */
+static int may_scatter(const vndf_material *material, vndf_vec3 wi)
+{
+    return material->own.routines && vndf_is_near_unit(wi);
 }
 
 /* The side of wi and what hangs on it. */
@@ -36,14 +43,14 @@ VNDF_INLINE int complete(vndf_bsdf *b, const vndf_material *material)
         float y = vndf_hit_cosine(&b->own.view, vndf_vec3_of(0.0f, 1.0f, 0.0f));
         b->own.tilt = sqrtf(1.0f + (x * x + y * y));
     }
-    if (material->own.specular->prepare)
-        material->own.specular->prepare(b);
+    if (vndf_compensates(&material->is.effects))
+        vndf_compensation_prepare(b);
     return 1;
 }
 
 static int hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_affine *surface, vndf_vec3 wi)
 {
-    if (!vndf_is_near_unit(wi))
+    if (!may_scatter(material, wi))
         return nothing(b, material);
     b->own.surface = *surface;
     b->own.view.kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
@@ -60,7 +67,7 @@ static int hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_a
 static int hit_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mixture *mixture, vndf_vec3 wi)
 {
     vndf_mixture_view *view = &b->own.view.of.mixture;
-    if (!vndf_is_near_unit(wi))
+    if (!may_scatter(material, wi))
         return nothing(b, material);
     b->own.view.kind = VNDF_HIT_MIXTURE;
     *view = vndf_mixture_view_from(mixture, wi);
@@ -131,25 +138,50 @@ int vndf_bsdf_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mi
 
 /* ---- calls on a hit ---- */
 
+/* Retroreflection: samples, values and densities are those without it, with wo turned by half a turn about z where it
+ * is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
+static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
+{
+    int turns = b->material->is.effects.reflection == VNDF_REFLECTION_RETRO && wo.z * b->own.side > 0.0f;
+    float by = turns ? -1.0f : 1.0f;
+    return vndf_vec3_of(by * wo.x, by * wo.y, wo.z);
+}
+
+const vndf_scattered vndf_scattered_nothing = {.wo = {0.0f, 0.0f, 1.0f}};
+
 void vndf_bsdf_sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    b->material->own.routines->sample(b, u, s);
+    if (!(b->own.area > 0.0f) || !b->material->own.routines->sample(b, u, s))
+        *s = vndf_scattered_nothing;
+    if (s->lobe == VNDF_LOBE_REFLECTION)
+        s->wo = turned_about(b, s->wo);
+}
+
+void vndf_bsdf_look(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+{
+    if (b->own.area > 0.0f && vndf_is_near_unit(wo) &&
+        b->material->own.routines->eval(b, turned_about(b, wo), seed, value, pdf))
+        return;
+    for (int i = 0; value && i < b->material->is.wavelengths; i++)
+        value[i] = 0.0f;
+    if (pdf)
+        *pdf = 0.0f;
 }
 
 void vndf_bsdf_eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value)
 {
-    b->material->own.routines->eval(b, wo, seed, value, NULL);
+    vndf_bsdf_look(b, wo, seed, value, NULL);
 }
 
 void vndf_bsdf_eval_pdf(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    b->material->own.routines->eval(b, wo, seed, value, pdf);
+    vndf_bsdf_look(b, wo, seed, value, pdf);
 }
 
 float vndf_bsdf_pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
     float pdf;
-    b->material->own.routines->eval(b, wo, 0, NULL, &pdf);
+    vndf_bsdf_look(b, wo, 0, NULL, &pdf);
     return pdf;
 }
 

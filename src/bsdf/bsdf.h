@@ -1,6 +1,7 @@
-/* What the files of this room share. A material is resolved to routines for its set of effects, called through
- * pointers; of Fresnel's terms, masking and normals one switch each takes the one that is wanted (single.c). The
- * mathematics is kernel/lobes.h and kernel/fresnel.h.
+/* What the files of this room share. A material is resolved to the routines of its scattering, called through a
+ * pointer; of Fresnel's terms, masking and normals one switch each takes the one that is wanted (single.c). The
+ * mathematics is kernel/lobes.h and kernel/fresnel.h. From a hit that sees no surface, whose area is 0, nothing is
+ * scattered; bsdf.c asks that before it calls a routine.
  *
  * The frame of a hit is turned about the origin, w to -w, where wi is below the mean plane: facets are then seen
  * from their other side, and their slopes stay what they are. So wi is above that plane, and the normal of a
@@ -15,42 +16,56 @@
 #ifndef VNDF_BSDF_BSDF_H
 #define VNDF_BSDF_BSDF_H
 
-#include "bsdf/wide.h"
+#include "kernel/wide.h"
+#include "math/exp_log.h"
 #include "math/vector.h"
 #include "sampler/sampler.h"
 #include "vndf_bsdf.h"
 
+/* ---- the kernel for one double, with functions of src/math ---- */
+
+/* x as the calls of vndf.h take it. */
+HERE real narrow(real x)
+{
+    return (real)(float)x;
+}
+
+HERE real exp_of(real x)
+{
+    return vndf_exp(x);
+}
+
+HERE real log_of(real x)
+{
+    return vndf_log(x);
+}
+
+HERE real log_beyond(real x)
+{
+    return vndf_log1p(x);
+}
+
+#include "kernel/lobes.h"
+
 /* ---- routines of a material ---- */
 
+/* From a hit that sees the surface. They return 0 where nothing is scattered, and need not write then. */
 typedef struct vndf_routines {
-    /* completes a hit; NULL: nothing is missing */
-    void (*prepare)(vndf_bsdf *bsdf);
-    void (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
+    int (*sample)(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
     /* the value of each wavelength and the density; either may be NULL */
-    void (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
-    /* `sample` after a normal was drawn with u[0] and u[1]; NULL if it draws more than that */
-    void (*scatter)(const vndf_bsdf *bsdf, const vndf_drawn_normal *normal, float u3, vndf_scattered *scattered);
+    int (*eval)(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 } vndf_routines;
 
-/* One scattering event (single.c). */
-const vndf_routines *vndf_single_of(const vndf_effects *effects);
+/* One scattering event, without and with compensation for the energy that it loses, and many. */
+extern const vndf_routines vndf_routines_single, vndf_routines_compensated, vndf_routines_walk;
+
+/* single.c: `sample` after a normal was drawn with u[0] and u[1]; Fresnel's term. */
+int vndf_scatter(const vndf_bsdf *bsdf, const vndf_drawn_normal *normal, float u3, vndf_scattered *scattered);
 void vndf_reflectances(const vndf_material *material, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS]);
 
-/* Reflected light goes to where the half turn about z takes it (single.c). */
-extern const vndf_routines vndf_routines_retro;
-
-/* The energy that single scattering loses, given back from a table of albedos; what that takes of a material
- * (compensated.c). */
-extern const vndf_routines vndf_routines_turquin, vndf_routines_kulla_conty;
+/* compensated.c: what compensation takes of a material, and of a hit. */
 void vndf_compensation_resolve(vndf_material *material);
-
-/* Multiple scattering; with an index ratio of 1 light meets no surface and goes straight on (walk.c). */
-extern const vndf_routines vndf_routines_walk, vndf_routines_unbent;
-
-/* Scatters nothing, in so many wavelengths, 0 being 3: a wrong description resolves to it, and a hit that sees no
- * surface has it. */
-extern const vndf_material vndf_materials_of_nothing[VNDF_WAVELENGTHS + 1];
-void vndf_eval_nothing(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
+void vndf_compensation_prepare(vndf_bsdf *bsdf);
 
 /* Whether single scattering is compensated. */
 VNDF_INLINE int vndf_compensates(const vndf_effects *e)
@@ -66,6 +81,10 @@ vndf_status vndf_description_check(const vndf_description *is, vndf_error *error
 
 /* The surface of a roughness; 0 if it is none. */
 int vndf_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
+
+/* bsdf.c: a lost sample; vndf_bsdf_eval_pdf, of which value and pdf may be NULL. */
+extern const vndf_scattered vndf_scattered_nothing;
+void vndf_bsdf_look(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 
 /* ---- a hit: one surface, level or tilted, or a mixture ---- */
 
@@ -100,6 +119,11 @@ VNDF_INLINE direction vndf_direction(vndf_vec3 w)
     return d;
 }
 
+VNDF_INLINE vndf_vec3 vndf_rounded(direction d)
+{
+    return vndf_vec3_of((float)d.x, (float)d.y, (float)d.z);
+}
+
 /* To the frame of the hit, and back. */
 VNDF_INLINE vndf_vec3 vndf_turned(vndf_vec3 w, float side)
 {
@@ -120,20 +144,6 @@ VNDF_INLINE double vndf_mean_of(const vndf_material *m, const double f[VNDF_WAVE
     for (int i = 1; i < m->is.wavelengths; i++)
         sum += f[i];
     return sum * m->own.per_wavelength;
-}
-
-VNDF_INLINE void vndf_scatter_nothing(vndf_scattered *s)
-{
-    const vndf_scattered none = {{0.0f, 0.0f, 1.0f}, {0.0f}, 0.0f, VNDF_LOBE_NONE, {0.0f, 0.0f, 0.0f}};
-    *s = none;
-}
-
-VNDF_INLINE void vndf_see_nothing(const vndf_bsdf *b, float *value, float *pdf)
-{
-    for (int i = 0; value && i < b->material->is.wavelengths; i++)
-        value[i] = 0.0f;
-    if (pdf)
-        *pdf = 0.0f;
 }
 
 #endif

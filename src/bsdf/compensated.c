@@ -1,11 +1,11 @@
-/* Both ways of compensation wrap the routines of single scattering. vndf_bsdf.h has the formulas.
+/* Both ways of compensation scale what single scattering gives by a number for each wavelength, and the second adds a
+ * lobe. vndf_bsdf.h has the formulas.
  *
  * Kulla & Conty's lobe of both lobes. Of what is lost on side A, 1 - E_A(wi), the part b_A goes to the other side, with
  * f = b_A (1 - E_A(wi)) (1 - E_B(wo))/(pi (1 - E_avg,B)). Energy asks for a part of 1 - b_A that stays, reciprocity for
  * b_A (1 - E_avg,A) n_A^2 = b_B (1 - E_avg,B) n_B^2. Since (1 - F_avg) n^2 is the same seen from both sides, b =
  * (1 - F_avg) min/(1 - E_avg) is such a part, and at most 1. */
 #include "bsdf/bsdf.h"
-
 #include "math/turn.h"
 
 static const float INVERSE_PI = 0.318309886f;
@@ -46,49 +46,6 @@ static float lost_from(const vndf_bsdf *b, float z)
 {
     return 1.0f - vndf_albedo_directional(b->material->is.albedo, b->own.side * z, b->own.compensation.alpha);
 }
-
-/* Sets the roughness to look up, the root of a determinant, which for two is sqrt(alpha_x alpha_y), and Turquin's
- * gain; returns 1 - E(wi). */
-static float look_up(vndf_bsdf *b)
-{
-    const vndf_affine *s = &b->own.surface;
-    b->own.compensation.alpha = (float)sqrt(fabs((double)s->xx * s->yy - (double)s->xy * s->yx));
-    float lost = lost_from(b, b->own.rise), kept = lost < 0.999f ? 1.0f - lost : 1e-3f;
-    b->own.compensation.gain = has_both(b) ? 1.0f / kept : (1.0f - kept) / kept;
-    return lost;
-}
-
-/* ---- Turquin ---- */
-
-static void prepare_turquin(vndf_bsdf *b)
-{
-    look_up(b);
-}
-
-static void scale(const vndf_bsdf *b, float *value)
-{
-    for (int i = 0; i < b->material->is.wavelengths; i++)
-        value[i] = vndf_finite(value[i] *
-                               (has_both(b) ? b->own.compensation.gain
-                                            : 1.0f + b->material->own.reflectance0[i] * b->own.compensation.gain));
-}
-
-static void sample_turquin(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
-{
-    b->material->own.single->sample(b, u, s);
-    scale(b, s->weight);
-}
-
-static void eval_turquin(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    b->material->own.single->eval(b, wo, seed, value, pdf);
-    if (value)
-        scale(b, value);
-}
-
-const vndf_routines vndf_routines_turquin = {prepare_turquin, sample_turquin, eval_turquin, NULL};
-
-/* ---- Kulla & Conty ---- */
 
 static float average_lost(const vndf_bsdf *b, float side)
 {
@@ -134,21 +91,41 @@ static void part_lobes(vndf_bsdf *b, float lost_average)
     c->share = c->lost;
 }
 
-static void prepare_kulla_conty(vndf_bsdf *b)
+/* The lobe of Kulla & Conty; 0 where next to nothing is lost. */
+static int prepare_lobe(vndf_bsdf *b, float lost)
 {
     struct vndf_compensation *c = &b->own.compensation;
-    float lost = look_up(b), lost_average = average_lost(b, b->own.side);
-    c->lost = lost > 0.0f ? lost : 0.0f;
+    float lost_average = average_lost(b, b->own.side);
     c->per = per_of(lost_average);
+    if (!(c->per > 0.0f))
+        return 0;
+    c->lost = lost > 0.0f ? lost : 0.0f;
     if (has_both(b))
         part_lobes(b, lost_average);
     else
         colour_reflection(b, lost_average);
-    if (!(c->per > 0.0f))
-        c->share = c->lost = 0.0f;
     c->near = 0.01f * c->alpha + 1e-4f;
     c->per_log = (float)(1.0 / vndf_log(1.0 + 1.0 / c->near));
+    return 1;
 }
+
+/* The roughness to look up is the root of a determinant, which of alpha_x and alpha_y is sqrt(alpha_x alpha_y). */
+void vndf_compensation_prepare(vndf_bsdf *b)
+{
+    const vndf_material *m = b->material;
+    const vndf_affine *s = &b->own.surface;
+    struct vndf_compensation *c = &b->own.compensation;
+    c->alpha = (float)sqrt(fabs((double)s->xx * s->yy - (double)s->xy * s->yx));
+    *c = (struct vndf_compensation){.alpha = c->alpha};
+    float lost = lost_from(b, b->own.rise), kept = lost < 0.999f ? 1.0f - lost : 1e-3f;
+    int has_lobe = m->is.effects.scattering == VNDF_SCATTERING_KULLA_CONTY && prepare_lobe(b, lost);
+    for (int i = 0; i < m->is.wavelengths; i++)
+        c->gain[i] = has_lobe      ? 1.0f
+                     : has_both(b) ? 1.0f / kept
+                                   : 1.0f + m->own.reflectance0[i] * ((1.0f - kept) / kept);
+}
+
+/* ---- samples, values and densities ---- */
 
 /* Of the lobe towards wo, in the frame of the hit: f where F_ms is 1, and density. Smooth surfaces lose along the
  * surface alone, so half of the samples are even in the logarithm of the cosine, the others in its square: the largest
@@ -189,55 +166,50 @@ static vndf_vec3 draw_added(const vndf_bsdf *b, const float u[3])
     return vndf_vec3_of(across * (float)cosine, across * (float)sine, side * up);
 }
 
-static void sample_added(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+static int sample_added(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    float f[VNDF_WAVELENGTHS], single;
+    float f[VNDF_WAVELENGTHS] = {0.0f}, single = 0.0f;
     vndf_vec3 wo = draw_added(b, u);
     float z = b->own.side * wo.z;
     added a = added_towards(b, z);
-    vndf_scatter_nothing(s);
-    b->material->own.single->eval(b, wo, 0, f, &single);
+    vndf_routines_single.eval(b, wo, 0, f, &single);
     float density = density_of(b, single, &a);
-    if (!(density > 0.0f))
-        return;
     s->wo = wo;
     s->density = density;
     s->lobe = z > 0.0f ? VNDF_LOBE_REFLECTION : VNDF_LOBE_TRANSMISSION;
+    s->wm = vndf_vec3_of(0.0f, 0.0f, 0.0f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         s->weight[i] = vndf_finite((f[i] + b->own.compensation.colour[i] * a.value) * (fabsf(wo.z) / density));
+    return density > 0.0f;
 }
 
-static void sample_kulla_conty(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    float share = b->own.compensation.share;
-    if (u[2] < share) {
-        sample_added(b, u, s);
-        return;
-    }
-    const float rest[3] = {u[0], u[1], share > 0.0f ? (u[2] - share) / (1.0f - share) : u[2]};
-    b->material->own.single->sample(b, rest, s);
-    if (!(b->own.compensation.per > 0.0f)) /* no lobe: single scattering is scaled */
-        scale(b, s->weight);
-    if (s->lobe == VNDF_LOBE_NONE || !(share > 0.0f))
-        return;
+    const struct vndf_compensation *c = &b->own.compensation;
+    if (u[2] < c->share)
+        return sample_added(b, u, s);
+    const float rest[3] = {u[0], u[1], c->share > 0.0f ? (u[2] - c->share) / (1.0f - c->share) : u[2]};
+    if (!vndf_routines_single.sample(b, rest, s))
+        return 0;
     added a = added_towards(b, b->own.side * s->wo.z);
-    float single = s->density, density = density_of(b, single, &a), cosine = fabsf(s->wo.z);
-    s->density = vndf_finite(vndf_positive(density));
+    float density = density_of(b, s->density, &a), part = s->density / density, cosine = fabsf(s->wo.z);
     for (int i = 0; i < b->material->is.wavelengths; i++)
-        s->weight[i] = vndf_finite(s->weight[i] * (single / density) +
-                                   b->own.compensation.colour[i] * a.value * (cosine / density));
+        s->weight[i] = vndf_finite(s->weight[i] * c->gain[i] * part + c->colour[i] * a.value * (cosine / density));
+    s->density = vndf_finite(vndf_positive(density));
+    return 1;
 }
 
-static void eval_kulla_conty(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+static int eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
-    added a = added_towards(b, vndf_is_near_unit(wo) ? b->own.side * wo.z : 0.0f);
-    b->material->own.single->eval(b, wo, seed, value, pdf);
-    if (value && !(b->own.compensation.per > 0.0f))
-        scale(b, value);
+    const struct vndf_compensation *c = &b->own.compensation;
+    float f[VNDF_WAVELENGTHS] = {0.0f}, single = 0.0f;
+    added a = added_towards(b, b->own.side * wo.z);
+    vndf_routines_single.eval(b, wo, seed, value ? f : NULL, pdf ? &single : NULL);
     for (int i = 0; value && i < b->material->is.wavelengths; i++)
-        value[i] = vndf_finite(value[i] + b->own.compensation.colour[i] * a.value);
+        value[i] = vndf_finite(f[i] * c->gain[i] + c->colour[i] * a.value);
     if (pdf)
-        *pdf = vndf_finite(density_of(b, *pdf, &a));
+        *pdf = vndf_finite(density_of(b, single, &a));
+    return 1;
 }
 
-const vndf_routines vndf_routines_kulla_conty = {prepare_kulla_conty, sample_kulla_conty, eval_kulla_conty, NULL};
+const vndf_routines vndf_routines_compensated = {sample, eval};

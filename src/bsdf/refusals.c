@@ -4,124 +4,111 @@
 
 #include "bsdf/bsdf.h"
 #include "core/error.h"
-#include "sampler/sampler.h"
-
-/* ---- effects ---- */
-
-typedef struct effect_range {
-    const char *name;
-    unsigned value, last;
-} effect_range;
-
-static vndf_status check_range(const vndf_effects *e, vndf_error *error)
-{
-    const effect_range ranges[] = {
-        {"lobes", (unsigned)e->lobes, VNDF_LOBES_BOTH},
-        {"fresnel", (unsigned)e->fresnel, VNDF_FRESNEL_CONDUCTOR},
-        {"masking", (unsigned)e->masking, VNDF_MASKING_NONE},
-        {"normals", (unsigned)e->normals, VNDF_NORMALS_V_CAVITY},
-        {"scattering", (unsigned)e->scattering, VNDF_SCATTERING_KULLA_CONTY},
-        {"transport", (unsigned)e->transport, VNDF_TRANSPORT_IMPORTANCE},
-        {"shape", (unsigned)e->shape, VNDF_SHAPE_MIXTURE},
-        {"reflection", (unsigned)e->reflection, VNDF_REFLECTION_RETRO},
-    };
-    for (size_t i = 0; i < sizeof ranges / sizeof ranges[0]; i++)
-        if (ranges[i].value > ranges[i].last)
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects.%s is %d, which is none of its choices",
-                             ranges[i].name, (int)ranges[i].value);
-    return VNDF_OK;
-}
-
-/* What is wrong with a combination; NULL if nothing. */
-static const char *combination_refused(const vndf_effects *e)
-{
-    int transmits = e->lobes != VNDF_LOBES_REFLECTION, walks = e->scattering == VNDF_SCATTERING_MULTIPLE;
-    int is_retro = e->reflection == VNDF_REFLECTION_RETRO, tilts = e->shape >= VNDF_SHAPE_AFFINE;
-    if (transmits && e->fresnel == VNDF_FRESNEL_CONDUCTOR)
-        return "fresnel is VNDF_FRESNEL_CONDUCTOR, and a conductor transmits nothing: lobes must be "
-               "VNDF_LOBES_REFLECTION";
-    if (e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE)
-        return "lobes is VNDF_LOBES_BOTH and fresnel is VNDF_FRESNEL_NONE: nothing says which lobe light takes";
-    if (transmits && e->normals == VNDF_NORMALS_BOUNDED)
-        return "normals is VNDF_NORMALS_BOUNDED, normals that reflect to above the horizon: lobes must be "
-               "VNDF_LOBES_REFLECTION";
-    if (e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES)
-        return "normals is VNDF_NORMALS_V_CAVITY, so masking must be VNDF_MASKING_V_CAVITIES";
-    if (vndf_compensates(e) && e->masking != VNDF_MASKING_HEIGHT_CORRELATED)
-        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos have Smith's "
-               "masking by height: masking must be VNDF_MASKING_HEIGHT_CORRELATED";
-    if (vndf_compensates(e) && transmits &&
-        (e->lobes == VNDF_LOBES_TRANSMISSION || e->fresnel != VNDF_FRESNEL_DIELECTRIC))
-        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be "
-               "VNDF_LOBES_REFLECTION, or VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC";
-    if (vndf_compensates(e) && tilts)
-        return "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos are of one "
-               "distribution without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE";
-    if (is_retro && e->lobes == VNDF_LOBES_TRANSMISSION)
-        return "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected";
-    if (tilts &&
-        (e->normals != VNDF_NORMALS_VISIBLE || e->masking == VNDF_MASKING_V_CAVITIES || is_retro || walks))
-        return "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, a surface with a mean slope: normals must be "
-               "VNDF_NORMALS_VISIBLE, masking not VNDF_MASKING_V_CAVITIES, scattering VNDF_SCATTERING_SINGLE and "
-               "reflection VNDF_REFLECTION_SPECULAR";
-    if (walks && (e->masking != VNDF_MASKING_HEIGHT_CORRELATED || e->normals != VNDF_NORMALS_VISIBLE ||
-                  e->lobes == VNDF_LOBES_TRANSMISSION))
-        return "scattering is VNDF_SCATTERING_MULTIPLE, a walk: masking must be VNDF_MASKING_HEIGHT_CORRELATED, "
-               "normals VNDF_NORMALS_VISIBLE and lobes VNDF_LOBES_REFLECTION or VNDF_LOBES_BOTH";
-    return NULL;
-}
 
 /* ---- numbers ---- */
 
-/* False for NaN. */
-static int is_within(double x, double least, double most)
-{
-    return x >= least && x <= most;
-}
+/* A number, and the range that it must be in where it is read; NaN is in none. */
+typedef struct number {
+    const char *name;
+    double value, least, most;
+    int is_read;
+} number;
 
-static vndf_status check_numbers(const vndf_description *is, vndf_error *error)
+static vndf_status check_numbers(const number *numbers, size_t count, vndf_error *error)
 {
-    const vndf_effects *e = &is->effects;
-    int bends = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
-    const struct {
-        int is_read;
-        const char *name;
-        double value, least, most;
-    } numbers[] = {{1, "wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS},
-                   {bends, "eta", (double)is->eta, (double)0.01f, 100},
-                   {e->shape == VNDF_SHAPE_ROTATED, "rotation", (double)is->rotation, -1e4, 1e4}};
-    for (int i = 0; i < 3; i++)
-        if (numbers[i].is_read && !is_within(numbers[i].value, numbers[i].least, numbers[i].most))
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s is %g, it must be in [%g, %g]", numbers[i].name,
-                             numbers[i].value, numbers[i].least, numbers[i].most);
-    if (e->scattering == VNDF_SCATTERING_MULTIPLE && e->lobes == VNDF_LOBES_BOTH &&
-        e->fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "eta is 1: a walk with VNDF_FRESNEL_SCHLICK needs another, "
-                         "since light that goes straight on has no density");
+    for (const number *n = numbers; n < numbers + count; n++)
+        if (n->is_read && !(n->value >= n->least && n->value <= n->most))
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s is %g, it must be in [%g, %g]", n->name, n->value,
+                             n->least, n->most);
     return VNDF_OK;
 }
 
-/* What each wavelength has. */
+static vndf_status check_choices(const vndf_effects *e, vndf_error *error)
+{
+    const number choices[] = {
+        {"effects.lobes", (int)e->lobes, 0, VNDF_LOBES_BOTH, 1},
+        {"effects.fresnel", (int)e->fresnel, 0, VNDF_FRESNEL_CONDUCTOR, 1},
+        {"effects.masking", (int)e->masking, 0, VNDF_MASKING_NONE, 1},
+        {"effects.normals", (int)e->normals, 0, VNDF_NORMALS_V_CAVITY, 1},
+        {"effects.scattering", (int)e->scattering, 0, VNDF_SCATTERING_KULLA_CONTY, 1},
+        {"effects.transport", (int)e->transport, 0, VNDF_TRANSPORT_IMPORTANCE, 1},
+        {"effects.shape", (int)e->shape, 0, VNDF_SHAPE_MIXTURE, 1},
+        {"effects.reflection", (int)e->reflection, 0, VNDF_REFLECTION_RETRO, 1},
+    };
+    return check_numbers(choices, sizeof choices / sizeof *choices, error);
+}
+
 static vndf_status check_optics(const vndf_description *is, vndf_error *error)
 {
-    vndf_fresnel fresnel = is->effects.fresnel;
-    for (int i = 0; i < (is->wavelengths ? is->wavelengths : 3); i++) {
-        float eta = is->conductor_eta[i], k = is->conductor_k[i];
-        const struct {
-            vndf_fresnel of;
-            const char *name;
-            double value, most;
-        } numbers[] = {{VNDF_FRESNEL_SCHLICK, "f0", (double)is->f0[i], 1},
-                       {VNDF_FRESNEL_CONDUCTOR, "conductor_eta", (double)eta, 1000},
-                       {VNDF_FRESNEL_CONDUCTOR, "conductor_k", (double)k, 1000}};
-        for (int n = 0; n < 3; n++)
-            if (fresnel == numbers[n].of && !is_within(numbers[n].value, 0, numbers[n].most))
-                return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s[%d] is %g, it must be in [0, %g]",
-                                 numbers[n].name, i, numbers[n].value, numbers[n].most);
-        if (fresnel == VNDF_FRESNEL_CONDUCTOR && !(eta + k > 0.0f))
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "conductor_eta[%d] and conductor_k[%d] are both 0", i, i);
+    const vndf_effects *e = &is->effects;
+    int bends = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
+    int schlick = e->fresnel == VNDF_FRESNEL_SCHLICK, metal = e->fresnel == VNDF_FRESNEL_CONDUCTOR;
+    const number whole[] = {{"wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS, 1},
+                            {"eta", (double)is->eta, (double)0.01f, 100, bends},
+                            {"rotation", (double)is->rotation, -1e4, 1e4, e->shape == VNDF_SHAPE_ROTATED}};
+    vndf_status status = check_numbers(whole, 3, error);
+    for (int i = 0; status == VNDF_OK && i < (is->wavelengths ? is->wavelengths : 3); i++) {
+        char f0[24], eta[24], k[24];
+        snprintf(f0, sizeof f0, "f0[%d]", i);
+        snprintf(eta, sizeof eta, "conductor_eta[%d]", i);
+        snprintf(k, sizeof k, "conductor_k[%d]", i);
+        const number own[] = {{f0, (double)is->f0[i], 0, 1, schlick},
+                              {eta, (double)is->conductor_eta[i], 0, 1000, metal},
+                              {k, (double)is->conductor_k[i], 0, 1000, metal}};
+        status = check_numbers(own, 3, error);
+        if (status == VNDF_OK && metal && !(is->conductor_eta[i] + is->conductor_k[i] > 0.0f))
+            status = vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s and %s are both 0", eta, k);
     }
+    return status;
+}
+
+/* ---- combinations ---- */
+
+static vndf_status check_combination(const vndf_description *is, vndf_error *error)
+{
+    const vndf_effects *e = &is->effects;
+    int transmits = e->lobes != VNDF_LOBES_REFLECTION, both = e->lobes == VNDF_LOBES_BOTH;
+    int walks = e->scattering == VNDF_SCATTERING_MULTIPLE, compensates = vndf_compensates(e);
+    int is_retro = e->reflection == VNDF_REFLECTION_RETRO, tilts = e->shape >= VNDF_SHAPE_AFFINE;
+    int by_height = e->masking == VNDF_MASKING_HEIGHT_CORRELATED, sees = e->normals == VNDF_NORMALS_VISIBLE;
+    const struct {
+        int is_wrong;
+        const char *why;
+    } rules[] = {
+        {transmits && e->fresnel == VNDF_FRESNEL_CONDUCTOR,
+         "fresnel is VNDF_FRESNEL_CONDUCTOR, and a conductor transmits nothing: lobes must be VNDF_LOBES_REFLECTION"},
+        {both && e->fresnel == VNDF_FRESNEL_NONE,
+         "lobes is VNDF_LOBES_BOTH and fresnel is VNDF_FRESNEL_NONE: nothing says which lobe light takes"},
+        {transmits && e->normals == VNDF_NORMALS_BOUNDED,
+         "normals is VNDF_NORMALS_BOUNDED, normals that reflect to above the horizon: lobes must be "
+         "VNDF_LOBES_REFLECTION"},
+        {e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES,
+         "normals is VNDF_NORMALS_V_CAVITY, so masking must be VNDF_MASKING_V_CAVITIES"},
+        {compensates && !by_height,
+         "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos have Smith's masking by "
+         "height: masking must be VNDF_MASKING_HEIGHT_CORRELATED"},
+        {compensates && transmits && !(both && e->fresnel == VNDF_FRESNEL_DIELECTRIC),
+         "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY: lobes must be VNDF_LOBES_REFLECTION, "
+         "or VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC"},
+        {compensates && tilts,
+         "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, whose albedos are of one distribution "
+         "without mean slope: shape must not be VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE"},
+        {is_retro && e->lobes == VNDF_LOBES_TRANSMISSION,
+         "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected"},
+        {tilts && (!sees || e->masking == VNDF_MASKING_V_CAVITIES || is_retro || walks),
+         "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, a surface with a mean slope: normals must be "
+         "VNDF_NORMALS_VISIBLE, masking not VNDF_MASKING_V_CAVITIES, scattering VNDF_SCATTERING_SINGLE and reflection "
+         "VNDF_REFLECTION_SPECULAR"},
+        {walks && (!by_height || !sees || e->lobes == VNDF_LOBES_TRANSMISSION),
+         "scattering is VNDF_SCATTERING_MULTIPLE, a walk: masking must be VNDF_MASKING_HEIGHT_CORRELATED, normals "
+         "VNDF_NORMALS_VISIBLE and lobes VNDF_LOBES_REFLECTION or VNDF_LOBES_BOTH"},
+        {walks && both && e->fresnel == VNDF_FRESNEL_SCHLICK && is->eta == 1.0f,
+         "scattering is VNDF_SCATTERING_MULTIPLE, fresnel is VNDF_FRESNEL_SCHLICK and eta is 1: a walk needs another "
+         "eta, since light that goes straight on has no density"},
+    };
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i].is_wrong)
+            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", rules[i].why);
     return VNDF_OK;
 }
 
@@ -152,9 +139,9 @@ static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error 
 static vndf_status check_mixture(const vndf_mixture *mixture, vndf_error *error)
 {
     double sum = 0.0;
-    if (mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "mixture->count is %d, it must be in [1, %d]", mixture->count,
-                         VNDF_MIXTURE_LOBES);
+    const number count = {"mixture->count", mixture->count, 1, VNDF_MIXTURE_LOBES, 1};
+    if (check_numbers(&count, 1, error) != VNDF_OK)
+        return VNDF_ERROR_ARGUMENT;
     for (int i = 0; i < mixture->count; i++) {
         const vndf_mixture_lobe *lobe = &mixture->lobe[i];
         char name[48];
@@ -194,15 +181,12 @@ static vndf_status check_shape(const vndf_description *is, vndf_error *error)
 
 vndf_status vndf_description_check(const vndf_description *is, vndf_error *error)
 {
-    vndf_status status = check_range(&is->effects, error);
-    const char *refused = status == VNDF_OK ? combination_refused(&is->effects) : NULL;
-    if (refused)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "effects: %s", refused);
+    vndf_status status = check_choices(&is->effects, error);
+    if (status == VNDF_OK)
+        status = check_combination(is, error);
     if (status == VNDF_OK)
         status = check_shape(is, error);
     if (status == VNDF_OK && vndf_compensates(&is->effects))
         status = vndf_albedo_check(is, error);
-    if (status == VNDF_OK)
-        status = check_numbers(is, error);
     return status == VNDF_OK ? check_optics(is, error) : status;
 }

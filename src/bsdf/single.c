@@ -12,13 +12,6 @@ static void set_all(double f[VNDF_WAVELENGTHS], double value)
         f[i] = value;
 }
 
-/* Apart, since it wants many registers. */
-VNDF_RARE void reflect_conductor(const vndf_description *is, double facing, double f[VNDF_WAVELENGTHS])
-{
-    for (int i = 0; i < is->wavelengths; i++)
-        f[i] = conductor(facing, is->conductor_eta[i], is->conductor_k[i]);
-}
-
 /* Where light may pass Schlick's term takes the cosine in the thinner medium, so that reflection is total where that
  * has none, and the bare shape reflects what total reflection does. A conductor is seen from outside alone. */
 void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS])
@@ -27,7 +20,10 @@ void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double
     int transmits = is->effects.lobes != VNDF_LOBES_REFLECTION;
     switch (is->effects.fresnel) {
     case VNDF_FRESNEL_DIELECTRIC: set_all(f, dielectric(c.facing, eta)); return;
-    case VNDF_FRESNEL_CONDUCTOR: reflect_conductor(is, c.facing, f); return;
+    case VNDF_FRESNEL_CONDUCTOR:
+        for (int i = 0; i < is->wavelengths; i++)
+            f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
+        return;
     case VNDF_FRESNEL_SCHLICK:
         c.rest = transmits && eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
         for (int i = 0; i < is->wavelengths; i++)
@@ -58,267 +54,160 @@ float vndf_fresnel_schlick(float cosine, float f0)
     return (float)schlick(1.0 - cosine_of(cosine), f0);
 }
 
-/* ---- masking ---- */
-
-VNDF_INLINE vndf_vec3 up_of(const event *e)
+/* How many wavelengths are told apart; all others have the values of the first. */
+static int colours_of(const vndf_material *m)
 {
-    return vndf_vec3_of((float)e->up.x, (float)e->up.y, (float)e->up.z);
+    vndf_fresnel fresnel = m->is.effects.fresnel;
+    return fresnel == VNDF_FRESNEL_NONE || fresnel == VNDF_FRESNEL_DIELECTRIC ? 1 : m->is.wavelengths;
 }
 
-VNDF_INLINE double area_of(const vndf_bsdf *b, const event *e)
+/* A shape alone, which reflects all light: F is not asked for. */
+static int is_white(const vndf_material *m)
 {
-    return (double)vndf_hit_area(&b->own.view, up_of(e));
+    return m->is.effects.lobes == VNDF_LOBES_REFLECTION && m->is.effects.fresnel == VNDF_FRESNEL_NONE;
 }
 
-VNDF_INLINE double by_height(const vndf_bsdf *b, const event *e, int reflects)
-{
-    double area = area_of(b, e);
-    return reflects ? masked_by_height((double)b->own.rise, e->rise, (double)b->own.area, area)
-                    : passed_by_height((double)b->own.rise, e->rise, (double)b->own.area, area) * b->own.carried;
-}
+/* ---- masking and normals ---- */
 
 /* G of an event; of transmission for radiance over r^2. */
 VNDF_INLINE double masked(const vndf_bsdf *b, const event *e, int reflects)
 {
-    double rise = (double)b->own.rise, carried = reflects ? 1.0 : b->own.carried;
-    switch (b->material->is.effects.masking) {
-    case VNDF_MASKING_HEIGHT_CORRELATED: break;
-    case VNDF_MASKING_SEPARABLE: return masked_apart((double)b->own.area, area_of(b, e)) * carried;
-    case VNDF_MASKING_V_CAVITIES:
+    vndf_masking masking = b->material->is.effects.masking;
+    double rise = (double)b->own.rise, area = (double)b->own.area, carried = reflects ? 1.0 : b->own.carried;
+    if (masking == VNDF_MASKING_V_CAVITIES)
         return reflects ? masked_in_cavities(rise, e->rise, e->facing, e->wm.z)
                         : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z) * carried;
-    case VNDF_MASKING_NONE: return 1.0 / (rise * e->rise) * carried;
-    }
-    return by_height(b, e, reflects);
-}
-
-/* The same in few registers: `look` has many numbers to keep. */
-VNDF_RARE double masked_aside(const vndf_bsdf *b, const event *e, int reflects)
-{
-    return masked(b, e, reflects);
-}
-
-/* ---- normals ---- */
-
-VNDF_INLINE int sees_one_surface(const vndf_bsdf *b)
-{
-    return b->own.view.kind != VNDF_HIT_MIXTURE && b->material->is.effects.normals == VNDF_NORMALS_VISIBLE;
-}
-
-VNDF_RARE vndf_drawn_normal draw_otherwise(const vndf_bsdf *b, float u1, float u2)
-{
-    vndf_drawn_normal n;
-    switch (b->material->is.effects.normals) {
-    case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&b->own.view.of.one, u1, u2);
-    case VNDF_NORMALS_ALL: return vndf_sample_all(&b->own.view.of.one, u1, u2);
-    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&b->own.view.of.one, u1, u2);
-    }
-    n.wm = vndf_mixture_sample(&b->own.view.of.mixture, u1, u2, &n.density, NULL);
-    n.weight = n.density > 0.0f ? vndf_mixture_visible(&b->own.view.of.mixture, n.wm) / n.density : 0.0f;
-    return n;
+    if (masking == VNDF_MASKING_NONE)
+        return 1.0 / (rise * e->rise) * carried;
+    double area_o = (double)vndf_hit_area(&b->own.view, vndf_rounded(e->up));
+    if (masking == VNDF_MASKING_SEPARABLE)
+        return masked_apart(area, area_o) * carried;
+    return reflects ? masked_by_height(rise, e->rise, area, area_o)
+                    : passed_by_height(rise, e->rise, area, area_o) * carried;
 }
 
 VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
-    return sees_one_surface(b) ? vndf_sample_visible(&b->own.view.of.one, u1, u2) : draw_otherwise(b, u1, u2);
-}
-
-VNDF_RARE float pdf_otherwise(const vndf_bsdf *b, vndf_vec3 wm)
-{
+    const struct vndf_hit_view *view = &b->own.view;
+    vndf_drawn_normal n;
+    if (view->kind == VNDF_HIT_MIXTURE) {
+        n.wm = vndf_mixture_sample(&view->of.mixture, u1, u2, &n.density, NULL);
+        n.weight = n.density > 0.0f ? vndf_mixture_visible(&view->of.mixture, n.wm) / n.density : 0.0f;
+        return n;
+    }
     switch (b->material->is.effects.normals) {
     case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&b->own.view.of.one, wm);
-    case VNDF_NORMALS_ALL: return vndf_pdf_all(&b->own.view.of.one, wm);
-    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&b->own.view.of.one, wm);
+    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&view->of.one, u1, u2);
+    case VNDF_NORMALS_ALL: return vndf_sample_all(&view->of.one, u1, u2);
+    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&view->of.one, u1, u2);
     }
-    return vndf_mixture_pdf(&b->own.view.of.mixture, wm);
+    return vndf_sample_visible(&view->of.one, u1, u2);
 }
 
 VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
 {
-    return sees_one_surface(b) ? vndf_pdf(&b->own.view.of.one, wm) : pdf_otherwise(b, wm);
+    const struct vndf_hit_view *view = &b->own.view;
+    if (view->kind == VNDF_HIT_MIXTURE)
+        return vndf_mixture_pdf(&view->of.mixture, wm);
+    switch (b->material->is.effects.normals) {
+    case VNDF_NORMALS_VISIBLE: break;
+    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&view->of.one, wm);
+    case VNDF_NORMALS_ALL: return vndf_pdf_all(&view->of.one, wm);
+    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&view->of.one, wm);
+    }
+    return vndf_pdf(&view->of.one, wm);
 }
 
 /* ---- samples ---- */
 
-VNDF_INLINE int goes_up(const vndf_bsdf *b, event *e)
+/* At a normal by one lobe, which has these parts of the light and takes `part` of the samples. */
+VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f, double part,
+                      const int reflects, vndf_scattered *s)
 {
-    e->rise = (double)vndf_hit_cosine(&b->own.view, up_of(e));
-    return e->rise > 0.0;
-}
-
-/* Completes a sample of an event; `part` of the samples take its lobe. f NULL: 1 of all wavelengths. */
-VNDF_INLINE void set_scattered(const vndf_bsdf *b, const vndf_drawn_normal *n, const event *e, const double *f,
-                               double part, vndf_lobe lobe, const int bare, vndf_scattered *s)
-{
-    int reflects = lobe == VNDF_LOBE_REFLECTION, count = b->material->is.wavelengths;
-    double g = bare ? by_height(b, e, 1) : masked(b, e, reflects);
-    double whole = g * e->rise * ((double)b->own.area * (double)n->weight);
-    s->wo = vndf_turned(up_of(e), reflects ? b->own.side : -b->own.side);
-    s->wm = vndf_turned(n->wm, b->own.side);
-    s->density = lobe == VNDF_LOBE_STRAIGHT
-                     ? 1.0f
-                     : vndf_positive(vndf_density_from((double)n->density * e->jacobian * part));
-    s->lobe = lobe;
-    float alike = f ? 0.0f : vndf_density_from(whole);
+    direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
+    event e = reflects ? reflected_at(wi, wm, c) : refracted_at(wi, wm, c, b->own.eta);
+    vndf_vec3 up = vndf_rounded(e.up);
+    e.rise = (double)vndf_hit_cosine(&b->own.view, up);
+    if (!e.met || !(e.rise > 0.0))
+        return 0;
+    double whole = masked(b, &e, reflects) * e.rise * ((double)b->own.area * (double)n->weight);
+    const int count = b->material->is.wavelengths, colours = colours_of(b->material);
     for (int i = 0; i < count; i++)
-        s->weight[i] = f ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : alike;
-}
-
-/* The two lobes at a drawn normal. Bare reflection is height-correlated, without a Fresnel term; other reflection has
- * the reflectances f, or forms them where f is NULL. */
-VNDF_INLINE void reflect(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
-                         double part, const int bare, vndf_scattered *s)
-{
-    double own[VNDF_WAVELENGTHS];
-    event e = reflected_at(vndf_direction(b->own.wi), vndf_direction(n->wm), c);
-    if (!e.met || !goes_up(b, &e)) {
-        vndf_scatter_nothing(s);
-        return;
-    }
-    if (!bare && !f) {
-        vndf_reflectances(b->material, c, b->own.eta, own);
-        f = own;
-    }
-    set_scattered(b, n, &e, f, part, VNDF_LOBE_REFLECTION, bare, s);
-}
-
-VNDF_INLINE void transmit(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
-                          double part, vndf_scattered *s)
-{
-    event e = refracted_at(vndf_direction(b->own.wi), vndf_direction(n->wm), c, b->own.eta);
-    if (!goes_up(b, &e) || !e.met) {
-        vndf_scatter_nothing(s);
-        return;
-    }
-    vndf_lobe lobe = b->own.eta == 1.0 ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
-    set_scattered(b, n, &e, f, part, lobe, 0, s);
-}
-
-static void scatter_bare(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
-{
-    const seen_cosine c = {dot_of(vndf_direction(b->own.wi), vndf_direction(n->wm)), 0.0};
-    (void)u3;
-    reflect(b, n, c, NULL, 1.0, 1, s);
+        s->weight[i] =
+            i < colours ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : s->weight[0];
+    int straight = !reflects && b->own.eta == 1.0;
+    s->wo = vndf_turned(up, reflects ? b->own.side : -b->own.side);
+    s->wm = vndf_turned(n->wm, b->own.side);
+    s->density = straight ? 1.0f : vndf_positive(vndf_density_from((double)n->density * e.jacobian * part));
+    s->lobe = reflects ? VNDF_LOBE_REFLECTION : straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
+    return 1;
 }
 
 /* Numbers outside [0, 1] do not choose what never happens. */
-static void scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
+int vndf_scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    seen_cosine c = seen_cosine_of(vndf_direction(b->own.wi), vndf_direction(n->wm));
-    vndf_lobes lobes = b->material->is.effects.lobes;
-    double f[VNDF_WAVELENGTHS], part = 0.0;
-    if (lobes == VNDF_LOBES_REFLECTION) {
-        reflect(b, n, c, NULL, 1.0, 0, s);
-        return;
-    }
+    const vndf_lobes lobes = b->material->is.effects.lobes;
+    const direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
+    double f[VNDF_WAVELENGTHS] = {1.0};
+    if (is_white(b->material))
+        return leave(b, n, (seen_cosine){dot_of(wi, wm), 0.0}, f, 1.0, 1, s);
+    const seen_cosine c = seen_cosine_of(wi, wm);
     vndf_reflectances(b->material, c, b->own.eta, f);
-    if (lobes == VNDF_LOBES_BOTH)
-        part = vndf_mean_of(b->material, f);
-    if ((part > 0.0 && u3 < part) || !(part < 1.0))
-        reflect(b, n, c, f, part, 0, s);
-    else
-        transmit(b, n, c, f, 1.0 - part, s);
+    double mean = lobes == VNDF_LOBES_BOTH ? vndf_mean_of(b->material, f) : 1.0;
+    if (lobes == VNDF_LOBES_REFLECTION ||
+        (lobes == VNDF_LOBES_BOTH && ((mean > 0.0 && u3 < mean) || !(mean < 1.0))))
+        return leave(b, n, c, f, mean, 1, s);
+    return leave(b, n, c, f, lobes == VNDF_LOBES_BOTH ? 1.0 - mean : 1.0, 0, s);
 }
 
-static void sample_bare(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     vndf_drawn_normal n = draw(b, u[0], u[1]);
-    scatter_bare(b, &n, u[2], s);
-}
-
-static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
-{
-    vndf_drawn_normal n = draw(b, u[0], u[1]);
-    scatter(b, &n, u[2], s);
+    return vndf_scatter(b, &n, u[2], s);
 }
 
 /* ---- values and densities ---- */
 
-/* f and the density towards a direction; the density is that of the lobe times the part of the samples that take
- * it. */
-VNDF_INLINE void look(const vndf_bsdf *b, vndf_vec3 given, float *value, float *pdf, const int bare)
+/* Of one lobe; the density is its own times the part of the samples that take it. */
+VNDF_INLINE int look(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int reflects, float *value, float *pdf)
 {
     const vndf_material *m = b->material;
-    vndf_lobes lobes = bare ? VNDF_LOBES_REFLECTION : m->is.effects.lobes;
-    vndf_vec3 wo = vndf_turned(given, b->own.side);
-    float rise = vndf_hit_cosine(&b->own.view, wo);
-    int reflects = rise > 0.0f;
-    if (!vndf_is_near_unit(wo) || !(rise != 0.0f) ||
-        lobes == (reflects ? VNDF_LOBES_TRANSMISSION : VNDF_LOBES_REFLECTION)) {
-        vndf_see_nothing(b, value, pdf);
-        return;
-    }
+    const vndf_lobes lobes = m->is.effects.lobes;
     direction from = vndf_direction(b->own.wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
     event e = reflects ? reflecting(from, to) : refracting(from, to, b->own.eta);
-    if (!e.met) {
-        vndf_see_nothing(b, value, pdf);
-        return;
-    }
-    double f[VNDF_WAVELENGTHS];
-    vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
-    e.rise = fabs((double)rise);
-    if (!bare && (value || lobes == VNDF_LOBES_BOTH)) {
-        const seen_cosine c = {e.facing, reflects ? reflecting_rest(e, from, to) : e.rest};
-        vndf_reflectances(m, c, b->own.eta, f);
-    }
+    if (!e.met)
+        return 0;
+    double f[VNDF_WAVELENGTHS] = {1.0};
+    vndf_vec3 wm = vndf_rounded(e.wm);
+    e.rise = rise;
+    if (reflects && m->is.effects.fresnel == VNDF_FRESNEL_SCHLICK)
+        e.rest = reflecting_rest(e, from, to);
+    if (!is_white(m) && (value || lobes == VNDF_LOBES_BOTH))
+        vndf_reflectances(m, (seen_cosine){e.facing, e.rest}, b->own.eta, f);
     if (value) {
-        const event at = e; /* what is pointed at leaves its registers */
-        double g = bare ? by_height(b, &e, 1) : masked_aside(b, &at, reflects);
+        double g = masked(b, &e, reflects);
         double shape = (double)b->own.tilt * (double)vndf_hit_ndf(&b->own.view, wm) * e.facing * e.jacobian * g;
-        for (int i = 0; i < m->is.wavelengths; i++)
-            value[i] = vndf_density_from(bare ? shape : shape * (reflects ? f[i] : 1.0 - f[i]));
+        const int count = m->is.wavelengths, colours = colours_of(m);
+        for (int i = 0; i < count; i++)
+            value[i] = i < colours ? vndf_density_from(shape * (reflects ? f[i] : 1.0 - f[i])) : value[0];
     }
     if (pdf) {
         double mean = lobes == VNDF_LOBES_BOTH ? vndf_mean_of(m, f) : 1.0;
         double part = reflects || lobes != VNDF_LOBES_BOTH ? mean : 1.0 - mean;
         *pdf = vndf_density_from(part * ((double)pdf_of(b, wm) * e.jacobian));
     }
+    return 1;
 }
 
-static void eval_bare(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
+    const vndf_lobes lobes = b->material->is.effects.lobes;
+    vndf_vec3 wo = vndf_turned(given, b->own.side);
+    double rise = (double)vndf_hit_cosine(&b->own.view, wo);
     (void)seed;
-    look(b, wo, value, pdf, 1);
+    if (rise > 0.0)
+        return lobes != VNDF_LOBES_TRANSMISSION && look(b, wo, rise, 1, value, pdf);
+    return rise < 0.0 && lobes != VNDF_LOBES_REFLECTION && look(b, wo, -rise, 0, value, pdf);
 }
 
-static void eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    (void)seed;
-    look(b, wo, value, pdf, 0);
-}
-
-const vndf_routines *vndf_single_of(const vndf_effects *e)
-{
-    static const vndf_routines bare = {NULL, sample_bare, eval_bare, scatter_bare},
-                               others = {NULL, sample, eval, scatter};
-    int is_bare = e->lobes == VNDF_LOBES_REFLECTION && e->fresnel == VNDF_FRESNEL_NONE &&
-                  e->masking == VNDF_MASKING_HEIGHT_CORRELATED;
-    return is_bare ? &bare : &others;
-}
-
-/* ---- retroreflection ----
- *
- * Samples, values and densities are those of the same material without it, with wo turned by half a turn where it
- * is on the side of wi. That turn changes no length and no angle, so all integrals and reciprocity stay. */
-
-static vndf_vec3 turned_about(const vndf_bsdf *b, vndf_vec3 wo)
-{
-    float turn = wo.z * b->own.side > 0.0f ? -1.0f : 1.0f;
-    return vndf_vec3_of(turn * wo.x, turn * wo.y, wo.z);
-}
-
-static void sample_retro(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
-{
-    b->material->own.specular->sample(b, u, s);
-    if (s->lobe == VNDF_LOBE_REFLECTION)
-        s->wo = turned_about(b, s->wo);
-}
-
-static void eval_retro(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    b->material->own.specular->eval(b, turned_about(b, wo), seed, value, pdf);
-}
-
-const vndf_routines vndf_routines_retro = {NULL, sample_retro, eval_retro, NULL};
+const vndf_routines vndf_routines_single = {sample, eval};

@@ -28,6 +28,12 @@ static int transmits(const vndf_bsdf *b)
     return b->material->is.effects.lobes != VNDF_LOBES_REFLECTION;
 }
 
+/* With an index ratio of 1 light meets no surface and goes straight on. */
+static int is_unbent(const vndf_bsdf *b)
+{
+    return transmits(b) && b->own.eta == 1.0;
+}
+
 /* ---- random numbers ----
  *
  * Uniform numbers of a walk by counter: number i is a hash of the seed and i, so that a walk keeps no more than
@@ -175,8 +181,7 @@ VNDF_INLINE int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, 
                      : reflecting(vndf_direction(v), vndf_direction(o));
     if (!e.met)
         return 0;
-    vndf_vec3 wm = vndf_vec3_of((float)e.wm.x, (float)e.wm.y, (float)e.wm.z);
-    double density = (double)vndf_visible(view, wm) * e.jacobian;
+    double density = (double)vndf_visible(view, vndf_rounded(e.wm)) * e.jacobian;
     if (!(density > 0.0))
         return 0;
     double f[VNDF_WAVELENGTHS], mean = reflectances(b, e.facing, eta, f);
@@ -242,27 +247,36 @@ static void leave(const vndf_bsdf *b, const ray *r, vndf_vec3 back, vndf_scatter
     s->wo = vndf_turned(wo, b->own.side);
     s->density = vndf_positive(density_towards(b, wo));
     s->lobe = r->turned ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION;
+    s->wm = vndf_vec3_of(0.0f, 0.0f, 0.0f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         s->weight[i] = vndf_density_from(r->weight[i] * (r->turned ? b->own.carried : 1.0));
 }
 
 /* The first normal is drawn with u[0] and u[1], its lobe with u[2]; all other numbers are a hash of the three. */
-static void sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
+static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
     ray r = entering(&b->own.view.of.one, b->own.wi, b->own.eta, seed_of(u));
     float pair[2] = {u[0], u[1]};
     double lobe = (double)vndf_clamp_unit(u[2]);
-    vndf_scatter_nothing(s);
+    if (is_unbent(b)) {
+        s->wo = vndf_turned(b->own.wi, -b->own.side);
+        s->density = 1.0f;
+        s->lobe = VNDF_LOBE_STRAIGHT;
+        for (int i = 0; i < b->material->is.wavelengths; i++)
+            s->weight[i] = 1.0f;
+        return 1;
+    }
     for (unsigned order = 1; order <= b->material->is.order_limit; order++) {
         vndf_vec3 back = bounce(b, &r, pair[0], pair[1], lobe);
         if (is_dark(b, &r))
-            return;
+            return 0;
         if (!travel(b, &r, back)) {
             leave(b, &r, back, s);
-            return;
+            return 1;
         }
         lobe = next_numbers(b, &r, pair);
     }
+    return 0;
 }
 
 /* ---- f, estimated from both ends ----
@@ -360,17 +374,16 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
     }
 }
 
-static void eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
+static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
     vndf_vec3 wo = vndf_turned(given, b->own.side), up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
     int beyond = wo.z < 0.0f;
-    vndf_see_nothing(b, value, pdf);
-    if (!vndf_is_near_unit(wo) || !(wo.z > 0.0f || (beyond && transmits(b))))
-        return;
+    if (is_unbent(b) || !(wo.z > 0.0f || (beyond && transmits(b))))
+        return 0;
     if (pdf)
         *pdf = density_towards(b, wo);
     if (!value)
-        return;
+        return 1;
     double f[VNDF_WAVELENGTHS] = {0.0}, cosine = (double)up.z, index = beyond ? b->own.eta * b->own.eta : 1.0;
     vndf_view seen = vndf_affine_view_from(&b->own.surface, up);
     end far = end_at(&seen, up, beyond ? 1.0 / b->own.eta : b->own.eta, beyond);
@@ -380,21 +393,7 @@ static void eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *valu
     add_walk(b, &far, &near, ~seed, index * cosine / (double)b->own.wi.z, f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = vndf_density_from(f[i] * (beyond ? b->own.carried : 1.0) / cosine);
+    return 1;
 }
 
-const vndf_routines vndf_routines_walk = {NULL, sample, eval, NULL};
-
-/* ---- an index ratio of 1: light meets no surface and goes straight on ---- */
-
-static void sample_unbent(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
-{
-    (void)u;
-    vndf_scatter_nothing(s);
-    s->wo = vndf_turned(b->own.wi, -b->own.side);
-    s->density = 1.0f;
-    s->lobe = VNDF_LOBE_STRAIGHT;
-    for (int i = 0; i < b->material->is.wavelengths; i++)
-        s->weight[i] = 1.0f;
-}
-
-const vndf_routines vndf_routines_unbent = {NULL, sample_unbent, vndf_eval_nothing, NULL};
+const vndf_routines vndf_routines_walk = {sample, eval};

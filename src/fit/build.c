@@ -97,7 +97,7 @@ static void search(builder *b, unsigned least, unsigned most)
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    return vndf_table_size(knots, b->moments, b->profile->description, TOOL);
+    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL);
 }
 
 /* The largest number of knots that fits into bytes. */
@@ -157,11 +157,10 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
                               vndf_certificate *certificate, vndf_error *error)
 {
     const vndf_build_options none = {0}, given = options ? *options : none;
-    vndf_resolution resolution = {given.breaks, given.break_count, given.finest};
     builder b = {.max_bytes = given.max_bytes ? given.max_bytes : BYTES_DEFAULT,
                  .max_tv = given.max_tv,
                  .moments = (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
-    if (check_request(source, &b, error) != VNDF_OK || vndf_resolution_check(&resolution, error) != VNDF_OK)
+    if (check_request(source, &b, error) != VNDF_OK)
         return NULL;
     if (!given.max_bytes && !(given.max_tv > 0.0)) {
         b.max_tv = TV_DEFAULT;
@@ -169,7 +168,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
     }
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
-    vndf_profile *profile = vndf_profile_from(source, &resolution, &guard, error);
+    vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)
         return NULL;
     b.profile = profile;
@@ -194,13 +193,9 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "a table, a source and a place for the certificate are needed");
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    vndf_resolution as_built;
-    double breaks[VNDF_LIMIT_BREAKS];
-    vndf_profile *profile = NULL;
-    if (vndf_resolution_read(distribution->source, breaks, &as_built, &guard.why) == VNDF_OK)
-        profile = vndf_profile_from(source, &as_built, &guard, NULL);
+    vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)
-        return vndf_guard_status(&guard, error);
+        return vndf_guard_status(&guard, NULL);
     double scale = profile->scale / distribution->scale;
     double normalization = profile->normalization / distribution->normalization;
     if (!(fabs(scale - 1) < 1e-6) || !(fabs(normalization - 1) < 1e-6))

@@ -10,12 +10,12 @@ vndf_guard vndf_guard_from(vndf_progress *progress, void *progress_user)
 
 int vndf_guard_stopped(const vndf_guard *guard)
 {
-    return guard && guard->why.status != VNDF_OK;
+    return guard->why.status != VNDF_OK;
 }
 
 vndf_error *vndf_guard_why(vndf_guard *guard)
 {
-    return guard && guard->why.status == VNDF_OK ? &guard->why : NULL;
+    return guard->why.status == VNDF_OK ? &guard->why : NULL;
 }
 
 void vndf_guard_starve(vndf_guard *guard)
@@ -33,8 +33,6 @@ void vndf_guard_stage(vndf_guard *guard, double done, const char *what)
 
 int vndf_guard_spend(vndf_guard *guard, double operations)
 {
-    if (!guard)
-        return 1;
     if (vndf_guard_stopped(guard))
         return 0;
     guard->spent += operations;

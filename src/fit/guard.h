@@ -28,7 +28,7 @@ vndf_guard vndf_guard_from(vndf_progress *progress, void *progress_user);
 /* Notes that a stage begins, and asks whether to go on. */
 void vndf_guard_stage(vndf_guard *guard, double done, const char *what);
 
-/* Counts operations; 0 if the build must end. NULL is a guard that lets every build go on. */
+/* Counts operations; 0 if the build must end. */
 int vndf_guard_spend(vndf_guard *guard, double operations);
 
 int vndf_guard_stopped(const vndf_guard *guard);

@@ -1,5 +1,5 @@
 /* Fresnel's equations for unpolarised light, without differences of nearly equal numbers: at right angles, beside
- * total reflection, and for index ratios near 1. Text for one double (bsdf/wide.h, relative error below 1e-12, an
+ * total reflection, and for index ratios near 1. Text for one double (bsdf/bsdf.h, relative error below 1e-12, an
  * index ratio of 1 excluded, where F is 0) or one float (some 1e-6, but where reflection is nearly total). */
 #ifndef VNDF_KERNEL_FRESNEL_H
 #define VNDF_KERNEL_FRESNEL_H

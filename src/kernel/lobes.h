@@ -6,13 +6,13 @@
  *
  * so with G = G2/(wi' wo'), primes for projections on the mean plane, f is F G D (wi.wm) dwm/dwo and (1 - F) of
  * it, and the weight of a sample F G wo' (D (wi.wm)/density of wm): the Jacobians cancel. Text for one double
- * (bsdf/wide.h) or one float. */
+ * (bsdf/bsdf.h) or one float. */
 #ifndef VNDF_KERNEL_LOBES_H
 #define VNDF_KERNEL_LOBES_H
 
 #include "kernel/fresnel.h"
 
-#ifndef VNDF_BSDF_WIDE_H /* what that page has for itself */
+#ifndef VNDF_BSDF_BSDF_H /* what that page has for itself */
 
 #  include "kernel/math.h"
 
@@ -269,7 +269,7 @@ HERE real beta_beyond(real a, real b)
     return fall * over / (at_a.under * at_b.under * at_s.over * root(s));
 }
 
-/* Beta(x, y), x and y from 1 to infinity; with bsdf/wide.h the relative error is below 2e-8 where it exceeds
+/* Beta(x, y), x and y from 1 to infinity; with bsdf/bsdf.h the relative error is below 2e-8 where it exceeds
  * 1e-37. */
 HERE real beta_of(real x, real y)
 {

@@ -1,80 +1,11 @@
 /* Reads provenance back, and lets programs bring words of their own. Descriptions come from table files, so they are
  * not trusted: every word is checked. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
 #include "source/source.h"
 #include "source/words.h"
-
-/* ---- how closely a build looks ------------------------------------------------------------------- */
-
-static const double FINEST_LEAST = 1e-9, FINEST_MOST = 1;
-
-vndf_status vndf_resolution_check(const vndf_resolution *r, vndf_error *error)
-{
-    if (r->break_count > VNDF_LIMIT_BREAKS)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%lu breaks; at most %d are possible",
-                         (unsigned long)r->break_count, VNDF_LIMIT_BREAKS);
-    if (r->break_count > 0 && !r->breaks)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "breaks is NULL but their count is not 0");
-    for (size_t i = 0; i < r->break_count; i++)
-        if (!(r->breaks[i] > 0 && isfinite(r->breaks[i])))
-            return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a break is %g; it is a slope above 0", r->breaks[i]);
-    if (r->finest != 0 && !(r->finest >= FINEST_LEAST && r->finest <= FINEST_MOST))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "finest is %g; it is a relative width from %g to %g, or 0",
-                         r->finest, FINEST_LEAST, FINEST_MOST);
-    return VNDF_OK;
-}
-
-char *vndf_resolution_describe(const vndf_resolution *r, const char *description, vndf_error *error)
-{
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_text_add(&text, description);
-    for (size_t i = 0; i < r->break_count; i++) {
-        vndf_text_add(&text, " --break ");
-        vndf_text_add_number(&text, r->breaks[i]);
-    }
-    if (r->finest > 0) {
-        vndf_text_add(&text, " --finest ");
-        vndf_text_add_number(&text, r->finest);
-    }
-    return vndf_text_finish(&text, error);
-}
-
-/* How many words of a description are the source's own: the first two always are. */
-static size_t own_words(const vndf_words *words)
-{
-    size_t count = words->count;
-    for (double value; count >= 4; count -= 2) {
-        const char *option = words->word[count - 2], *number = words->word[count - 1];
-        if ((strcmp(option, "--break") != 0 && strcmp(option, "--finest") != 0) ||
-            !vndf_number_is_all(number, strlen(number), &value))
-            break;
-    }
-    return count;
-}
-
-vndf_status vndf_resolution_read(const char *description, double room[VNDF_LIMIT_BREAKS], vndf_resolution *r,
-                                 vndf_error *error)
-{
-    vndf_words words;
-    vndf_error inner = {VNDF_OK, ""};
-    *r = (vndf_resolution){room, 0, 0};
-    if (vndf_words_split(description, &words, &inner) != VNDF_OK) /* unreadable words set no resolution */
-        return inner.status == VNDF_ERROR_SYNTAX ? VNDF_OK : vndf_fail(error, inner.status, "%s", inner.message);
-    for (size_t i = own_words(&words); i + 1 < words.count; i += 2) {
-        double value = 0;
-        vndf_number_is_all(words.word[i + 1], strlen(words.word[i + 1]), &value);
-        if (words.word[i][2] == 'f')
-            r->finest = value;
-        else if (r->break_count < VNDF_LIMIT_BREAKS)
-            room[r->break_count++] = value;
-    }
-    vndf_words_free(&words);
-    return vndf_resolution_check(r, error);
-}
 
 /* ---- the source ---------------------------------------------------------------------------------- */
 
@@ -134,7 +65,6 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
     char excerpt[VNDF_EXCERPT];
     if (vndf_words_split(description, &words, error) != VNDF_OK)
         return NULL;
-    words.count = own_words(&words);
     enum option option = option_of(&words);
     if (option != OTHER)
         source = make(option, &words, error);

@@ -5,8 +5,8 @@
  *              both sides; E = 1 - log 2 for GGX of alpha 1 from straight above (integral of u/(1 + u) from 0 to 1,
  *              u = cos_o), E = 1 at grazing incidence and in the limit of no roughness; averages are integrals of the
  *              look-ups; any numbers give results in [0, 1]
- *   furnace    by both ways the mean weight is 1 within a hundredth at alpha 0.05 to 1 and every angle (4.5 sigma, 7e-6
- *              each, of 280 or 720); where F is less than 1 it is less, and single scattering less still
+ *   furnace    by both ways the mean weight is 1 within 3e-3 for mirrors, 8e-3 for glass, at alpha 0.05 to 1 and every
+ *              angle; where F is less than 1 it is less, and single scattering less still
  *   values     f of Kulla & Conty is reciprocal within 4e-5; that of Turquin is f of single scattering times one number
  *              of wi; samples have the density and weight of where they go; F_avg is that of a finer quadrature
  *
@@ -36,31 +36,28 @@ static vndf_description describe(const subject *s, vndf_scattering way, float al
     return is;
 }
 
-/* ---- look-ups ---- */
-
-/* Of each normal both lobes are looked at, the third number being 0 and 1. */
-static double by_samples(const subject *s, double cosine, double alpha)
+/* The mean weight of samples from a cosine, over an even set of numbers that is not the builder's: multiples of the
+ * inverses of the plastic number and its square, and of the golden ratio. */
+static double mean_weight(const vndf_description *is, double cosine, size_t count)
 {
-    const int count = (int)test_amount(20000, 20000, 30000);
-    const vndf_vec3 wi = oracle_toward(cosine, 0);
-    const vndf_description is = describe(s, VNDF_SCATTERING_SINGLE, (float)alpha);
+    static const double step[3] = {0.7548776662466927, 0.5698402909980532, 0.6180339887498949};
     vndf_material material;
     vndf_bsdf bsdf;
-    double sum = 0, eta = (double)s->eta, index = cosine > 0 ? eta : 1 / eta;
-    TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK && vndf_bsdf_at(&bsdf, &material, wi));
-    for (int i = 0; i < count; i++)
-        for (int lobe = 0; lobe < (eta > 0 ? 2 : 1); lobe++) {
-            const double x = 0.7548776662466927 * i, y = 0.5698402909980532 * i; /* an even set: plastic number */
-            const float u[3] = {(float)(x - floor(x)), (float)(y - floor(y)), (float)lobe};
-            vndf_scattered at;
-            vndf_bsdf_sample(&bsdf, u, &at);
-            double facing = (double)wi.x * at.wm.x + (double)wi.y * at.wm.y + (double)wi.z * at.wm.z;
-            double f = eta > 0 ? (double)oracle_fresnel((long double)facing, (long double)index, 0) : 1;
-            if (at.lobe == (lobe ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION))
-                sum += (double)at.weight[0] * (lobe ? 1 - f : f);
-        }
-    return sum / count;
+    double sum = 0;
+    TEST(vndf_material_resolve(is, &material, NULL) == VNDF_OK &&
+         vndf_bsdf_at(&bsdf, &material, oracle_toward(cosine, 1)));
+    for (size_t i = 0; i < count; i++) {
+        float u[3];
+        vndf_scattered at;
+        for (int k = 0; k < 3; k++)
+            u[k] = (float)fmod((double)i * step[k], 1);
+        vndf_bsdf_sample(&bsdf, u, &at);
+        sum += (double)at.weight[0];
+    }
+    return sum / (double)count;
 }
+
+/* ---- look-ups ---- */
 
 /* By the midpoint rule over roots of the cosine. */
 static double average_of(const vndf_albedo *albedo, float alpha, float side)
@@ -83,8 +80,9 @@ static void test_places(const subject *s)
         double u = test_uniform_double(&state), v = test_uniform_double(&state);
         double alpha = s->eta > 0 ? 0.05 + 0.95 * u : 0.01 + 3.99 * u * u, cosine = i % 3 ? v : v * v * v;
         cosine = fmax(cosine, 1e-4 * alpha) * (s->eta > 0 && i % 2 ? -1 : 1);
+        const vndf_description is = describe(s, VNDF_SCATTERING_SINGLE, (float)alpha);
         double got = (double)vndf_albedo_directional(s->albedo, (float)cosine, (float)alpha);
-        double off = fabs(got - by_samples(s, cosine, alpha));
+        double off = fabs(got - mean_weight(&is, cosine, test_amount(20000, 20000, 60000)));
         if (!TEST(off <= most + set))
             fprintf(stderr, "  %s, cosine %g, alpha %g: off by %g\n", s->name, cosine, alpha, off);
         worst = fmax(worst, off);
@@ -107,12 +105,11 @@ static void test_any_numbers(const subject *s)
                                 4.5f, 1e30f, -1,     INFINITY, -INFINITY, -1e-30f, NAN, -0.5f};
     const int count = sizeof odd / sizeof *odd;
     const vndf_albedo *albedo = s->albedo;
-    for (int i = 0; i < count; i++)
-        for (int j = 0; j < count; j++) {
-            float e = vndf_albedo_directional(albedo, odd[i], odd[j]),
-                  mean = vndf_albedo_average(albedo, odd[j], i - 8);
-            TEST(e >= 0 && e <= 1 && mean >= 0 && mean <= 1);
-        }
+    for (int i = 0; i < count * count; i++) {
+        float e = vndf_albedo_directional(albedo, odd[i / count], odd[i % count]);
+        float mean = vndf_albedo_average(albedo, odd[i % count], i / count - 8);
+        TEST(e >= 0 && e <= 1 && mean >= 0 && mean <= 1);
+    }
     TEST(vndf_albedo_directional(albedo, 0.5f, 9) == vndf_albedo_directional(albedo, 0.5f, 4));
     TEST(vndf_albedo_directional(albedo, 7, -9) == vndf_albedo_directional(albedo, 1, 0));
     TEST(vndf_albedo_directional(albedo, NAN, 0.5f) == vndf_albedo_directional(albedo, 0, 0.5f));
@@ -122,51 +119,31 @@ static void test_any_numbers(const subject *s)
 
 /* ---- the furnace ---- */
 
-/* The mean weight of samples of a hit, and its error. */
-static double furnace(const vndf_description *is, double z, size_t samples, unsigned long long *state,
-                      double *error)
-{
-    double sum = 0, square = 0, n = (double)samples;
-    vndf_material m;
-    vndf_bsdf b;
-    TEST(vndf_material_resolve(is, &m, NULL) == VNDF_OK && vndf_bsdf_at(&b, &m, oracle_toward(z, 1)));
-    for (size_t i = 0; i < samples; i++) {
-        float u[3];
-        vndf_scattered s;
-        bsdf_numbers(state, u);
-        vndf_bsdf_sample(&b, u, &s);
-        sum += (double)s.weight[0];
-        square += (double)s.weight[0] * (double)s.weight[0];
-    }
-    *error = sqrt(fmax(square / n - sum / n * sum / n, 0) / n);
-    return sum / n;
-}
-
 static void test_furnace(const subject *s)
 {
     static const float alphas[] = {0.05f, 0.2f, 0.5f, 1};
     static const double cosines[] = {1, 0.5, 0.1, 0.01, 1e-3, -1, -0.5, -0.1, -0.01, -1e-3};
-    unsigned long long state = 11;
+    double worst = 0;
     for (int k = 0; k < 2 * 4 * (s->eta > 0 ? 10 : 5); k++) {
-        vndf_description is = describe(s, WAYS[k % 2], alphas[k / 2 % 4]);
-        double noise;
-        double got = furnace(&is, cosines[k / 8], test_amount(4000, 20000, 30000), &state, &noise);
-        if (!TEST(fabs(got - 1) <= 0.01 + 4.5 * noise))
-            fprintf(stderr, "  %s, way %d, eta %g, alpha %g, cosine %g: %.5f +- %.5f\n", s->name, k % 2,
-                    (double)s->eta, (double)is.alpha_x, cosines[k / 8], got, noise);
+        const vndf_description is = describe(s, WAYS[k % 2], alphas[k / 2 % 4]);
+        double off = fabs(mean_weight(&is, cosines[k / 8], 20000) - 1);
+        worst = fmax(worst, off);
+        if (!TEST(off <= (s->eta > 0 ? 8e-3 : 3e-3)))
+            fprintf(stderr, "  %s, way %d, eta %g, alpha %g, cosine %g: %.5f\n", s->name, k % 2, (double)s->eta,
+                    (double)is.alpha_x, cosines[k / 8], off);
     }
+    printf("    furnaces within %.2g\n", worst);
 }
 
 /* Gold is less than white, and gets back less than all that is lost. */
 static void test_colours(const subject *s)
 {
-    unsigned long long state = 4;
-    double got[3], noise;
+    double got[3];
     for (int k = 0; k < 3; k++) {
         vndf_description is = describe(s, k ? WAYS[k - 1] : VNDF_SCATTERING_SINGLE, 0.8f);
         is.effects.fresnel = VNDF_FRESNEL_SCHLICK;
         is.f0[0] = is.f0[1] = is.f0[2] = 0.6f;
-        got[k] = furnace(&is, 0.6, 40000, &state, &noise);
+        got[k] = mean_weight(&is, 0.6, 40000);
     }
     TEST(got[1] > got[0] + 0.02 && got[2] > got[0] + 0.02 && got[1] < 0.75 && got[2] < 0.75);
 }

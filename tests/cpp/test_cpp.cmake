@@ -53,7 +53,7 @@ string(REGEX MATCH "//     #include <cmath>\n(//[^\n]*\n)*//     }\n" example "$
 string(REGEX REPLACE "(^|\n)//( |)( |)( |)( |)( |)" "\\1" example "${example}")
 file(WRITE ${OUT}/example.cpp "${example}")
 try(${SOURCE}/include ${OUT}/example.cpp)
-if(NOT said STREQUAL "0 0 0 0\n")
+if(NOT said STREQUAL "1.000\n")
     message(FATAL_ERROR "the example in the head of vndf.hpp prints ${said}")
 endif()
 
@@ -90,4 +90,3 @@ if(leaks)
 endif()
 defect("return {error, thrown}" "return error")
 defect("pending() = outer;" "pending() = outer ? nullptr : outer;")
-defect("array.size() == batch.count" "array.size() >= 0 * batch.count")

@@ -1,7 +1,5 @@
 // vndf.hpp frees what it owns once and leaves empty what was moved from; results say what went wrong and throw
-// only if they are asked to; what a callable throws reaches the caller and never C; batches compare the sizes of
-// their arrays.
-#include <array>
+// only if they are asked to; what a callable throws reaches the caller and never C.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -16,13 +14,12 @@ namespace
 {
 
 const char table_file[] = VNDF_SOURCE_DIR "/tables/example.vndf";
-const vndf_vec3 wi = {0.6f, 0.0f, 0.8f};
 
 template <class T>
 constexpr bool moves_only = !std::is_copy_constructible_v<T> && !std::is_copy_assignable_v<T> &&
                             std::is_nothrow_move_constructible_v<T> && std::is_nothrow_move_assignable_v<T>;
 static_assert(moves_only<vndf::distribution> && moves_only<vndf::family> && moves_only<vndf::source>);
-static_assert(moves_only<vndf::reference> && moves_only<vndf::albedo>);
+static_assert(moves_only<vndf::albedo>);
 // A pointer to a temporary owner would dangle.
 static_assert(std::is_convertible_v<const vndf::distribution &, const vndf_distribution *>);
 static_assert(!std::is_convertible_v<vndf::distribution, const vndf_distribution *>);
@@ -58,8 +55,6 @@ void test_builds()
     options.moments = 3;
     const auto table = vndf::build(*formula, options);
     TEST(table && vndf_distribution_info(*table).moments == 3 && vndf_distribution_info(*table).bytes <= 2048);
-    const auto exact = vndf::own<vndf::reference>(vndf_reference_from, *formula);
-    TEST_RELATIVE(vndf_reference_area(*exact, 0.0), 1.0, 1e-7);
     vndf_family_options two = {};
     two.knots = 2;
     two.max_bytes = 2048;
@@ -163,31 +158,17 @@ void test_nested()
     TEST(number_thrown(vndf::build(*outer)) == 2 && number == 1);
 }
 
-// ---- samples and batches ----
-
-void test_batches()
+void test_samples()
 {
     const auto table = vndf::load(table_file);
     const vndf_surface s = {*table, 0.3f, 0.1f};
-    const vndf_view view = vndf_view_from(&s, wi);
-    const unsigned shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
-    const vndf_batch many = {
-        *table, 3, shared, VNDF_INSTRUCTIONS_BEST, &s.alpha_x, &s.alpha_y, &wi.x, &wi.y, &wi.z, {}, {}, {}, {}};
-    const std::vector<float> u1 = {0.1f, 0.5f, 0.9f};
-    const std::array<float, 3> u2 = {0.2f, 0.4f, 0.8f};
-    std::vector<float> x(3), y(3), z(3), pdf(3), lower(2);
-    TEST(vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), pdf));
-    for (std::size_t i = 0; i < 3; i++) {
-        const auto [wm, density] = vndf::sample(view, u1[i], u2[i]);
-        const auto w = vndf::sample_weight(view, u1[i], u2[i]);
-        TEST(wm.x == x[i] && wm.y == y[i] && wm.z == z[i] && density == pdf[i] && w.pdf == density &&
-             w.weight > 0);
-    }
-    const std::vector<float> before = x;
-    TEST(vndf::run(vndf_sample_n, many, std::vector<float>(3, 0.5f), u2, vndf::normals(x, y, z), vndf::none()));
-    TEST(x != before);
-    TEST_HAS(vndf::run(vndf_sample_n, many, u1, u2, vndf::normals(x, y, z), lower).message(), "array 4");
-    TEST(!vndf::run(vndf_pdf_n, many, vndf::normals(x, lower, z), pdf));
+    const vndf_view view = vndf_view_from(&s, {0.6f, 0.0f, 0.8f});
+    float pdf, weight;
+    const vndf_vec3 n = vndf_sample_weight(&view, 0.1f, 0.2f, &pdf, &weight);
+    const auto [wm, density] = vndf::sample(view, 0.1f, 0.2f);
+    const auto w = vndf::sample_weight(view, 0.1f, 0.2f);
+    TEST(wm.x == n.x && wm.y == n.y && wm.z == n.z && density == pdf);
+    TEST(w.wm.x == n.x && w.pdf == pdf && w.weight == weight);
 }
 
 } // namespace
@@ -200,6 +181,6 @@ int main()
     test_errors();
     test_thrown_by_callables();
     test_nested();
-    test_batches();
+    test_samples();
     return test_done();
 }

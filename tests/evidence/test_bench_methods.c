@@ -1,43 +1,48 @@
 /* The methods that the benchmark sets ours against are what they are said to be: the exact ones draw the visible
  * normals of GGX (chi-square, fixed seeds, chance of a false alarm 1e-6 for each), and those for any D
  * tell the density with which they draw. */
-#include <string.h>
-
-#include "cli/random.h"
 #include "cli/subject.h"
 #include "evidence/evidence.h"
 #include "evidence/measure/bins.h"
-#include "evidence/measure/statistics.h"
 #include "harness/test.h"
 
 static const double level = 1e-6;
 
 /* ---- chi-square of visible normals ------------------------------------------------------------- */
 
+typedef struct drawn {
+    const method *m;
+    vndf_view view; /* of what the normals should be */
+    block *b;       /* aimed */
+} drawn;
+
+static vndf_vec3 draw(const void *of, float u1, float u2, float *pdf)
+{
+    const drawn *d = of;
+    block *b = d->b;
+    b->u[0][0] = b->in[0].u[0] = u1;
+    b->u[1][0] = b->in[0].u[1] = u2;
+    d->m->each(d->m, b, 0, 1);
+    *pdf = b->pdf[0];
+    return (vndf_vec3){b->x[0], b->y[0], b->z[0]};
+}
+
+static float density(const void *of, vndf_vec3 wm)
+{
+    return vndf_pdf(&((const drawn *)of)->view, wm);
+}
+
 /* Of a method's samples of the visible normals of d, or of what they should not be. */
 static double chi_square_of(const method *m, const vndf_distribution *d, double theta, float alpha)
 {
-    static double expected[BINS_COUNT], count[BINS_COUNT];
     static block b;
     const vndf_surface surface = {d, alpha, alpha};
+    const vndf_affine shape = {d, alpha, 0, 0, alpha, 0, 0};
     const vndf_vec3 wi = direction_from(theta, 25);
-    const size_t blocks = test_quick() ? 10 : 100;
-    const bin_map map = bins_for(&surface, wi, 3);
-    random_stream stream = random_from(31);
-    memset(count, 0, sizeof count);
-    bins_integrate(&map, &surface, wi, expected);
-    for (size_t n = 0; n < blocks; n++) {
-        for (size_t i = 0; i < BLOCK; i++)
-            for (int k = 0; k < 2; k++)
-                b.u[k][i] = random_float(&stream);
-        block_aim(&b, wi, alpha);
-        m->each(m, &b, 0, BLOCK);
-        for (size_t i = 0; i < BLOCK; i++)
-            count[bins_place(&map, (vndf_vec3){b.x[i], b.y[i], b.z[i]})] += 1;
-    }
-    for (size_t i = 0; i < BINS_COUNT; i++)
-        expected[i] *= (double)(blocks * BLOCK);
-    return pearson_of(expected, count, NULL, BINS_COUNT, 5).p;
+    const drawn of = {m, vndf_view_from(&surface, wi), &b};
+    const bins_sampler judged = {bins_frame_from(&shape, wi), draw, density, &of};
+    block_aim(&b, wi, alpha);
+    return bins_chi_square(&judged, test_quick() ? 10000 : 100000, 31).found.p;
 }
 
 static void test_visible(method m, const vndf_distribution *d)

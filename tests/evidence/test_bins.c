@@ -25,28 +25,48 @@ static const view_case CASES[] = {
 };
 enum { CASE_COUNT = sizeof CASES / sizeof *CASES };
 
-/* The density at theta', phi' by these angles. */
-static double density_at(const bin_map *map, const vndf_view *view, double theta, double phi)
+/* A sampler of a surface of a distribution. */
+typedef struct judged_surface {
+    vndf_view view;
+    bins_sampler judged;
+} judged_surface;
+
+static vndf_vec3 draw(const void *of, float u1, float u2, float *pdf)
 {
-    double x = map->stretch_x * sin(theta) * cos(map->centre + phi);
-    double y = map->stretch_y * sin(theta) * sin(map->centre + phi);
-    double length = sqrt(x * x + y * y + cos(theta) * cos(theta));
-    vndf_vec3 wm = {(float)(x / length), (float)(y / length), (float)(cos(theta) / length)};
-    double area = map->stretch_x * map->stretch_y / (length * length * length) * sin(theta);
-    return (double)vndf_pdf(view, wm) * area;
+    return vndf_sample(&((const judged_surface *)of)->view, u1, u2, pdf);
 }
 
-/* A bin by the midpoints of SIDE times SIDE parts. */
-static double sum_over(const bin_map *map, const vndf_view *view, size_t bin)
+static float density(const void *of, vndf_vec3 wm)
 {
-    enum { SIDE = 200 };
-    const double *slope = map->slope + bin / BINS_PHI, *phi = map->phi + bin % BINS_PHI;
-    double theta = atan(slope[0]), high = (atan(slope[1]) - theta) / SIDE, wide = (phi[1] - phi[0]) / SIDE,
-           sum = 0;
-    for (size_t i = 0; i < SIDE; i++)
-        for (size_t j = 0; j < SIDE; j++)
-            sum += density_at(map, view, theta + high * ((double)i + 0.5), phi[0] + wide * ((double)j + 0.5));
-    return sum * high * wide;
+    return vndf_pdf(&((const judged_surface *)of)->view, wm);
+}
+
+static void judge_surface(judged_surface *to, const vndf_surface *s, vndf_vec3 wi)
+{
+    const vndf_affine shape = {s->distribution, s->alpha_x, 0, 0, s->alpha_y, 0, 0};
+    to->view = vndf_view_from(s, wi);
+    to->judged = (bins_sampler){bins_frame_from(&shape, wi), draw, density, to};
+}
+
+/* A bin by the midpoints of parts that are even in atan(R) and in the azimuth; without mean slope. */
+static double sum_over(const judged_surface *of, const double slopes[BINS_RINGS + 1], size_t bin)
+{
+    enum { RINGS = 2000, SECTORS = 20 }; /* finer where there may be a jump */
+    const bins_frame *f = &of->judged.frame;
+    const double *slope = slopes + bin / BINS_SECTORS, turn = atan2(f->y, f->x);
+    const double from = atan(slope[0]), step = (atan(slope[1]) - from) / RINGS;
+    double sum = 0;
+    for (int i = 0; i < RINGS; i++) {
+        const double theta = from + step * (i + 0.5), r = tan(theta), level = -f->c / (f->s * r);
+        const double reach = acos(fmin(fmax(level, -1), 1)), wide = 2 * reach / BINS_SECTORS / SECTORS;
+        for (int j = 0; j < SECTORS; j++) {
+            const double phi = turn - reach + wide * ((double)(bin % BINS_SECTORS) * SECTORS + j + 0.5);
+            const double x = f->xx * r * cos(phi), y = f->yy * r * sin(phi), z = 1 / sqrt(1 + x * x + y * y);
+            const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
+            sum += (double)vndf_pdf(&of->view, wm) * z * z * z * f->xx * f->yy * r * (1 + r * r) * wide * step;
+        }
+    }
+    return sum;
 }
 
 /* Some bins of all rings but the innermost and the outermost, where the angles would have to be finer. */
@@ -58,18 +78,20 @@ static void test_view(const view_case *at)
     const vndf_vec3 wi = oracle_direction(at->theta, at->phi);
     if (!TEST(table != NULL))
         return;
-    const vndf_view view = vndf_view_from(&surface, wi);
-    const bin_map map = bins_for(&surface, wi, 7);
+    judged_surface of;
+    double slope[BINS_RINGS + 1];
+    judge_surface(&of, &surface, wi);
+    bins_place(&of.judged, 7, slope);
     /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
     const double beyond = strcmp(at->slope, "(1+r*r)^-1.55") == 0 ? 3e-3 : 2e-6;
-    double mass = 0, rounding = bins_integrate(&map, &surface, wi, probability);
+    double mass = 0, rounding = bins_integrate(&of.judged, slope, probability);
     for (size_t i = 0; i < BINS_COUNT; i++)
         mass += probability[i];
     if (!(TEST_NEAR(mass, 1, beyond + rounding) & TEST(rounding < (at->bin_error > 0 ? 5e-6 : 2e-3))))
         fprintf(stderr, "  of %s: rounding %g\n", at->slope, rounding);
-    for (size_t bin = BINS_PHI; at->bin_error > 0 && bin < BINS_COUNT - 2 * BINS_PHI;
-         bin += test_amount(997, 331, 331)) {
-        double sum = sum_over(&map, &view, bin);
+    for (size_t bin = BINS_SECTORS; at->bin_error > 0 && bin < BINS_COUNT - 2 * BINS_SECTORS;
+         bin += test_amount(331, 131, 131)) {
+        double sum = sum_over(&of, slope, bin);
         if (!TEST_NEAR(probability[bin], sum, 1e-9 + at->bin_error * sum))
             fprintf(stderr, "  of %s: bin %zu\n", at->slope, bin);
     }
@@ -79,13 +101,22 @@ static void test_view(const view_case *at)
 /* Normals at the pole and at the horizon, and slopes so large that an angle would not tell them from it. */
 static void test_ends(void)
 {
-    vndf_surface surface = {vndf_ggx(), 1, 1};
-    bin_map map = bins_for(&surface, oracle_direction(30, 0), 7);
-    TEST(bins_place(&map, (vndf_vec3){0, 0, 1}) / BINS_PHI == 0);
-    TEST(bins_place(&map, (vndf_vec3){1, 0, 0}) / BINS_PHI == BINS_THETA - 1);
-    map.slope[BINS_THETA - 1] = 1e20 / map.stretch_x;
-    TEST(bins_place(&map, (vndf_vec3){1, 0, 2e-20f}) / BINS_PHI == BINS_THETA - 2);
-    TEST(bins_place(&map, (vndf_vec3){1, 0, 0.5e-20f}) / BINS_PHI == BINS_THETA - 1);
+    const vndf_surface surface = {vndf_ggx(), 1, 1};
+    judged_surface of;
+    double slope[BINS_RINGS + 1];
+    judge_surface(&of, &surface, oracle_direction(30, 0));
+    bins_place(&of.judged, 7, slope);
+    const bins_frame *f = &of.judged.frame;
+    TEST(bins_bin(f, slope, (vndf_vec3){0, 0, 1}) / BINS_SECTORS == 0);
+    TEST(bins_bin(f, slope, (vndf_vec3){1, 0, 0}) / BINS_SECTORS == BINS_RINGS - 1);
+    slope[BINS_RINGS - 1] = 1e20 / f->xx;
+    TEST(bins_bin(f, slope, (vndf_vec3){1, 0, 2e-20f}) / BINS_SECTORS == BINS_RINGS - 2);
+    TEST(bins_bin(f, slope, (vndf_vec3){1, 0, 0.5e-20f}) / BINS_SECTORS == BINS_RINGS - 1);
+    /* sectors ascend with the azimuth from wi, from horizon to horizon */
+    TEST(bins_bin(f, slope, (vndf_vec3){0.6f, 0.01f, 0.8f}) % BINS_SECTORS == BINS_SECTORS / 2);
+    TEST(bins_bin(f, slope, (vndf_vec3){0.6f, -0.01f, 0.8f}) % BINS_SECTORS == BINS_SECTORS / 2 - 1);
+    TEST(bins_bin(f, slope, (vndf_vec3){-0.6f, 0.01f, 0.8f}) % BINS_SECTORS == BINS_SECTORS - 1);
+    TEST(bins_bin(f, slope, (vndf_vec3){-0.6f, -0.01f, 0.8f}) % BINS_SECTORS == 0);
 }
 
 int main(void)

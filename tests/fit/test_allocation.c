@@ -98,15 +98,6 @@ static int build(const char *words, vndf_error *error)
     return table != NULL;
 }
 
-static int reference(const char *words, vndf_error *error)
-{
-    vndf_source *source = source_of(words, error);
-    vndf_reference *made = source ? vndf_reference_from(source, error) : NULL;
-    vndf_reference_free(made);
-    vndf_source_free(source);
-    return made != NULL;
-}
-
 /* A shipped table: loaded both ways, saved, measured again. */
 static int use_table(const char *path, vndf_error *error)
 {
@@ -162,7 +153,6 @@ static const struct trial {
     {build, "CSV text"},
     {build, "CSV file"},
     {build, "callback"},
-    {reference, "callback"},
     {use_table, VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"},
     {use_family, "student-t"},
     {albedo, "ggx"},

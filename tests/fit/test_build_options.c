@@ -73,21 +73,12 @@ static void test_same_bytes(void)
 
 static void test_refused(void)
 {
-    static const double bad[] = {1, -1}, many[VNDF_LIMIT_BREAKS + 1] = {1};
     static const struct {
         vndf_build_options options;
         const char *message;
-    } cases[] = {{{.max_bytes = 2047}, "max_bytes"},
-                 {{.max_bytes = (1 << 20) + 1}, "max_bytes"},
-                 {{.max_tv = -1}, "max_tv"},
-                 {{.max_tv = 1}, "max_tv"},
-                 {{.max_tv = (double)NAN}, "max_tv"},
-                 {{.moments = 5}, "moments is 5"},
-                 {{.breaks = bad, .break_count = 2}, "a break is -1; it is a slope above 0"},
-                 {{.break_count = 2}, "breaks is NULL"},
-                 {{.breaks = many, .break_count = VNDF_LIMIT_BREAKS + 1}, "65 breaks; at most 64"},
-                 {{.finest = -1}, "finest is -1"},
-                 {{.finest = 1e-10}, "finest is 1e-10"}};
+    } cases[] = {{{.max_bytes = 2047}, "max_bytes"},  {{.max_bytes = (1 << 20) + 1}, "max_bytes"},
+                 {{.max_tv = -1}, "max_tv"},          {{.max_tv = 1}, "max_tv"},
+                 {{.max_tv = (double)NAN}, "max_tv"}, {{.moments = 5}, "moments is 5"}};
     vndf_error error = {VNDF_OK, ""};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         TEST(!build("ggx", cases[i].options, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);

@@ -1,5 +1,6 @@
 # The shared library exports the functions that the headers declare with VNDF_API, all of them and nothing
-# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_.
+# else, with a version of symbols, VNDF_0.1; every external symbol of the static library begins with vndf_, and it has
+# no variable that can be written.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT NM)
@@ -66,4 +67,12 @@ foreach(name IN LISTS external)
         message(SEND_ERROR "${name} in the static library does not begin with vndf_: rename it or make it static")
     endif()
 endforeach()
+
+# No state, so threads share distributions and views freely (test_render_command has a picture made by many).
+execute_process(COMMAND ${NM} --format=sysv ${STATIC_LIBRARY} OUTPUT_VARIABLE output ERROR_QUIET)
+if(NOT output MATCHES "[|][.]text\n")
+    message(SEND_ERROR "nm tells no sections of the static library")
+elseif(output MATCHES "\n([^\n]*)[|]([.]t?data|[.]t?bss|[*]COM[*])\n")
+    message(SEND_ERROR "the static library has a variable that can be written: ${CMAKE_MATCH_1}")
+endif()
 message("${count} functions are declared")

@@ -6,10 +6,10 @@
 #include "harness/test.h"
 #include "measured/measured.h"
 
-/* A file that is exactly as long as its bytes are, for sanitizers. */
+/* A file that is exactly as long as its bytes and a 0 are, for sanitizers. */
 static inline data_file case_file(const void *bytes, size_t size)
 {
-    unsigned char *exact = malloc(size ? size : 1);
+    unsigned char *exact = calloc(size + 1, 1);
     memcpy(exact, bytes, size);
     return (data_file){.name = "made", .bytes = exact, .size = size};
 }

@@ -34,7 +34,7 @@ class Built(unittest.TestCase):
         for source, options, arguments in (
             (vndf.Source.slope("exp(-a*r)", a=3), {}, ["--slope", "exp(-a*r)", "--set", "a=3"]),
             (vndf.Source.ndf("c^20"), dict(moments=2), ["--ndf", "c^20", "--moments", "2"]),
-            (vndf.Source.family("gtr:1.5"), dict(breaks=[0.5]), ["--family", "gtr:1.5", "--break", "0.5"]),
+            (vndf.Source.family("gtr:1.5"), {}, ["--family", "gtr:1.5"]),
             (vndf.Source.csv(csv), dict(max_tv=0.1), ["--csv", csv, "--max-tv", "0.1"]),
         ):
             built = vndf.build(source, max_bytes=2048, **options)

@@ -2,9 +2,9 @@
 #ifndef TESTS_SAMPLER_SEEN_H
 #define TESTS_SAMPLER_SEEN_H
 
+#include "evidence/measure/bins.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
-#include "statistics/slopes.h"
 #include "vndf.h"
 
 #if defined(__SSE2__)
@@ -53,8 +53,9 @@ static inline vndf_vec3 seen_draw(const void *of, float u1, float u2, float *pdf
                                    : vndf_sample(&s->view, u1, u2, pdf);
 }
 
-static inline float seen_pdf(const seen *s, vndf_vec3 wm)
+static inline float seen_pdf(const void *of, vndf_vec3 wm)
 {
+    const seen *s = of;
     return s->kind == SEEN_MIXTURE ? vndf_mixture_pdf(&s->mixture, wm) : vndf_pdf(&s->view, wm);
 }
 
@@ -91,12 +92,6 @@ static inline vndf_vec3 vec3_of(const double w[3])
     return (vndf_vec3){(float)w[0], (float)w[1], (float)w[2]};
 }
 
-/* For slopes.h. */
-static inline double seen_density(const double wm[3], const void *of)
-{
-    return (double)seen_pdf(of, vec3_of(wm));
-}
-
 static inline void seen_print(const seen *s, const char *name)
 {
     fprintf(stderr, "  %s: wi %.9g %.9g %.9g\n", name, (double)s->wi.x, (double)s->wi.y, (double)s->wi.z);
@@ -108,11 +103,11 @@ static inline void seen_print(const seen *s, const char *name)
 }
 
 /* Between unit normals whose slopes are over the roughness. */
-static inline double seen_apart(const slope_frame *f, vndf_vec3 a, vndf_vec3 b)
+static inline double seen_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b)
 {
     double n[3], m[3];
-    slope_over(f, a, n);
-    slope_over(f, b, m);
+    bins_over(f, a, n);
+    bins_over(f, b, m);
     return hypot(hypot(n[0] - m[0], n[1] - m[1]), n[2] - m[2]);
 }
 

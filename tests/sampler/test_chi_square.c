@@ -6,7 +6,6 @@
  * one. */
 #include <float.h>
 
-#include "evidence/measure/statistics.h"
 #include "sampler/seen.h"
 
 /* Roughness, mean slope, angle and azimuth of wi in degrees; alpha_y 0: the same as alpha_x. */
@@ -63,17 +62,17 @@ static void test_subject(const subject *of, size_t index)
                  off = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
     for (size_t view = index % stride; view < VIEWS; view += stride) {
         seen s = view_of(of->d, &views[view]);
-        slope_frame frame = slope_frame_from(&s.of.lobe[0].surface, s.wi);
         if (seen_quantity(&s, AREA, s.wi) <= 1e-6f) /* next to nothing is seen */
             continue;
-        slope_test found = slope_chi_square(&frame, seen_draw, seen_density, &s, samples, 1000 + view);
-        if (TEST(found.p > level) & TEST(found.unseen == 0) & TEST(fabs(found.mass - 1) < off) &
-            TEST(s.kind != SEEN_SURFACE || is_positive(&s, &of->shape)))
+        const bins_sampler judged = {bins_frame_from(&s.of.lobe[0].surface, s.wi), seen_draw, seen_pdf, &s};
+        bins_result of_all = bins_chi_square(&judged, samples, 1000 + view);
+        if (TEST(of_all.found.p > level) & TEST(of_all.found.classes > 50) & TEST(of_all.unseen == 0) &
+            TEST(fabs(of_all.mass - 1) < off) & TEST(s.kind != SEEN_SURFACE || is_positive(&s, &of->shape)))
             continue;
         seen_print(&s, of->name);
         fprintf(stderr, "    view %lu: p %.3g of %lu classes, integral %.7f, %lu without a density\n",
-                (unsigned long)view, found.p, (unsigned long)found.classes, found.mass,
-                (unsigned long)found.unseen);
+                (unsigned long)view, of_all.found.p, (unsigned long)of_all.found.classes, of_all.mass,
+                (unsigned long)of_all.unseen);
     }
 }
 

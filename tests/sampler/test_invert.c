@@ -16,7 +16,7 @@ static float moved(float u, int steps)
 }
 
 /* How far four steps of the numbers move their normal, which is wm. */
-static double led_by_steps(const seen *s, const slope_frame *f, float u1, float u2, vndf_vec3 wm)
+static double led_by_steps(const seen *s, const bins_frame *f, float u1, float u2, vndf_vec3 wm)
 {
     double most = 0;
     for (int i = 0; i < 9; i++)
@@ -26,9 +26,9 @@ static double led_by_steps(const seen *s, const slope_frame *f, float u1, float 
 }
 
 /* A normal that leans so far that its own rounding is seen over the roughness has as much room. */
-static double rounding(const slope_frame *f)
+static double rounding(const bins_frame *f)
 {
-    double least = f->det / hypot(hypot(f->xx, f->xy), hypot(f->yx, f->yy));
+    double least = fabs(f->det) / hypot(hypot(f->xx, f->xy), hypot(f->yx, f->yy));
     return 0x1p-22 * (1 + hypot(f->mean_x, f->mean_y)) * (f->mean_x != 0 || f->mean_y != 0 ? 1 / least : 1);
 }
 
@@ -55,7 +55,7 @@ static int comes_back(const seen *s, const float u[4], float t, double *lost)
         lobe = vndf_mixture_invert(&s->mixture, wm, drawn, &v1, &v2);
     } else
         vndf_invert(&s->view, wm, &v1, &v2);
-    slope_frame f = slope_frame_from(&s->of.lobe[drawn].surface, s->wi);
+    bins_frame f = bins_frame_from(&s->of.lobe[drawn].surface, s->wi);
     const vndf_vec3 back = seen_draw(s, v1, v2, NULL);
     *lost = seen_apart(&f, wm, back);
     if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
@@ -102,10 +102,10 @@ static void test_inverse(const subject *of, size_t count, unsigned long long *st
 static double coordinate(const seen *s, int which, double u, double other)
 {
     const vndf_distribution *d = s->surface.distribution;
-    const slope_frame f = slope_frame_from(&s->of.lobe[0].surface, s->wi);
+    const bins_frame f = bins_frame_from(&s->of.lobe[0].surface, s->wi);
     double n[3], length = hypot(f.s, f.c), facing;
-    slope_over(&f, which ? seen_draw(s, (float)other, (float)u, NULL) : seen_draw(s, (float)u, (float)other, NULL),
-               n);
+    bins_over(&f, which ? seen_draw(s, (float)other, (float)u, NULL) : seen_draw(s, (float)u, (float)other, NULL),
+              n);
     if (d == vndf_beckmann())
         return n[which] / n[2];
     if (d == vndf_ggx()) {

@@ -47,8 +47,6 @@ static void test_descriptions(void)
     test_again(slope_of("1 /\n2"), "--slope '1 / 2'");
     test_again(family_of("sgd:alum-bronze/r"), "--family sgd:alum-bronze/r");
     test_again(family_of("mix:(1,2,ggx)+(1,1,epd:3)"), "--family 'mix:(1,2,ggx)+(1,1,epd:3)'");
-    vndf_source *closely = vndf_source_from_description("--family ggx --break 2 --finest 0.001", NULL);
-    test_again(closely, "--family ggx");
     test_kept(vndf_source_ndf_callback(one, NULL, "it's mine", NULL), "--ndf-callback 'it'\\''s mine'");
     test_kept(vndf_source_slope_callback(one, NULL, NULL, NULL), "--slope-callback unnamed");
     sprintf(words, "--csv 'my gloss.csv' (crc32 %08lx)", (unsigned long)vndf_crc32(0, csv, strlen(csv)));

@@ -1,5 +1,5 @@
 /* Bins of a rectangle, and one bin for what is not in it: samples of two numbers against a density or against
- * expected counts. tools/evidence/measure/bins.h, which knows visible normals, is finer. */
+ * expected counts. Normals have tools/evidence/measure/bins.h. */
 #ifndef TESTS_STATISTICS_GRID_H
 #define TESTS_STATISTICS_GRID_H
 

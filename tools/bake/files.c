@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/files.h"
+#include "cli/arguments.h"
 #include "draw/png.h"
 #include "draw/svg.h"
 

@@ -33,9 +33,6 @@ static const char *const help[] = {
     "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
-    "  --break R ...   a slope where a feature begins, ends or has its peak. Formulas, families and rows need none:\n"
-    "                  narrow features are found, or refused with their slope\n"
-    "  --finest W      samples a formula that cannot be bounded, to find features as wide as W of their slope\n"
     "  --max-bytes N   size of the table at most, 2048 to 1048576 (default: what a total variation of 1e-3 above and\n"
     "                  3e-2 below the horizon takes, up to 8192)\n"
     "  --max-tv X      the smallest table with total variation <= X above the horizon and 30 X below\n"
@@ -191,26 +188,19 @@ static int read_range(const char *text, double range[2])
 /* A family if there is no source. 0 after a complaint. */
 static int build(const arguments *given, const vndf_source *source, chosen_distribution *to)
 {
-    const words breaks_at = option_values(given, "--break");
-    double breaks[WORDS_MAX], range[2];
+    double range[2];
     unsigned long long bytes = 0, knots = 0;
     progress bar = progress_begin("building", option_value(given, "-q") != NULL);
-    vndf_build_options one = {.breaks = breaks,
-                              .break_count = breaks_at.count,
-                              .moments =
+    vndf_build_options one = {.moments =
                                   option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0,
                               .progress = progress_show,
                               .progress_user = &bar};
     vndf_error error = {VNDF_OK, ""};
     if (!option_count(given, "--max-bytes", 2048, 1048576, &bytes) ||
         !option_number(given, "--max-tv", 1e-12, 1, &one.max_tv) ||
-        !option_number(given, "--finest", 1e-9, 1, &one.finest) ||
         !option_count(given, "--knots", 2, VNDF_LIMIT_FAMILY_KNOTS, &knots) ||
         (!source && !read_range(option_value(given, "--parameter"), range)))
         return 0;
-    for (size_t i = 0; i < breaks_at.count; i++)
-        if (!parse_numbers(name, "--break", breaks_at.item[i], 1e-30, 1e30, 1, 1, &breaks[i]))
-            return 0;
     one.max_bytes = (size_t)bytes;
     const vndf_family_options many = {one.max_tv, (size_t)knots, one.max_bytes, one.moments, progress_show, &bar};
     if (source)
@@ -263,16 +253,13 @@ static void tell(const arguments *given, const chosen_distribution *of, const ch
 /* Whether the words go together; 0 after a complaint. */
 static int check_words(const arguments *given)
 {
-    static const char *const of_one[] = {"--break", "--finest", NULL};
-    const char *path = option_value(given, "-o"), *wrong = option_among(given, of_one);
+    const char *path = option_value(given, "-o");
     const char *profile_path = option_value(given, "--profile");
     const int is_family = option_value(given, "--parameter") != NULL;
     if (!option_alone(given, sources))
         return 0;
     if (is_family && !option_value(given, "--family"))
         complain(name, "--parameter is for --family; a formula has its parameters by --set");
-    else if (is_family && wrong)
-        complain(name, "--parameter takes no %s", wrong);
     else if (option_value(given, "--knots") && option_value(given, "--max-tv"))
         complain(name, "--knots and --max-tv are given; with --parameter one of them is possible");
     else if (!path)

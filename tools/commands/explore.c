@@ -54,30 +54,18 @@ static const char *const help[] = {
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
-/* Text of a table or a path, which may hold anything. */
-static void put_text(FILE *to, const char *text, size_t length)
-{
-    for (size_t i = 0; i < length; i++) {
-        const char one[] = {text[i] >= ' ' && text[i] < 127 ? text[i] : '?', '\0'};
-        svg_escape(to, one);
-    }
-}
-
-/* The file's name without its folder and ending. */
-static void put_name(FILE *to, const exported_table *table)
-{
-    const char *slash = strrchr(table->file, '/'), *from = slash ? slash + 1 : table->file;
-    const char *end = strrchr(from, '.');
-    put_text(to, from, end && end > from ? (size_t)(end - from) : strlen(from));
-}
-
 static void put_choices(FILE *to, const export_document *document)
 {
     for (const exported_table *t = document->table; t < document->table + document->tables; t++) {
         const vndf_info info = vndf_distribution_info(t->distribution);
+        const char *slash = strrchr(t->file, '/'), *from = slash ? slash + 1 : t->file, *end = strrchr(from, '.');
+        char shown[256]; /* without its ending; the name of a file may hold anything */
+        snprintf(shown, sizeof shown, "%.*s", end && end > from ? (int)(end - from) : (int)strlen(from), from);
+        for (char *at = shown; *at; at++)
+            *at = *at >= ' ' && *at < 127 ? *at : '?';
         fprintf(to, "<option value=\"%zu\" data-median=\"%.6g\" data-tv=\"%.2g\">", t->base, info.scale,
                 (double)info.certificate.tv_above);
-        put_name(to, t);
+        svg_escape(to, shown);
         fputs("</option>\n", to);
     }
 }
@@ -164,27 +152,7 @@ static int put_file(FILE *to, const contents *of, const char *file, const char *
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-/* The tables of one distribution, one after the other. */
-static int bake_one(const vndf_distribution *d, size_t size, progress *p, contents *of)
-{
-    const bake_settings s = {.distribution = d, .size = size, .progress = p};
-    baked_list list = {.count = 0};
-    int good = bake_ltc(&s, &list) && bake_dfg(&s, &list) && bake_prefilter(&s, &list);
-    for (size_t i = 0; good && i < list.count; i++) {
-        const size_t n = baked_size(&list.table[i]);
-        float *all = realloc(of->baked, (of->baked_count + n) * sizeof *all);
-        good = all != NULL;
-        if (good) {
-            memcpy(all + of->baked_count, list.table[i].value, n * sizeof *all);
-            of->baked = all;
-            of->baked_count += n;
-        }
-    }
-    baked_free(&list);
-    return good;
-}
-
-/* Those of each table, GGX and Beckmann; 0 after a complaint. */
+/* Tables of each table, GGX and Beckmann, one after the other; 0 after a complaint. */
 static int bake_all(const arguments *given, size_t size, contents *of)
 {
     const size_t tables = of->document.tables;
@@ -192,9 +160,25 @@ static int bake_all(const arguments *given, size_t size, contents *of)
     int good = 1;
     output_hold_signals();
     for (size_t i = 0; i < tables + 2 && good; i++) {
-        const vndf_distribution *d = i < tables ? of->document.table[i].distribution : vndf_ggx();
+        const bake_settings s = {.distribution = i < tables    ? of->document.table[i].distribution
+                                                 : i == tables ? vndf_ggx()
+                                                               : vndf_beckmann(),
+                                 .size = size,
+                                 .progress = &p};
+        baked_list list = {.count = 0};
         progress_step(&p, (double)(i + 1) / (double)(tables + 2));
-        good = bake_one(i <= tables ? d : vndf_beckmann(), size, &p, of);
+        good = bake_ltc(&s, &list) && bake_dfg(&s, &list) && bake_prefilter(&s, &list);
+        for (size_t k = 0; good && k < list.count; k++) {
+            const size_t n = baked_size(&list.table[k]);
+            float *all = realloc(of->baked, (of->baked_count + n) * sizeof *all);
+            good = all != NULL;
+            if (good) {
+                memcpy(all + of->baked_count, list.table[k].value, n * sizeof *all);
+                of->baked = all;
+                of->baked_count += n;
+            }
+        }
+        baked_free(&list);
     }
     progress_end(&p);
     if (!good)
@@ -207,7 +191,8 @@ static int write_page(const arguments *given, contents *of)
 {
     unsigned long long size = 0;
     output_file page;
-    translation_prefix(&of->document.as, "vndf");
+    if (!option_value(given, "-o"))
+        return complain(name, "-o PAGE.html is missing");
     if (!option_count(given, "--engines", 4, 64, &size) ||
         !named_tables_open(name, &given->positional, 0, &of->document))
         return STATUS_USE;
@@ -224,9 +209,8 @@ static int write_page(const arguments *given, contents *of)
 static int run(const arguments *given)
 {
     contents of = {.document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL}};
-    if (!option_value(given, "-o"))
-        return complain(name, "-o PAGE.html is missing");
-    int status = write_page(given, &of);
+    translation_prefix(&of.document.as, "vndf");
+    const int status = write_page(given, &of);
     named_tables_close(&of.document);
     free(of.baked);
     return status;

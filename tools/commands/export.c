@@ -33,18 +33,20 @@ static const char *const help[] = {
     "  --distribution table|ggx|beckmann ...  only these; a kernel has all three by default\n"
     "  --only view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family,bsdf_sample,bsdf_eval,bsdf_pdf\n"
     "                   only these calls and what they need; the last three are of --bsdf\n"
-    "  --bsdf EFFECTS   a BSDF with these effects, its sample, value and density, in the place of the calls above:\n"
-    "                   'lobes=reflection|transmission|both fresnel=none|schlick|dielectric|conductor\n"
-    "                   masking=correlated|separable|v-cavities|none transport=radiance|importance\n"
-    "                   reflection=specular|retro'; the first of each is the default\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
+    "  --bsdf reflection|transmission|both  a BSDF that scatters once, to these sides: sample, value and density, in\n"
+    "                   the place of the calls above. Of what follows the first is the default\n"
+    "    --fresnel none|schlick|dielectric|conductor\n"
+    "    --masking correlated|separable|v-cavities|none\n"
+    "    --transport radiance|importance\n"
+    "    --reflection specular|retro\n"
     "\n"
     "The constant of a table is its file's name: NAME_STUDENT_T_2_5 for student-t-2.5.vndf. tools/export/README.md\n"
     "shows what to call from which host.\n"
     "\n"
     "example: vndf export tables/student-t-2.5-small.vndf --language glsl -o normals.glsl\n"
     "         vndf export tables/hazy.vndf tables/example.vndf --language cuda --buffer tables.f32 -o normals.cuh\n"
-    "         vndf export tables/hazy.vndf --bsdf 'lobes=both fresnel=dielectric' --language wgsl -o glass.wgsl\n"
+    "         vndf export tables/hazy.vndf --bsdf both --fresnel dielectric --language wgsl -o glass.wgsl\n"
     "\n",
     "As reflectances, for hosts that read measured ones: what a surface of this D mirrors once, F by Schlick, masked\n"
     "by Smith with heights correlated. FILE is one table, ggx or beckmann.\n"
@@ -75,16 +77,38 @@ static int read_kinds(const arguments *given, export_document *document)
     return 1;
 }
 
-static int read_settings(const arguments *given, export_document *document)
+/* What makes no sense is what the library says makes none. */
+static int read_effects(const arguments *given, export_document *document)
 {
-    const char *prefix = option_value(given, "--prefix"), *effects = option_value(given, "--bsdf");
-    const char *wanted = option_value(given, "--language");
-    char why[EFFECTS_ERROR_MAX];
+    const vndf_effects effects = {.lobes = (vndf_lobes)option_choice(given, "--bsdf", 0),
+                                  .fresnel = (vndf_fresnel)option_choice(given, "--fresnel", 0),
+                                  .masking = (vndf_masking)option_choice(given, "--masking", 0),
+                                  .transport = (vndf_transport)option_choice(given, "--transport", 0),
+                                  .reflection = (vndf_reflection)option_choice(given, "--reflection", 0)};
+    const vndf_description is = {.distribution = vndf_ggx(),
+                                 .effects = effects,
+                                 .alpha_x = 1.0f,
+                                 .alpha_y = 1.0f,
+                                 .eta = 1.5f,
+                                 .conductor_eta = {1.0f, 1.0f, 1.0f}};
+    vndf_material material;
+    vndf_error refusal = {VNDF_OK, ""};
+    document->scatters = option_value(given, "--bsdf") != NULL;
+    document->effects = effects;
+    if (document->scatters && vndf_material_resolve(&is, &material, &refusal) != VNDF_OK)
+        return complain(name, "--bsdf: %s", refusal.message), 0;
+    return 1;
+}
+
+static int read_settings(const arguments *given, export_document *document, char only[LISTED_LENGTH * 2])
+{
+    const char *prefix = option_value(given, "--prefix"), *wanted = option_value(given, "--only");
     unsigned long long lobes = 4;
-    if (!wanted)
+    if (!option_value(given, "--language"))
         return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl"), 0;
-    document->as.to = language_named(wanted);
-    if (!read_kinds(given, document))
+    document->as.to = language_named(option_value(given, "--language"));
+    if (!read_kinds(given, document) || !read_effects(given, document) ||
+        !option_count(given, "--lobes", 1, 8, &lobes))
         return 0;
     if (!translation_prefix(&document->as, prefix ? prefix : "vndf"))
         return complain(
@@ -93,16 +117,14 @@ static int read_settings(const arguments *given, export_document *document)
                    "not gl",
                    prefix, PREFIX_MAX - 1),
                0;
-    if (!option_count(given, "--lobes", 1, 8, &lobes))
-        return 0;
     document->lobes = (long)lobes;
     document->as.embeds = option_value(given, "--buffer") == NULL;
     document->as.by_pointer = !document->as.embeds && !document->as.to->bound;
-    if (effects && !effects_read(&document->effects, effects, why))
-        return complain(name, "--bsdf %s", why), 0;
-    document->only = option_value(given, "--only");
-    if (document->only && strstr(document->only, "bsdf_") && !effects)
-        return complain(name, "--only '%s': a BSDF needs --bsdf", document->only), 0;
+    if (wanted && strstr(wanted, "bsdf_") && !document->scatters)
+        return complain(name, "--only '%s': a BSDF needs --bsdf", wanted), 0;
+    document->only = wanted ? only : NULL;
+    for (const char *call = wanted; call && *call; call += strcspn(call, ","), call += *call == ',')
+        only += sprintf(only, "vndf_%.*s ", (int)strcspn(call, ","), call);
     return 1;
 }
 
@@ -211,6 +233,7 @@ static int run(const arguments *given)
     const int is_rgl = option_value(given, "--rgl") != NULL;
     const char *wrong = is_rgl ? option_among(given, of_kernels) : NULL;
     export_document document = {0};
+    char only[2 * LISTED_LENGTH] = "";
     int status = STATUS_USE;
     if (wrong)
         return complain(name, "%s is for kernels, not for --rgl", wrong);
@@ -218,7 +241,7 @@ static int run(const arguments *given)
         return complain(name, "-o OUT is missing");
     if (is_rgl)
         return export_rgl(given);
-    if (read_settings(given, &document) && named_tables_open(name, &given->positional, 1, &document) &&
+    if (read_settings(given, &document, only) && named_tables_open(name, &given->positional, 1, &document) &&
         fits(&document))
         status = write_all(given, &document);
     named_tables_close(&document);

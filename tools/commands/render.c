@@ -32,9 +32,8 @@ static const char *const help[] = {
     "  --exposure X    of the PNG, in place of the exposure of the scene\n"
     "  --compare visible,all,perfect  renders by two samplers or three, and prints the noise of a pixel beside\n"
     "                  its light, the samples each needs for the noise of the first, its efficiency (one over\n"
-    "                  squared noise and seconds), both without the worst thousandth of the pixels in brackets,\n"
-    "                  and whether all show the same (unknown of fewer than 16 samples a pixel); OUT has the\n"
-    "                  pictures side by side, their noise below\n"
+    "                  squared noise and seconds), and whether all show the same (unknown of fewer than 16\n"
+    "                  samples a pixel); OUT has the pictures side by side, their noise below\n"
     "    --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
     "  --grammar       prints the language of scene files\n"
     "\n"
@@ -89,23 +88,22 @@ static int read_words(const arguments *given, render_work *w)
 
 /* ---- figures ---- */
 
-/* For people "1.32+-0.01 (1.29)" under the first heading, the last without fireflies; in JSON three numbers. */
-static void add_measured(text_table *t, const char *const headings[3], const measured *m, int has_json)
+/* For people "1.32+-0.01" under the first heading; in JSON two numbers. */
+static void add_measured(text_table *t, const char *heading, const char *spread, const measured *m, int has_json)
 {
-    const double numbers[3] = {m->value, m->spread, m->trimmed};
     char text[64];
-    snprintf(text, sizeof text, "%.3g+-%.2g (%.3g)", m->value, m->spread, m->trimmed);
-    if (!has_json)
-        table_figure(t, headings[0], isfinite(m->value) ? text : "no variance");
-    for (int i = 0; i < 3 && has_json; i++)
-        table_number(t, headings[i], "%.9g", numbers[i]);
+    snprintf(text, sizeof text, "%.3g+-%.2g", m->value, m->spread);
+    if (!has_json) {
+        table_figure(t, heading, isfinite(m->value) ? text : "no variance");
+        return;
+    }
+    table_number(t, heading, "%.9g", m->value);
+    table_number(t, spread, "%.9g", m->spread);
 }
 
 /* A row for each way. */
 static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
-    static const char *const needed[] = {"samples_needed", "samples_needed_spread", "samples_needed_trimmed"};
-    static const char *const efficiency[] = {"efficiency", "efficiency_spread", "efficiency_trimmed"};
     const comparison *c = &w->ways;
     const int has_json = w->form == FIGURES_JSON;
     text_table t = {.rows = 0};
@@ -118,12 +116,11 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         table_number(&t, "samples", "%.0f", (double)f->samples);
         table_number(&t, "seconds", "%.3g", f->processor);
         table_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
-        add_measured(&t, needed, &a->samples, has_json);
-        add_measured(&t, efficiency, &a->efficiency, has_json);
+        add_measured(&t, "samples_needed", "samples_needed_spread", &a->samples, has_json);
+        add_measured(&t, "efficiency", "efficiency_spread", &a->efficiency, has_json);
         table_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio);
         table_word(&t, "verdict", i ? verdict_names[a->is] : "");
         if (has_json) {
-            table_number(&t, "noise_trimmed", "%.9g", sqrt(a->noise.trimmed));
             table_number(&t, "deviations", "%.9g", a->whole);
             table_number(&t, "worst_block", "%.9g", a->worst);
             table_number(&t, "mean_square", "%.9g", a->mean_square);
@@ -146,8 +143,7 @@ static int tell(const render_work *w, int is_whole)
     const double seconds = fmax(f->seconds, 1e-9), paths = (double)film_pixels(f) * (double)f->samples;
     finding found[SAMPLERS];
     int status = STATUS_GOOD;
-    if (!comparison_find(c, found))
-        return complain(name, "no memory for figures");
+    comparison_find(c, found);
     for (size_t i = 0; i < c->count; i++) {
         const finding *a = &found[i];
         if (a->is != VERDICT_DIFFERS)

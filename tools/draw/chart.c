@@ -112,7 +112,6 @@ static double pixel(const picture *p, int is_y, double value)
 static void draw_ticks(const picture *p, int is_y)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    const double bottom = p->top + p->height + p->band;
     tick t[TICKS_MAX];
     const size_t count = find_ticks(axis, t);
     for (int is_named = 0; is_named < 2; is_named++) {
@@ -126,13 +125,15 @@ static void draw_ticks(const picture *p, int is_y)
                         is_y ? p->width : p->height + p->band);
         fputs("\"/>\n", p->file);
     }
-    for (size_t i = 0; i < count; i++) {
-        char text[16] = "";
-        if (t[i].is_named)
+    fprintf(p->file, "<text class=\"tick quiet\" text-anchor=\"%s\">", is_y ? "end" : "middle");
+    for (size_t i = 0; i < count; i++)
+        if (t[i].is_named) {
+            char text[16];
             name_number(axis, text, t[i].at);
-        svg_text(p->file, "tick quiet", is_y ? SVG_END : SVG_MIDDLE, is_y ? p->left - 6 : pixel(p, 0, t[i].at),
-                 is_y ? pixel(p, 1, t[i].at) + 4 : bottom + 16, text);
-    }
+            fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : pixel(p, 0, t[i].at),
+                    is_y ? pixel(p, 1, t[i].at) + 4 : p->top + p->height + p->band + 16, text);
+        }
+    fputs("</text>\n", p->file);
 }
 
 static void draw_frame(const picture *p)

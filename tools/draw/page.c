@@ -18,26 +18,16 @@
 
 /* ---- the folder ---------------------------------------------------------------------------------- */
 
-static char *path_in(const char *folder, const char *name)
-{
-    size_t size = strlen(folder) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s", folder, name);
-    return path;
-}
-
 static int has_our_page(const html_page *page)
 {
-    char head[1024 + 1] = "", mark[96];
-    char *path = path_in(page->folder, "index.html");
-    FILE *file = path ? fopen(path, "rb") : NULL;
-    free(path);
+    char head[1024 + 1] = "", mark[96], path[4096];
+    snprintf(path, sizeof path, "%s/index.html", page->folder);
+    snprintf(mark, sizeof mark, MARK, page->command);
+    FILE *file = fopen(path, "rb");
     if (file) {
         head[fread(head, 1, 1024, file)] = '\0';
         fclose(file);
     }
-    snprintf(mark, sizeof mark, MARK, page->command);
     return strstr(head, mark) != NULL;
 }
 
@@ -48,20 +38,18 @@ static int may_fill(html_page *page)
     DIR *directory = opendir(path);
     if (!directory)
         return complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno)), 0;
-    int is_empty = 1;
-    for (const struct dirent *entry; is_empty && (entry = readdir(directory)) != NULL;)
-        is_empty = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0;
+    for (const struct dirent *entry; !page->is_replaced && (entry = readdir(directory)) != NULL;)
+        page->is_replaced = strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
     closedir(directory);
-    page->is_replaced = !is_empty;
     if (access(path, W_OK | X_OK) != 0)
         return complain(command, "cannot write into '%s': %s", path, strerror(errno)), 0;
-    if (!is_empty && !has_our_page(page))
-        return complain(command,
-                        "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with "
-                        "such a page, which is replaced",
-                        path, command),
-               0;
-    return 1;
+    return !page->is_replaced || has_our_page(page) ||
+           (complain(
+                command,
+                "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
+                "page, which is replaced",
+                path, command),
+            0);
 }
 
 int page_open(html_page *page, const char *command, const char *folder)
@@ -104,14 +92,16 @@ int page_close(html_page *page, int status)
 
 FILE *page_file(html_page *page, const char *name)
 {
-    const size_t n = page->count;
-    page->path[n] = n < PAGE_FILES_MAX - 1 ? path_in(page->folder, name) : NULL;
-    if (!page->path[n])
+    const size_t n = page->count, size = strlen(page->folder) + strlen(name) + 2;
+    char *path = n < PAGE_FILES_MAX ? malloc(size) : NULL;
+    if (!path)
         return complain(page->command, "no memory"), NULL;
+    snprintf(path, size, "%s/%s", page->folder, name);
     snprintf(page->name[n], sizeof page->name[n], "%s", name);
-    if (output_open(&page->file[n], page->command, page->path[n]))
+    page->path[n] = path;
+    if (output_open(&page->file[n], page->command, path))
         return page->file[page->count++].file;
-    free(page->path[n]);
+    free(path);
     return NULL;
 }
 
@@ -120,18 +110,6 @@ void page_link(html_page *page, const char *what)
     const char *name = page->name[page->count - 1];
     fprintf(page->html, "<p class=\"note\">Data: <a href=\"%s\" download=\"%s\">%s</a>, %s.</p>\n", name, name,
             name, what);
-}
-
-int page_data(html_page *page, const char *name, const char *what, text_table t)
-{
-    FILE *data = page_file(page, name);
-    int good = data && table_print(data, &t, FIGURES_CSV);
-    table_free(&t);
-    if (good)
-        page_link(page, what);
-    else if (data)
-        complain(page->command, "no memory");
-    return good;
 }
 
 /* ---- the page ------------------------------------------------------------------------------------ */

@@ -8,7 +8,6 @@
 #include <stdio.h>
 
 #include "cli/output.h"
-#include "draw/table.h"
 
 enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
 
@@ -43,8 +42,5 @@ FILE *page_file(html_page *page, const char *name);
 
 /* The page links the file that was begun last. */
 void page_link(html_page *page, const char *what);
-
-/* A table as a whole file of data with a link; it is freed. 0 after a complaint. */
-int page_data(html_page *page, const char *name, const char *what, text_table t);
 
 #endif

@@ -152,16 +152,24 @@ static void draw_dots(const disc *d, unsigned seed)
     fputs("\"/>\n", d->file);
 }
 
+/* Circles at thirds of the angle of the rim, and what they are. */
 static void draw_grid(const disc *d)
 {
+    const double per_sine = d->radius / d->rim, half = d->rim_degrees * pi / 360; /* of the rim's angle */
     svg_circle(d->file, "edge", d->x, d->y, d->radius + 4, 8);
+    fputs("<path class=\"axis\" d=\"", d->file);
     for (int third = 1; third <= 3; third++) {
-        char label[32];
-        double degrees = d->rim_degrees * third / 3, r = d->radius * sin(degrees * pi / 360) / d->rim;
-        svg_circle(d->file, "axis", d->x, d->y, r, third == 3 ? 1.2 : 0.7);
-        snprintf(label, sizeof label, "%.4g°", degrees);
-        svg_text(d->file, "tick halo", SVG_START, d->x + 0.707 * r + 3, d->y + 0.707 * r + 11, label);
+        const double r = per_sine * sin(half * third / 3);
+        fprintf(d->file, "M%.1f %.1fa%.1f %.1f 0 1 0 %.1f 0a%.1f %.1f 0 1 0 %.1f 0", d->x - r, d->y, r, r, 2 * r,
+                r, r, -2 * r);
     }
+    fputs("\"/>\n<text class=\"tick halo\">", d->file);
+    for (int third = 1; third <= 3; third++) {
+        const double r = 0.707 * per_sine * sin(half * third / 3);
+        fprintf(d->file, "<tspan x=\"%.1f\" y=\"%.1f\">%.4g°</tspan>", d->x + r + 3, d->y + r + 11,
+                d->rim_degrees * third / 3);
+    }
+    fputs("</text>\n", d->file);
 }
 
 /* Shows wi itself: a ring on the disc, or an arrow beyond the rim that points to it. */

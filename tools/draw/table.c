@@ -8,8 +8,6 @@
 
 void table_free(text_table *t)
 {
-    for (size_t i = 0; i < t->count; i++)
-        free(t->cell[i].text);
     free(t->cell);
     *t = (text_table){.count = 0};
 }
@@ -36,9 +34,8 @@ static void add(text_table *t, const char *heading, table_kind kind, const char 
         t->room = room;
         t->cell = cell;
     }
-    char *copy = malloc(strlen(text) + 1);
-    t->failed |= copy == NULL;
-    t->cell[t->count++] = (table_cell){.text = copy ? strcpy(copy, text) : NULL};
+    t->cell[t->count] = (table_cell){.mark = NULL};
+    snprintf(t->cell[t->count++].text, TABLE_CELL, "%s", text);
 }
 
 void table_text(text_table *t, const char *heading, const char *text)

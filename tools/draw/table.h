@@ -16,14 +16,14 @@
 
 #include "cli/figures.h"
 
-enum { TABLE_COLUMNS_MAX = 48 };
+enum { TABLE_COLUMNS_MAX = 48, TABLE_CELL = 96 };
 
 typedef enum table_kind { TABLE_TEXT, TABLE_WORD, TABLE_NUMBER } table_kind;
 
 typedef struct table_cell {
-    char *text; /* owned; "" for what does not apply */
-    const char *mark,
-        *row_mark; /* NULL, or the class of the number and, of a row's first cell, of the row in a page */
+    char text[TABLE_CELL]; /* "" for what does not apply; cut to fit */
+    const char *mark,      /* NULL, or the class in a page of the number, and of the row that the cell begins */
+        *row_mark;
 } table_cell;
 
 typedef struct text_table {

@@ -108,7 +108,7 @@ static vndf_status list_normals(evidence *to)
     static const char student[] = "student-t:2.5";
     const method_reference *ggx = to->reference, *beckmann = ggx + 1, *at_hand = ggx + 2;
     const char *name = table_sizes[SIZE_DEFAULT].name;
-    const vndf_distribution *const *table = (const vndf_distribution *const *)to->plan->at_hand->table;
+    vndf_distribution *const *table = to->plan->at_hand->table;
     evidence_row *caps = add(to, ggx, method_ggx_caps());
     for (int set = VNDF_INSTRUCTIONS_PORTABLE; set < SETS; set++)
         caps->m[set] = method_ggx_caps_batch((vndf_instructions)set);

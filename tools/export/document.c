@@ -89,6 +89,43 @@ int document_add(export_document *document, const char *file, vndf_distribution 
     return named;
 }
 
+/* ---- effects ------------------------------------------------------------------------------------- */
+
+enum { EFFECTS_MAX = 120, PARTS_MAX = 300 };
+
+/* "lobes=both fresnel=dielectric ...", with all keys. */
+static void name_effects(const vndf_effects *is, char words[EFFECTS_MAX])
+{
+    static const char *const lobes[] = {"reflection", "transmission", "both"},
+                             *const fresnel[] = {"none", "schlick", "dielectric", "conductor"},
+                             *const masking[] = {"correlated", "separable", "v-cavities", "none"},
+                             *const transport[] = {"radiance", "importance"},
+                             *const reflection[] = {"specular", "retro"};
+    snprintf(words, EFFECTS_MAX, "lobes=%s fresnel=%s masking=%s transport=%s reflection=%s", lobes[is->lobes],
+             fresnel[is->fresnel], masking[is->masking], transport[is->transport], reflection[is->reflection]);
+}
+
+/* The parts that a file has, between blanks: kinds of distributions; of a BSDF its choices ("lobes=both"), and
+ *
+ *     reflects, transmits    a lobe is on this side, on the other
+ *     indexed                there is an index ratio, and both sides are seen
+ *     coloured               there are reflectances
+ *     smith                  masking takes the area that wo sees */
+static void name_parts(const export_document *document, char parts[PARTS_MAX])
+{
+    const vndf_effects *is = &document->effects;
+    const int transmits = is->lobes != VNDF_LOBES_REFLECTION;
+    char words[EFFECTS_MAX];
+    name_effects(is, words);
+    snprintf(parts, PARTS_MAX, " %s%s%s%s %s %s%s%s%s%s", document->kinds & EXPORT_TABLE ? "table " : "",
+             document->kinds & EXPORT_GGX ? "ggx " : "", document->kinds & EXPORT_BECKMANN ? "beckmann " : "",
+             document->scatters ? "bsdf" : "normals", words,
+             is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "", transmits ? "transmits " : "",
+             transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
+             transmits || is->fresnel != VNDF_FRESNEL_NONE ? "coloured " : "",
+             is->masking < VNDF_MASKING_V_CAVITIES ? "smith " : "");
+}
+
 /* ---- comments ------------------------------------------------------------------------------------ */
 
 /* Text of a table file, which may hold anything: a line break would end the comment. */
@@ -126,48 +163,28 @@ static const char bsdf_head[] =
     "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
     "// wo. Directions with z < 0 are on the other side of the surface.\n";
 
-static void put_all(const translation *t, const char *text)
+static void put_all(const export_document *document, FILE *to, const char *text)
 {
-    put_prefixed(t, text, strlen(text));
+    put_prefixed(&document->as, to, text, strlen(text));
 }
 
-static void put_head(const translation *t, const export_document *document)
+static void put_head(const export_document *document, FILE *to)
 {
-    fprintf(t->file, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
-            t->to->title, VNDF_VERSION);
-    put_all(t, head);
+    char words[EFFECTS_MAX];
+    fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
+            document->as.to->title, VNDF_VERSION);
+    put_all(document, to, head);
     for (size_t i = 0; i < document->tables; i++)
-        put_table(t->file, document, &document->table[i]);
-    if (document->effects.wanted)
-        fprintf(t->file, "//\n// BSDF: %s.\n", document->effects.words);
-    put_all(t, document->effects.wanted ? bsdf_head : "");
-    fputs("\n", t->file);
+        put_table(to, document, &document->table[i]);
+    if (document->scatters) {
+        name_effects(&document->effects, words);
+        fprintf(to, "//\n// BSDF: %s.\n", words);
+        put_all(document, to, bsdf_head);
+    }
+    fputs("\n", to);
 }
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
-
-/* The parts that a file has, between blanks: kinds of distributions, normals or a BSDF, its choices ("lobes=both"), and
- *
- *     family                 one of the tables is a family
- *     reflects, transmits    a lobe is on this side, on the other
- *     indexed                there is an index ratio, and both sides are seen
- *     coloured               there are reflectances
- *     smith                  masking takes the area that wo sees */
-static void name_parts(const export_document *document, char *parts, size_t size)
-{
-    const vndf_effects *is = &document->effects.is;
-    const int transmits = is->lobes != VNDF_LOBES_REFLECTION;
-    int has_family = document->only != NULL;
-    for (size_t i = 0; i < document->tables; i++)
-        has_family |= document->table[i].family != NULL;
-    snprintf(parts, size, " %s%s%s%s%s %s %s%s%s%s%s", has_family ? "family " : "",
-             document->kinds & EXPORT_TABLE ? "table " : "", document->kinds & EXPORT_GGX ? "ggx " : "",
-             document->kinds & EXPORT_BECKMANN ? "beckmann " : "", document->effects.wanted ? "bsdf" : "normals",
-             document->effects.words, is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "",
-             transmits ? "transmits " : "", transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
-             transmits || is->fresnel != VNDF_FRESNEL_NONE ? "coloured " : "",
-             is->masking < VNDF_MASKING_V_CAVITIES ? "smith " : "");
-}
 
 /* Whether there is all that a mark names, up to its end. */
 static int has_parts(const char *parts, const char *mark)
@@ -200,21 +217,21 @@ static void put_line(FILE *to, const char *parts, const char *line, int *in)
     }
 }
 
-/* In C, what the translator reads: constants, numbers, kernel, and `more`, which begins at *behind; NULL if there is no
- * memory. */
-static char *whole_text(const export_document *document, const char *more, long *behind)
+/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. */
+static char *whole_text(const export_document *document, const char *more)
 {
-    char *whole = NULL, parts[300];
+    char *whole = NULL, parts[PARTS_MAX];
     size_t size = 0;
-    int in = 1, effects = document->effects.wanted;
+    int in = 1;
     FILE *to = open_memstream(&whole, &size);
     if (!to)
         return NULL;
-    name_parts(document, parts, sizeof parts);
-    fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
+    name_parts(document, parts);
+    if (!document->bare)
+        fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
         fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    fputs(" };\n", to);
+    fputs(document->bare ? "" : " };\n", to);
     if (document->as.embeds && document->count)
         fprintf(to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
     for (size_t i = 0; document->as.embeds && i < document->count; i++)
@@ -222,11 +239,12 @@ static char *whole_text(const export_document *document, const char *more, long 
                 i + 1 == document->count ? "};\n"
                 : i % 8 == 7             ? ",\n    "
                                          : ", ");
-    for (const embedded_text *file = kernel_text; file->name; file++)
-        for (const char *const *line = file->lines; *line && (effects || strcmp(file->name, "scatter.h") != 0);
-             line++)
+    for (const embedded_text *file = kernel_text; file->name; file++) {
+        const int left_out = (document->bare && strcmp(file->name, "face.h") == 0) ||
+                             (!document->scatters && strcmp(file->name, "scatter.h") == 0);
+        for (const char *const *line = file->lines; *line && !left_out; line++)
             put_line(to, parts, *line, &in);
-    *behind = ftell(to);
+    }
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
         put_line(to, parts, line, &in);
     if (fclose(to) == 0)
@@ -235,52 +253,38 @@ static char *whole_text(const export_document *document, const char *more, long 
     return NULL;
 }
 
-/* Marks what is asked for; without --only the calls of normals, or in their place those of a BSDF. */
-static void want_all(translation *t, const export_document *document)
+/* Names that are wanted; those of a BSDF go in the place of those of normals. */
+static void name_wanted(const export_document *document, char *names, size_t size)
 {
-    static const char *const always[] = {"VNDF_NUMBERS", "vndf_surface_of", "vndf_bsdf_of", "vndf_bsdf_cosine"};
     const char *calls = document->only ? document->only
-                        : document->effects.wanted
-                            ? "bsdf"
-                            : "view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family";
-    for (int i = 0; i < t->count && t->at[i].begin == 0 && !t->indents; i++)
-        t->at[i].wanted = 1; /* constants before the kernel */
-    for (size_t i = 0; i < sizeof always / sizeof *always && !t->indents; i++)
-        translation_want(t, always[i]);
-    for (; *calls; calls += strcspn(calls, ","), calls += strspn(calls, ", ")) {
-        char name[80];
-        snprintf(name, sizeof name, "%s%.*s", t->indents ? "" : "vndf_", (int)strcspn(calls, ","), calls);
-        translation_want(t, name);
-    }
+                        : document->scatters
+                            ? "vndf_bsdf"
+                            : "vndf_view vndf_sample vndf_pdf vndf_visible vndf_ndf vndf_lambda vndf_g1 "
+                              "vndf_g2 vndf_projected_area vndf_mixture";
+    int has_family = 0;
+    for (size_t i = 0; i < document->tables; i++)
+        has_family |= document->table[i].family != NULL;
+    snprintf(names, size, "%s%s%s", calls,
+             document->bare ? "" : " VNDF_NUMBERS vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine",
+             has_family && !document->only && !document->scatters ? " vndf_family_at" : "");
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)
 {
-    translation as = document->as, *t = &as;
-    long behind;
-    char *whole = whole_text(document, more, &behind);
-    const int good = whole && translation_read(t, whole), guarded = (t->to->is & LANGUAGE_GUARDED) && !more;
-    int first = 0;
-    t->file = to;
-    while (good && more && t->word[t->at[first].begin].text < whole + behind)
-        first++;
-    if (good && more)
-        translation_want(t, "ask");
-    if (good && !more) {
-        want_all(t, document);
-        if (t->indents)
-            fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
-        else
-            put_head(t, document);
-        put_all(t, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
-        put_all(t, t->to->begin);
-        fputs(*t->to->begin ? "\n" : "", to);
-        put_all(t, !document->as.embeds && t->to->bound && document->count ? t->to->bound : "");
-    }
-    if (good)
-        translate(t, first);
-    fputs(good && guarded ? "#endif\n" : "", to);
-    free(t->word);
+    const language *in = document->as.to;
+    const int guarded = !(in->is & LANGUAGE_APART);
+    char *whole = whole_text(document, more), names[600];
+    if (document->bare)
+        fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
+    else
+        put_head(document, to);
+    put_all(document, to, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
+    put_all(document, to, in->begin);
+    fputs(*in->begin ? "\n" : "", to);
+    put_all(document, to, !document->as.embeds && in->bound && document->count ? in->bound : "");
+    name_wanted(document, names, sizeof names);
+    const int good = whole && translate(&document->as, whole, names, to);
+    fputs(guarded ? "#endif\n" : "", to);
     free(whole);
     return good;
 }

@@ -4,9 +4,8 @@
 
 #include <stdio.h>
 
-#include "export/effects.h"
 #include "export/translate.h"
-#include "vndf.h"
+#include "vndf_bsdf.h"
 
 enum { EXPORT_TABLES_MAX = 16 };
 
@@ -30,8 +29,10 @@ typedef struct export_document {
     float *numbers;
     long lobes;
     unsigned kinds;
-    export_effects effects;
-    const char *only; /* calls that are wanted, with commas; NULL: all */
+    int scatters; /* there is a BSDF, of these effects */
+    vndf_effects effects;
+    const char *only; /* names that are wanted, between blanks; NULL: the calls of normals, or of the BSDF */
+    int bare;         /* the kernel without calls and constants, for Dr.Jit */
 } export_document;
 
 /* Texts that the build embeds. */
@@ -48,8 +49,8 @@ extern const embedded_text kernel_text[], page_texts[];
 int document_add(export_document *document, const char *file, vndf_distribution *distribution,
                  vndf_family *family);
 
-/* Writes the file; or what goes behind it, a text in the kernel's part of C with a function `ask`. 0 if there is no
- * memory. */
+/* Writes the file; `more`, which may be NULL, is text in the kernel's part of C that goes behind the kernel. 0 if there
+ * is no memory. */
 int document_write(const export_document *document, FILE *to, const char *more);
 
 #endif

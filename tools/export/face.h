@@ -339,7 +339,6 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
     return least(density, 3.4028234e38f);
 }
 
-/* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
@@ -370,4 +369,3 @@ HERE vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape
     }
     return mixture;
 }
-/* end */

@@ -5,7 +5,8 @@
 /* Forms: variables, parameters and members, N of them; functions, structs, constants, arrays and their ends; a struct
  * made of its members. Of some languages: what a struct is before its members are set (ZERO); a parameter that is
  * assigned to, which WGSL forbids and Python, whose names share structs, does for the caller too (GIVEN), and its copy;
- * the pointer to numbers, which is the first parameter of what fetches them. */
+ * the pointer to numbers, which is the first parameter of what fetches them; what asks for a loop with a constant end
+ * to be unrolled. */
 static const char common[] =
     "TYPED: $T $V; SEVERAL: $T $V[$N]; FUNCTION: $T $D($P) {; STRUCT: struct $D {; STRUCT_END: };; "
     "CONSTANT: enum { $D = $N };; ARRAY_END: \n};; MAKE: {; MADE: }; "
@@ -48,21 +49,21 @@ static const char python_begin[] =
     "    return struct.unpack(\"f\", struct.pack(\"i\", i))[0]\n";
 
 static const language languages[] = {
-    {"c", "C99", LANGUAGE_GUARDED, 0, NULL, NULL,
-     "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
+    {"c", "C99", 0, 0, NULL, NULL, "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
      "FUNCTION: VNDF_FUNCTION $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
      "ARRAY: static const float $D[$N] = {\n    ; ZERO: {0}; POINTER: const float *; "
      "vec3: vndf_vec3; direction: vndf_vec3; "
      "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_whole = (int)($1); "
      "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
-    {"cpp", "C++11", LANGUAGE_GUARDED, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
+    {"cpp", "C++11", 0, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
      "FUNCTION: VNDF_FUNCTION $T $D($P) {; ARRAY: static const float $D[$N] = {\n    ; ZERO: {}; "
      "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
-    {"cuda", "CUDA", LANGUAGE_GUARDED | LANGUAGE_UNROLLS, 0, NULL, NULL, "",
-     "FUNCTION: __device__ inline $T $D($P) {; ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; "
-     "POINTER: const float *__restrict__ ; root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
+    {"cuda", "CUDA", 0, 0, NULL, NULL, "",
+     "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {; "
+     "ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; POINTER: const float *__restrict__ ; "
+     "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
      "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
      "FUNCTION: static inline $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "

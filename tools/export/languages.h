@@ -5,10 +5,8 @@
 #include <stddef.h>
 
 enum {
-    LANGUAGE_APART = 1,   /* one variable to a statement */
-    LANGUAGE_GUARDED = 2, /* #ifndef around all, since files include one another */
-    LANGUAGE_INDENTS = 4, /* as Python does: no braces, no types */
-    LANGUAGE_UNROLLS = 8  /* loops with a constant end, where that is asked for */
+    LANGUAGE_APART = 1,   /* one variable to a statement; and no preprocessor */
+    LANGUAGE_INDENTS = 2, /* as Python does: no braces, no types */
 };
 
 /* `words` says "TYPE: own; " of types and forms and "CALL = own; " of calls; what it lacks is as in most languages. Of

@@ -4,7 +4,39 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- names --------------------------------------------------------------------------------------- */
+typedef enum word_kind { WORD_NAME, WORD_NUMBER, WORD_SIGN, WORD_END } word_kind;
+
+typedef struct word {
+    word_kind kind;
+    const char *text; /* not terminated */
+    int length;
+    int gap;   /* characters between the last word and this one: blanks, comments, directives */
+    int other; /* of a bracket: the word that closes or opens it */
+} word;
+
+typedef enum declaration_kind { FUNCTION, STRUCT, CONSTANT, ARRAY } declaration_kind;
+
+/* Words from `begin` to before `end`. `inner` is the bracket that opens members, numbers or parameters, or the first
+ * word of a constant's value. */
+typedef struct declaration {
+    declaration_kind kind;
+    int name, type, begin, inner, end;
+    int wanted;  /* it goes into the file */
+    int fetches; /* it reads numbers of tables */
+} declaration;
+
+enum { DECLARATIONS_MAX = 1024 };
+
+typedef struct printer {
+    const translation *as;
+    int apart, indents; /* of the language */
+    FILE *file;
+    word *word;
+    int words, count;
+    declaration at[DECLARATIONS_MAX];
+} printer;
+
+/* ---- the prefix ---------------------------------------------------------------------------------- */
 
 int translation_prefix(translation *t, const char *name)
 {
@@ -19,27 +51,136 @@ int translation_prefix(translation *t, const char *name)
     return 1;
 }
 
-void put_prefixed(const translation *t, const char *from, size_t length)
+void put_prefixed(const translation *t, FILE *to, const char *from, size_t length)
 {
     for (const char *at = from, *end = from + length; at < end;) {
         int in_word = at > from && (at[-1] == '_' || isalnum((unsigned char)at[-1]));
         int lower = !in_word && strncmp(at, "vndf_", 5) == 0, upper = !in_word && strncmp(at, "VNDF_", 5) == 0;
         if (lower || upper)
-            fputs(lower ? t->lower : t->upper, t->file);
+            fputs(lower ? t->lower : t->upper, to);
         else
-            fputc(*at, t->file);
+            fputc(*at, to);
         at += lower || upper ? 5 : 1;
     }
 }
 
-static int is_same(const translation *t, int a, int b)
+/* ---- words and declarations --------------------------------------------------------------------- */
+
+static size_t gap_length(const char *from)
+{
+    const char *at = from;
+    for (;;) {
+        if (*at == ' ' || *at == '\n')
+            at++;
+        else if (strncmp(at, "/*", 2) == 0)
+            at = strstr(at, "*/") + 2;
+        else if (*at == '#')
+            do /* with its continuations */
+                at += 1 + strcspn(at + 1, "\n");
+            while (at[-1] == '\\');
+        else
+            return (size_t)(at - from);
+    }
+}
+
+/* What the C compiler took for a number is one: digits, letters, points, signs of exponents. */
+static word word_at(const char *from)
+{
+    static const char pairs[] = "&& || == != <= >= << >> ++";
+    const size_t gap = gap_length(from);
+    const char *at = from + gap, *exponent = at[0] == '0' && at[1] == 'x' ? "p" : "e";
+    int n = *at != '\0';
+    word w = {n ? WORD_SIGN : WORD_END, at, 0, (int)gap, 0};
+    if (isdigit((unsigned char)*at)) {
+        w.kind = WORD_NUMBER;
+        while (isalnum((unsigned char)at[n]) || at[n] == '.' ||
+               (strchr("+-", at[n]) && strchr(exponent, at[n - 1])))
+            n++;
+    } else if (isalpha((unsigned char)*at) || *at == '_') {
+        w.kind = WORD_NAME;
+        while (isalnum((unsigned char)at[n]) || at[n] == '_')
+            n++;
+    } else {
+        for (const char *pair = pairs; n == 1 && pair < pairs + sizeof pairs - 1; pair += 3)
+            n += strncmp(at, pair, 2) == 0;
+    }
+    w.length = n;
+    return w;
+}
+
+static int word_is(const word *w, const char *name)
+{
+    return strlen(name) == (size_t)w->length && memcmp(w->text, name, strlen(name)) == 0;
+}
+
+static int word_find(const printer *t, int at, int end, const char *sign)
+{
+    while (at < end && !word_is(&t->word[at], sign))
+        at = t->word[at].other > at ? t->word[at].other + 1 : at + 1;
+    return at < end ? at : end;
+}
+
+/* Adds the declaration that begins there; of an enum each name is one. Returns what follows. */
+static int read_declaration(printer *t, int at)
+{
+    const word *w = &t->word[at];
+    const int inner = at + (word_is(w, "enum") ? 1 : word_is(w, "static") ? 8 : 3), close = t->word[inner].other;
+    declaration d = {.kind = FUNCTION, .name = at + 2, .type = at + 1, .begin = at, .inner = inner};
+    d.end = t->word[close + 1].other + 1;
+    for (int name = at + 2; word_is(w, "enum") && name < close; name = d.end + 1) {
+        d = (declaration){.kind = CONSTANT, .name = name, .begin = at, .inner = name + 2};
+        d.end = word_find(t, name, close, ",");
+        t->at[t->count++] = d;
+    }
+    if (word_is(w, "enum"))
+        return close + 2;
+    if (word_is(w, "typedef")) {
+        d.kind = STRUCT;
+        d.end = close + 3;
+    } else if (word_is(w, "static")) {
+        d.kind = ARRAY;
+        d.name = at + 3;
+        d.end = close + 2;
+    }
+    t->at[t->count++] = d;
+    return d.end;
+}
+
+static int read_text(printer *t, const char *source)
+{
+    int open[32], depth = 0, room = 0, at = 0;
+    do {
+        if (t->words == room) {
+            word *more = realloc(t->word, (size_t)(room = 2 * room + 4096) * sizeof *more);
+            if (!more)
+                return 0;
+            t->word = more;
+        }
+        word *w = &t->word[t->words];
+        *w = word_at(source);
+        source = w->text + w->length;
+        if (w->kind == WORD_SIGN && strchr("([{", *w->text)) {
+            open[depth++] = t->words;
+        } else if (w->kind == WORD_SIGN && strchr(")]}", *w->text)) {
+            w->other = open[--depth];
+            t->word[w->other].other = t->words;
+        }
+    } while (t->word[t->words++].kind != WORD_END);
+    while (t->word[at].kind != WORD_END && t->count < DECLARATIONS_MAX - 64)
+        at = read_declaration(t, at);
+    return t->word[at].kind == WORD_END;
+}
+
+/* ---- names --------------------------------------------------------------------------------------- */
+
+static int is_same(const printer *t, int a, int b)
 {
     const word *v = &t->word[a], *w = &t->word[b];
     return v->length == w->length && memcmp(v->text, w->text, (size_t)v->length) == 0;
 }
 
 /* The declaration of that name, if it is of one of these kinds (1 << FUNCTION ...), or NULL. */
-static declaration *declared(translation *t, int name, int kinds)
+static declaration *declared(printer *t, int name, int kinds)
 {
     for (declaration *d = t->at; d < t->at + t->count; d++)
         if (is_same(t, d->name, name))
@@ -48,35 +189,35 @@ static declaration *declared(translation *t, int name, int kinds)
 }
 
 /* Declarations, of these kinds, begin with the prefix; a variable or a member must not be a word of the language. */
-static void put_name(translation *t, int name, int kinds)
+static void put_name(printer *t, int name, int kinds)
 {
     const word *w = &t->word[name];
     const declaration *d = declared(t, name, kinds);
     char spaced[80];
     snprintf(spaced, sizeof spaced, " %.*s ", w->length, w->text);
     if (d && strncmp(w->text, "vndf_", 5) != 0 && strncmp(w->text, "VNDF_", 5) != 0)
-        fputs(d->kind == CONSTANT ? t->upper : t->lower, t->file);
-    put_prefixed(t, w->text, (size_t)w->length);
+        fputs(d->kind == CONSTANT ? t->as->upper : t->as->lower, t->file);
+    put_prefixed(t->as, t->file, w->text, (size_t)w->length);
     fputs(!d && strstr(language_reserved, spaced) ? "_" : "", t->file);
 }
 
 /* What the language has for a type, *length characters, or NULL. */
-static const char *own_type(const translation *t, int type, int *length)
+static const char *own_type(const printer *t, int type, int *length)
 {
-    return language_word(t->to, t->word[type].text, t->word[type].length, ": ", length);
+    return language_word(t->as->to, t->word[type].text, t->word[type].length, ": ", length);
 }
 
-static int is_struct(translation *t, int type)
+static int is_struct(printer *t, int type)
 {
     int length;
     return declared(t, type, 1 << STRUCT) && !own_type(t, type, &length);
 }
 
-static void put_words(translation *t, int at, int end);
-static void put_parameters(translation *t, const declaration *d);
+static void put_words(printer *t, int at, int end);
+static void put_parameters(printer *t, const declaration *d);
 
 /* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
-static void put_argument(translation *t, int call, int i, const char *signs)
+static void put_argument(printer *t, int call, int i, const char *signs)
 {
     const int close = t->word[call + 1].other;
     int at = call + 2, end, brackets = 0;
@@ -94,18 +235,18 @@ static void put_argument(translation *t, int call, int i, const char *signs)
 }
 
 /* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
-static void put_own(translation *t, const char *own, int length, const declaration *d, int type, int name)
+static void put_own(printer *t, const char *own, int length, const declaration *d, int type, int name)
 {
     int type_length;
     for (const char *at = own, *end = own + length, *plain, *type_is; at < end; at++) {
         for (plain = at; at < end && *at != '$'; at++)
             ;
-        put_prefixed(t, plain, (size_t)(at - plain));
+        put_prefixed(t->as, t->file, plain, (size_t)(at - plain));
         switch (at < end ? *++at : ' ') {
         case ' ': break;
         case 'T':
             if ((type_is = own_type(t, type, &type_length)) != NULL)
-                put_prefixed(t, type_is, (size_t)type_length);
+                put_prefixed(t->as, t->file, type_is, (size_t)type_length);
             else
                 put_name(t, type, 1 << STRUCT);
             break;
@@ -119,10 +260,10 @@ static void put_own(translation *t, const char *own, int length, const declarati
 }
 
 /* 0 if the language has no such form. */
-static int put_form(translation *t, const char *form, const declaration *d, int type, int name)
+static int put_form(printer *t, const char *form, const declaration *d, int type, int name)
 {
     int length;
-    const char *own = language_word(t->to, form, (int)strlen(form), ": ", &length);
+    const char *own = language_word(t->as->to, form, (int)strlen(form), ": ", &length);
     if (own)
         put_own(t, own, length, d, type, name);
     return own != NULL;
@@ -131,30 +272,30 @@ static int put_form(translation *t, const char *form, const declaration *d, int 
 /* ---- expressions --------------------------------------------------------------------------------- */
 
 /* All is float: a double of the kernel, which has no f at its end, is printed with 9 digits. */
-static void put_number(const translation *t, const word *number)
+static void put_number(const printer *t, const word *number)
 {
     const size_t length = (size_t)number->length;
     const int is_hex = length > 1 && number->text[1] == 'x', is_float = !is_hex && number->text[length - 1] == 'f';
-    char text[40];
+    char digits[40];
     if (is_float || !memchr(number->text, is_hex ? 'p' : '.', length)) {
         fprintf(t->file, "%.*s", number->length - (t->indents && is_float), number->text);
         return;
     }
-    snprintf(text, sizeof text, "%.9g", strtod(number->text, NULL));
-    fprintf(t->file, "%s%s%s", text, strpbrk(text, ".en") ? "" : ".0", t->indents ? "" : "f");
+    snprintf(digits, sizeof digits, "%.9g", strtod(number->text, NULL));
+    fprintf(t->file, "%s%s%s", digits, strpbrk(digits, ".en") ? "" : ".0", t->indents ? "" : "f");
 }
 
 /* What the language has for a call, *length characters, or NULL. */
-static const char *own_call(const translation *t, int name, int *length)
+static const char *own_call(const printer *t, int name, int *length)
 {
     const word *w = &t->word[name];
-    const int embedded = t->embeds && word_is(w, "fetch");
+    const int embedded = t->as->embeds && word_is(w, "fetch");
     *length = 16;
-    return embedded ? "VNDF_NUMBERS[$1]" : language_word(t->to, w->text, w->length, " = ", length);
+    return embedded ? "VNDF_NUMBERS[$1]" : language_word(t->as->to, w->text, w->length, " = ", length);
 }
 
 /* A name before its brackets; returns what follows them. */
-static int put_call(translation *t, int name)
+static int put_call(printer *t, int name)
 {
     const int close = t->word[name + 1].other;
     const declaration *d = declared(t, name, 1 << FUNCTION);
@@ -165,25 +306,25 @@ static int put_call(translation *t, int name)
         return close + 1;
     }
     put_name(t, name, 1 << FUNCTION);
-    fputs(!d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
+    fputs(!d || !d->fetches || !t->as->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
     put_words(t, name + 2, close);
     fputs(")", t->file);
     return close + 1;
 }
 
 /* Blanks and comments before a word, without directives; Python, where a line ends a statement, has one blank. */
-static void put_gap(const translation *t, int at)
+static void put_gap(const printer *t, int at)
 {
     const char *end = t->word[at].text, *from = end - t->word[at].gap;
     if (t->indents)
         fputs(from < end ? " " : "", t->file);
     for (const char *next; from < end && !t->indents; from = next) {
         next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
-        put_prefixed(t, from, *from == '#' ? 0 : (size_t)(next - from));
+        put_prefixed(t->as, t->file, from, *from == '#' ? 0 : (size_t)(next - from));
     }
 }
 
-static void put_words(translation *t, int at, int end)
+static void put_words(printer *t, int at, int end)
 {
     for (int from = at; at < end; at++) {
         const word *w = &t->word[at];
@@ -206,10 +347,10 @@ static void put_words(translation *t, int at, int end)
 
 /* ---- statements ---------------------------------------------------------------------------------- */
 
-static int put_statement(translation *t, int at);
+static int put_statement(printer *t, int at);
 
 /* Blanks before the line of a word. */
-static int indent_of(const translation *t, int at)
+static int indent_of(const printer *t, int at)
 {
     const char *line = t->word[at].text;
     while (line[-1] != '\n')
@@ -218,7 +359,7 @@ static int indent_of(const translation *t, int at)
 }
 
 /* Whether a function assigns to the name, or to a part of it: what stands before a "=" and is no declaration. */
-static int is_assigned(const translation *t, const declaration *d, int name)
+static int is_assigned(const printer *t, const declaration *d, int name)
 {
     for (int at = t->word[d->inner].other + 2, from; at < d->end; at++) {
         if (!word_is(&t->word[at], "="))
@@ -232,7 +373,7 @@ static int is_assigned(const translation *t, const declaration *d, int name)
 }
 
 /* Python binds names to one struct where C copies it. */
-static void put_value(translation *t, int type, int at, int end)
+static void put_value(printer *t, int type, int at, int end)
 {
     const int made = word_is(&t->word[at], "{");
     const int copied = t->indents && !made && is_struct(t, type) && word_find(t, at, end, "(") == end;
@@ -246,10 +387,10 @@ static void put_value(translation *t, int type, int at, int end)
 }
 
 /* type a = x, b, c[N] to before `end`: variables, or members of a struct. */
-static void put_variables(translation *t, int type, int end, int members)
+static void put_variables(printer *t, int type, int end, int members)
 {
     int length;
-    const int zero = !members && is_struct(t, type) && language_word(t->to, "ZERO", 4, ": ", &length);
+    const int zero = !members && is_struct(t, type) && language_word(t->as->to, "ZERO", 4, ": ", &length);
     for (int name = type + 1, stop; name < end; name = stop + 1) {
         const int first = name == type + 1;
         stop = word_find(t, name, end, ",");
@@ -277,7 +418,7 @@ static void put_variables(translation *t, int type, int end, int members)
 }
 
 /* What an if or a for governs, in braces, which close under the line of `head`; returns what follows. */
-static int put_governed(translation *t, int head, int at)
+static int put_governed(printer *t, int head, int at)
 {
     const int is_block = word_is(&t->word[at], "{"), close = is_block ? t->word[at].other : 0;
     fputs(t->indents ? ":" : " {", t->file);
@@ -294,7 +435,7 @@ static int put_governed(translation *t, int head, int at)
 }
 
 /* any(less(a, b)) has brackets already. */
-static void put_condition(translation *t, int at, int end)
+static void put_condition(printer *t, int at, int end)
 {
     const word *w = &t->word[at];
     int length, whole = word_is(w, "any") && w[1].other == end - 1 && word_is(w + 3, "(") && w[3].other == end - 2;
@@ -309,7 +450,7 @@ static void put_condition(translation *t, int at, int end)
     fputs(!is_name ? ")" : is_not ? " == 0)" : " != 0)", t->file);
 }
 
-static int put_if(translation *t, int at)
+static int put_if(printer *t, int at)
 {
     const int close = t->word[at + 1].other, indents = t->indents;
     fputs("if ", t->file);
@@ -328,12 +469,12 @@ static int put_if(translation *t, int at)
 }
 
 /* for (int i = A; i < B; i++) */
-static int put_for(translation *t, int at)
+static int put_for(printer *t, int at)
 {
     const int close = t->word[at + 1].other, first = word_find(t, at + 2, close, ";"),
               second = word_find(t, first + 1, close, ";");
-    if (declared(t, first + 3, 1 << CONSTANT) && t->to->is & LANGUAGE_UNROLLS)
-        fprintf(t->file, "#pragma unroll\n%*s", indent_of(t, at), "");
+    if (declared(t, first + 3, 1 << CONSTANT) && put_form(t, "UNROLL", NULL, 0, 0))
+        fprintf(t->file, "\n%*s", indent_of(t, at), "");
     if (t->indents) {
         put_own(t, "for $V in range(", 16, NULL, 0, at + 3);
         put_words(t, at + 5, first);
@@ -352,7 +493,7 @@ static int put_for(translation *t, int at)
 }
 
 /* Returns what follows. */
-static int put_statement(translation *t, int at)
+static int put_statement(printer *t, int at)
 {
     if (t->indents)
         fprintf(t->file, "\n%*s", indent_of(t, at), "");
@@ -374,10 +515,10 @@ static int put_statement(translation *t, int at)
 
 /* ---- declarations -------------------------------------------------------------------------------- */
 
-static void put_parameters(translation *t, const declaration *d)
+static void put_parameters(printer *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    if (d->fetches && t->by_pointer) {
+    if (d->fetches && t->as->by_pointer) {
         put_form(t, "POINTER", NULL, 0, 0);
         fputs(close > d->inner + 2 ? "numbers, " : "numbers", t->file);
     }
@@ -390,7 +531,7 @@ static void put_parameters(translation *t, const declaration *d)
     }
 }
 
-static void put_function(translation *t, const declaration *d)
+static void put_function(printer *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
     put_form(t, "FUNCTION", d, d->type, 0);
@@ -409,7 +550,7 @@ static void put_function(translation *t, const declaration *d)
     fputs("}", t->file);
 }
 
-static void put_struct(translation *t, const declaration *d)
+static void put_struct(printer *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
     put_form(t, "STRUCT", d, 0, 0);
@@ -429,7 +570,7 @@ static void put_struct(translation *t, const declaration *d)
 }
 
 /* The comment that ends on the line before. */
-static void put_comment_before(const translation *t, const declaration *d)
+static void put_comment_before(const printer *t, const declaration *d)
 {
     const word *first = &t->word[d->begin];
     const char *comment = NULL;
@@ -437,10 +578,10 @@ static void put_comment_before(const translation *t, const declaration *d)
         return;
     for (const char *at = first->text - first->gap; at < first->text; at++)
         comment = strncmp(at, "/*", 2) == 0 ? at : comment;
-    put_prefixed(t, comment, (size_t)(first->text - comment));
+    put_prefixed(t->as, t->file, comment, (size_t)(first->text - comment));
 }
 
-static void want(translation *t, declaration *d)
+static void want(printer *t, declaration *d)
 {
     if (d->wanted)
         return;
@@ -456,9 +597,8 @@ static void want(translation *t, declaration *d)
     }
 }
 
-void translation_want(translation *t, const char *name)
+static void want_named(printer *t, const char *name, size_t length)
 {
-    const size_t length = strlen(name);
     for (int i = 0; i < t->count; i++) {
         const word *own = &t->word[t->at[i].name];
         if (strncmp(own->text, name, length) == 0 && ((size_t)own->length == length || own->text[length] == '_'))
@@ -466,13 +606,21 @@ void translation_want(translation *t, const char *name)
     }
 }
 
-void translate(translation *t, int first)
+int translate(const translation *as, const char *source, const char *wanted, FILE *to)
 {
-    for (int i = first, in_constants = 0; i < t->count; i++) {
+    printer whole = {.as = as,
+                     .apart = (as->to->is & LANGUAGE_APART) != 0,
+                     .indents = (as->to->is & LANGUAGE_INDENTS) != 0,
+                     .file = to},
+            *t = &whole;
+    const int good = read_text(t, source);
+    for (; good && *wanted; wanted += strcspn(wanted, " "), wanted += strspn(wanted, " "))
+        want_named(t, wanted, strcspn(wanted, " "));
+    for (int i = 0, in_constants = 0; i < t->count && good; i++) {
         const declaration *d = &t->at[i];
-        if (!d->wanted)
+        if (!d->wanted && !(d->kind == CONSTANT && d->begin == 0)) /* those before the kernel are its host's */
             continue;
-        fputs(in_constants && d->kind != CONSTANT ? "\n" : "", t->file);
+        fputs(in_constants && d->kind != CONSTANT ? "\n" : "", to);
         in_constants = d->kind == CONSTANT;
         if (!in_constants || d->name == d->begin + 2)
             put_comment_before(t, d);
@@ -487,6 +635,8 @@ void translate(translation *t, int first)
         } else {
             put_form(t, "CONSTANT", d, 0, d->name);
         }
-        fputs(in_constants ? "\n" : "\n\n", t->file);
+        fputs(in_constants ? "\n" : "\n\n", to);
     }
+    free(t->word);
+    return good;
 }

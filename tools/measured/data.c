@@ -14,6 +14,8 @@ int refuse(data_file *file, const char *format, ...)
     va_start(list, format);
     vsnprintf(file->refused + length, sizeof file->refused - (size_t)length, format, list);
     va_end(list);
+    for (char *c = file->refused; *c; c++)
+        *c = (unsigned char)*c < ' ' || *c == 127 ? '?' : *c;
     return 0;
 }
 

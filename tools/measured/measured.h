@@ -8,9 +8,9 @@
 #include "cli/files.h"
 #include "vndf_build.h"
 
-/* A file, whose bytes are not trusted. A reader returns 1, or 0 with the reason in `refused`: the file, the place in
- * it, what is wrong, what would be right. What it finds goes to `notes`, lines `key value`; `implausible` is the key
- * of what only a mistake explains. Members that are not given are zeroed. */
+/* A file, whose bytes are not trusted, with a 0 behind them. A reader returns 1, or 0 with the reason in `refused`: the
+ * file, the place in it, what is wrong, what would be right. What it finds goes to `notes`, lines `key value`;
+ * `implausible` is the key of what only a mistake explains. Members that are not given are zeroed. */
 typedef struct data_file {
     const char *name;
     const unsigned char *bytes;

@@ -32,65 +32,41 @@ void heights_free(height_field *freed)
 
 /* ---- heights ------------------------------------------------------------------------------------- */
 
-enum { WORD_MAX = 64 };
-
-static int is_blank(unsigned char c)
-{
-    return c == ' ' || (c >= '\t' && c <= '\r');
-}
-
-/* The next word before `end`, with a 0 behind its first letters, of which those that are no ASCII become '?'; 0 where
- * there is none. *lines: how many ends of lines stand before it. # begins a comment. */
-static int next_word(const unsigned char **at, const unsigned char *end, size_t *lines, char word[WORD_MAX])
-{
-    size_t letters = 0;
-    int is_comment = 0;
-    for (*lines = 0; *at < end && (is_comment || is_blank(**at) || **at == '#'); ++*at) {
-        is_comment = **at == '#' || (is_comment && **at != '\n');
-        *lines += **at == '\n';
-    }
-    for (; *at < end && !is_blank(**at); ++*at)
-        if (letters < WORD_MAX - 1)
-            word[letters++] = **at > ' ' && **at <= '~' ? (char)**at : '?';
-    word[letters] = '\0';
-    return letters > 0;
-}
-
-/* Numbers between blanks, a line for each row. */
+/* Numbers between blanks, a line for each row; # begins a comment. */
 static int read_rows(data_file *file, height_field *made)
 {
-    const unsigned char *at = file->bytes, *end = at + file->size;
-    char word[WORD_MAX], *behind;
-    size_t count = 0, room = 0, line = 1, lines;
-    int width = 0, here = 0; /* numbers in the first row, and in this one so far */
+    const char *at = (const char *)file->bytes, *end = at + file->size;
+    size_t count = 0, room = 0;
     if (file->size >= 3 && memcmp(at, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8, from spreadsheets */
         at += 3;
-    for (int is_word = 1; is_word; count += (size_t)is_word) {
-        is_word = next_word(&at, end, &lines, word);
-        if ((lines || !is_word) && here > 0) {
-            if (made->height++ > 0 && here != width)
-                return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many",
-                              line, here, width);
-            width = here;
-            here = 0;
+    for (size_t line = 1; at < end; line++, at++) {
+        int here = 0;
+        for (; at += strspn(at, " \t\r\v\f"), at < end && *at != '\n' && *at != '#'; here++) {
+            char *behind;
+            const double z = strtod(at, &behind);
+            if (behind == at || (*behind && !strchr(" \t\r\v\f\n#", *behind)) || fabs(z) > 1e30)
+                return refuse(
+                    file,
+                    "line %zu: '%.*s' is no height; numbers between blanks are needed, nan where there is "
+                    "none",
+                    line, (int)fmin((double)strcspn(at, " \t\r\v\f\n#"), 40), at);
+            if (count == room) {
+                room = 2 * room + 4096;
+                float *larger = room <= 2 * SURFACE_MAX ? realloc(made->z, room * sizeof *larger) : NULL;
+                if (!larger)
+                    return refuse(file, "line %zu: there is no memory for more than %zu heights", line, count);
+                made->z = larger;
+            }
+            made->z[count++] = (float)z;
+            at = behind;
         }
-        line += lines;
-        const double z = strtod(word, &behind);
-        if (*behind || fabs(z) > 1e30)
-            return refuse(
-                file, "line %zu: '%.40s' is no height; numbers between blanks are needed, nan where there is none",
-                line, word);
-        if (count == room) {
-            room = 2 * room + 4096;
-            float *larger = room <= 2 * SURFACE_MAX ? realloc(made->z, room * sizeof *larger) : NULL;
-            if (!larger)
-                return refuse(file, "line %zu: there is no memory for more than %zu heights", line, count);
-            made->z = larger;
-        }
-        made->z[count] = (float)z;
-        here += is_word;
+        if (here && made->height++ && here != made->width)
+            return refuse(file, "line %zu: %d numbers, and %d in the lines before; every row needs as many", line,
+                          here, made->width);
+        made->width = here ? here : made->width;
+        at += strcspn(at, "\n");
     }
-    *made = (height_field){width, made->height, 1, 1, 0, made->z};
+    made->step_x = made->step_y = 1;
     return heights_fit(made, file);
 }
 

@@ -94,11 +94,11 @@ class VndfBxDF
         const Vector3f wi{s.wo.x, s.wo.y, s.wo.z};
         const SampledSpectrum value = Colour(wo, wi, s.weight[0] * s.density / std::abs(s.wo.z));
         if (s.lobe == VNDF_LOBE_TRANSMISSION)
-            return BSDFSample(value, wi, s.density, BxDFFlags::GlossyTransmission,
-                              wo.z > 0 ? materials->eta : 1 / materials->eta);
-        return BSDFSample(value, wi, s.density,
+            return BSDFSample{value, wi, s.density, BxDFFlags::GlossyTransmission,
+                              wo.z > 0 ? materials->eta : 1 / materials->eta};
+        return BSDFSample{value, wi, s.density,
                           s.lobe == VNDF_LOBE_STRAIGHT ? BxDFFlags::SpecularTransmission
-                                                       : BxDFFlags::GlossyReflection);
+                                                       : BxDFFlags::GlossyReflection};
     }
 
     Float PDF(Vector3f wo, Vector3f wi, TransportMode mode,

@@ -1,9 +1,5 @@
 #include "render/film.h"
 
-#include <stdlib.h>
-
-#include "cli/sort.h"
-
 enum { TURNS = 16, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,
@@ -72,29 +68,17 @@ static double light_of_others(const comparison *c, const film *f, size_t pixel)
     return sum / samples;
 }
 
-/* 0 if there is no memory. */
-static int noise_of(const comparison *c, const film *f, measured *made)
+static measured noise_of(const comparison *c, const film *f)
 {
-    const size_t count = film_pixels(f), firefly = count - count / 1000;
-    const double n = (double)count, least = 0.05 * mean_light(f);
-    double sum = 0, square = 0, *part = malloc(count * sizeof *part);
-    *made = (measured){(double)NAN, (double)NAN, (double)NAN};
-    for (size_t i = 0; i < count && part; i++) {
-        const double here = light_of_others(c, f, i);
-        part[i] = film_variance(f, i) / (here * here + least * least);
+    const double n = (double)film_pixels(f), least = 0.05 * mean_light(f);
+    double sum = 0, square = 0;
+    for (size_t i = 0; i < film_pixels(f); i++) {
+        const double here = light_of_others(c, f, i), part = film_variance(f, i) / (here * here + least * least);
+        sum += part;
+        square += part * part;
     }
-    if (part && f->samples > 1) {
-        sort_numbers(part, count);
-        for (size_t i = 0; i < count; i++) {
-            sum += part[i];
-            square += part[i] * part[i];
-            made->trimmed = i + 1 == firefly ? sum / (double)firefly : made->trimmed;
-        }
-        made->value = sum / n;
-        made->spread = sqrt(fmax(square / n - sum * sum / (n * n), 0) / n);
-    }
-    free(part);
-    return part != NULL;
+    const double variance = (square / n - sum * sum / (n * n)) / n;
+    return (measured){sum / n, sqrt(variance < 0 ? 0 : variance)}; /* NaN where nothing is known */
 }
 
 /* a/b, times a factor. */
@@ -102,7 +86,7 @@ static measured ratio_of(const measured *a, const measured *b, double factor)
 {
     const double ratio = a->value / b->value * factor;
     const double spread = a == b ? 0 : hypot(a->spread / a->value, b->spread / b->value);
-    return (measured){ratio, ratio * spread, a->trimmed / b->trimmed * factor};
+    return (measured){ratio, ratio * spread};
 }
 
 /* ---- verdict ---- */
@@ -149,20 +133,17 @@ static void judge(const film *a, const film *b, finding *made)
     }
 }
 
-int comparison_find(const comparison *c, finding found[SAMPLERS])
+void comparison_find(const comparison *c, finding found[SAMPLERS])
 {
     const film *first = &c->way[0].film;
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
         finding *made = &found[i];
-        *made = (finding){.is = VERDICT_SAME};
-        if (!noise_of(c, f, &made->noise))
-            return 0;
+        *made = (finding){.is = VERDICT_SAME, .noise = noise_of(c, f)};
         made->samples = ratio_of(&made->noise, &found->noise, (double)f->samples / (double)first->samples);
         made->efficiency = ratio_of(&found->noise, &made->noise, first->processor / f->processor);
         judge(f, first, made);
     }
-    return 1;
 }
 
 /* ---- a picture ---- */

@@ -1,11 +1,35 @@
-/* All pixels, rendered by threads: sums of samples, whose mean is the picture. The sums do not depend on the
- * number of threads, to the bit. And one scene by several samplers side by side, in equal time or with equal samples:
- * how noisy their films are, and whether they show the same. */
+/* Light along paths from the eye, and how rough materials are sampled on the way. All pixels, rendered by threads: sums
+ * of samples, whose mean is the picture; they do not depend on the number of threads, to the bit. And one scene by
+ * several samplers side by side, in equal time or with equal samples: how noisy their films are, and whether they show
+ * the same. */
 #ifndef TOOLS_RENDER_FILM_H
 #define TOOLS_RENDER_FILM_H
 
-#include "render/path.h"
+#include "render/scene.h"
 #include "vndf_build.h"
+
+/* How rough materials draw directions: by normals of the library, or (perfect) as a yardstick by the BSDF itself.
+ */
+typedef enum path_sampler { SAMPLER_VISIBLE, SAMPLER_ALL, SAMPLER_PERFECT, SAMPLERS } path_sampler;
+
+extern const char *const path_sampler_names[SAMPLERS + 1]; /* NULL at the end */
+
+typedef struct path_plan path_plan;
+
+/* Resolves the materials of a scene, which must outlive the plan, with a sampler; to be freed. NULL and an error if
+ * one of them cannot have it. */
+path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error);
+
+/* Counters of one thread. */
+typedef struct path_counts {
+    uint64_t rays, lost; /* lost: paths whose light was not finite */
+} path_counts;
+
+/* The radiance of one path through pixel (x, y): path `index` of the pixel under `seed`, whichever thread asks. */
+void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
+                float rgb[3]);
+
+/* ---- films ---- */
 
 typedef struct film {
     int width, height;
@@ -70,10 +94,8 @@ typedef struct comparison {
 /* Renders the ways in turns, so that a busy machine slows all of them alike. 0 if it was stopped. */
 int comparison_run(comparison *c);
 
-/* A number for all pixels, and for all but fireflies, the worst thousandth of them. */
 typedef struct measured {
     double value, spread; /* and its standard deviation */
-    double trimmed;
 } measured;
 
 /* Of films of fewer than VERDICT_SAMPLES nothing is known: fireflies that they do not have are missing in their
@@ -102,8 +124,7 @@ typedef struct finding {
     verdict is;
 } finding;
 
-/* 0 if there is no memory. */
-int comparison_find(const comparison *c, finding found[SAMPLERS]);
+void comparison_find(const comparison *c, finding found[SAMPLERS]);
 
 /* A sheet: the films of all ways side by side, and below them the noise of each pixel, beside its light, from 1%
  * (black) to 100% (white) by its logarithm. 0 if there is no memory. */

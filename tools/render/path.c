@@ -8,7 +8,7 @@
  * costs: it takes CANDIDATES samples of visible normals and keeps one in proportion to its weight (resampling:
  * Talbot, Cline & Egbert, EGSR 2005). The weight of that is the mean of all weights, whose variance is that of
  * visible normals over CANDIDATES; no table is made, and any material has it. */
-#include "render/path.h"
+#include "render/film.h"
 
 #include <float.h>
 #include <stdlib.h>

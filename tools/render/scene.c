@@ -14,9 +14,66 @@
 #include "cli/files.h"
 #include "vndf_build.h"
 
+const char scene_grammar[] =
+    "A scene file is text: statements, each a word and then clauses - a keyword and what it takes.\n"
+    "\n"
+    "  camera from 0 1 5 to 0 0.5 0 field 35\n"
+    "  environment constant 1 1 1\n"
+    "  material red-gold conductor of gold\n"
+    "      distribution ggx alpha 0.2   # a line that begins with a blank goes on with the statement\n"
+    "  sphere centre 0 0.5 0 radius 0.5 material red-gold\n"
+    "\n"
+    "(Its lines begin two columns further left.) Clauses stand in any order, each at most once; those in\n"
+    "[ ] may be left out and have what stands in ( ) then. \"Quotes\" hold blanks, # begins a comment.\n"
+    "Images and materials are defined before they are used. Colours are linear red, green and blue; +y is\n"
+    "the zenith. Paths are relative to the scene file.\n"
+    "\n"
+    "Once in a scene; a camera and some light are needed:\n"
+    "  film width PIXELS height PIXELS (640 360)\n"
+    "  camera from X Y Z to X Y Z [up X Y Z] [field DEGREES]    of view, of the height (0 1 0, 40)\n"
+    "  integrator [depth N] [samples N] [exposure F]\n"
+    "                          surfaces on a path at most, samples a pixel, brightness of PNG (12, 64, 1)\n"
+    "  environment constant R G B | image NAME [scale F] [turn DEGREES]\n"
+    "                          light from far away; the image is longitude over latitude as seen from\n"
+    "                          inside: its top row the zenith, its middle column -z, +x at its right;\n"
+    "                          turned about y (1, 0)\n"
+    "\n"
+    "Images:\n"
+    "  image NAME file FILE.pfm\n"
+    "  image NAME pattern PATTERN [width PIXELS] [height PIXELS] (512 512)\n"
+    "      tiles, grid      16 x 16 checks, two greys; 48 x 24 black lines on white, some red\n"
+    "      studio           an environment: soft boxes in a grey room\n"
+    "\n"
+    "Materials:\n"
+    "  material NAME conductor of gold|silver|copper|aluminium ROUGH    or: eta R G B k R G B\n"
+    "  material NAME dielectric index N ROUGH           inside over outside\n"
+    "  material NAME shape ROUGH                        the microsurface alone: all is reflected\n"
+    "  material NAME matte colour R G B [colour-map IMAGE]\n"
+    "  material NAME light radiance R G B               from the front of a sphere or a rectangle\n"
+    "with for ROUGH:\n"
+    "  distribution ggx | beckmann | table FILE.vndf | family NAME:PARAMETERS | slope \"P22(r)\"\n"
+    "               | ndf \"D(c, theta, t)\"    the last three are built here, see `vndf build --help`\n"
+    "  [alpha A | alpha AX AY]                stretches the slopes; ggx and beckmann need it (1)\n"
+    "  [alpha-map IMAGE]                      alpha times the image's red, which is above 0\n"
+    "  [scattering single|multiple]           multiple: light goes on between microfacets (single)\n"
+    "  [colour R G B] [colour-map IMAGE]      multiply (1 1 1)\n"
+    "\n"
+    "Shapes. Those of dielectrics are to be closed; of others, lights too, the back is black. An image\n"
+    "stands upright on rectangles, along edge-u and edge-v; goes around spheres from +z by way of +x, its\n"
+    "top at +y; lies on meshes as vt say:\n"
+    "  sphere centre X Y Z radius R material NAME\n"
+    "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
+    "                          edges at right angles; from the front, edge-v is left of edge-u\n"
+    "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
+    "                          scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
+    "\n"
+    "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to\n"
+    "1, maps of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000.\n";
+
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
+    PATH_BYTES = 4096,
     STATEMENT_MAX = 64,               /* words */
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
@@ -287,17 +344,14 @@ static void set_three(const reader *r, const char *name, float to[3])
         to[i] = (float)c->number[i];
 }
 
-/* The path relative to the working folder, to be freed. NULL after a refusal. */
-static char *path_of(reader *r, const word *at)
+/* The path relative to the working folder. */
+static int path_of(reader *r, const word *at, char path[PATH_BYTES])
 {
     const char *slash = strrchr(r->name, '/');
-    const size_t folder = at->text[0] == '/' || !slash ? 0 : (size_t)(slash - r->name) + 1,
-                 letters = strlen(at->text);
-    char *path = letters ? malloc(folder + letters + 1) : NULL;
-    if (!path)
-        return refuse(r, at, letters ? "there is no memory for this path" : "a path is empty"), NULL;
-    memcpy(path, r->name, folder);
-    return memcpy(path + folder, at->text, letters + 1), path;
+    const int folder = at->text[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
+    const int letters = snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, at->text);
+    return (at->text[0] && letters < PATH_BYTES) ||
+           refuse(r, at, "a path has 1 to %d letters, with the folder of the scene", PATH_BYTES - 1);
 }
 
 /* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
@@ -386,13 +440,11 @@ static int read_image(reader *r)
     const int width = (int)number_of(r, "width", 512), height = (int)number_of(r, "height", 512);
     image *made = &s->images[s->image_count++];
     vndf_error error = {VNDF_OK, ""};
-    char *path = file ? path_of(r, file) : NULL;
-    if (file && !path)
+    char path[PATH_BYTES];
+    if (file && !path_of(r, file, path))
         return 0;
-    const int good =
-        path ? image_read_pfm(made, path, &error) : image_make_pattern(made, pattern->text, width, height, &error);
-    free(path);
-    if (!good)
+    if (!(file ? image_read_pfm(made, path, &error)
+               : image_make_pattern(made, pattern->text, width, height, &error)))
         return refuse(r, file ? file : pattern, "%s", error.message);
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX ||
@@ -406,13 +458,12 @@ enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 static vndf_distribution *make_table(reader *r, size_t form, const word *of, vndf_error *error)
 {
     if (form == TABLE) {
-        char *path = path_of(r, of);
-        const char *role = path ? files_note(path, 0) : NULL;
-        vndf_distribution *loaded = path && !role ? vndf_load(path, error) : NULL;
+        char path[PATH_BYTES];
+        const int is_path = path_of(r, of, path);
+        const char *role = is_path ? files_note(path, 0) : NULL;
         if (role)
             refuse_at(error, path, 0, 0, "this file is %s as well", role);
-        free(path);
-        return loaded;
+        return is_path && !role ? vndf_load(path, error) : NULL;
     }
     vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
                           : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
@@ -562,15 +613,15 @@ static int read_mesh(reader *r, int of)
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
     vndf_error error = {VNDF_OK, ""};
+    char path[PATH_BYTES];
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
-    char *path = path_of(r, file);
-    const int good = path && (obj_read(g, path, of, &error) || refuse(r, file, "%s", error.message));
-    free(path);
-    if (good)
-        geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180),
-                       vector_of(r, "move"));
-    return good;
+    if (!path_of(r, file, path))
+        return 0;
+    if (!obj_read(g, path, of, &error))
+        return refuse(r, file, "%s", error.message);
+    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
+    return 1;
 }
 
 /* ---- all of it ---- */

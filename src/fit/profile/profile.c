@@ -1,6 +1,6 @@
 /* From a source to its profile, or to the reason why it is no microsurface: panels are made, a proof looks between
  * their points, and where it finds more, panels are made anew with edges there. Then slopes and values are brought to
- * canonical scale. The public oracle is a profile without a table. */
+ * canonical scale. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -152,42 +152,22 @@ static void make_canonical(vndf_profile *profile)
 
 /* ---- the whole ---- */
 
-/* Adds edges that are closer the nearer they are to a break, where a feature may have any width. */
-static int add_break(vndf_profile *profile, double r)
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error)
 {
-    enum { SHELLS = 20 };
-    double edge[2 * SHELLS + 1] = {r};
-    for (int i = 0; i < SHELLS; i++) {
-        double beside = ldexp(r, -2 * (i + 1));
-        edge[2 * i + 1] = r - beside;
-        edge[2 * i + 2] = r + beside;
-    }
-    return add_edges(profile, edge, 2 * SHELLS + 1);
-}
-
-vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
-                                vndf_error *error)
-{
-    const vndf_resolution none = {NULL, 0, 0.0};
-    const vndf_resolution *given = resolution ? resolution : &none;
+    double octave[2 * VNDF_OCTAVES + 1];
+    for (int i = 0; i <= 2 * VNDF_OCTAVES; i++)
+        octave[i] = exp2(i - VNDF_OCTAVES);
     vndf_profile *profile = calloc(1, sizeof *profile);
-    int good = profile != NULL;
-    if (good) {
-        *profile = (vndf_profile){.source = source, .guard = guard, .sampled = given->finest};
-        profile->description = vndf_resolution_describe(given, source->description, vndf_guard_why(guard));
-        double octave[2 * VNDF_OCTAVES + 1];
-        for (int i = 0; i <= 2 * VNDF_OCTAVES; i++)
-            octave[i] = exp2(i - VNDF_OCTAVES);
+    if (profile) {
+        profile->source = source;
+        profile->guard = guard;
         profile->panel = malloc((VNDF_LIMIT_BUILD_PANELS + 1) * sizeof *profile->panel);
-        good = profile->panel && add_edges(profile, octave, 2 * VNDF_OCTAVES + 1) &&
-               add_edges(profile, source->breaks, source->break_count);
-        for (size_t i = 0; good && i < given->break_count; i++)
-            good = add_break(profile, given->breaks[i]);
     }
-    if (!good)
-        vndf_guard_starve(guard);
-    if (!vndf_guard_stopped(guard))
+    if (profile && profile->panel && add_edges(profile, octave, 2 * VNDF_OCTAVES + 1) &&
+        add_edges(profile, source->breaks, source->break_count))
         look(profile);
+    else
+        vndf_guard_starve(guard);
     if (!vndf_guard_stopped(guard))
         make_canonical(profile);
     if (vndf_guard_status(guard, error) == VNDF_OK)
@@ -202,37 +182,10 @@ void vndf_profile_free(vndf_profile *profile)
         return;
     free(profile->panel);
     free(profile->edge);
-    free(profile->description);
     free(profile);
 }
 
-/* ---- the public oracle ---- */
-
-vndf_reference *vndf_reference_from(const vndf_source *source, vndf_error *error)
+double vndf_profile_claimed(const vndf_profile *profile)
 {
-    vndf_guard guard = vndf_guard_from(NULL, NULL);
-    if (!source)
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a source is needed");
-    vndf_profile *profile = source ? vndf_profile_from(source, NULL, &guard, error) : NULL;
-    if (profile)
-        profile->guard = NULL; /* threads may ask for areas at once, so none shares a counter */
-    return profile;
-}
-
-double vndf_reference_p22(const vndf_reference *reference, double r)
-{
-    return reference ? reference->normalization * vndf_source_p22(reference->source, r) : 0.0;
-}
-
-double vndf_reference_area(const vndf_reference *reference, double theta)
-{
-    if (!reference)
-        return 0.0;
-    double s = sin(theta) * reference->scale, c = cos(theta);
-    return vndf_profile_below(reference, s, fabs(c)).below + fmax(c, 0.0);
-}
-
-void vndf_reference_free(vndf_reference *reference)
-{
-    vndf_profile_free(reference);
+    return 1e-10 * fmin(fmax(profile->scale, 1e-4), 1.0);
 }

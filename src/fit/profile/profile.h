@@ -24,20 +24,16 @@ typedef struct vndf_profile_point {
 
 /* Integrals of P r^n dr: inside the panel, before its inner edge, and beyond it. */
 typedef struct vndf_panel {
-    double r;           /* inner edge */
-    double m0, m1;      /* of P r and of P r (r - inner edge) over the panel */
-    double f0;          /* of P r before the inner edge */
-    double t0, s;       /* of P r and of P r (r - inner edge) beyond it */
-    double less, least; /* of P and of P/r^2 beyond it, by the points */
+    double r;      /* inner edge */
+    double m0, m1; /* of P r and of P r (r - inner edge) over the panel */
+    double f0;     /* of P r before the inner edge */
+    double t0, s;  /* of P r and of P r (r - inner edge) beyond it */
     vndf_profile_point point[VNDF_GAUSS];
 } vndf_panel;
 
-/* The public oracle (vndf_build.h) is a profile without a guard. */
-typedef struct vndf_reference {
+typedef struct vndf_profile {
     const vndf_source *source;
-    char *description; /* the source, and how closely the build looks at it; owned */
-    double sampled;    /* the given `finest`; 0: none */
-    vndf_guard *guard; /* of the build; NULL for an oracle that may be shared between threads */
+    vndf_guard *guard; /* of the build */
     double normalization, scale;
     size_t count;            /* of panels */
     vndf_panel *panel;       /* room for the limit of them; panel[count] is the outer end */
@@ -50,9 +46,8 @@ typedef struct vndf_reference {
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The profile keeps the
- * guard, which must live as long or be set to NULL. The resolution may be NULL and is copied. */
-vndf_profile *vndf_profile_from(const vndf_source *source, const vndf_resolution *resolution, vndf_guard *guard,
-                                vndf_error *error);
+ * guard, which must live as long. */
+vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
 /* P(R) at canonical scale; 0 once the guard has stopped the build. */
@@ -66,29 +61,6 @@ double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1);
 
 /* The points of the rule over [from, to], even in log r. */
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS]);
-
-/* sqrt(R^2 - rho^2) - rho acos(rho/R), R >= rho: the kernel of what is seen from below the horizon, times rho. With
- * v = 1 - rho/R it is (R - rho) sqrt(v) times a series of v, interpolated at Chebyshev's points; it errs by 3e-10. */
-static inline double vndf_profile_kernel(double r, double rho)
-{
-    double way = r - rho, v = way / r;
-    return way * sqrt(v) *
-           (0.942809041755102 +
-            v * (0.0471404241180448 +
-                 v * (0.00757688010954708 +
-                      v * (0.00174636513315605 +
-                           v * (0.000524695280505182 +
-                                v * (0.0000530581966426208 +
-                                     v * (0.000203962682914189 +
-                                          v * (-0.00011057126242655 + v * 0.0000561436904973098))))))));
-}
-
-/* The unit problem from (s, 0, -c), s and c >= 0: the projected area of what is visible, and its derivatives by -c and
- * by s. From (s, 0, c) the area is larger by c, and `turned` is what is missing of the derivative 1. */
-typedef struct vndf_area {
-    double below, turned, along;
-} vndf_area;
-vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c);
 
 /* The part of the area below which the certificate claims nothing: 1e-10 of the area at grazing incidence at
  * alpha = 1. In the unit problem of a narrow distribution this is a smaller part, but at least 1e-14. */
@@ -129,8 +101,8 @@ typedef struct vndf_proof {
     size_t edge_count;
 } vndf_proof;
 
-/* By bounds, for a source that has them; where they are not enough by values, as far apart as `finest` allows, which is
- * put. 0 if there is no memory or the build must end; free the edges either way. */
+/* By bounds, for a source that has them; by values of another, as far apart as profile->finest, which is put. 0 if
+ * there is no memory or the build must end; free the edges either way. */
 int vndf_proof_from(vndf_proof *proof, vndf_profile *profile);
 
 #endif

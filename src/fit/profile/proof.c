@@ -11,7 +11,7 @@ enum { PIECES_MAX = 400000, ROUNDS_MAX = 2000, SAMPLE_EDGES = 1 << 16 };
 
 static const double STRAY = 5e-6, MISS = 5e-6; /* of all: how much may stray, and how much panels may miss */
 static const double NOTHING = 1e-200;          /* a P22 that nowhere exceeds this counts as 0 */
-static const double FINEST = 1e-3;             /* the default width of features that samples find */
+static const double FINEST = 1e-3;             /* width of features that samples find, as a part of their slope */
 static const double NARROW = 4e-16;            /* of its slope: a piece that cannot be halved */
 
 /* From slope low to high: how much of the integral of P22 r^2 du may stray, and the integral by the value in the
@@ -242,14 +242,9 @@ static int sample(vndf_proof *proof, const vndf_profile *profile, double width)
 
 int vndf_proof_from(vndf_proof *proof, vndf_profile *profile)
 {
-    int bounded = profile->source->reach != NULL;
     *proof = (vndf_proof){0};
-    profile->finest = 0.0;
-    if (bounded && !prove(proof, profile))
-        return 0;
-    if (bounded && (proof->proven || proof->edge_count || profile->sampled == 0.0))
-        return 1;
-    free(proof->edge);
-    profile->finest = profile->sampled > 0.0 ? profile->sampled : FINEST;
+    profile->finest = profile->source->reach ? 0.0 : FINEST;
+    if (profile->source->reach)
+        return prove(proof, profile);
     return sample(proof, profile, profile->finest);
 }

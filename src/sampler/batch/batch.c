@@ -71,13 +71,7 @@ vndf_call vndf_call_of(const vndf_batch *b)
     return call;
 }
 
-/* What is read beside the surface, and written. */
-typedef struct arrays {
-    const float *given[3];
-    float *write[VNDF_WRITES];
-} arrays;
-
-static void run(const vndf_batch *b, vndf_task task, arrays a)
+static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
     vndf_prepared prepared;
     vndf_call call = vndf_call_of(b);
@@ -92,73 +86,52 @@ static void run(const vndf_batch *b, vndf_task task, arrays a)
     lanes->run(&call);
 }
 
-static void run_mixture(const vndf_mixture_batch *b, vndf_task task, arrays a)
-{
-    vndf_run_mixtures(b, task, a.given, a.write, NULL);
-}
-
-/* Samples; something of given normals; something of directions. */
-static arrays drawn_with(const float *u1, const float *u2, vndf_normals wm, float *pdf, float *weight)
-{
-    return (arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf, weight}};
-}
-
-static arrays given(vndf_normals wm, float *to)
-{
-    return (arrays){{wm.x, wm.y, wm.z}, {to}};
-}
-
-static arrays along(float *to)
-{
-    return (arrays){.write = {to}};
-}
-
 /* ---- surfaces ---- */
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
-    run(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, NULL));
+    run(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf, NULL}});
 }
 
 void vndf_sample_weight_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf,
                           float *weight)
 {
-    run(b, VNDF_TASK_SAMPLE, drawn_with(u1, u2, wm, pdf, weight));
+    run(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf, weight}});
 }
 
 void vndf_pdf_n(const vndf_batch *b, vndf_normals wm, float *pdf)
 {
-    run(b, VNDF_TASK_PDF, given(wm, pdf));
+    run(b, VNDF_TASK_PDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {pdf}});
 }
 
 void vndf_visible_n(const vndf_batch *b, vndf_normals wm, float *visible)
 {
-    run(b, VNDF_TASK_VISIBLE, given(wm, visible));
+    run(b, VNDF_TASK_VISIBLE, (vndf_arrays){{wm.x, wm.y, wm.z}, {visible}});
 }
 
 void vndf_invert_n(const vndf_batch *b, vndf_normals wm, float *u1, float *u2)
 {
-    run(b, VNDF_TASK_INVERT, (arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
+    run(b, VNDF_TASK_INVERT, (vndf_arrays){{wm.x, wm.y, wm.z}, {u1, u2}});
 }
 
 void vndf_ndf_n(const vndf_batch *b, vndf_normals wm, float *ndf)
 {
-    run(b, VNDF_TASK_NDF, given(wm, ndf));
+    run(b, VNDF_TASK_NDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {ndf}});
 }
 
 void vndf_projected_area_n(const vndf_batch *b, float *area)
 {
-    run(b, VNDF_TASK_AREA, along(area));
+    run(b, VNDF_TASK_AREA, (vndf_arrays){.write = {area}});
 }
 
 void vndf_lambda_n(const vndf_batch *b, float *lambda)
 {
-    run(b, VNDF_TASK_LAMBDA, along(lambda));
+    run(b, VNDF_TASK_LAMBDA, (vndf_arrays){.write = {lambda}});
 }
 
 void vndf_g1_n(const vndf_batch *b, float *g1)
 {
-    run(b, VNDF_TASK_G1, along(g1));
+    run(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}});
 }
 
 /* ---- mixtures ---- */
@@ -186,18 +159,17 @@ static vndf_mixture_view mixture_view_at(const vndf_mixture_batch *b, size_t i)
 void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
                            float *pdf, int *lobe)
 {
-    const arrays a = drawn_with(u1, u2, wm, pdf, NULL);
-    vndf_run_mixtures(b, VNDF_TASK_SAMPLE, a.given, a.write, lobe);
+    vndf_run_mixtures(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf}}, lobe);
 }
 
 void vndf_mixture_pdf_n(const vndf_mixture_batch *b, vndf_normals wm, float *pdf)
 {
-    run_mixture(b, VNDF_TASK_PDF, given(wm, pdf));
+    vndf_run_mixtures(b, VNDF_TASK_PDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {pdf}}, NULL);
 }
 
 void vndf_mixture_visible_n(const vndf_mixture_batch *b, vndf_normals wm, float *visible)
 {
-    run_mixture(b, VNDF_TASK_VISIBLE, given(wm, visible));
+    vndf_run_mixtures(b, VNDF_TASK_VISIBLE, (vndf_arrays){{wm.x, wm.y, wm.z}, {visible}}, NULL);
 }
 
 void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const int *asked, float *u1, float *u2,
@@ -214,20 +186,20 @@ void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const i
 
 void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf)
 {
-    run_mixture(b, VNDF_TASK_NDF, given(wm, ndf));
+    vndf_run_mixtures(b, VNDF_TASK_NDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {ndf}}, NULL);
 }
 
 void vndf_mixture_projected_area_n(const vndf_mixture_batch *b, float *area)
 {
-    run_mixture(b, VNDF_TASK_AREA, along(area));
+    vndf_run_mixtures(b, VNDF_TASK_AREA, (vndf_arrays){.write = {area}}, NULL);
 }
 
 void vndf_mixture_lambda_n(const vndf_mixture_batch *b, float *lambda)
 {
-    run_mixture(b, VNDF_TASK_LAMBDA, along(lambda));
+    vndf_run_mixtures(b, VNDF_TASK_LAMBDA, (vndf_arrays){.write = {lambda}}, NULL);
 }
 
 void vndf_mixture_g1_n(const vndf_mixture_batch *b, float *g1)
 {
-    run_mixture(b, VNDF_TASK_G1, along(g1));
+    vndf_run_mixtures(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}}, NULL);
 }

@@ -77,8 +77,13 @@ const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limi
 /* The surfaces and directions of a batch. */
 vndf_call vndf_call_of(const vndf_batch *batch);
 
-/* A task on mixtures: numbers u1 and u2, or a normal; results as above, and the lobes that were drawn. */
-void vndf_run_mixtures(const vndf_mixture_batch *batch, vndf_task task, const float *const given[3],
-                       float *const write[VNDF_WRITES], int *lobe);
+/* What is read beside the surface, numbers u1 and u2 or a normal, and what is written. */
+typedef struct vndf_arrays {
+    const float *given[3];
+    float *write[VNDF_WRITES];
+} vndf_arrays;
+
+/* A task on mixtures; `lobe` for the lobes that were drawn, or NULL. */
+void vndf_run_mixtures(const vndf_mixture_batch *batch, vndf_task task, vndf_arrays arrays, int *lobe);
 
 #endif

@@ -378,8 +378,9 @@ HERE unit_normal normal_at(const block *b, int g, frame f)
 }
 
 /* The drawn density, or the visible one; for closed forms they are the same. */
-HERE void density(const block *b, const vndf_kind kind, const int visible)
+HERE void density(const block *b, const vndf_kind kind)
 {
+    const int visible = b->task == VNDF_TASK_VISIBLE;
     frame at[GROUPS]; /* `determinant` and `densest` are needed to the end */
     table_direction w[GROUPS];
     unit_normal n[GROUPS];
@@ -470,8 +471,8 @@ HERE void block_of(const block *b, const vndf_kind kind)
 {
     switch (b->task) {
     case VNDF_TASK_SAMPLE: sample(b, kind); break;
-    case VNDF_TASK_PDF: density(b, kind, 0); break;
-    case VNDF_TASK_VISIBLE: density(b, kind, 1); break;
+    case VNDF_TASK_PDF:
+    case VNDF_TASK_VISIBLE: density(b, kind); break;
     case VNDF_TASK_NDF: ndf(b, kind); break;
     default: areas(b, kind);
     }

@@ -8,20 +8,15 @@
 
 enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
 
-/* The lobes of a batch as calls, and their weights. */
-typedef struct lobes {
+/* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
+ * a task found. */
+typedef struct mixed {
+    const vndf_mixture_batch *of;
     const vndf_lanes *lanes;
     vndf_call call[LOBES];
     vndf_prepared prepared[LOBES];
-    const float *weight[LOBES];
-    int count, shared_weights;
-} lobes;
-
-/* A block of mixtures: of each lobe its weight over the sum of all, its share, and what a task found. */
-typedef struct mixed {
-    const lobes *of;
     size_t first;
-    int count;
+    int lobes, count;
     float weight[LOBES][BLOCK], share[LOBES][BLOCK], value[LOBES][BLOCK];
     int weighed[BLOCK], valid[BLOCK]; /* whether weights are valid; and surfaces, where these matter */
 } mixed;
@@ -30,7 +25,7 @@ typedef struct mixed {
 static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int count, const float *const inputs[3],
                      float *const write[VNDF_WRITES])
 {
-    vndf_call call = m->of->call[l];
+    vndf_call call = m->call[l];
     for (int r = 0; r < VNDF_READ_A; r++)
         if (call.read[r] && !(call.shared >> r & 1))
             call.read[r] += m->first;
@@ -41,40 +36,41 @@ static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int c
     call.at = at;
     call.count = (size_t)count;
     if (count > 0)
-        m->of->lanes->run(&call);
+        m->lanes->run(&call);
 }
 
 static float number(const mixed *m, int l, int which, int i)
 {
-    const vndf_call *c = &m->of->call[l];
+    const vndf_call *c = &m->call[l];
     return !c->read[which] ? 0.0f : c->read[which][c->shared >> which & 1 ? 0 : m->first + (size_t)i];
 }
 
 static void set_weights(mixed *m)
 {
-    for (int l = 0; l < m->of->count; l++)
+    const int shared = m->of->shared & VNDF_SHARED_WEIGHT;
+    for (int l = 0; l < m->lobes; l++)
         for (int i = 0; i < m->count; i++)
-            m->weight[l][i] = m->of->weight[l][m->of->shared_weights ? 0 : m->first + (size_t)i];
-    vndf_weigh_lobes(m->of->count, m->count, BLOCK, m->weight[0], m->weighed);
+            m->weight[l][i] = m->of->lobe[l].weight[shared ? 0 : m->first + (size_t)i];
+    vndf_weigh_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->weighed);
 }
 
 static void set_shares(mixed *m, vndf_task area)
 {
     float is_valid[BLOCK];
-    for (int l = 0; l < m->of->count; l++) {
+    for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {m->share[l], is_valid};
         ask_lobe(m, l, area, NULL, m->count, NULL, write);
         for (int i = 0; i < m->count; i++)
             m->valid[i] &= (is_valid[i] > 0.0f) | !(m->weight[l][i] > 0.0f);
     }
-    vndf_share_lobes(m->of->count, m->count, BLOCK, m->weight[0], m->share[0]);
+    vndf_share_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->share[0]);
 }
 
 /* The sum of `by` times what a task finds, over the lobes. */
 static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3], float *sum)
 {
     memset(sum, 0, BLOCK * sizeof *sum);
-    for (int l = 0; l < m->of->count; l++) {
+    for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {m->value[l]};
         ask_lobe(m, l, task, NULL, m->count, inputs, write);
         for (int i = 0; i < m->count; i++) {
@@ -96,7 +92,7 @@ static void choose_lobes(const mixed *m, const float *u1, int *chosen, float *u)
         begin[i] = end[i] = 0.0f;
         share[i] = 1.0f;
     }
-    for (int l = 0; l < m->of->count; l++)
+    for (int l = 0; l < m->lobes; l++)
         for (int i = 0; i < m->count; i++) { /* the last one takes what rounding leaves */
             const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u[i] >= end[i]);
             chosen[i] = takes ? l : chosen[i];
@@ -119,7 +115,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[
         to[0][i] = to[1][i] = to[3][i] = 0.0f;
         to[2][i] = 1.0f;
     }
-    for (int l = 0; l < m->of->count; l++) {
+    for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {to[0], to[1], to[2], to[3]};
         int count = 0;
         for (int i = 0; i < m->count; i++) {
@@ -131,7 +127,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[
     if (!with_pdf)
         return;
     float sum[BLOCK] = {0.0f};
-    for (int l = 0; l < m->of->count; l++) {
+    for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {m->value[l]};
         int count = 0;
         for (int i = 0; i < m->count; i++) {
@@ -154,7 +150,7 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
 {
     for (int i = 0; i < m->count; i++) {
         float cosine = 0.0f;
-        for (int l = 0; l < m->of->count; l++) {
+        for (int l = 0; l < m->lobes; l++) {
             const float x = number(m, l, VNDF_READ_WI_X, i), y = number(m, l, VNDF_READ_WI_Y, i);
             const float level = x * number(m, l, VNDF_READ_MEAN_X, i) + y * number(m, l, VNDF_READ_MEAN_Y, i);
             const float part = m->weight[l][i] * (number(m, l, VNDF_READ_WI_Z, i) - level);
@@ -170,11 +166,11 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
 static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
 {
     const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
-    float first[BLOCK];
+    float first[BLOCK] = {0.0f};
     sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, to);
-    for (int l = m->of->count; task == VNDF_TASK_PDF && l-- > 0;)
+    for (int l = m->lobes; task == VNDF_TASK_PDF && l-- > 0;)
         for (int i = 0; i < m->count; i++)
-            first[i] = m->weight[l][i] > 0.0f ? m->value[l][i] : l + 1 < m->of->count ? first[i] : 0.0f;
+            first[i] = m->weight[l][i] > 0.0f ? m->value[l][i] : first[i];
     for (int i = 0; task == VNDF_TASK_PDF && i < m->count; i++)
         to[i] = first[i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
     for (int i = 0; i < m->count; i++)
@@ -185,44 +181,48 @@ static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3],
         to[i] = m->valid[i] ? to[i] : 0.0f;
 }
 
-void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, const float *const inputs[3],
-                       float *const write[VNDF_WRITES], int *lobe)
+/* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
+static void set_lobes(mixed *m, const vndf_mixture_batch *b)
 {
-    lobes of = {.count = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0,
-                .shared_weights = b->shared & VNDF_SHARED_WEIGHT};
-    mixed m = {.of = &of};
-    float to[4][BLOCK];
-    int chosen[BLOCK], complete = 1;
-    for (int l = 0; l < of.count; l++)
-        complete &= b->lobe[l].distribution != NULL;
-    of.lanes = complete ? vndf_lanes_for(b->count, 0, b->limit) : &vndf_one_by_one;
-    for (int l = 0; l < of.count; l++) {
+    m->of = b;
+    m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
+    m->lanes = vndf_lanes_for(b->count, 0, b->limit);
+    for (int l = 0; l < m->lobes; l++)
+        m->lanes = b->lobe[l].distribution ? m->lanes : &vndf_one_by_one;
+    for (int l = 0; l < m->lobes; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
         const vndf_batch surface = {a->distribution, b->count, b->shared, b->limit, a->xx,     a->yy,    b->wi_x,
                                     b->wi_y,         b->wi_z,  a->xy,     a->yx,    a->mean_x, a->mean_y};
-        of.call[l] = vndf_call_of(&surface);
-        of.call[l].diagonal = 0;
-        of.call[l].prepared = &of.prepared[l];
-        of.weight[l] = a->weight;
-        of.lanes->prepare(a->distribution, &of.prepared[l]);
+        m->call[l] = vndf_call_of(&surface);
+        m->call[l].diagonal = 0;
+        m->call[l].prepared = &m->prepared[l];
+        m->lanes->prepare(a->distribution, &m->prepared[l]);
     }
+}
+
+void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays a, int *lobe)
+{
+    mixed m; /* large: nothing of it is set but what is read */
+    float to[4][BLOCK];
+    int chosen[BLOCK];
+    set_lobes(&m, b);
     for (m.first = 0; m.first < b->count; m.first += BLOCK) {
-        const float *here[3] = {NULL};
+        const float *here[3];
         m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
         for (int i = 0; i < 3; i++)
-            here[i] = inputs && inputs[i] ? inputs[i] + m.first : NULL;
-        if (m.first == 0 || !of.shared_weights)
+            here[i] = a.given[i] ? a.given[i] + m.first : NULL;
+        if (m.first == 0 || !(b->shared & VNDF_SHARED_WEIGHT))
             set_weights(&m);
-        memcpy(m.valid, m.weighed, sizeof m.valid);
+        memcpy(m.valid, m.weighed, (size_t)m.count * sizeof(int));
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
         if (task == VNDF_TASK_SAMPLE)
-            sample_mixtures(&m, here, to, chosen, write[3] != NULL);
+            sample_mixtures(&m, here, to, chosen, a.write[3] != NULL);
         else
             sum_mixtures(&m, task, here, to[0]);
         for (int w = 0; w < 4; w++)
-            if (write[w])
-                memcpy(write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
+            if (a.write[w])
+                memcpy(a.write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
         if (lobe)
             memcpy(lobe + m.first, chosen, (size_t)m.count * sizeof(int));
     }

@@ -1,11 +1,10 @@
-/* Bins over the hemisphere of normals that see the lobe, however narrow or far from the pole it is.
+/* Chi-square of normals against a density of normals, whatever it is, over all that face a direction.
  *
- * A normal wm is taken to the hemisphere stretched by (sx, sy): m' ~ (wm.x/sx, wm.y/sy, wm.z), which
- * divides its slopes by sx, sy and so undoes the roughness; (sx, sy) is (alpha_x, alpha_y) times the
- * median stretched slope. The bins are the product of 65 intervals of theta' in [0, 90] degrees and 130
- * of the azimuth phi' in [-180, 180] degrees from the incident direction. Half of the borders of each are
- * even, the other half are quantiles, so that half of the bins lie where the normals do. Median and quantiles
- * are those of 2001 visible normals drawn apart from those that are tested; the bins cover the hemisphere
+ * The frame is an affine image of the slopes, in polar form (R, a) about the direction, where the median slope is about
+ * 1: there the roughness is undone, and at a given R the normals that are seen are those with |a| < A(R). The bins are
+ * the product of intervals of R from 0 to infinity and of even intervals of a/A from -1 to 1, so that no border cuts
+ * one. Half of the borders of R are even in atan(R), the other half are quantiles, so that half of the bins lie where
+ * the normals do. Quantiles are those of normals drawn apart from those that are tested; the bins hold all normals
  * whatever they are. */
 #ifndef TOOLS_EVIDENCE_MEASURE_BINS_H
 #define TOOLS_EVIDENCE_MEASURE_BINS_H
@@ -13,28 +12,46 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "evidence/measure/statistics.h"
 #include "vndf.h"
 
-enum { BINS_THETA = 65, BINS_PHI = 130, BINS_COUNT = BINS_THETA * BINS_PHI };
+typedef struct bins_frame {
+    double xx, xy, yx, yy, mean_x, mean_y, det; /* slope = M (R cos, R sin) + mean, after a turn by (x, y) */
+    double s, c, x, y;                          /* the direction in it: (s, 0, c) */
+} bins_frame;
 
-typedef struct bin_map {
-    double stretch_x, stretch_y;
-    double centre;                /* azimuth of the incident direction in the stretched hemisphere */
-    double slope[BINS_THETA + 1]; /* borders: tan(theta'), ascending from 0 to infinity */
-    double phi[BINS_PHI + 1];     /* radians, ascending */
-} bin_map;
+/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi. */
+bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi);
 
-/* Bins for the visible normals of one view; seed starts the pilot samples. */
-bin_map bins_for(const vndf_surface *surface, vndf_vec3 wi, uint64_t seed);
+/* The normal where its slopes are over the matrix, unit, turned to wi. */
+void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3]);
 
-/* The bin of a normal, 0 to BINS_COUNT - 1: rows of constant theta', phi' ascending within a row. */
-size_t bins_place(const bin_map *map, vndf_vec3 wm);
+/* What draws normals, and the density that they should have. */
+typedef struct bins_sampler {
+    bins_frame frame;
+    vndf_vec3 (*draw)(const void *of, float u1, float u2, float *pdf);
+    float (*pdf)(const void *of, vndf_vec3 wm);
+    const void *of;
+} bins_sampler;
 
-/* The integral of vndf_pdf over each bin, to 1e-4 of it or 1e-9, whichever is larger, where the density is
- * continuous. The sum over all bins is within 2e-6 of 1 for a density whose integral is 1, jumps and narrow
- * peaks included. test_bins measures both. Returns by how much rounding of normals and densities may
- * move that sum: next to nothing but for rings so narrow that floats hardly tell slopes in them apart. */
-double bins_integrate(const bin_map *map, const vndf_surface *surface, vndf_vec3 wi,
+enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTORS };
+
+typedef struct bins_result {
+    pearson found;
+    double mass, rounding; /* the integral of the density, and by how much one rounding of normals may move it */
+    size_t unseen;         /* samples whose density is not a positive float */
+} bins_result;
+
+bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
+
+/* Its parts: borders of R, ascending; the bin of a normal, ring by ring; and the integral of the density over each bin,
+ * to 1e-4 of it or 1e-9, whichever is larger, where the density is continuous. The sum over all bins is within 2e-6 of
+ * 1 for a density whose integral is 1, jumps and narrow peaks included. test_bins measures both. Returns by how much
+ * rounding of normals and densities may move that sum: next to nothing but for rings so narrow that floats hardly tell
+ * slopes in them apart. */
+void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1]);
+size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
+double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
                       double probability[BINS_COUNT]);
 
 /* For bins of other kinds: borders, in no order yet, of which every other is even between low and high and the rest are

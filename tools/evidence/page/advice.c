@@ -132,5 +132,10 @@ int report_advice(html_page *page, const report *r)
         add_rows(&t, r, &r->subject[i], r->chosen[i]);
     }
     fputs("</div>\n", page->html);
-    return table_print_html(page->html, &t) && page_data(page, "tables.csv", "all tables", t);
+    FILE *data = table_print_html(page->html, &t) ? page_file(page, "tables.csv") : NULL;
+    const int good = data && table_print(data, &t, FIGURES_CSV);
+    table_free(&t);
+    if (good)
+        page_link(page, "all tables");
+    return good;
 }

@@ -6,6 +6,7 @@
 #define TOOLS_EVIDENCE_PAGE_REPORT_H
 
 #include "draw/page.h"
+#include "draw/table.h"
 #include "evidence/evidence.h"
 
 enum { REPORT_SUBJECTS = 4 };

@@ -1,14 +1,11 @@
 /* What exported normals cost on an NVIDIA GPU, and whether all of them are good there:
  *
  *     two="$TABLES/student-t-2.5-small.vndf $TABLES/student-t-2.5.vndf"
- *     vndf export --language cuda --distribution ggx --prefix ggx -o ggx.cuh
- *     vndf export --language cuda --distribution beckmann --prefix beckmann -o beckmann.cuh
- *     vndf export $two --language cuda --distribution table --lobes 2 --prefix table --buffer table.f32 -o table.cuh
- *     vndf export $two --language cuda --distribution table --prefix embedded -o embedded.cuh
- *     effects="lobes=both fresnel=dielectric"
- *     vndf export $two --language cuda --bsdf "$effects" --prefix glass --buffer glass.f32 -o glass.cuh
+ *     vndf export $two --language cuda --lobes 2 --prefix normals --buffer normals.f32 -o normals.cuh
+ *     vndf export $two --language cuda --prefix embedded -o embedded.cuh
+ *     vndf export $two --language cuda --bsdf both --fresnel dielectric --prefix glass --buffer glass.f32 -o glass.cuh
  *     nvcc -O3 -arch=native -I. gpu.cu -o gpu
- *     ./gpu table.f32
+ *     ./gpu normals.f32
  *
  * Every thread draws its own directions, of the upper hemisphere, its own roughness, 0.05 to 1 on both axes, and its
  * own uniform numbers, so that neighbours share nothing: the hard case of a path tracer after its first bounce. A row is a
@@ -19,11 +16,9 @@
 #include <cstdlib>
 #include <vector>
 
-#include "beckmann.cuh"
 #include "embedded.cuh"
-#include "ggx.cuh"
 #include "glass.cuh"
-#include "table.cuh"
+#include "normals.cuh"
 
 enum { THREADS = 1 << 20, EACH = 64, ROUNDS = 15 };
 
@@ -71,30 +66,13 @@ struct caps { /* by hand: GGX's spherical caps (Dupuy and Benyoub 2023) */
     }
 };
 
-struct ggx {
-    static __device__ answer draw(const float *, asked q)
-    {
-        const ggx_view v = ggx_view_of(ggx_surface_of(GGX_GGX, q.alpha_x, q.alpha_y), q.wi);
-        const ggx_sampled s = ggx_sample(v, q.u.x, q.u.y);
-        return judged(q.wi, s.wm, s.pdf);
-    }
-};
-
-struct beckmann {
-    static __device__ answer draw(const float *, asked q)
-    {
-        const beckmann_view v =
-            beckmann_view_of(beckmann_surface_of(BECKMANN_BECKMANN, q.alpha_x, q.alpha_y), q.wi);
-        const beckmann_sampled s = beckmann_sample(v, q.u.x, q.u.y);
-        return judged(q.wi, s.wm, s.pdf);
-    }
-};
-
-template <int BASE> struct table {
+/* A distribution that the compiler knows, so that the others leave no code. */
+template <int DISTRIBUTION> struct normals {
     static __device__ answer draw(const float *numbers, asked q)
     {
-        const table_view v = table_view_of(numbers, table_surface_of(BASE, q.alpha_x, q.alpha_y), q.wi);
-        const table_sampled s = table_sample(numbers, v, q.u.x, q.u.y);
+        const normals_view v =
+            normals_view_of(numbers, normals_surface_of(DISTRIBUTION, q.alpha_x, q.alpha_y), q.wi);
+        const normals_sampled s = normals_sample(numbers, v, q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }
 };
@@ -112,12 +90,12 @@ struct embedded {
 struct two_tables {
     static __device__ answer draw(const float *numbers, asked q)
     {
-        table_mixture m = {2};
-        m.lobe[0] = table_surface_of(TABLE_STUDENT_T_2_5, q.alpha_x, q.alpha_y);
-        m.lobe[1] = table_surface_of(TABLE_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y);
+        normals_mixture m = {2};
+        m.lobe[0] = normals_surface_of(NORMALS_STUDENT_T_2_5, q.alpha_x, q.alpha_y);
+        m.lobe[1] = normals_surface_of(NORMALS_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y);
         m.weight[0] = 0.6f;
         m.weight[1] = 0.4f;
-        const table_mixed s = table_mixture_sample(numbers, table_mixture_view_of(numbers, m, q.wi), q.u.x, q.u.y);
+        const normals_mixed s = normals_mixture_sample(numbers, normals_mixture_view_of(numbers, m, q.wi), q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }
 };
@@ -184,17 +162,17 @@ int main(int argc, char **argv)
     static float host[1 << 16];
     FILE *file = argc == 2 ? fopen(argv[1], "rb") : nullptr;
     if (!file) {
-        fprintf(stderr, "usage: gpu NUMBERS, those that `vndf export --buffer` wrote for table.cuh\n");
+        fprintf(stderr, "usage: gpu NUMBERS, those that `vndf export --buffer` wrote for normals.cuh\n");
         return 2;
     }
     const size_t count = fread(host, sizeof *host, 1 << 16, file);
     fclose(file);
     row rows[] = {{"random numbers", run<nothing>},
                   {"GGX, caps by hand", run<caps>},
-                  {"GGX", run<ggx>},
-                  {"Beckmann", run<beckmann>},
-                  {"table of 2 KiB", run<table<TABLE_STUDENT_T_2_5_SMALL>>},
-                  {"table of 3 KiB", run<table<TABLE_STUDENT_T_2_5>>},
+                  {"GGX", run<normals<NORMALS_GGX>>},
+                  {"Beckmann", run<normals<NORMALS_BECKMANN>>},
+                  {"table of 2 KiB", run<normals<NORMALS_STUDENT_T_2_5_SMALL>>},
+                  {"table of 3 KiB", run<normals<NORMALS_STUDENT_T_2_5>>},
                   {"2 KiB, embedded", run<embedded>},
                   {"two tables", run<two_tables>},
                   {"glass, 2 KiB", run<glass>}};

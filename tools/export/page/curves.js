@@ -3,7 +3,7 @@
 const POINTS = 256, DECADES = 6;
 
 function measureCurve(surface, last) {
-  use(programs.curve, {...surface, size: [POINTS, 1], last: last * Math.PI / 180});
+  use(programs.curve, {...surface, size: [POINTS, 1], last: radians(last)});
   fill(targets.curve);
   return readTarget(targets.curve, 0).filter((_, i) => i % 4 === 0);
 }

@@ -16,7 +16,7 @@ const darkness = matchMedia("(prefers-color-scheme: dark)");
 const theme = () => darkness.matches ? "dark" : "light";
 
 function incidentNow() {
-  const angle = settings.theta * Math.PI / 180;
+  const angle = radians(settings.theta);
   return [Math.sin(angle), 0, Math.cos(angle)];
 }
 
@@ -64,7 +64,7 @@ function scaleOf(...says) {
 }
 
 function drawDisc(canvas, surface, edge, scale) {
-  const size = pixelsOf(canvas), rim = Math.sin(edge * Math.PI / 360);
+  const size = pixelsOf(canvas), rim = Math.sin(radians(edge) / 2);
   const tells = {...surface, incident: incidentNow(), size: [size, size], rim, ...scale, seed: 1,
                  width: size / Math.max(canvas.clientWidth, 1) * 4, stops: RAMPS[theme()].flat().map((v) => v / 255),
                  edge_colour: Array(3).fill(MARKS[theme()].edge)};
@@ -82,8 +82,8 @@ function drawDisc(canvas, surface, edge, scale) {
 
 // Rings at angles, and where the light comes from.
 function drawMarks(context, size, edge) {
-  const half = size / 2, rim = Math.sin(edge * Math.PI / 360), colours = MARKS[theme()];
-  const radius = (degrees) => half * Math.sin(degrees * Math.PI / 360) / rim;
+  const half = size / 2, rim = Math.sin(radians(edge) / 2), colours = MARKS[theme()];
+  const radius = (degrees) => half * Math.sin(radians(degrees) / 2) / rim;
   const label = (text, x, y) => {
     context.strokeText(text, x, y);
     context.fillText(text, x, y);

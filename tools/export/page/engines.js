@@ -3,12 +3,12 @@
 const CUBE = 128; // texels along a side of the environment
 const TAPS = {levels: 8, count: 32};
 
-// Two pictures each of a scene, which are drawn and shown as spheres are.
-const scenes = byId("engines") ? ["area", "sky"].map((name) => ({
-  name,
-  pictures: ["pass", "samples"].map((way) => ({canvas: byId(`${name}-${way}`), targets: [], drawn: 0, size: 0,
-    program: "engines", tells: {is_floor: name === "area", in_one_pass: way === "pass"}})),
-})) : [];
+// Two pictures of a floor under a rectangle of light, and of a sphere in the light around it without its lamp.
+const ON_FLOOR = {is_floor: true, light: 4, shine: [4, 3.8, 3.4],
+                  eye: [0, -2.6, 1.3], target: [0, 0.7, 0.3], up: [0, 0, 1], wide_angle: 0.5};
+const scenes = byId("engines") ? ["area", "sky"].map((name) => ({name, pictures: ["pass", "samples"].map((way) =>
+  makePicture(`${name}-${way}`, way === "pass" ? "engines" : "sphere", {is_engine: true,
+    ...name === "area" ? ON_FLOOR : {shine: [0, 0, 0], wide_angle: 0.215}}))})) : [];
 
 let bakedTables; // by distribution: textures, made when they are first needed
 let cube;
@@ -41,37 +41,35 @@ function drawCube(light) {
   gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
   for (let face = 0; face < 6; face++) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, cube.buffer);
-    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, cube.texture, 0);
-    use(programs.cube, {face, light, around: settings.around * Math.PI / 180, size: [CUBE, CUBE]});
+    gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, cube.texture,
+                            0);
+    use(programs.cube, {face, light, around: radians(settings.around), size: [CUBE, CUBE]});
     fill(cube);
   }
   gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube.texture);
   gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
 }
 
-// Adds so many samples to each pixel, and shows what they say.
-function drawEngines(frames) {
+function drawEngines(samples) {
   const light = LIGHTS.indexOf(settings.light), alpha = surfaceOf(settings.a).alpha[0];
   const surface = {...surfaceOf(settings.a), alpha: [alpha, alpha], turn: 0, roughness: Math.min(Math.sqrt(alpha), 1)};
   for (const {name, pictures} of scenes) {
-    for (const picture of pictures) fitSphere(picture, pixelsOf(picture.canvas));
+    pictures.forEach(fitPicture);
     if (pictures[0].drawn >= ENOUGH) continue;
     bakedTables = bakedTables || unpackTables();
     if (pictures[0].drawn === 0 && name === "sky") drawCube(light);
     const from = bakedTables.get(settings.engine === "own" ? settings.a : -1);
-    for (const picture of pictures) {
-      for (let i = 0; i < frames; i++) refineSphere(picture, {...surface, ...from, wide: [5, cube && cube.texture]});
-      showSphere(picture);
-    }
+    for (const picture of pictures)
+      refinePicture(picture, {...surface, ...from, wide: [5, cube && cube.texture]}, samples);
     showDifference(name, pictures);
   }
 }
 
-function differenceOf([pass, samples]) {
-  const [a, b] = [pass, samples].map((picture) => readTarget(picture.targets[picture.drawn % 2], 0));
+function differenceOf(pictures) {
+  const [a, b] = pictures.map((picture) => readTarget(sumsOf(picture), 0));
   let off = 0, squares = 0, sum = 0, count = 0;
   for (let i = 0; i < a.length; i += 4) {
-    const [x, y] = [a, b].map((v) => (0.2126 * v[i] + 0.7152 * v[i + 1] + 0.0722 * v[i + 2]) / v[i + 3]);
+    const x = luminance(a, i), y = luminance(b, i);
     if (y === 0 && x === 0) continue;
     off += (x - y) * (x - y);
     squares += y * y;
@@ -82,11 +80,11 @@ function differenceOf([pass, samples]) {
 }
 
 function showDifference(name, pictures) {
-  const {mean, error} = differenceOf(pictures), [passes, samples] = pictures.map((p) => [1, p.targets[p.drawn % 2].textures[0]]);
-  const canvas = byId(`${name}-difference`), size = pictures[0].size;
-  use(programs.difference, {passes, samples: [2, samples[1]], mean, back: Array(3).fill(theme() === "dark" ? 0.1 : 1)});
+  const {mean, error} = differenceOf(pictures), {size} = pictures[0];
+  const [passes, samples] = pictures.map((picture, i) => [1 + i, sumsOf(picture).textures[0]]);
+  use(programs.difference, {passes, samples, mean, back: Array(3).fill(theme() === "dark" ? 0.1 : 1)});
   fill({width: size, height: size});
-  copyTo(canvas, size);
+  copyTo(byId(`${name}-difference`), size);
   byId(`${name}-says`).textContent = `One pass is off by ${(100 * error).toFixed(1)} %`;
   byId(`${name}-says`).title = "the root of the mean square of the difference, over that of the light";
   pictures.error = error;

@@ -1,7 +1,9 @@
-// What surfaces are lit by, y up: a wide part, and a lamp that is a cap of directions; and what spheres share with what
-// engines make of them.
+// What surfaces are lit by: a wide part, and a lamp, which is a cap of directions, or a rectangle that stands behind a
+// floor; what they reflect; and frames on them. y is up, but on a floor, where z is.
 
-uniform int light;   // 0 sky, 1 studio, 2 lamp in the dark, 3 white room
+uniform int light;   // 0 sky, 1 studio, 2 lamp in the dark, 3 white room, 4 nothing but the lamp
+uniform bool is_floor;
+uniform bool is_engine; // it is compared with what engines make of it
 uniform vec4 lamp;   // its axis, and the cosine at its edge
 uniform vec3 shine;  // its radiance
 uniform float around; // by which the light is turned about y, radians
@@ -57,22 +59,35 @@ vec3 wide_light(vec3 direction) {
     if (light == 1) {
         return studio(d);
     }
-    if (light == 3) {
-        return vec3(1.0);
+    if (light >= 3) {
+        return vec3(light == 3 ? 1.0 : 0.0);
     }
     return mix(vec3(0.02), vec3(0.06, 0.065, 0.08), smoothstep(-0.6, 0.9, d.y));
 }
 
-bool hits_lamp(vec3 d) {
-    return dot(d, lamp.xyz) > lamp.w;
+const vec3 CORNER = vec3(-1.1, 1.6, 0.25); // of the rectangle
+const vec2 SIDES = vec2(2.2, 1.1);         // along x and z
+
+// The distance at which a ray meets the rectangle, 0: nowhere.
+float rectangle_at(vec3 from, vec3 d) {
+    float t = (CORNER.y - from.y) / d.y;
+    vec2 p = (from + t * d - CORNER).xz / SIDES;
+    return t > 0.0 && all(greaterThan(p, vec2(0.0))) && all(lessThan(p, vec2(1.0))) ? t : 0.0;
 }
 
-// Per steradian.
-float lamp_density() {
-    return 1.0 / (2.0 * PI * (1.0 - lamp.w));
+// Per steradian, of lamp_direction; 0 where a direction misses the lamp.
+float lamp_density(vec3 from, vec3 d) {
+    if (is_floor) {
+        float t = rectangle_at(from, d);
+        return t * t / (abs(d.y) * SIDES.x * SIDES.y);
+    }
+    return dot(d, lamp.xyz) > lamp.w ? 1.0 / (2.0 * PI * (1.0 - lamp.w)) : 0.0;
 }
 
-vec3 lamp_direction(vec2 u) {
+vec3 lamp_direction(vec3 from, vec2 u) {
+    if (is_floor) {
+        return normalize(CORNER + vec3(u.x * SIDES.x, 0.0, u.y * SIDES.y) - from);
+    }
     float z = mix(lamp.w, 1.0, u.x);
     float r = sqrt(max(1.0 - z * z, 0.0));
     vec3 side = normalize(cross(lamp.xyz, abs(lamp.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0)));
@@ -81,14 +96,14 @@ vec3 lamp_direction(vec2 u) {
 
 uniform int material; // 0 gold, 1 copper, 2 silver, 3 red plastic, 4 black plastic, 5 glass
 
-// What a metal reflects of light from straight above.
+// What is reflected of light from straight above.
 vec3 front_colour() {
-    vec3 front = vec3(0.972, 0.96, 0.915);
-    front = material == 0 ? vec3(1.022, 0.782, 0.344) : front;
-    return material == 1 ? vec3(0.955, 0.638, 0.538) : front;
+    vec3 front = material == 0 ? vec3(1.022, 0.782, 0.344) : vec3(0.972, 0.96, 0.915);
+    front = material == 1 ? vec3(0.955, 0.638, 0.538) : front;
+    return material >= 3 ? vec3(0.04) : front;
 }
 
-// A direction in the frame of a point of a surface: its normal is z, and x runs around the sphere.
+// The axes at a point of a surface, whose normal is z.
 struct frame {
     vec3 x, y, z;
 };

@@ -1,8 +1,7 @@
 // ---- the page -------------------------------------------------------------------------------------
 
 let tables, programs, targets;
-const spheres = ["a", "b"].map((name) => ({name, canvas: byId(`sphere-${name}`), targets: [], drawn: 0, size: 0,
-  program: "sphere", tells: {}}));
+const spheres = ["a", "b"].map((name) => ({name, ...makePicture(`sphere-${name}`, "sphere", {})}));
 let says = {}; // what was measured
 let stale = true;
 
@@ -12,18 +11,19 @@ const pixelsOf = (canvas) =>
 
 function makePage() {
   openGl();
-  const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"];
+  const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"], lit = [...sampling, "light.glsl"];
   programs = {show: makeProgram(screen, ["show.glsl"]),
-              sphere: makeProgram(screen, [...sampling, "light.glsl", "sphere.glsl"]),
+              sphere: makeProgram(screen, [...lit, "sphere.glsl", "pixels.glsl"]),
               dots: makeProgram([...sampling, "dots.vert.glsl"], ["dots.glsl"])};
   for (const name of ["heat", "samples", "integral", "curve"])
     programs[name] = makeProgram(screen, [...sampling, `${name}.glsl`]);
   if (scenes.length > 0) {
-    programs.engines = makeProgram(screen, [...sampling, "light.glsl", "engines.glsl"]);
-    programs.cube = makeProgram(screen, ["kernel", "surface.glsl", "light.glsl", "cube.glsl"]);
+    programs.engines = makeProgram(screen, [...lit, "engines.glsl", "pixels.glsl"]);
+    programs.cube = makeProgram(screen, [...lit, "cube.glsl"]);
     programs.difference = makeProgram(screen, ["difference.glsl"]);
   }
-  targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1), curve: makeTarget(POINTS, 1, 1)};
+  targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1),
+             curve: makeTarget(POINTS, 1, 1)};
   tables = tableTexture();
 }
 
@@ -54,11 +54,9 @@ function drawStill() {
 // A fresh picture begins with as many samples as the address asks for; each later frame adds one.
 function drawSpheres() {
   for (const sphere of spheres) {
-    fitSphere(sphere, pixelsOf(sphere.canvas));
-    if (sphere.drawn >= ENOUGH) continue;
-    const samples = sphere.drawn === 0 ? Math.max(settings.frames, 1) : 1;
-    for (let i = 0; i < samples; i++) refineSphere(sphere, surfaceOf(settings[sphere.name]));
-    showSphere(sphere);
+    fitPicture(sphere);
+    if (sphere.drawn < ENOUGH)
+      refinePicture(sphere, surfaceOf(settings[sphere.name]), sphere.drawn === 0 ? Math.max(settings.frames, 1) : 1);
   }
 }
 

@@ -10,6 +10,7 @@ const settings = {a: 0, b: -1, alpha: [0.2, 0.2], turn: 0, theta: 60, material: 
 const alphaAt = (place) => LEAST_ALPHA * Math.pow(1 / LEAST_ALPHA, place);
 const placeOf = (alpha) => Math.log(alpha / LEAST_ALPHA) / Math.log(1 / LEAST_ALPHA);
 const rounded = (x) => Number(x.toPrecision(3)); // two digits are wider apart than the steps of a slider
+const radians = (degrees) => degrees * Math.PI / 180;
 const clamped = (x, low, high) => Math.min(Math.max(x, low), high);
 
 // Distributions by name: what stands in the menus.
@@ -17,31 +18,29 @@ const choices = new Map([...byId("choice-a").options].map((o) => [o.textContent.
 const optionOf = (distribution) => [...byId("choice-a").options].find((o) => Number(o.value) === distribution);
 const nameOf = (distribution) => optionOf(distribution).textContent;
 
-// What a link says; words that are not understood change nothing.
+// How settings stand in the address; words that are not understood change nothing.
+const number = (low, high) => ({write: String, read: (text, otherwise) =>
+  text !== "" && Number.isFinite(Number(text)) ? clamped(Number(text), low, high) : otherwise});
+const oneOf = (words) => ({write: String, read: (text, otherwise) => words.includes(text) ? text : otherwise});
+const tick = {write: Number, read: (text) => text === "1"};
+const menu = {write: nameOf, read: (text, otherwise) => choices.get(text.toLowerCase()) ?? otherwise};
+const alphas = {write: String, read: (text, otherwise) => {
+  const [x, y = x] = text.split(",");
+  return [x, y].map((text, i) => number(LEAST_ALPHA, 1).read(text, otherwise[i]));
+}};
+const IN_ADDRESS = {a: menu, b: menu, alpha: alphas, turn: number(-90, 90), theta: number(0, 89),
+                    around: {...number(-360, 360), write: Math.round}, material: oneOf(MATERIALS), light: oneOf(LIGHTS),
+                    median: tick, whole: tick, dots: tick, engine: oneOf(["own", "ggx"]), frames: number(0, 4096)};
+
 function readAddress() {
-  const number = (text, low, high, otherwise) =>
-    text !== "" && Number.isFinite(Number(text)) ? clamped(Number(text), low, high) : otherwise;
-  const ends = {turn: [-90, 90], theta: [0, 89], around: [-360, 360], frames: [0, 4096]};
-  for (const [name, text] of new URLSearchParams(location.hash.slice(1))) {
-    if (name in ends) settings[name] = number(text, ...ends[name], settings[name]);
-    if ("ab".includes(name) && choices.has(text.toLowerCase())) settings[name] = choices.get(text.toLowerCase());
-    if (["median", "whole", "dots"].includes(name)) settings[name] = name === "dots" ? text !== "0" : text === "1";
-    if ({material: MATERIALS, light: LIGHTS}[name]?.includes(text)) settings[name] = text;
-    if (name === "engine") settings.engine = text === "ggx" ? "-1" : "own";
-    if (name === "alpha") {
-      const [x, y = x] = text.split(",");
-      settings.alpha = [x, y].map((text, i) => number(text, LEAST_ALPHA, 1, settings.alpha[i]));
-      settings.tied = settings.alpha[0] === settings.alpha[1];
-    }
-  }
+  for (const [name, text] of new URLSearchParams(location.hash.slice(1)))
+    if (name in IN_ADDRESS) settings[name] = IN_ADDRESS[name].read(text, settings[name]);
+  settings.tied = settings.alpha[0] === settings.alpha[1];
 }
 
 function writeAddress() {
-  const {a, b, alpha, turn, theta, around, material, light, median, whole, dots, engine} = settings;
-  const words = {a: nameOf(a), b: nameOf(b), alpha: alpha.join(","), turn, theta, around: Math.round(around), material,
-                 light, median: Number(median), whole: Number(whole), dots: Number(dots),
-                 engine: engine === "own" ? engine : "ggx"};
-  const text = Object.entries(words).map(([name, value]) => `${name}=${encodeURIComponent(value)}`).join("&");
+  const text = Object.entries(IN_ADDRESS).filter(([name]) => name !== "frames")
+    .map(([name, {write}]) => `${name}=${encodeURIComponent(write(settings[name]))}`).join("&");
   try {
     history.replaceState(null, "", "#" + text.replace(/%2C/g, ","));
   } catch {
@@ -49,43 +48,41 @@ function writeAddress() {
   }
 }
 
+// What has one control: a slider with its degrees beside it, a menu or a tick.
+const controls = ["a", "b", "turn", "theta", "material", "light", "tied", "median", "whole", "dots", "engine"]
+  .map((name) => [name, byId(name) || byId(`choice-${name}`)]).filter(([, control]) => control);
+
 function showSettings() {
   for (const i of [0, 1]) {
     byId(`alpha-${"xy"[i]}`).value = placeOf(settings.alpha[i]);
     byId(`alpha-${"xy"[i]}-says`).textContent = settings.alpha[i].toPrecision(3);
   }
-  for (const name of ["turn", "theta"]) {
-    byId(name).value = settings[name];
-    byId(`${name}-says`).textContent = `${settings[name]}°`;
+  for (const [name, control] of controls) {
+    control[control.type === "checkbox" ? "checked" : "value"] = settings[name];
+    if (control.type === "range") byId(`${name}-says`).textContent = `${settings[name]}°`;
   }
-  for (const name of ["material", "light"]) byId(name).value = settings[name];
-  if (byId("baked-for")) byId("baked-for").value = settings.engine;
-  for (const name of ["tied", "median", "whole", "dots"]) byId(name).checked = settings[name];
-  for (const name of ["a", "b"]) byId(`choice-${name}`).value = settings[name];
 }
 
 // `changed` is called with whether the spheres are to be drawn anew.
 function listen(changed) {
-  const on = (id, spheres, set) => byId(id).addEventListener("input", ({target}) => {
-    set(target);
-    if (settings.tied) settings.alpha[id === "alpha-y" ? 0 : 1] = settings.alpha[id === "alpha-y" ? 1 : 0];
+  const on = (control, anew, set) => control.addEventListener("input", () => {
+    set(control);
+    const leads = control.id === "alpha-y" ? 1 : 0;
+    if (settings.tied) settings.alpha[1 - leads] = settings.alpha[leads];
     showSettings();
-    changed(spheres);
+    changed(anew);
   });
-  for (const i of [0, 1]) {
-    on(`alpha-${"xy"[i]}`, true, ({value}) => { settings.alpha[i] = rounded(alphaAt(Number(value))); });
-    on(`choice-${"ab"[i]}`, true, ({value}) => { settings["ab"[i]] = Number(value); });
-  }
-  for (const name of ["tied", "median", "whole", "dots"])
-    on(name, name === "tied" || name === "median", ({checked}) => { settings[name] = checked; });
-  for (const name of ["turn", "theta"]) on(name, name === "turn", ({value}) => { settings[name] = Number(value); });
-  if (byId("baked-for")) on("baked-for", true, ({value}) => { settings.engine = value; });
-  for (const name of ["material", "light"]) on(name, true, ({value}) => { settings[name] = value; });
+  for (const i of [0, 1])
+    on(byId(`alpha-${"xy"[i]}`), true, ({value}) => { settings.alpha[i] = rounded(alphaAt(Number(value))); });
+  for (const [name, control] of controls)
+    on(control, !["theta", "whole", "dots"].includes(name), ({type, checked, value}) => {
+      settings[name] = type === "checkbox" ? checked : typeof settings[name] === "number" ? Number(value) : value;
+    });
 }
 
 // What every shader is told of the surface.
 function surfaceOf(distribution) {
   const scale = settings.median ? 1 / Number(optionOf(distribution).dataset.median) : 1;
   return {numbers: [0, tables], distribution, alpha: settings.alpha.map((alpha) => scale * alpha),
-          turn: settings.turn * Math.PI / 180};
+          turn: radians(settings.turn)};
 }

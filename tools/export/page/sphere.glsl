@@ -1,10 +1,5 @@
-// A sphere that reflects once: visible normals are drawn with vndf_sample, and the lamp with vndf_visible; each kind
-// of sample is weighted by the densities of both (Veach & Guibas 1995), for which vndf_pdf is needed.
-
-uniform highp sampler2D before; // the sums of the samples so far
-uniform bool first;
-uniform vec2 pixel_step, normal_step, lamp_step, base_step; // from one sample to the next
-out vec4 sum;
+// What a surface reflects once, by samples: visible normals are drawn with vndf_sample, and the lamp with vndf_visible;
+// each kind of sample is weighted by the densities of both (Veach & Guibas 1995), for which vndf_pdf is needed.
 
 const float ETA = 1.5; // of plastic and glass
 
@@ -16,15 +11,11 @@ float fresnel(float c, float n) {
     return below > 0.0 ? 0.5 * dot(r, r) : 1.0;
 }
 
-// The mirror's colour at the cosine c.
+// The mirror's colour at the cosine c: Schlick's term; of plastic and glass the exact one, unless engines are compared.
 vec3 mirror(float c) {
     float up = 1.0 - clamp(c, 0.0, 1.0);
-    float power = up * up * up * up * up;
-    if (material >= 3) {
-        return vec3(fresnel(c, 1.0 / ETA));
-    }
     vec3 front = front_colour();
-    return front + (vec3(1.0) - front) * power;
+    return material >= 3 && !is_engine ? vec3(fresnel(c, 1.0 / ETA)) : front + (vec3(1.0) - front) * pow(up, 5.0);
 }
 
 // Of a plastic, below its mirror.
@@ -33,8 +24,8 @@ vec3 base_colour() {
 }
 
 // The light of one sample through the mirror: of a drawn normal, or of the lamp.
-vec3 mirrored(frame f, vndf_view view, bool from_lamp, vec2 u) {
-    vec3 to = from_lamp ? lamp_direction(u) : vec3(0.0);
+vec3 mirrored(frame f, vec3 at, vndf_view view, bool from_lamp, vec2 u) {
+    vec3 to = lamp_direction(at, u);
     vec3 wo = local(f, to);
     vec3 wm = normalize(view.wi + wo);
     if (!from_lamp) {
@@ -45,13 +36,13 @@ vec3 mirrored(frame f, vndf_view view, bool from_lamp, vec2 u) {
     if (wo.z <= 0.0) {
         return vec3(0.0);
     }
-    bool hits = from_lamp || hits_lamp(to);
+    float of_lamp = lamp_density(at, to);
     float facing = dot(view.wi, wm);
     vec3 comes = from_lamp ? vec3(0.0) : wide_light(to);
-    if (hits) {
-        float density = vndf_pdf(view, wm) / (4.0 * facing);
-        float value = from_lamp ? vndf_visible(view, wm) / (4.0 * facing) : density;
-        comes += shine * (value / (density + lamp_density()));
+    if (of_lamp > 0.0) {
+        float drawn = vndf_pdf(view, wm) / (4.0 * facing);
+        float value = from_lamp ? vndf_visible(view, wm) / (4.0 * facing) : drawn;
+        comes += shine * (value / (drawn + of_lamp));
     }
     return comes * mirror(facing) * light_kept(view, wo);
 }
@@ -67,15 +58,15 @@ vec3 through_glass(frame f, vndf_view view, vec2 u) {
     if (wo.z >= 0.0 || passes <= 0.0) {
         return vec3(0.0);
     }
-    vec3 comes = wide_light(to) + (hits_lamp(to) ? shine : vec3(0.0));
+    vec3 comes = wide_light(to) + (lamp_density(to, to) > 0.0 ? shine : vec3(0.0));
     return comes * passes * vndf_g1(surface_here(), vec3(wo.xy, -wo.z));
 }
 
 // One sample of the lamp on the base of a plastic.
 vec3 lamp_on_base(frame f, vec3 wi, vec2 u) {
-    vec3 wo = local(f, lamp_direction(u));
+    vec3 wo = local(f, lamp_direction(f.z, u));
     vec3 passes = (vec3(1.0) - mirror(wi.z)) * (vec3(1.0) - mirror(wo.z)) * base_colour() / PI;
-    return shine * passes * max(wo.z, 0.0) / lamp_density();
+    return shine * passes * max(wo.z, 0.0) / lamp_density(f.z, lamp.xyz);
 }
 
 // One sample of the wide light on the base of a plastic.
@@ -86,44 +77,20 @@ vec3 of_base(frame f, vec3 wi, vec2 u) {
     return passes * wide_light(world(f, wo));
 }
 
-vec3 seen(vec3 eye, vec3 d, vec2 u_normal, vec2 u_lamp, vec2 u_base) {
-    float b = dot(eye, d);
-    float root = b * b - dot(eye, eye) + 1.0;
-    if (root <= 0.0) {
-        return min(wide_light(d), vec3(2.0)) * (light == 3 ? 1.0 : 0.6);
-    }
-    vec3 z = normalize(eye - d * (b + sqrt(root)));
-    vec3 x = normalize(cross(vec3(0.0, 1.0, 1e-4), z));
-    frame f = frame(x, cross(z, x), z);
-    vec3 wi = local(f, -d);
+vec3 shaded(vec3 at, vec3 normal, vec3 to_eye, vec2 u_normal, vec2 u_lamp, vec2 u_base) {
+    vec3 x = normalize(cross(vec3(0.0, 1.0, 1e-4), normal)); // runs around the sphere
+    frame f = frame(x, cross(normal, x), normal);
+    vec3 wi = local(f, to_eye);
     wi.z = max(wi.z, 1e-3);
     vndf_view view = vndf_view_of(surface_here(), normalize(wi));
     vec3 gets = vec3(0.0);
     for (int kind = 0; kind < 2; kind += 1) {
-        gets += mirrored(f, view, kind == 1, kind == 1 ? u_lamp : u_normal);
+        gets += mirrored(f, at, view, kind == 1, kind == 1 ? u_lamp : u_normal);
     }
-    if (material == 5) {
+    if (material == 5 && !is_engine) {
         gets += through_glass(f, view, u_base);
-    } else if (material >= 3) {
+    } else if (material >= 3 && !is_engine) {
         gets += of_base(f, view.wi, u_base) + lamp_on_base(f, view.wi, u_lamp);
     }
     return gets;
-}
-
-void main() {
-    uvec2 pixel = uvec2(gl_FragCoord.xy);
-    vec3 a = random_at(uvec3(pixel, 1u));
-    vec3 b = random_at(uvec3(pixel, 2u));
-    vec2 jitter = fract(a.xy + pixel_step) - 0.5;
-    vec2 p = (2.0 * (gl_FragCoord.xy + jitter) - size) / size.y;
-    vec3 eye = vec3(0.0, 1.1, 4.9);
-    vec3 ahead = normalize(-eye);
-    vec3 right = normalize(cross(ahead, vec3(0.0, 1.0, 0.0)));
-    vec3 d = normalize(ahead + 0.245 * (p.x * right + p.y * cross(right, ahead)));
-    vec3 gets = seen(eye, d, fract(vec2(a.z, b.x) + normal_step), fract(b.yz + lamp_step),
-                     fract(vec2(a.y, b.x) + base_step));
-    sum = vec4(gets, 1.0);
-    if (!first) {
-        sum += texelFetch(before, ivec2(gl_FragCoord.xy), 0);
-    }
 }

@@ -18,45 +18,55 @@ const STEPS = {
   base_step: [Math.sqrt(11) % 1, Math.sqrt(13) % 1],
 };
 
-function lampNow(light) {
-  const {to, edge, shine} = LAMPS[light], length = Math.hypot(...to), angle = settings.around * Math.PI / 180;
-  const [x, y, z] = to.map((v) => v / length), c = Math.cos(angle), s = Math.sin(angle);
-  return {lamp: [c * x + s * z, y, c * z - s * x, Math.cos(edge * Math.PI / 180)], shine};
+function lampNow() {
+  const {to, edge, shine} = LAMPS[LIGHTS.indexOf(settings.light)], length = Math.hypot(...to);
+  const [x, y, z] = to.map((v) => v / length), angle = radians(settings.around);
+  const c = Math.cos(angle), s = Math.sin(angle);
+  return {lamp: [c * x + s * z, y, c * z - s * x, Math.cos(radians(edge))], shine};
 }
 
-function fitSphere(sphere, size) {
-  if (size === sphere.size) return;
-  sphere.targets.forEach(freeTarget);
-  sphere.targets = [0, 1].map(() => makeTarget(size, size, 1));
-  sphere.size = size;
-  sphere.drawn = 0;
+// A picture that is refined: `tells` goes to its program beside what all of them are told.
+const makePicture = (id, program, tells) =>
+  ({canvas: byId(id), program, targets: [], drawn: 0, size: 0,
+    tells: {eye: [0, 1.1, 4.9], target: [0, 0, 0], up: [0, 1, 0], wide_angle: 0.245, is_floor: false, is_engine: false,
+            ...tells}});
+
+function fitPicture(picture) {
+  const size = pixelsOf(picture.canvas);
+  if (size === picture.size) return;
+  picture.targets.forEach(freeTarget);
+  picture.targets = [0, 1].map(() => makeTarget(size, size, 1));
+  picture.size = size;
+  picture.drawn = 0;
 }
 
-// One more sample of each pixel of a sphere, or of what an engine makes of one.
-function refineSphere(sphere, surface) {
-  const {size} = sphere, light = LIGHTS.indexOf(settings.light), n = sphere.drawn;
-  const steps = Object.fromEntries(Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]));
-  const from = sphere.targets[n % 2], to = sphere.targets[1 - n % 2];
-  use(programs[sphere.program], {...surface, ...sphere.tells, ...lampNow(light), light, material: MATERIALS.indexOf(settings.material),
-    around: settings.around * Math.PI / 180, before: [1, from.textures[0]], first: n === 0, size: [size, size],
-    ...steps});
-  fill(to);
-  sphere.drawn = n + 1;
-}
-
-function showSphere({canvas, size, targets, drawn}) {
-  const exposure = LAMPS[LIGHTS.indexOf(settings.light)].exposure;
-  use(programs.show, {sums: [1, targets[drawn % 2].textures[0]], exposure});
+// Adds so many samples to each pixel of a picture, and shows what they say.
+function refinePicture(picture, surface, samples) {
+  const {size, targets, tells} = picture;
+  for (let i = 0; i < samples; i++) {
+    const n = picture.drawn++;
+    const steps = Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]);
+    use(programs[picture.program], {...surface, light: LIGHTS.indexOf(settings.light), ...lampNow(), ...tells,
+      material: MATERIALS.indexOf(settings.material), around: radians(settings.around),
+      before: [1, targets[n % 2].textures[0]], first: n === 0, size: [size, size], ...Object.fromEntries(steps)});
+    fill(targets[1 - n % 2]);
+  }
+  const {exposure} = LAMPS[LIGHTS.indexOf(settings.light)];
+  use(programs.show, {sums: [1, sumsOf(picture).textures[0]], exposure});
   fill({width: size, height: size});
-  copyTo(canvas, size);
+  copyTo(picture.canvas, size);
 }
+
+const sumsOf = ({targets, drawn}) => targets[drawn % 2];
+
+const luminance = (sums, i) => (0.2126 * sums[i] + 0.7152 * sums[i + 1] + 0.0722 * sums[i + 2]) / sums[i + 3];
 
 // Mean and spread of the picture's light, and how many of its pixels are no light.
 function lightOf(sphere) {
-  const sums = readTarget(sphere.targets[sphere.drawn % 2], 0);
+  const sums = readTarget(sumsOf(sphere), 0);
   let count = 0, sum = 0, squares = 0, faults = 0;
   for (let i = 0; i < sums.length; i += 4, count++) {
-    const y = Math.min((0.2126 * sums[i] + 0.7152 * sums[i + 1] + 0.0722 * sums[i + 2]) / sphere.drawn, 4);
+    const y = Math.min(luminance(sums, i), 4);
     faults += !(y >= 0);
     sum += y;
     squares += y * y;

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import threading
 from ctypes import byref
-from typing import Any, Callable, Iterable, Optional, Sequence, TypeVar, Union
+from typing import Any, Callable, Optional, Sequence, TypeVar, Union
 
 import numpy as np
 
@@ -27,7 +27,7 @@ class Source(Owner):
     @staticmethod
     def slope(p22: Union[str, Callable[[float], float]], **parameters: float) -> Source:
         """P22 as a formula in r = tan(theta), with named numbers (vndf_build.h lists operators and functions), or as a
-        Python function of r. A function can only be sampled: narrow features may hide (`finest`, `breaks` of build)."""
+        Python function of r. A function can only be sampled: features narrower than 1e-3 may hide."""
         return _formula("slope", p22, parameters)
 
     @staticmethod
@@ -137,16 +137,14 @@ _here = threading.local()  # .call: the _Call that this thread works for
 
 
 def build(
-    source: Source, *, max_bytes: int = 0, max_tv: float = 0.0, moments: int = 0, breaks: Iterable[float] = (),
-    finest: float = 0.0, progress: Optional[Progress] = None,
+    source: Source, *, max_bytes: int = 0, max_tv: float = 0.0, moments: int = 0,
+    progress: Optional[Progress] = None,
 ) -> Distribution:  # fmt: skip
     """Builds a table.
 
     max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, to 8192.
     max_tv: the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
-    breaks: slopes where a feature begins, ends or has its peak.
-    finest: relative width in slope of the features that samples of a function have to find, 1e-9 to 1; 0: 1e-3.
     progress: called with the part that is done, 0 to 1, and the name of the stage; a true result stops the build.
 
     Raises :class:`vndf.Error` if the source cannot be the normals of a microsurface, with the reason, or if the
@@ -155,10 +153,8 @@ def build(
     if max_bytes < 0:
         raise ValueError(f"max_bytes is {max_bytes}; it must not be negative")
     call = _Call()
-    marks = np.ascontiguousarray(list(breaks), np.float64)
     options = struct("vndf_build_options")(
-        max_bytes=max_bytes, max_tv=max_tv, progress=call.progress(progress), breaks=marks.ctypes.data,
-        break_count=marks.size, finest=finest, moments=moments,
+        max_bytes=max_bytes, max_tv=max_tv, progress=call.progress(progress), moments=moments,
     )  # fmt: skip
     return call.run(lambda: Distribution._of(checked("build", source._pointer, byref(options), None)))
 

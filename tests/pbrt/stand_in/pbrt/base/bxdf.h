@@ -22,9 +22,6 @@ struct Point2f {
 };
 
 struct Vector3f {
-    Vector3f(Float x, Float y, Float z) : x(x), y(y), z(z)
-    {
-    }
     Float x, y, z;
 };
 
@@ -51,14 +48,11 @@ inline BxDFFlags operator|(BxDFFlags a, BxDFFlags b)
 }
 
 struct BSDFSample {
-    BSDFSample(SampledSpectrum f, Vector3f wi, Float pdf, BxDFFlags flags, Float eta = 1)
-        : f(f), wi(wi), pdf(pdf), eta(eta), flags(flags)
-    {
-    }
     SampledSpectrum f;
     Vector3f wi;
-    Float pdf, eta;
+    Float pdf;
     BxDFFlags flags;
+    Float eta = 1;
 };
 
 } // namespace pbrt
