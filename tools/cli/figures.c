@@ -1,17 +1,229 @@
 #include "cli/figures.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "command.h"
 
 figures figures_begin(const arguments *given)
 {
-    return (figures){.file = stdout,
+    return (figures){.command = given->command,
                      .form = option_value(given, "-q")       ? FIGURES_NONE
                              : option_value(given, "--json") ? FIGURES_JSON
                                                              : FIGURES_TEXT};
 }
 
-void figures_json_text(FILE *file, const char *text)
+void figures_free(figures *f)
+{
+    for (size_t i = 0; i < f->count; i++)
+        free(f->at[i].text);
+    free(f->at);
+    *f = (figures){.form = f->form};
+}
+
+/* ---- filling ----------------------------------------------------------------------------------- */
+
+static void add(figures *f, figure_kind kind, const char *name, const char *text, const char *unit)
+{
+    const size_t room = f->count < f->room ? f->room : 2 * f->room + 64, length = strlen(text) + 1;
+    figure *at = room > f->room ? realloc(f->at, room * sizeof *at) : f->at;
+    char *copy = malloc(length + strlen(name) + 1); /* the name stands behind the text */
+    if (at) {
+        f->at = at;
+        f->room = room;
+    }
+    if (!at || !copy) {
+        f->failed = 1;
+        free(copy);
+        return;
+    }
+    memcpy(copy, text, length);
+    strcpy(copy + length, name);
+    at[f->count++] = (figure){f->list, copy + length, unit, NULL, copy, kind, f->row};
+}
+
+void figures_add(figures *f, figure_kind kind, const char *name, const char *text)
+{
+    add(f, kind, name, text, "");
+}
+
+void figures_text(figures *f, const char *name, const char *text)
+{
+    add(f, FIGURE_TEXT, name, text, "");
+}
+
+void figures_number(figures *f, const char *name, const char *format, double x, const char *unit)
+{
+    char text[64];
+    snprintf(text, sizeof text, format, x);
+    add(f, FIGURE_NUMBER, name, isnan(x) ? "" : text, unit);
+}
+
+void figures_time(figures *f, const char *name, double ns)
+{
+    figures_number(f, name, ns < 10 ? "%.2f" : "%.1f", ns, "");
+}
+
+void figures_truth(figures *f, const char *name, int is)
+{
+    add(f, FIGURE_TRUTH, name, is ? "yes" : "no", "");
+}
+
+void figures_mark(figures *f, const char *mark)
+{
+    if (f->count)
+        f->at[f->count - 1].mark = mark;
+}
+
+void figures_list(figures *f, const char *name)
+{
+    figures_list_end(f);
+    add(f, FIGURE_LIST, name, "", "");
+    f->list = name;
+}
+
+void figures_record(figures *f)
+{
+    f->row = ++f->rows;
+}
+
+void figures_list_end(figures *f)
+{
+    f->list = NULL;
+    f->row = 0;
+}
+
+/* ---- text -------------------------------------------------------------------------------------- */
+
+/* Whether a figure begins a record; or one ends before it. */
+static int is_new(const figures *f, size_t i)
+{
+    return i == 0 || i == f->count || f->at[i].row == 0 || f->at[i].row != f->at[i - 1].row;
+}
+
+static const char *text_of(const figure *c)
+{
+    return *c->text || c->kind != FIGURE_NUMBER ? c->text : "-";
+}
+
+static void print_lines(FILE *file, const figures *f)
+{
+    enum { WIDTH = 100 };
+    int column = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        const figure *c = &f->at[i];
+        const char *text = text_of(c), *space = *c->unit ? " " : "";
+        if (c->kind == FIGURE_LIST)
+            continue;
+        if (c->row && is_new(f, i))
+            column = fprintf(file, "%s", c->list);
+        if (c->row && column + snprintf(NULL, 0, " %s %s%s%s", c->name, text, space, c->unit) > WIDTH)
+            column = fprintf(file, "\n   ") - 1;
+        column += fprintf(file, "%s%s %s%s%s", c->row ? " " : "", c->name, text, space, c->unit);
+        if (is_new(f, i + 1))
+            fputc('\n', file);
+    }
+}
+
+size_t figures_columns(const figures *f)
+{
+    return f->rows ? f->count / f->rows : 0;
+}
+
+const char *figures_shown(const figures *f, size_t row, size_t column)
+{
+    return text_of(&f->at[row * figures_columns(f) + column]);
+}
+
+/* Characters of UTF-8. */
+static size_t length_of(const char *text)
+{
+    size_t length = 0;
+    for (; *text; text++)
+        length += ((unsigned char)*text & 0xc0) != 0x80;
+    return length;
+}
+
+/* With spaces before or behind it. */
+static void put_padded(FILE *file, const char *text, size_t width, int is_right)
+{
+    size_t length = length_of(text), spaces = width > length ? width - length : 0;
+    fprintf(file, "%*s%s%*s", is_right ? (int)spaces : 0, "", text, is_right ? 0 : (int)spaces, "");
+}
+
+static size_t width_of(const figures *f, size_t column, int has_heading)
+{
+    size_t width = has_heading ? length_of(f->at[column].name) : 0;
+    for (size_t i = 0; i < f->rows; i++) {
+        const size_t length = length_of(figures_shown(f, i, column));
+        width = length > width ? length : width;
+    }
+    return width;
+}
+
+/* What a terminal shows: groups by the first column, then a label if the second one holds texts. Labels and groups
+ * share the first column of it; the headings stand in the line of each group. */
+static void print_text(FILE *file, const figures *f)
+{
+    const size_t columns = figures_columns(f), first = columns > 1 && f->at[1].kind == FIGURE_TEXT ? 2 : 1;
+    size_t labels = 0;
+    for (size_t k = 0; k < first; k++)
+        labels = width_of(f, k, 0) > labels ? width_of(f, k, 0) : labels;
+    for (size_t i = 0; i < f->rows; i++) {
+        const int begins = i == 0 || strcmp(figures_shown(f, i, 0), figures_shown(f, i - 1, 0)) != 0;
+        for (int is_body = !begins; is_body < 2; is_body++) {
+            const char *label = !is_body ? figures_shown(f, i, 0) : first > 1 ? figures_shown(f, i, 1) : "";
+            fputs(is_body ? "  " : i ? "\n" : "", file);
+            put_padded(file, label, labels + (is_body ? 0 : 2), 0);
+            for (size_t k = first; k < columns; k++) {
+                fputs("  ", file);
+                put_padded(file, is_body ? figures_shown(f, i, k) : f->at[k].name, width_of(f, k, 1),
+                           f->at[k].kind == FIGURE_NUMBER);
+            }
+            fputc('\n', file);
+        }
+    }
+}
+
+/* ---- files ------------------------------------------------------------------------------------- */
+
+static void print_markdown(FILE *file, const figures *f)
+{
+    const size_t columns = figures_columns(f);
+    for (size_t k = 0; k < columns; k++)
+        fprintf(file, k ? " %s |" : "| %s |", f->at[k].name);
+    fputs("\n|", file);
+    for (size_t k = 0; k < columns; k++)
+        fputs(f->at[k].kind == FIGURE_NUMBER ? "--:|" : "---|", file);
+    for (size_t i = 0; i < f->count; i++) {
+        fputs(i % columns ? " " : "\n| ", file);
+        for (const char *text = text_of(&f->at[i]); *text; text++) {
+            fputs(*text == '|' ? "\\" : "", file); /* a bar would end the cell, and a line the row */
+            fputc(*text == '\n' ? ' ' : *text, file);
+        }
+        fputs(" |", file);
+    }
+    fputc('\n', file);
+}
+
+static void print_csv(FILE *file, const figures *f)
+{
+    const size_t columns = figures_columns(f);
+    for (size_t k = 0; k < columns; k++)
+        fprintf(file, k ? ",%s" : "%s", f->at[k].name);
+    for (size_t i = 0; i < f->count; i++) {
+        const char *quote = f->at[i].kind == FIGURE_TEXT ? "\"" : "";
+        fprintf(file, "%s%s", i % columns ? "," : "\n", quote);
+        for (const char *text = f->at[i].text; *text; text++)
+            fprintf(file, *text == '"' ? "\"%c" : "%c", *text);
+        fputs(quote, file);
+    }
+    fputc('\n', file);
+}
+
+/* Between quotes; bytes that are no UTF-8 are the caller's. */
+static void put_string(FILE *file, const char *text)
 {
     fputc('"', file);
     for (; *text; text++) {
@@ -26,98 +238,90 @@ void figures_json_text(FILE *file, const char *text)
     fputc('"', file);
 }
 
-enum { COLUMNS = 100 }; /* of a record; what is longer goes on below */
-
-/* Units stand at the end of JSON, each once, as "list.name": "unit". */
-static void note_unit(figures *f, const char *name, const char *unit)
+/* A number is one that strtod reads whole; infinities are none in JSON. */
+static void put_member(FILE *file, const figure *c)
 {
-    char text[128];
-    const size_t used = strlen(f->units);
-    snprintf(text, sizeof text, "\"%s%s%s\": \"%s\"", f->list ? f->list : "", f->list ? "." : "", name, unit);
-    if (*unit && !strstr(f->units, text))
-        snprintf(f->units + used, sizeof f->units - used, "%s%s", used ? ", " : "", text);
+    char *end;
+    put_string(file, c->name);
+    fputs(": ", file);
+    if (c->kind == FIGURE_TRUTH)
+        fputs(*c->text == 'y' ? "true" : "false", file);
+    else if (c->kind == FIGURE_NUMBER)
+        fputs(isfinite(strtod(c->text, &end)) && end != c->text && *end == '\0' ? c->text : "null", file);
+    else
+        put_string(file, c->text);
 }
 
-/* A figure whose value is this text. */
-static void put(figures *f, const char *name, const char *text, int is_word, const char *unit)
+/* The records from i on as an array, each on such a line, the bracket on the last one; returns what comes behind
+ * it. */
+static size_t put_records(FILE *file, const figures *f, size_t i, const char *line, const char *last)
 {
-    const int is_first = f->in_object++ == 0;
-    if (f->form == FIGURES_TEXT) {
-        char whole[COLUMNS];
-        int length = snprintf(whole, sizeof whole, " %s %s%s%s", name, text, *unit ? " " : "", unit);
-        if (f->list && f->column + length > COLUMNS) {
-            fputs("\n   ", f->file);
-            f->column = 3;
-        }
-        f->column += length;
-        fprintf(f->file, f->list ? " %s %s%s%s" : "%s %s%s%s\n", name, text, *unit ? " " : "", unit);
-    } else if (f->form == FIGURES_JSON) {
-        fprintf(f->file, "%s%s\"%s\": ", is_first ? f->list ? "" : "{" : ",",
-                f->list ? is_first ? "" : " " : "\n  ", name);
-        if (is_word)
-            figures_json_text(f->file, text);
+    const size_t first = i;
+    fputc('[', file);
+    for (; i < f->count && f->at[i].row; i++) {
+        if (is_new(f, i))
+            fprintf(file, "%s%s{", i > first ? "}," : "", line);
         else
-            fputs(text, f->file);
-        note_unit(f, name, unit);
+            fputs(", ", file);
+        put_member(file, &f->at[i]);
     }
+    fprintf(file, "%s%s]", i > first ? "}" : "", i > first ? last : "");
+    return i;
 }
 
-void figures_text(figures *f, const char *name, const char *text)
+/* Units stand at the end, each once, as "list.name": "unit". */
+static void print_json(FILE *file, const figures *f)
 {
-    put(f, name, text, 1, "");
+    const char *between = "{";
+    for (size_t i = 0; i < f->count;) {
+        const figure *c = &f->at[i++];
+        fprintf(file, "%s\n  ", between);
+        between = ",";
+        if (c->kind == FIGURE_LIST) {
+            fprintf(file, "\"%s\": ", c->name);
+            i = put_records(file, f, i, "\n    ", "\n  ");
+        } else {
+            put_member(file, c);
+        }
+    }
+    fprintf(file, "%s\n  \"units\": {", between);
+    between = "";
+    for (size_t i = 0; i < f->count; i++) {
+        const figure *c = &f->at[i];
+        size_t first = 0;
+        while (strcmp(f->at[first].name, c->name) != 0 || f->at[first].list != c->list)
+            first++;
+        if (first < i || !*c->unit)
+            continue;
+        fprintf(file, "%s\"%s%s%s\": \"%s\"", between, c->list ? c->list : "", c->list ? "." : "", c->name,
+                c->unit);
+        between = ", ";
+    }
+    fputs("}\n}\n", file);
 }
 
-void figures_number(figures *f, const char *name, int digits, double x, const char *unit)
+/* ---- what is printed ----------------------------------------------------------------------------- */
+
+int figures_end(figures *f)
 {
-    char text[64];
-    snprintf(text, sizeof text, f->form == FIGURES_JSON && !isfinite(x) ? "null" : "%.*g", digits, x);
-    put(f, name, text, 0, unit);
+    const int status = f->failed ? complain(f->command, "no memory") : STATUS_GOOD;
+    if (!f->failed && f->form == FIGURES_JSON)
+        print_json(stdout, f);
+    else if (!f->failed && f->form == FIGURES_TEXT)
+        print_lines(stdout, f);
+    figures_free(f);
+    return status;
 }
 
-void figures_truth(figures *f, const char *name, int is)
+int figures_print(FILE *file, const figures *f, figures_form form)
 {
-    static const char *const said[2][2] = {{"no", "yes"}, {"false", "true"}};
-    put(f, name, said[f->form == FIGURES_JSON][is != 0], 0, "");
-}
-
-void figures_list(figures *f, const char *name)
-{
-    if (f->form == FIGURES_JSON)
-        put(f, name, "[", 0, "");
-    f->list = name;
-    f->records = 0;
-}
-
-static void end_record(figures *f)
-{
-    if (f->records && f->form == FIGURES_JSON)
-        fputc('}', f->file);
-    else if (f->records && f->form == FIGURES_TEXT)
-        fputc('\n', f->file);
-}
-
-void figures_record(figures *f)
-{
-    end_record(f);
-    if (f->form == FIGURES_JSON)
-        fputs(f->records ? ",\n    {" : "\n    {", f->file);
-    else if (f->form == FIGURES_TEXT)
-        f->column = fprintf(f->file, "%s", f->list);
-    f->records++;
-    f->in_object = 0;
-}
-
-void figures_list_end(figures *f)
-{
-    end_record(f);
-    if (f->form == FIGURES_JSON)
-        fputs(f->records ? "\n  ]" : "]", f->file);
-    f->list = NULL;
-    f->in_object = 1;
-}
-
-void figures_end(figures *f)
-{
-    if (f->form == FIGURES_JSON)
-        fprintf(f->file, "%s\n  \"units\": {%s}\n}\n", f->in_object ? "," : "{", f->units);
+    if (f->failed)
+        return 0;
+    if (form == FIGURES_JSON) {
+        put_records(file, f, 0, "\n", "\n");
+        fputc('\n', file);
+    } else {
+        (form == FIGURES_CSV ? print_csv : form == FIGURES_MARKDOWN ? print_markdown : print_text)(file, f);
+    }
+    return 1;
 }

@@ -1,45 +1,88 @@
-/* What commands print of what they found: named figures with units, as text or JSON (--json), or not at all (-q). */
+/* What commands print of what they found: named figures, filled once and printed as a document, or as a table.
+ *
+ * A document has single figures with their units, and lists of records; as text a line for each of them, as JSON
+ * (--json) one object, or nothing (-q). A table has records alone, which have the same names; it is printed as text,
+ * CSV, Markdown or JSON, or into a page (draw/page.h). A column is named where its cell is filled, so that a list of
+ * columns is a function of a row:
+ *
+ *     figures_record(&f);
+ *     figures_text(&f, "method", row->method);
+ *     figures_number(&f, "TV", "%.1e", row->tv, "");
+ */
 #ifndef TOOLS_CLI_FIGURES_H
 #define TOOLS_CLI_FIGURES_H
 
+#include <stddef.h>
 #include <stdio.h>
 
 #include "cli/arguments.h"
 
-/* CSV and Markdown are for tables of rows (draw/table.h). */
+/* CSV and Markdown are for tables. */
 typedef enum figures_form { FIGURES_TEXT, FIGURES_CSV, FIGURES_MARKDOWN, FIGURES_JSON, FIGURES_NONE } figures_form;
 
-/* Names and units have to outlive it: literals. */
+/* In a table texts and words stand on the left, numbers on the right; CSV has quotes around texts. A list is the name
+ * of the records behind it. */
+typedef enum figure_kind { FIGURE_TEXT, FIGURE_WORD, FIGURE_NUMBER, FIGURE_TRUTH, FIGURE_LIST } figure_kind;
+
+typedef struct figure {
+    const char *list; /* NULL if it is in none; list, unit and mark are literals */
+    const char *name, *unit;
+    const char *mark; /* NULL, or the class in a page of the number; of the first cell, of its row */
+    char *text;       /* owned; "" for a number that does not apply */
+    figure_kind kind;
+    size_t row; /* its record, from 1; 0: it stands alone */
+} figure;
+
+/* A table begins as {0}, a document by figures_begin. */
 typedef struct figures {
-    FILE *file;
+    const char *command;
     figures_form form;
-    const char *list; /* the list that is open, or NULL */
-    int in_object;    /* figures that the object at hand has already */
-    int records;      /* of the list */
-    int column;       /* where its text goes on */
-    char units[4096]; /* for JSON, which has them at its end */
+    figure *at;
+    size_t count, room, rows, row; /* row: the one that is being filled */
+    const char *list;
+    int failed; /* there was no memory */
 } figures;
 
-/* Text, JSON or nothing, on stdout. */
+/* Text, JSON or nothing. */
 figures figures_begin(const arguments *given);
+void figures_free(figures *f);
 
+/* ---- filling ---- */
+
+/* Of any kind, without a unit. */
+void figures_add(figures *f, figure_kind kind, const char *name, const char *text);
 void figures_text(figures *f, const char *name, const char *text);
 
-/* With this many digits, and a unit or ""; in JSON an infinity or NaN is null. */
-void figures_number(figures *f, const char *name, int digits, double x, const char *unit);
+/* `format` takes one double. NaN is a number that does not apply, a dash, in CSV nothing; in JSON it is null, and an
+ * infinity too. The unit may be "". */
+void figures_number(figures *f, const char *name, const char *format, double x, const char *unit);
+
+/* Times below 10 ns with two digits after the point, above with one. */
+void figures_time(figures *f, const char *name, double ns);
 
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* A list of records: each is a line of text that begins with the name of the list, and goes on below after 100
- * columns. */
+/* The class in a page of the last cell: "no", say. */
+void figures_mark(figures *f, const char *mark);
+
+/* Begins a list of a document, and a record of it or of a table. */
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);
 
-void figures_end(figures *f);
+/* ---- printing ---- */
 
-/* Between quotes, as JSON has it; bytes that are no UTF-8 are the caller's. */
-void figures_json_text(FILE *file, const char *text);
+/* The document on stdout, and frees it: a record is a line that begins with the name of its list, and goes on below
+ * after 100 columns. An exit status, after a complaint if there was no memory. */
+int figures_end(figures *f);
+
+/* The table: for a terminal in groups of equal first cells, which stand in the heading, columns as wide as they have
+ * to be; as JSON an array of objects; not FIGURES_NONE. 0 if there was no memory. */
+int figures_print(FILE *file, const figures *f, figures_form form);
+
+/* What a table shows in a row, from 0, and a column. */
+size_t figures_columns(const figures *f);
+const char *figures_shown(const figures *f, size_t row, size_t column);
 
 #endif

@@ -85,7 +85,7 @@ static int write_page(html_page *page, const baked_list *list, unsigned forms, c
     return 1;
 }
 
-static void print(const arguments *given, const baked_list *list, const char *folder)
+static int print(const arguments *given, const baked_list *list, const char *folder)
 {
     figures f = figures_begin(given);
     figures_text(&f, "folder", folder);
@@ -94,14 +94,13 @@ static void print(const arguments *given, const baked_list *list, const char *fo
         const baked *b = &list->table[i];
         figures_record(&f);
         figures_text(&f, "name", b->name);
-        figures_number(&f, "numbers", 6, (double)baked_size(b), "");
+        figures_number(&f, "numbers", "%.6g", (double)baked_size(b), "");
         if (b->error) {
-            figures_number(&f, "largest error", 3, b->worst, "");
-            figures_number(&f, "mean error", 3, b->mean, "");
+            figures_number(&f, "largest error", "%.3g", b->worst, "");
+            figures_number(&f, "mean error", "%.3g", b->mean, "");
         }
     }
-    figures_list_end(&f);
-    figures_end(&f);
+    return figures_end(&f);
 }
 
 static int bake(const arguments *given, bake_settings *s, unsigned what)
@@ -132,7 +131,7 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
         status = STATUS_USE;
     status = page_close(&page, status);
     if (status == STATUS_GOOD)
-        print(given, &list, folder);
+        status = print(given, &list, folder);
     baked_free(&list);
     return status;
 }

@@ -235,17 +235,17 @@ static int save(const chosen_distribution *of, output_file *output)
 
 /* Says what was built and what it is worth, and that on stderr too where it is worth little. Where the file itself is
  * on stdout there is no place for figures. */
-static void tell(const arguments *given, const chosen_distribution *of, const char *found)
+static int tell(const arguments *given, const chosen_distribution *of, const char *found)
 {
     static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
     char verdict[DESCRIBE_VERDICT];
     if (!describe_verdict(of, !option_among(given, sizes), verdict))
         complain(name, "%s", verdict);
     if (output_is_stdout(option_value(given, "-o")))
-        return;
+        return STATUS_GOOD;
     figures f = figures_begin(given);
     describe(&f, of, found, verdict);
-    figures_end(&f);
+    return figures_end(&f);
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
@@ -301,7 +301,7 @@ static int run(const arguments *given)
                     path)) /* before the work, so that a place that cannot be written is told first */
         status = build(given, source, &made) ? save(&made, &output) : output_give_up(&output, NULL);
     if (status == STATUS_GOOD)
-        tell(given, &made, found);
+        status = tell(given, &made, found);
     distribution_close(&made);
     vndf_source_free(source);
     return status;

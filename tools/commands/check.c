@@ -81,7 +81,7 @@ static void judge(checking *c, int is_good)
 /* A number of a finding; nine digits bring back every float. */
 static void tell(checking *c, const char *key, double x)
 {
-    figures_number(&c->to, key, 9, x, "");
+    figures_number(&c->to, key, "%.9g", x, "");
 }
 
 static void begin(checking *c, const char *what)
@@ -97,8 +97,8 @@ static void begin(checking *c, const char *what)
 static void compare(checking *c, const char *what, float stored, float measured, double floor)
 {
     begin(c, what);
-    figures_number(&c->to, "stored", 5, (double)stored, "");
-    figures_number(&c->to, "measured", 5, (double)measured, "");
+    figures_number(&c->to, "stored", "%.5g", (double)stored, "");
+    figures_number(&c->to, "measured", "%.5g", (double)measured, "");
     judge(c, (double)measured <= floor + 1.2 * ((double)stored - floor) + 1e-7);
 }
 
@@ -216,10 +216,10 @@ static int check_consistency(checking *c)
                      rare = count[i] ? differs[i][(size_t)(0.9999 * last)] : 0;
         begin(c, limits[i].name);
         tell(c, "samples", (double)count[i]);
-        figures_number(&c->to, "most_999", 2, usual, "");
-        figures_number(&c->to, "limit_999", 2, limits[i].usual, "");
-        figures_number(&c->to, "most_9999", 2, rare, "");
-        figures_number(&c->to, "limit_9999", 2, limits[i].rare, "");
+        figures_number(&c->to, "most_999", "%.2g", usual, "");
+        figures_number(&c->to, "limit_999", "%.2g", limits[i].usual, "");
+        figures_number(&c->to, "most_9999", "%.2g", rare, "");
+        figures_number(&c->to, "limit_9999", "%.2g", limits[i].rare, "");
         judge(c, usual <= limits[i].usual && rare <= limits[i].rare);
     }
     figures_list_end(&c->to);
@@ -239,8 +239,8 @@ static void check_chi_square(checking *c)
 {
     const double level = statistics_sidak(0.01, TESTS);
     part(c, "chi-square", 0.8);
-    figures_number(&c->to, "chi_square_samples", 9, (double)c->samples, "");
-    figures_number(&c->to, "chi_square_level", 3, level, "");
+    figures_number(&c->to, "chi_square_samples", "%.9g", (double)c->samples, "");
+    figures_number(&c->to, "chi_square_level", "%.3g", level, "");
     figures_list(&c->to, "chi_square");
     for (size_t i = 0; i < TESTS; i++) {
         const vndf_surface surface = {c->distribution, roughness[i / ANGLES][0], roughness[i / ANGLES][1]};
@@ -254,15 +254,15 @@ static void check_chi_square(checking *c)
         const double mass_limit = 1e-5 + of.rounding;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);
-        figures_number(&c->to, "alpha_x", 3, (double)surface.alpha_x, "");
-        figures_number(&c->to, "alpha_y", 3, (double)surface.alpha_y, "");
-        figures_number(&c->to, "theta", 3, theta, "degrees");
+        figures_number(&c->to, "alpha_x", "%.3g", (double)surface.alpha_x, "");
+        figures_number(&c->to, "alpha_y", "%.3g", (double)surface.alpha_y, "");
+        figures_number(&c->to, "theta", "%.3g", theta, "degrees");
         if (is_blind)
             figures_truth(&c->to, "blind", 1);
         tell(c, "bins", (double)of.found.classes);
-        figures_number(&c->to, "p", 4, is_blind ? 1 : of.found.p, "");
-        figures_number(&c->to, "mass_error", 2, is_blind ? 0 : of.mass - 1, "");
-        figures_number(&c->to, "mass_limit", 2, mass_limit, "");
+        figures_number(&c->to, "p", "%.4g", is_blind ? 1 : of.found.p, "");
+        figures_number(&c->to, "mass_error", "%.2g", is_blind ? 0 : of.mass - 1, "");
+        figures_number(&c->to, "mass_limit", "%.2g", mass_limit, "");
         if (of.unseen)
             tell(c, "unclaimed", (double)of.unseen);
         /* below the horizon a narrow lobe may hold less than a float can tell from nothing: density 0 is no fault */
@@ -280,9 +280,9 @@ static void check_hard(checking *c, int is_whole)
                                        "wo_x",    "wo_y",    "wo_z", "u1",   "u2"};
     part(c, "hard cases", 1);
     stress_result result = stress_run(c->distribution, is_whole ? 1 : 19, c->seed);
-    figures_number(&c->to, "hard_samples", 9, (double)result.samples, "");
-    figures_number(&c->to, "hard_views", 9, (double)result.views, "");
-    figures_number(&c->to, "hard_views_left_out", 9, (double)result.outside, "");
+    figures_number(&c->to, "hard_samples", "%.9g", (double)result.samples, "");
+    figures_number(&c->to, "hard_views", "%.9g", (double)result.views, "");
+    figures_number(&c->to, "hard_views_left_out", "%.9g", (double)result.outside, "");
     figures_list(&c->to, "hard");
     for (int id = 0; id < STRESS_COUNT; id++) {
         const stress_property *property = &stress_properties[id];
@@ -300,8 +300,8 @@ static void check_hard(checking *c, int is_whole)
                             p->u2};
         begin(c, property->name);
         figures_text(&c->to, "is", property->meaning);
-        figures_number(&c->to, "worst", 3, fmax(found->worst, 0), "");
-        figures_number(&c->to, "limit", 3, property->limit, "");
+        figures_number(&c->to, "worst", "%.3g", fmax(found->worst, 0), "");
+        figures_number(&c->to, "limit", "%.3g", property->limit, "");
         tell(c, "points", (double)found->checked);
         tell(c, "failed", (double)found->failed);
         for (size_t i = 0; i < sizeof at / sizeof *at && found->failed; i++)
@@ -331,11 +331,13 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
         check_hard(&c, option_value(given, "--hard") != NULL);
     }
     progress_end(&c.bar);
-    if (failed)
+    if (failed) {
+        figures_free(&c.to);
         return STATUS_USE;
+    }
     figures_text(&c.to, "result", c.good ? "good" : "FAILED");
-    figures_end(&c.to);
-    return c.good ? STATUS_GOOD : STATUS_NO;
+    const int status = figures_end(&c.to);
+    return status == STATUS_GOOD && !c.good ? STATUS_NO : status;
 }
 
 static int run(const arguments *given)

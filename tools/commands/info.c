@@ -53,9 +53,9 @@ static int run(const arguments *given)
     figures f = figures_begin(given);
     describe_verdict(&chosen, 0, verdict);
     describe(&f, &chosen, "", verdict);
-    figures_end(&f);
+    const int status = figures_end(&f);
     distribution_close(&chosen);
-    return STATUS_GOOD;
+    return status;
 }
 
 const subcommand command_info = {

@@ -52,17 +52,17 @@ static void print_views(figures *f, const judge_view *views, int has_truth)
     for (int i = 0; i < JUDGE_VIEWS; i++) {
         const judge_view *v = &views[i];
         figures_record(f);
-        figures_number(f, "theta", 3, v->theta, "degrees");
-        figures_number(f, "phi", 3, v->phi, "degrees");
-        figures_number(f, "mass", 7, v->mass, "");
-        figures_number(f, "mass_error", 2, v->mass_error, "");
-        figures_number(f, "bins", 9, (double)v->bins.classes, "");
-        figures_number(f, "statistic", 6, v->bins.statistic, "");
-        figures_number(f, "p", 4, v->bins.p, "");
-        figures_number(f, "scatter", 3, v->scatter, "of random samples");
+        figures_number(f, "theta", "%.3g", v->theta, "degrees");
+        figures_number(f, "phi", "%.3g", v->phi, "degrees");
+        figures_number(f, "mass", "%.7g", v->mass, "");
+        figures_number(f, "mass_error", "%.2g", v->mass_error, "");
+        figures_number(f, "bins", "%.9g", (double)v->bins.classes, "");
+        figures_number(f, "statistic", "%.6g", v->bins.statistic, "");
+        figures_number(f, "p", "%.4g", v->bins.p, "");
+        figures_number(f, "scatter", "%.3g", v->scatter, "of random samples");
         if (has_truth) {
-            figures_number(f, "tv", 3, v->tv, "of the mass");
-            figures_number(f, "efficiency", 4, v->efficiency, "ratio");
+            figures_number(f, "tv", "%.3g", v->tv, "of the mass");
+            figures_number(f, "efficiency", "%.4g", v->efficiency, "ratio");
         }
     }
     figures_list_end(f);
@@ -76,11 +76,11 @@ static void print_bin(figures *f, const judge_view *v, size_t bin)
     const double *theta = &v->ring[bin / JUDGE_SECTORS], *phi = &v->sector[bin % JUDGE_SECTORS];
     const double ends[4] = {theta[0], theta[1], v->turn + phi[0], v->turn + phi[1]};
     figures_record(f);
-    figures_number(f, "theta_of_wi", 3, v->theta, "degrees");
+    figures_number(f, "theta_of_wi", "%.3g", v->theta, "degrees");
     for (int k = 0; k < 4; k++)
-        figures_number(f, names[k], 4, ends[k] * degrees, "degrees");
-    figures_number(f, "expected", 4, v->expected[bin], "samples");
-    figures_number(f, "observed", 4, v->observed[bin], "samples");
+        figures_number(f, names[k], "%.4g", ends[k] * degrees, "degrees");
+    figures_number(f, "expected", "%.4g", v->expected[bin], "samples");
+    figures_number(f, "observed", "%.4g", v->observed[bin], "samples");
 }
 
 /* The first bins without a sample; and where a direction's samples do not follow the density, the bin that is farthest
@@ -89,10 +89,11 @@ static void print_bins(figures *f, const judge_view *views, double level)
 {
     enum { SHOWN = 12 };
     figures_list(f, "first holes");
-    for (size_t i = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && f->records < SHOWN; i++)
-        if (judge_is_hole(&views[i / JUDGE_BINS], i % JUDGE_BINS))
+    for (size_t i = 0, shown = 0; i < (size_t)JUDGE_VIEWS * JUDGE_BINS && shown < SHOWN; i++)
+        if (judge_is_hole(&views[i / JUDGE_BINS], i % JUDGE_BINS)) {
             print_bin(f, &views[i / JUDGE_BINS], i % JUDGE_BINS);
-    figures_list_end(f);
+            shown++;
+        }
     figures_list(f, "farthest off");
     for (const judge_view *v = views; v < views + JUDGE_VIEWS; v++) {
         size_t most = 0;
@@ -119,7 +120,7 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
     char failed[LISTED_LENGTH] = "";
     figures f = figures_begin(given);
     figures_text(&f, "command", task->command);
-    figures_number(&f, "samples", 9, (double)task->samples, "of each direction");
+    figures_number(&f, "samples", "%.9g", (double)task->samples, "of each direction");
     print_views(&f, views, has_truth);
     print_bins(&f, views, level);
     figures_list(&f, "verdict");
@@ -133,8 +134,8 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
         const int is_good = is_p ? p >= level : worst <= limits[id];
         figures_record(&f);
         figures_text(&f, "of", names[id]);
-        figures_number(&f, is_p ? "least p" : "worst", 3, worst, "");
-        figures_number(&f, "limit", 3, is_p ? level : limits[id], "");
+        figures_number(&f, is_p ? "least p" : "worst", "%.3g", worst, "");
+        figures_number(&f, "limit", "%.3g", is_p ? level : limits[id], "");
         figures_truth(&f, "good", is_good);
         if (!is_good)
             snprintf(failed + strlen(failed), sizeof failed - strlen(failed), "%s%s", *failed ? ", " : "",
@@ -144,8 +145,8 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
     if (*failed)
         figures_text(&f, "fails", failed);
     figures_text(&f, "result", *failed ? "FAILED" : "good");
-    figures_end(&f);
-    return *failed ? STATUS_NO : STATUS_GOOD;
+    const int status = figures_end(&f);
+    return *failed && status == STATUS_GOOD ? STATUS_NO : status;
 }
 
 static int run(const arguments *given)

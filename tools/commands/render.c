@@ -8,7 +8,6 @@
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "command.h"
-#include "draw/table.h"
 #include "render/film.h"
 
 static const char name[] = "vndf render";
@@ -89,16 +88,16 @@ static int read_words(const arguments *given, render_work *w)
 /* ---- figures ---- */
 
 /* For people "1.32+-0.01" under the first heading; in JSON two numbers. */
-static void add_measured(text_table *t, const char *heading, const char *spread, const measured *m, int has_json)
+static void add_measured(figures *t, const char *heading, const char *spread, const measured *m, int has_json)
 {
     char text[64];
     snprintf(text, sizeof text, "%.3g+-%.2g", m->value, m->spread);
     if (!has_json) {
-        table_figure(t, heading, isfinite(m->value) ? text : "no variance");
+        figures_add(t, FIGURE_NUMBER, heading, isfinite(m->value) ? text : "no variance");
         return;
     }
-    table_number(t, heading, "%.9g", m->value);
-    table_number(t, spread, "%.9g", m->spread);
+    figures_number(t, heading, "%.9g", m->value, "");
+    figures_number(t, spread, "%.9g", m->spread, "");
 }
 
 /* A row for each way. */
@@ -106,32 +105,32 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
     const comparison *c = &w->ways;
     const int has_json = w->form == FIGURES_JSON;
-    text_table t = {.rows = 0};
+    figures t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
         const finding *a = &found[i];
-        table_row(&t);
-        table_text(&t, "equal", c->has_equal_time ? "equal time" : "equal samples");
-        table_word(&t, "sampler", path_sampler_names[c->way[i].sampler]);
-        table_number(&t, "samples", "%.0f", (double)f->samples);
-        table_number(&t, "seconds", "%.3g", f->processor);
-        table_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value));
+        figures_record(&t);
+        figures_text(&t, "equal", c->has_equal_time ? "equal time" : "equal samples");
+        figures_add(&t, FIGURE_WORD, "sampler", path_sampler_names[c->way[i].sampler]);
+        figures_number(&t, "samples", "%.0f", (double)f->samples, "");
+        figures_number(&t, "seconds", "%.3g", f->processor, "");
+        figures_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value), "");
         add_measured(&t, "samples_needed", "samples_needed_spread", &a->samples, has_json);
         add_measured(&t, "efficiency", "efficiency_spread", &a->efficiency, has_json);
-        table_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio);
-        table_word(&t, "verdict", i ? verdict_names[a->is] : "");
+        figures_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio, "");
+        figures_add(&t, FIGURE_WORD, "verdict", i ? verdict_names[a->is] : "");
         if (has_json) {
-            table_number(&t, "deviations", "%.9g", a->whole);
-            table_number(&t, "worst_block", "%.9g", a->worst);
-            table_number(&t, "mean_square", "%.9g", a->mean_square);
-            table_number(&t, "width", "%.0f", f->width);
-            table_number(&t, "height", "%.0f", f->height);
-            table_number(&t, "lost", "%.0f", (double)f->counts.lost);
-            table_word(&t, "interrupted", is_whole ? "no" : "yes");
+            figures_number(&t, "deviations", "%.9g", a->whole, "");
+            figures_number(&t, "worst_block", "%.9g", a->worst, "");
+            figures_number(&t, "mean_square", "%.9g", a->mean_square, "");
+            figures_number(&t, "width", "%.0f", f->width, "");
+            figures_number(&t, "height", "%.0f", f->height, "");
+            figures_number(&t, "lost", "%.0f", (double)f->counts.lost, "");
+            figures_add(&t, FIGURE_WORD, "interrupted", is_whole ? "no" : "yes");
         }
     }
-    int good = table_print(stdout, &t, w->form);
-    table_free(&t);
+    int good = figures_print(stdout, &t, w->form);
+    figures_free(&t);
     return good;
 }
 

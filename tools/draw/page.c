@@ -171,3 +171,34 @@ void page_section(html_page *page, const char *id, const char *title, const char
     svg_escape(page->html, lead);
     fputs("</p>\n", page->html);
 }
+
+static void put_cell(FILE *html, const char *tag, const char *mark, const char *text)
+{
+    fprintf(html, mark ? "<%s class=\"%s\">" : "<%s>", tag, mark);
+    svg_escape(html, text);
+    fprintf(html, "</%s>", tag);
+}
+
+int page_table(html_page *page, const figures *f)
+{
+    const size_t columns = figures_columns(f);
+    if (f->failed)
+        return 0;
+    fputs("<div class=\"scroll\"><table><thead><tr>", page->html);
+    for (size_t k = 0; k < columns; k++)
+        put_cell(page->html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);
+    fputs("</tr></thead>\n<tbody>\n", page->html);
+    for (size_t i = 0; i < f->count; i++) {
+        const char *mark = f->at[i].mark;
+        if (i % columns == 0)
+            fprintf(page->html, mark ? "<tr class=\"%s\">" : "<tr>", mark);
+        put_cell(page->html, "td",
+                 f->at[i].kind != FIGURE_NUMBER ? "text"
+                 : i % columns                  ? mark
+                                                : NULL,
+                 figures_shown(f, i / columns, i % columns));
+        fputs((i + 1) % columns ? "" : "</tr>\n", page->html);
+    }
+    fputs("</tbody></table></div>\n", page->html);
+    return 1;
+}

@@ -7,6 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
+#include "cli/figures.h"
 #include "cli/output.h"
 
 enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
@@ -36,6 +37,9 @@ void page_end(html_page *page);
 
 /* A heading with a line or two below it; both are plain text. */
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
+
+/* A table; 0 if there was no memory for it. */
+int page_table(html_page *page, const figures *f);
 
 /* Begins a new file beside the page, for the caller to fill; NULL after a complaint. */
 FILE *page_file(html_page *page, const char *name);

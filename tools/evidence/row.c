@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "draw/table.h"
 #include "evidence/evidence.h"
 
 /* How a column is named and shown to people; without a heading it is for files alone. A terminal has no room for
@@ -58,18 +57,18 @@ static const char legend_materials[] =
     "direction: the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the\n"
     "same with visible normals.\n";
 
-static void put_cell(text_table *t, const evidence_row *r, evidence_column c)
+static void put_cell(figures *t, const evidence_row *r, evidence_column c)
 {
     double x = r->number[c] * columns[c].factor;
     const char *heading = columns[c].heading;
     if (c == COL_NS && r->number[COL_WRONG] > 0)
-        table_figure(t, heading, "wrong");
+        figures_add(t, FIGURE_NUMBER, heading, "wrong");
     else if ((columns[c].style & ~WIDE) == TIME)
-        table_time(t, heading, x);
+        figures_time(t, heading, x);
     else if ((columns[c].style & ~WIDE) == BYTES)
-        table_number(t, heading, x >= 10240 ? "%.0f KiB" : "%.0f", x >= 10240 ? x / 1024 : x);
+        figures_number(t, heading, x >= 10240 ? "%.0f KiB" : "%.0f", x >= 10240 ? x / 1024 : x, "");
     else
-        table_number(t, heading, fabs(x) < 1e-9 ? "%.0f" : columns[c].format, x);
+        figures_number(t, heading, fabs(x) < 1e-9 ? "%.0f" : columns[c].format, x, "");
 }
 
 /* Whether a reader is shown the column: some row has a number in it. */
@@ -85,23 +84,23 @@ int evidence_print(FILE *file, const evidence *all, figures_form form)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
     const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON, is_of_materials = all->plan->is_of_materials;
-    text_table t = {.rows = 0};
+    figures t = {.rows = 0};
     for (const evidence_row *r = all->row; r < all->row + all->count; r++) {
         if (!r->is_shown)
             continue;
-        table_row(&t);
-        table_text(&t, "distribution", r->of->name);
-        table_text(&t, is_of_materials && !is_whole ? "effects" : "method", r->m->name);
+        figures_record(&t);
+        figures_text(&t, "distribution", r->of->name);
+        figures_text(&t, is_of_materials && !is_whole ? "effects" : "method", r->m->name);
         if (is_whole)
-            table_word(&t, "kind", kinds[r->m->kind]);
+            figures_add(&t, FIGURE_WORD, "kind", kinds[r->m->kind]);
         for (evidence_column c = 0; c < COLUMNS; c++)
             if (is_whole)
-                table_number(&t, columns[c].key, "%.6g", r->number[c]);
+                figures_number(&t, columns[c].key, "%.6g", r->number[c], "");
             else if (is_told(all, c, form != FIGURES_TEXT))
                 put_cell(&t, r, c);
     }
-    int good = table_print(file, &t, form);
-    table_free(&t);
+    int good = figures_print(file, &t, form);
+    figures_free(&t);
     if (good && !is_whole)
         good = fprintf(file, "\n%s", is_of_materials ? legend_materials : legend_normals) > 0;
     return good;

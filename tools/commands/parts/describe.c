@@ -11,26 +11,26 @@ static void put_table(figures *f, const vndf_info *info)
     const vndf_certificate *c = &info->certificate;
     figures_text(f, "source", info->source);
     figures_text(f, "tool", info->tool);
-    figures_number(f, "bytes", 9, (double)info->bytes, bytes);
-    figures_number(f, "memory", 9, (double)info->memory, bytes);
-    figures_number(f, "cells", 9, (double)info->cells, "intervals");
-    figures_number(f, "moments", 9, info->moments, "terms");
-    figures_number(f, "normalization", 17, info->normalization, "factor");
-    figures_number(f, "scale", 9, info->scale, "slope");
+    figures_number(f, "bytes", "%.9g", (double)info->bytes, bytes);
+    figures_number(f, "memory", "%.9g", (double)info->memory, bytes);
+    figures_number(f, "cells", "%.9g", (double)info->cells, "intervals");
+    figures_number(f, "moments", "%.9g", info->moments, "terms");
+    figures_number(f, "normalization", "%.17g", info->normalization, "factor");
+    figures_number(f, "scale", "%.9g", info->scale, "slope");
     if (!info->bytes)
         return;
-    figures_number(f, "tv", 4, (double)c->tv, mass);
-    figures_number(f, "tv_theta", 6, (double)c->tv_theta, degrees);
-    figures_number(f, "tv_above", 4, (double)c->tv_above, mass);
-    figures_number(f, "tv_above_theta", 6, (double)c->tv_above_theta, degrees);
-    figures_number(f, "max_weight", 6, (double)c->max_weight, "ratio");
+    figures_number(f, "tv", "%.4g", (double)c->tv, mass);
+    figures_number(f, "tv_theta", "%.6g", (double)c->tv_theta, degrees);
+    figures_number(f, "tv_above", "%.4g", (double)c->tv_above, mass);
+    figures_number(f, "tv_above_theta", "%.6g", (double)c->tv_above_theta, degrees);
+    figures_number(f, "max_weight", "%.6g", (double)c->max_weight, "ratio");
     figures_truth(f, "weight_bounded", c->weight_bounded > 0);
-    figures_number(f, "area_error", 4, (double)c->area_error, relative);
-    figures_number(f, "consistency", 4, (double)c->consistency, mass);
-    figures_number(f, "ndf_error", 4, (double)c->ndf_error, relative);
-    figures_number(f, "hidden", 4, (double)c->hidden, mass);
-    figures_number(f, "finest", 4, (double)c->finest, "of the slope");
-    figures_number(f, "horizon_power", 4, (double)c->horizon_power, "power of cos(theta_m)");
+    figures_number(f, "area_error", "%.4g", (double)c->area_error, relative);
+    figures_number(f, "consistency", "%.4g", (double)c->consistency, mass);
+    figures_number(f, "ndf_error", "%.4g", (double)c->ndf_error, relative);
+    figures_number(f, "hidden", "%.4g", (double)c->hidden, mass);
+    figures_number(f, "finest", "%.4g", (double)c->finest, "of the slope");
+    figures_number(f, "horizon_power", "%.4g", (double)c->horizon_power, "power of cos(theta_m)");
 }
 
 /* The largest total variation of the tables of a family. */
@@ -47,24 +47,24 @@ static void put_family(figures *f, const vndf_family *family)
     vndf_family_facts facts = vndf_family_info(family);
     figures_text(f, "source", facts.source);
     figures_text(f, "tool", facts.tool);
-    figures_number(f, "bytes", 9, (double)facts.bytes, bytes);
-    figures_number(f, "memory", 9, (double)facts.memory, bytes);
-    figures_number(f, "knots", 9, (double)facts.count, "tables");
-    figures_number(f, "low", 7, (double)facts.low, "parameter");
-    figures_number(f, "high", 7, (double)facts.high, "parameter");
+    figures_number(f, "bytes", "%.9g", (double)facts.bytes, bytes);
+    figures_number(f, "memory", "%.9g", (double)facts.memory, bytes);
+    figures_number(f, "knots", "%.9g", (double)facts.count, "tables");
+    figures_number(f, "low", "%.7g", (double)facts.low, "parameter");
+    figures_number(f, "high", "%.7g", (double)facts.high, "parameter");
     figures_text(f, "linear_in", facts.reciprocal ? "1/p" : "p");
-    figures_number(f, "distance", 4, (double)facts.distance, mass);
-    figures_number(f, "grazing", 4, (double)facts.grazing, mass);
-    figures_number(f, "tables_tv", 4, largest_tv(family), mass);
+    figures_number(f, "distance", "%.4g", (double)facts.distance, mass);
+    figures_number(f, "grazing", "%.4g", (double)facts.grazing, mass);
+    figures_number(f, "tables_tv", "%.4g", largest_tv(family), mass);
     figures_list(f, "knot");
     for (size_t i = 0; i < facts.count; i++) {
         vndf_info info = vndf_distribution_info(vndf_family_distribution(family, i));
         figures_record(f);
-        figures_number(f, "at", 7, (double)vndf_family_parameter(family, i), "parameter");
-        figures_number(f, "bytes", 9, (double)info.bytes, bytes);
-        figures_number(f, "tv", 4, (double)info.certificate.tv, mass);
+        figures_number(f, "at", "%.7g", (double)vndf_family_parameter(family, i), "parameter");
+        figures_number(f, "bytes", "%.9g", (double)info.bytes, bytes);
+        figures_number(f, "tv", "%.4g", (double)info.certificate.tv, mass);
         if (i + 1 < facts.count)
-            figures_number(f, "distance", 4, (double)vndf_family_distance(family, i), mass);
+            figures_number(f, "distance", "%.4g", (double)vndf_family_distance(family, i), mass);
     }
     figures_list_end(f);
 }

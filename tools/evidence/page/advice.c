@@ -62,6 +62,14 @@ double report_number(const report *r, const vndf_distribution *table, evidence_c
     return NAN;
 }
 
+void report_bytes(char text[REPORT_BYTES], double bytes)
+{
+    double power = exp2(round(log2(bytes)));
+    double size = fabs(bytes / power - 1) < 0.03 ? power : bytes;
+    int is_large = size >= 1048576;
+    snprintf(text, REPORT_BYTES, "%.3g %s", size / (is_large ? 1048576 : 1024), is_large ? "MiB" : "KiB");
+}
+
 /* ---- sentences ----------------------------------------------------------------------------------- */
 
 /* The limits that a table keeps (or breaks), with its numbers. */
@@ -82,8 +90,8 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
     const table_size *size = &table_sizes[chosen];
     const double ns = report_number(r, table, COL_NS), batch = report_number(r, table, r->batch);
     const int is_good = report_keeps(table);
-    char bytes[TABLE_BYTES];
-    table_bytes_text(bytes, (double)vndf_distribution_info(table).bytes);
+    char bytes[REPORT_BYTES];
+    report_bytes(bytes, (double)vndf_distribution_info(table).bytes);
     fputs("<p><strong>", html);
     svg_escape(html, s->name);
     fprintf(html, ": ship %s with %d moments.</strong> %s", bytes, size->moments,
@@ -101,40 +109,39 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
 
 /* ---- the table ----------------------------------------------------------------------------------- */
 
-static void add_rows(text_table *t, const report *r, const subject *s, size_t chosen)
+static void add_rows(figures *t, const report *r, const subject *s, size_t chosen)
 {
     for (size_t i = 0; i < SIZES; i++) {
         const vndf_distribution *table = s->table[i];
         const vndf_info info = vndf_distribution_info(table);
-        table_row(t);
-        if (r->count > 1)
-            table_text(t, "distribution", s->name);
-        table_number(t, "file (bytes)", "%.0f", (double)info.bytes);
-        table_number(t, "moments", "%.0f", info.moments);
-        table_number(t, "in memory (bytes)", "%.0f", (double)info.memory);
+        figures_record(t);
+        figures_text(t, "distribution", s->name);
+        figures_mark(t, i == chosen ? "chosen" : NULL);
+        figures_number(t, "file (bytes)", "%.0f", (double)info.bytes, "");
+        figures_number(t, "moments", "%.0f", info.moments, "");
+        figures_number(t, "in memory (bytes)", "%.0f", (double)info.memory, "");
         for (int k = 0; k < LIMITS; k++) {
-            table_number(t, limits[k].heading, limits[k].format, number_of(table, k));
-            table_mark(t, keeps(table, k) ? NULL : "no");
+            figures_number(t, limits[k].heading, limits[k].format, number_of(table, k), "");
+            figures_mark(t, keeps(table, k) ? NULL : "no");
         }
-        table_number(t, "G1 error", "%.1e", (double)info.certificate.area_error);
-        table_number(t, "ns", "%.0f", report_number(r, table, COL_NS));
-        table_number(t, "batch ns", "%.1f", report_number(r, table, r->batch));
-        table_row_mark(t, i == chosen ? "chosen" : NULL);
+        figures_number(t, "G1 error", "%.1e", (double)info.certificate.area_error, "");
+        figures_number(t, "ns", "%.0f", report_number(r, table, COL_NS), "");
+        figures_number(t, "batch ns", "%.1f", report_number(r, table, r->batch), "");
     }
 }
 
 int report_advice(html_page *page, const report *r)
 {
-    text_table t = {.rows = 0};
+    figures t = {.rows = 0};
     fputs("<div class=\"advice\">\n", page->html);
     for (size_t i = 0; i < r->count; i++) {
         write_advice(page->html, r, &r->subject[i], r->chosen[i]);
         add_rows(&t, r, &r->subject[i], r->chosen[i]);
     }
     fputs("</div>\n", page->html);
-    FILE *data = table_print_html(page->html, &t) ? page_file(page, "tables.csv") : NULL;
-    const int good = data && table_print(data, &t, FIGURES_CSV);
-    table_free(&t);
+    FILE *data = page_table(page, &t) ? page_file(page, "tables.csv") : NULL;
+    const int good = data && figures_print(data, &t, FIGURES_CSV);
+    figures_free(&t);
     if (good)
         page_link(page, "all tables");
     return good;

@@ -48,7 +48,7 @@ static void add_row(frontier *f, const report *r, const evidence_row *of)
     if (kind > ROW_TABLE || (!is_exact && strcmp(of->of->name, r->subject[0].name) != 0))
         return;
     if (kind == ROW_TABLE && moments == 4)
-        table_bytes_text(label, of->number[COL_FILE]);
+        report_bytes(label, of->number[COL_FILE]);
     else if (kind == ROW_CLOSED)
         snprintf(label, sizeof label, "vndf_%.40s()", of->of->name);
     else if (kind == ROW_PUBLISHED)
@@ -112,19 +112,19 @@ int report_frontier(html_page *page, const report *r)
 
 int report_times(html_page *page, const report *r)
 {
-    text_table t = {.rows = 0};
+    figures t = {.rows = 0};
     for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++) {
-        table_row(&t);
-        table_text(&t, "distribution", of->of->name);
-        table_text(&t, "method", of->m->name);
-        table_time(&t, "one by one", of->number[COL_NS]);
-        table_time(&t, "of one direction", of->number[COL_SHARED]);
-        table_time(&t, "in a batch", of->number[r->batch]);
-        table_number(&t, "efficiency, 60", "%.3g", of->number[COL_EFF_60]);
-        table_number(&t, "85", "%.3g", of->number[COL_EFF_85]);
+        figures_record(&t);
+        figures_text(&t, "distribution", of->of->name);
+        figures_text(&t, "method", of->m->name);
+        figures_time(&t, "one by one", of->number[COL_NS]);
+        figures_time(&t, "of one direction", of->number[COL_SHARED]);
+        figures_time(&t, "in a batch", of->number[r->batch]);
+        figures_number(&t, "efficiency, 60", "%.3g", of->number[COL_EFF_60], "");
+        figures_number(&t, "85", "%.3g", of->number[COL_EFF_85], "");
     }
-    int good = table_print_html(page->html, &t);
-    table_free(&t);
+    int good = page_table(page, &t);
+    figures_free(&t);
     FILE *data = good ? page_file(page, "methods.csv") : NULL;
     if (!data || !evidence_print(data, r->found, FIGURES_CSV))
         return 0;

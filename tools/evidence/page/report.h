@@ -6,7 +6,6 @@
 #define TOOLS_EVIDENCE_PAGE_REPORT_H
 
 #include "draw/page.h"
-#include "draw/table.h"
 #include "evidence/evidence.h"
 
 enum { REPORT_SUBJECTS = 4 };
@@ -25,6 +24,10 @@ vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan,
 
 /* Whether a table keeps all limits of the advice. */
 int report_keeps(const vndf_distribution *table);
+
+/* "16 KiB", "1 MiB", "25.8 KiB", to 3%: files stay a little below a power of two. */
+enum { REPORT_BYTES = 16 };
+void report_bytes(char text[REPORT_BYTES], double bytes);
 
 /* What was measured of a table, or NaN. */
 double report_number(const report *r, const vndf_distribution *table, evidence_column c);
