@@ -19,6 +19,10 @@
 
 /* How the roughness that a texture holds becomes alpha. */
 typedef enum bake_mapping { BAKE_SQUARE, BAKE_LINEAR, BAKE_ROOT } bake_mapping;
+
+/* The tables of energy as a host has them. */
+typedef enum bake_shape { BAKE_GRID, BAKE_CYCLES, BAKE_OSPRAY } bake_shape;
+
 float bake_alpha(bake_mapping mapping, double roughness);
 
 /* What all tables are made with. */
@@ -27,7 +31,8 @@ typedef struct bake_settings {
     bake_mapping mapping;
     vndf_masking masking;
     int masks_alike; /* what passes has 1/(1 + Lambda_i + Lambda_o), as in Cycles and OSPRay, not the Beta function */
-    size_t size;     /* of dfg and ltc: size x size */
+    bake_shape shape;
+    size_t size; /* of dfg and ltc: size x size */
     progress *progress;
 } bake_settings;
 
@@ -73,19 +78,18 @@ vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], siz
 /* A mirror of two wavelengths: F = 1, and Schlick's F of f0 = 0. */
 vndf_description bake_mirror(const bake_settings *s, float alpha);
 
-/* What such a mirror reflects of the light, by wavelength; within 3e-4 (tests/bake). */
+/* The mean weights of samples from one direction; with `masks_alike` those of bake_settings. */
 typedef struct bake_sum {
-    double all, grazing;
+    double all, grazing; /* by wavelength */
 } bake_sum;
-bake_sum bake_mean(const vndf_description *of, const double wi[3], int side);
-bake_sum bake_direction(const bake_settings *s, float alpha, double cosine);
+bake_sum bake_mean(const vndf_description *of, const double wi[3], int side, int masks_alike);
 
-/* The same by a quadrature over slopes that draws nothing, from D, Lambda and the law of reflection; with eta above 0
- * what bake_glass is. */
+/* What such a mirror reflects of the light, within 3e-4 (tests/bake); with eta above 0 in `all` what both lobes of a
+ * dielectric keep from the side of z, within 5e-4, where eta < 1 within 3e-3. */
+bake_sum bake_direction(const bake_settings *s, float alpha, double cosine, double eta);
+
+/* The same by a quadrature over slopes that draws nothing, from D, Lambda and the law of reflection. */
 bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, double eta);
-
-/* Of both lobes of a dielectric, from the side of z; within 5e-4, where eta < 1 within 3e-3. */
-double bake_glass(const bake_settings *s, float alpha, double cosine, double eta);
 
 /* 2 integral E mu dmu by 8 nodes. */
 double bake_average(const bake_settings *s, float alpha, double eta);
@@ -93,10 +97,7 @@ double bake_average(const bake_settings *s, float alpha, double eta);
 /* ---- tables; 0 if there is no memory or the user asked to stop ---- */
 
 int bake_dfg(const bake_settings *s, baked_list *list);
-
-/* In the shape of a host. */
-typedef enum bake_shape { BAKE_GRID, BAKE_CYCLES, BAKE_OSPRAY } bake_shape;
-int bake_energy(const bake_settings *s, bake_shape shape, baked_list *list);
+int bake_energy(const bake_settings *s, baked_list *list);
 int bake_ltc(const bake_settings *s, baked_list *list);
 int bake_prefilter(const bake_settings *s, baked_list *list);
 

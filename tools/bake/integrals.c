@@ -49,112 +49,72 @@ vndf_description bake_mirror(const bake_settings *s, float alpha)
 }
 
 /* Samples are a continuous function of their numbers: midpoints t of [0, 1] in each, u = t^2 (3 - 2 t), are dense at
- * both ends, where samples change fast. Sample i stands for this part of the square, but for a factor. */
-static double part_of(int i, int side)
-{
-    double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
-    return s * (1 - s) * t * (1 - t);
-}
-
-/* The samples from one direction; the sum of their parts, or 0: there is no such material. */
-static double samples_from(const vndf_description *of, const double wi[3], int side, bake_points *p)
-{
-    vndf_material material;
-    vndf_error error;
-    double whole = 0;
-    if (vndf_material_resolve(of, &material, &error) != VNDF_OK)
-        return 0;
-    for (int i = 0; i < side * side; i++) {
-        double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
-        p->u[0][i] = (float)(s * s * (3 - 2 * s));
-        p->u[1][i] = (float)(t * t * (3 - 2 * t));
-        p->u[2][i] = 0.5f;
-        whole += part_of(i, side);
-    }
-    bake_sample(&material, wi, (size_t)(side * side), p);
-    return whole;
-}
-
-/* The mean weights from one direction. */
-bake_sum bake_mean(const vndf_description *of, const double wi[3], int side)
-{
-    static bake_points p;
-    bake_sum sum = {0, 0};
-    const double whole = samples_from(of, wi, side, &p);
-    for (int i = 0; i < side * side && whole > 0; i++) {
-        sum.all += part_of(i, side) / whole * (double)p.weight[0][i];
-        sum.grazing += part_of(i, side) / whole * (double)p.weight[1][i];
-    }
-    return sum;
-}
-
-bake_sum bake_direction(const bake_settings *s, float alpha, double cosine)
-{
-    const vndf_description of = bake_mirror(s, alpha);
-    const double wi[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
-    return bake_mean(&of, wi, BAKE_SIDE);
-}
-
-/* The mean of weights that masking has no part in, times 1/(1 + Lambda(wi) + Lambda(wo)). */
-static double mean_masked_alike(const vndf_description *of, const double wi[3], int side)
+ * both ends, where samples change fast, and count by t (1 - t). */
+bake_sum bake_mean(const vndf_description *of, const double wi[3], int side, int masks_alike)
 {
     static bake_points p;
     const vndf_surface surface = {of->distribution, of->alpha_x, of->alpha_y};
     const vndf_vec3 in = {(float)wi[0], (float)wi[1], (float)wi[2]};
-    vndf_description bare = *of;
-    bare.effects.masking = VNDF_MASKING_NONE;
-    const double whole = samples_from(&bare, wi, side, &p), lambda = 1 + (double)vndf_lambda(&surface, in);
-    double sum = 0;
-    for (int i = 0; i < side * side && whole > 0; i++) {
-        const vndf_vec3 out = {p.wo[0][i], p.wo[1][i], fabsf(p.wo[2][i])};
-        if (p.weight[0][i] > 0)
-            sum +=
-                part_of(i, side) / whole * (double)p.weight[0][i] / (lambda + (double)vndf_lambda(&surface, out));
+    const double lambda = masks_alike ? 1 + (double)vndf_lambda(&surface, in) : 0;
+    vndf_description drawn = *of;
+    vndf_material material;
+    vndf_error error;
+    bake_sum sum = {0, 0};
+    double whole = 0;
+    if (masks_alike)
+        drawn.effects.masking = VNDF_MASKING_NONE;
+    if (vndf_material_resolve(&drawn, &material, &error) != VNDF_OK)
+        return sum;
+    for (int i = 0; i < side * side; i++) {
+        double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
+        p.u[0][i] = (float)(s * s * (3 - 2 * s));
+        p.u[1][i] = (float)(t * t * (3 - 2 * t));
+        p.u[2][i] = 0.5f;
     }
-    return sum;
+    bake_sample(&material, wi, (size_t)(side * side), &p);
+    for (int i = 0; i < side * side; i++) {
+        const double s = (i % side + 0.5) / side, t = (i / side + 0.5) / side;
+        double part = s * (1 - s) * t * (1 - t);
+        const vndf_vec3 out = {p.wo[0][i], p.wo[1][i], fabsf(p.wo[2][i])};
+        whole += part;
+        if (masks_alike && p.weight[0][i] > 0)
+            part /= lambda + (double)vndf_lambda(&surface, out);
+        sum.all += part * (double)p.weight[0][i];
+        sum.grazing += part * (double)p.weight[1][i];
+    }
+    return (bake_sum){sum.all / whole, sum.grazing / whole};
 }
 
-double bake_glass(const bake_settings *s, float alpha, double cosine, double eta)
+bake_sum bake_direction(const bake_settings *s, float alpha, double cosine, double eta)
 {
     const double wi[3] = {sqrt(fmax(1 - cosine * cosine, 0)), 0, cosine};
     vndf_description of = bake_mirror(s, alpha);
+    if (!(eta > 0))
+        return bake_mean(&of, wi, BAKE_SIDE, 0);
     of.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
     of.eta = (float)eta;
-    double sum = bake_mean(&of, wi, BAKE_SIDE_GLASS).all;
+    const double reflected = bake_mean(&of, wi, BAKE_SIDE_GLASS, 0).all;
     of.effects.lobes = VNDF_LOBES_TRANSMISSION;
     of.effects.transport = VNDF_TRANSPORT_IMPORTANCE; /* the part of the light, without 1/eta^2 of radiance */
-    return sum + (s->masks_alike ? mean_masked_alike(&of, wi, BAKE_SIDE_GLASS)
-                                 : bake_mean(&of, wi, BAKE_SIDE_GLASS).all);
+    return (bake_sum){reflected + bake_mean(&of, wi, BAKE_SIDE_GLASS, s->masks_alike).all, 0};
 }
 
-/* Nodes and weights of Gauss's rule on [0, 1], by Newton's method on Legendre's polynomial. */
-static void gauss(int n, double *node, double *weight)
+/* Node i of Gauss's rule on [0, 1], and its weight. */
+enum { NODES = 8 };
+static double gauss(int i, double *weight)
 {
-    for (int i = 0; i < n; i++) {
-        double x = cos(3.14159265358979 * (i + 0.75) / (n + 0.5)), slope = 1;
-        for (int step = 0; step < 20; step++) {
-            double p0 = 1, p1 = x;
-            for (int k = 2; k <= n; k++) {
-                double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
-                p0 = p1;
-                p1 = p2;
-            }
-            slope = n * (x * p1 - p0) / (x * x - 1);
-            x -= p1 / slope;
-        }
-        node[i] = (1 + x) / 2;
-        weight[i] = 1 / ((1 - x * x) * slope * slope);
-    }
+    static const double x[] = {0.1834346424956498, 0.5255324099163290, 0.7966664774136267, 0.9602898564975363};
+    static const double w[] = {0.3626837833783620, 0.3137066458778873, 0.2223810344533745, 0.1012285362903763};
+    *weight = w[i / 2] / 2;
+    return (i % 2 ? 1 - x[i / 2] : 1 + x[i / 2]) / 2;
 }
 
 double bake_average(const bake_settings *s, float alpha, double eta)
 {
-    enum { NODES = 8 };
-    double node[NODES], weight[NODES], sum = 0;
-    gauss(NODES, node, weight);
+    double weight, sum = 0;
     for (int i = 0; i < NODES; i++) {
-        double e = eta > 0 ? bake_glass(s, alpha, node[i], eta) : bake_direction(s, alpha, node[i]).all;
-        sum += 2 * node[i] * weight[i] * e;
+        const double cosine = gauss(i, &weight);
+        sum += 2 * cosine * weight * bake_direction(s, alpha, cosine, eta).all;
     }
     return fmin(sum, 1);
 }
@@ -206,15 +166,14 @@ static bake_sum scattered(const hit *h, double x, double y)
 /* Slope lengths by Gauss's rule, of tables between quantiles of all normals; azimuths by midpoints. */
 bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, double eta)
 {
-    enum { PANELS = 96, NODES = 6, AZIMUTHS = 256 };
+    enum { PANELS = 72, AZIMUTHS = 256 };
     hit h = {s, {s->distribution, alpha, alpha}, {sqrt(1 - cosine * cosine), 0, cosine}, 0, eta};
     const vndf_vec3 up = {0, 0, 1}, in = {(float)h.wi[0], 0, (float)cosine};
     const vndf_view straight = vndf_view_from(&h.surface, up);
     const int is_table = vndf_distribution_info(s->distribution).bytes > 0;
-    double node[NODES], weight[NODES], from = 0;
+    double from = 0;
     bake_sum sum = {0, 0};
     h.lambda = (double)vndf_lambda(&h.surface, in);
-    gauss(NODES, node, weight);
     for (int k = 1; k <= PANELS; k++) {
         double part = (double)k / PANELS, to = (double)alpha * 2 * part / (1.001 - part);
         if (is_table) {
@@ -222,7 +181,7 @@ bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, doub
             to = hypot((double)wm.x, (double)wm.y) / fmax((double)wm.z, 1e-30);
         }
         for (int i = 0; i < NODES; i++) {
-            double r = from + (to - from) * node[i], p = (double)vndf_p22(&h.surface, (float)r, 0);
+            double weight, r = from + (to - from) * gauss(i, &weight);
             bake_sum ring = {0, 0};
             for (int a = 0; a < AZIMUTHS; a++) {
                 double phi = 3.14159265358979 * (a + 0.5) / AZIMUTHS;
@@ -230,7 +189,8 @@ bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, doub
                 ring.all += here.all;
                 ring.grazing += here.grazing;
             }
-            double scale = p * r * (to - from) * weight[i] * 2 * 3.14159265358979 / AZIMUTHS;
+            double scale = (double)vndf_p22(&h.surface, (float)r, 0) * r * (to - from) * weight * 2 *
+                           3.14159265358979 / AZIMUTHS;
             sum.all += scale * ring.all;
             sum.grazing += scale * ring.grazing;
         }

@@ -22,7 +22,7 @@ typedef struct target {
     float other[3][SAMPLES], other_density[SAMPLES], other_value[2][SAMPLES];
     bake_sum sum;
     double frame[3][3]; /* X, Y, Z */
-    int numbers;        /* that are fitted: log a, log b, c, and where roughness is not isotropic d, e */
+    int numbers;        /* that are fitted: log a, log b, c, and unless wi is along an axis d, e */
     double wrong;       /* half the integral of |f cos/E - density|, of the numbers that error_of saw last */
 } target;
 
@@ -147,7 +147,8 @@ static int target_of(target *t, const bake_settings *s, const float alpha[2], co
         for (int k = 0; k < 3; k++)
             mean[k] += (double)p->weight[0][i] * (double)p->wo[k][i];
     }
-    t->sum = bake_mean(&of, wi, BAKE_SIDE);
+    t->sum = bake_mean(&of, wi, BAKE_SIDE, 0);
+    t->numbers = fabs(wi[0]) < 1e-9 || wi[1] == 0 ? 3 : NUMBERS;
     for (int k = 0; k < 2; k++)
         if (fabs(wi[k]) < 1e-9) /* what is symmetric is kept so */
             mean[k] = 0;
@@ -234,15 +235,27 @@ static const char norm_holds[] =
     "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E - density|";
 static const char error_says[] = "half the integral of |f cos/E - density| over all texels";
 
-/* Fits where the light comes from wi, beginning with p, which becomes what was found; the inverse. 0: no reflection. */
+/* Fits where the light comes from wi on a surface with these two alphas; gives the inverse. It begins with p, which
+ * becomes what was found; where that is a bad place, once more with `again`, unless that is NULL. 0: no reflection. */
 static int fit(target *t, const bake_settings *s, const float alpha[2], const double wi[3], double step,
-               double p[NUMBERS], bake_cosine *found)
+               const double *again, double p[NUMBERS], bake_cosine *found)
 {
-    double m[3][3];
+    double m[3][3], other[NUMBERS];
     if (!target_of(t, s, alpha, wi))
         return 0;
+    if (t->numbers == 3) /* the cosine is symmetric */
+        p[3] = p[4] = 0;
     minimise(t, p, step);
     error_of(t, p);
+    const double wrong = t->wrong;
+    if (again && wrong >= 0.3) {
+        memcpy(other, again, sizeof other);
+        minimise(t, other, 0.4);
+        error_of(t, other);
+        if (t->wrong < wrong)
+            memcpy(p, other, sizeof other);
+        t->wrong = fmin(t->wrong, wrong);
+    }
     matrix_of(t, p, m);
     *found = inverse_of(m);
     return 1;
@@ -276,7 +289,6 @@ int bake_ltc(const bake_settings *s, baked_list *list)
     double row[NUMBERS] = {0};
     if (!norm)
         return 0;
-    t.numbers = 3;
     for (size_t i = n; i-- > 0;) {
         double p[NUMBERS];
         const float alpha = bake_alpha(s->mapping, (double)i / (double)(n - 1)), both[2] = {alpha, alpha};
@@ -285,7 +297,7 @@ int bake_ltc(const bake_settings *s, baked_list *list)
         for (size_t j = 0; j < n; j++) {
             const double c = cosine_at(j, n), wi[3] = {sqrt(1 - c * c), 0, c};
             bake_cosine found;
-            if (!fit(&t, s, both, wi, i == n - 1 && j == 0 ? 0.3 : 0.1, p, &found))
+            if (!fit(&t, s, both, wi, i == n - 1 && j == 0 ? 0.3 : 0.1, NULL, p, &found))
                 return 0;
             if (j == 0)
                 memcpy(row, p, sizeof p);
@@ -299,33 +311,6 @@ int bake_ltc(const bake_settings *s, baked_list *list)
             if (progress_show((double)((n - 1 - i) * n + j) / (double)(n * n), "ltc", s->progress))
                 return 0;
         }
-    }
-    return 1;
-}
-
-/* One direction on a surface with these two alphas, beginning with what fitted its neighbour. Where the light comes
- * along an axis, the cosine is symmetric and has three numbers. Where five end in a bad place, they begin once more. */
-static int fit_anisotropic(target *t, const bake_settings *s, const float alpha[2], const double wi[3],
-                           const double symmetric[NUMBERS], double p[NUMBERS], bake_cosine *found)
-{
-    double other[NUMBERS];
-    t->numbers = fabs(wi[0]) < 1e-9 || wi[1] == 0 ? 3 : NUMBERS;
-    if (t->numbers == 3)
-        p[3] = p[4] = 0;
-    memcpy(other, symmetric, sizeof other);
-    if (!fit(t, s, alpha, wi, 0.1, p, found))
-        return 0;
-    const double wrong = t->wrong;
-    const bake_cosine first = *found;
-    if (wrong < 0.3)
-        return 1;
-    if (!fit(t, s, alpha, wi, 0.4, other, found))
-        return 0;
-    if (t->wrong < wrong)
-        memcpy(p, other, sizeof other);
-    else {
-        *found = first;
-        t->wrong = wrong;
     }
     return 1;
 }
@@ -361,7 +346,7 @@ int bake_anisotropic(const bake_settings *s, baked_list *list)
             const double turn = 1.5707963267949 * (double)phi / (double)(n - 1), r = sqrt(1 - c * c);
             const double wi[3] = {r * cos(turn), r * sin(turn), c};
             bake_cosine found;
-            if (!fit_anisotropic(&t, s, both, wi, along_x, p, &found))
+            if (!fit(&t, s, both, wi, 0.1, along_x, p, &found))
                 return 0;
             if (phi == 0)
                 memcpy(along_x, p, sizeof p);

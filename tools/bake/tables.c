@@ -34,57 +34,7 @@ void baked_free(baked_list *list)
     list->count = 0;
 }
 
-/* ---- tables -------------------------------------------------------------------------------------- */
-
-static const char roughness_centres[] = "roughness: (i + 1/2)/n", cosine_centres[] = "cosine: (i + 1/2)/n";
-
-static void note_error(baked *b, double got, double want, int count)
-{
-    double error = fabs(got - want);
-    b->worst = fmax(b->worst, error);
-    b->mean += error / count;
-}
-
-/* The k-th of so many places that are spread over n. */
-static size_t spread(int k, int places, size_t n)
-{
-    return (n - 1) * (size_t)k / (size_t)(places - 1);
-}
-
-int bake_dfg(const bake_settings *s, baked_list *list)
-{
-    enum { CHECKED = 4 };
-    const char *const axis[] = {roughness_centres, cosine_centres};
-    const size_t n = s->size, count[] = {n, n};
-    baked *b =
-        baked_add(list, "dfg", "scale, bias, average: f = f0 scale + f90 bias; 2 integral (scale + bias) mu dmu",
-                  2, axis, count, 3);
-    if (!b)
-        return 0;
-    for (size_t i = 0; i < n; i++) {
-        float alpha = bake_alpha(s->mapping, ((double)i + 0.5) / (double)n);
-        double average = bake_average(s, alpha, 0);
-        if (progress_show((double)i / (double)n, "dfg", s->progress))
-            return 0;
-        for (size_t j = 0; j < n; j++) {
-            bake_sum sum = bake_direction(s, alpha, ((double)j + 0.5) / (double)n);
-            float *to = b->value + 3 * (i * n + j);
-            to[0] = (float)(sum.all - sum.grazing);
-            to[1] = (float)sum.grazing;
-            to[2] = (float)average;
-        }
-    }
-    b->error = "scale and bias beside quadrature over slopes, at 16 texels";
-    for (int k = 0; k < CHECKED * CHECKED; k++) {
-        const size_t i = spread(k / CHECKED, CHECKED, n), j = spread(k % CHECKED, CHECKED, n);
-        float alpha = bake_alpha(s->mapping, ((double)i + 0.5) / (double)n);
-        bake_sum want = bake_reference(s, alpha, ((double)j + 0.5) / (double)n, 0);
-        const float *got = b->value + 3 * (i * n + j);
-        note_error(b, (double)got[0], want.all - want.grazing, 2 * CHECKED * CHECKED);
-        note_error(b, (double)got[1], want.grazing, 2 * CHECKED * CHECKED);
-    }
-    return 1;
-}
+/* ---- tables over roughness, cosine and index ------------------------------------------------------- */
 
 /* What a host keeps: sizes of the mirror's and of glass's axes; the order of eta, cosine and roughness from the slowest
  * to the fastest; whether places are in the middle of texels; what the places of the index stand for. Hosts mask what
@@ -122,22 +72,14 @@ static double eta_of(const shape *h, double t, int inside)
     return fmax(eta, 1.002);
 }
 
-/* Number k of a table of E, or of E_avg, over the axes of `order`. */
+/* Where a texel is. */
 typedef struct texel {
     float alpha;
     double cosine, eta;
     int is_empty; /* no surface: Cycles' first slice */
 } texel;
 
-/* The axes of a table: those of the shape in its order, without the index for a mirror and the cosine for a mean. */
-static void axes_of(const shape *h, int glass, int average, char axes[4])
-{
-    for (const char *at = h->order; *at; at++)
-        if ((glass || *at != 'e') && (!average || *at != 'c'))
-            *axes++ = *at;
-    *axes = '\0';
-}
-
+/* Texel k; the axes, from the slowest to the fastest, are r, c and e. */
 static texel texel_at(const bake_settings *s, const shape *h, size_t k, size_t n, const char *axes, int inside)
 {
     texel t = {0, 0, 0, 0};
@@ -157,59 +99,88 @@ static texel texel_at(const bake_settings *s, const shape *h, size_t k, size_t n
     return t;
 }
 
-static int fill_energy(const bake_settings *s, const shape *h, baked *b, size_t n, const char *axes, int inside)
+static void note_error(baked *b, double got, double want, int count)
 {
-    enum { CHECKED = 16 };
-    const size_t size = baked_size(b);
-    for (size_t k = 0; k < size; k++) {
-        texel t = texel_at(s, h, k, n, axes, inside);
-        double e = t.is_empty           ? 1
-                   : !strchr(axes, 'c') ? bake_average(s, t.alpha, t.eta)
-                   : t.eta > 0          ? bake_glass(s, t.alpha, t.cosine, t.eta)
-                                        : bake_direction(s, t.alpha, t.cosine).all;
-        b->value[k] = (float)fmin(e, 1);
-        if (progress_show((double)k / (double)size, b->name, s->progress))
-            return 0;
-    }
-    if (!strchr(axes, 'c'))
-        return 1;
-    b->error = "beside quadrature over slopes, at 16 texels";
-    for (int c = 0; c < CHECKED; c++) {
-        const size_t k = spread(c, CHECKED, size);
-        texel t = texel_at(s, h, k, n, axes, inside);
-        if (!t.is_empty)
-            note_error(b, (double)b->value[k], bake_reference(s, t.alpha, t.cosine, t.eta).all, CHECKED);
-    }
-    return 1;
+    double error = fabs(got - want);
+    b->worst = fmax(b->worst, error);
+    b->mean += error / count;
 }
 
-int bake_energy(const bake_settings *s, bake_shape shaped, baked_list *list)
+/* Adds a table of n places on each axis: of three channels the split sum with the mean over cosines, of one E, or
+ * without the axis c its mean. 16 texels are compared with quadrature. */
+static int add_table(const bake_settings *s, const shape *h, baked_list *list, const char *name, const char *holds,
+                     size_t n, const char *axes, int inside, int channels)
+{
+    enum { CHECKED = 16 };
+    const int is_mean = !strchr(axes, 'c');
+    const size_t count[] = {n, n, n};
+    const char *axis[BAKE_AXES];
+    double average = 0;
+    float average_of = 0; /* the alpha */
+    for (int i = 0; axes[i]; i++)
+        axis[i] = axes[i] == 'e'   ? (inside ? h->inside : h->outside)
+                  : axes[i] == 'r' ? (h->centred ? "roughness: (i + 1/2)/n" : "roughness: i/(n - 1)")
+                                   : (h->centred ? "cosine: (i + 1/2)/n" : "cosine: i/(n - 1)");
+    baked *b = baked_add(list, name, holds, (int)strlen(axes), axis, count, channels);
+    const size_t size = b ? baked_size(b) / (size_t)channels : 0;
+    for (size_t k = 0; k < size; k++) {
+        const texel t = texel_at(s, h, k, n, axes, inside);
+        float *to = b->value + k * (size_t)channels;
+        if (is_mean || (channels > 1 && average_of != t.alpha))
+            average = bake_average(s, average_of = t.alpha, t.eta);
+        const bake_sum sum = is_mean ? (bake_sum){average, 0} : bake_direction(s, t.alpha, t.cosine, t.eta);
+        to[0] = t.is_empty ? 1 : (float)(channels == 1 ? fmin(sum.all, 1) : sum.all - sum.grazing);
+        if (channels > 1) {
+            to[1] = (float)sum.grazing;
+            to[2] = (float)average;
+        }
+        if (progress_show((double)k / (double)size, name, s->progress))
+            return 0;
+    }
+    for (int i = 0; b && !is_mean && i < CHECKED; i++) {
+        const size_t k = (size - 1) * (size_t)i / (CHECKED - 1);
+        const texel t = texel_at(s, h, k, n, axes, inside);
+        const float *got = b->value + k * (size_t)channels;
+        if (t.is_empty)
+            continue;
+        const bake_sum want = bake_reference(s, t.alpha, t.cosine, t.eta);
+        b->error = "beside quadrature over slopes, at 16 texels";
+        note_error(b, (double)got[0], channels > 1 ? want.all - want.grazing : want.all,
+                   CHECKED * (channels > 1 ? 2 : 1));
+        if (channels > 1)
+            note_error(b, (double)got[1], want.grazing, CHECKED * 2);
+    }
+    return b != NULL;
+}
+
+int bake_dfg(const bake_settings *s, baked_list *list)
+{
+    return add_table(s, &shapes[BAKE_GRID], list, "dfg",
+                     "scale, bias, average: f = f0 scale + f90 bias; 2 integral (scale + bias) mu dmu", s->size,
+                     "rc", 0, 3);
+}
+
+int bake_energy(const bake_settings *s, baked_list *list)
 {
     static const char *const names[] = {"energy",        "energy_average", "glass",
                                         "glass_average", "glass_inside",   "glass_inside_average"};
-    const shape *h = &shapes[shaped];
+    static const char *const holds[] = {
+        "the part of the light that a mirror reflects",
+        "the part of the light that both lobes of a dielectric keep, from the thinner side",
+        "the same from the denser side, of index 1/eta"};
+    const shape *h = &shapes[s->shape];
     bake_settings host = *s;
+    int good = 1;
     host.masks_alike = h->masks_alike && s->masking == VNDF_MASKING_HEIGHT_CORRELATED;
-    for (int k = 0; k < 6; k++) {
-        const int glass = k > 1, average = k % 2, inside = k > 3;
-        const size_t n = glass ? h->glass : h->mirror, count[] = {n, n, n};
-        const char *axis[3];
-        char axes[4];
-        axes_of(h, glass, average, axes);
-        for (int i = 0; axes[i]; i++)
-            axis[i] = axes[i] == 'e'   ? (inside ? h->inside : h->outside)
-                      : axes[i] == 'r' ? (h->centred ? roughness_centres : "roughness: i/(n - 1)")
-                                       : (h->centred ? cosine_centres : "cosine: i/(n - 1)");
-        baked *b = baked_add(list, names[k],
-                             !glass    ? "the part of the light that a mirror reflects"
-                             : !inside ? "the part of the light that both lobes of a dielectric keep, from the "
-                                         "thinner side"
-                                       : "the same from the denser side, of index 1/eta",
-                             (int)strlen(axes), axis, count, 1);
-        if (!b || !fill_energy(&host, h, b, n, axes, inside))
-            return 0;
+    for (int k = 0; k < 6 && good; k++) {
+        char axes[4], *to = axes;
+        for (const char *at = h->order; *at; at++)
+            if ((k > 1 || *at != 'e') && (k % 2 == 0 || *at != 'c'))
+                *to++ = *at;
+        *to = '\0';
+        good = add_table(&host, h, list, names[k], holds[k / 2], k > 1 ? h->glass : h->mirror, axes, k > 3, 1);
     }
-    return 1;
+    return good;
 }
 
 /* Normals that wi = (0, 0, 1) sees are all normals. Their azimuths turn by the golden ratio, lengths are stratified. */

@@ -169,7 +169,7 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     if (!*o->value && equals)
         wrong = "takes no value";
     else if (!o->repeats && o->given.count)
-        wrong = "is given twice";
+        wrong = strchr(o->value, ',') ? "is given twice; its values have commas between them" : "is given twice";
     else if (o->given.count == WORDS_MAX)
         wrong = "is given more often than this program reads";
     if (wrong)

@@ -1,9 +1,10 @@
-/* What the user points at: a distribution (FILE|ggx|beckmann), a roughness, an incident direction. */
+/* What the user points at: a distribution (FILE|ggx|beckmann), the source of one that is to be tabulated (a formula, a
+ * CSV, a named family), a roughness, an incident direction. */
 #ifndef TOOLS_CLI_SUBJECT_H
 #define TOOLS_CLI_SUBJECT_H
 
 #include "cli/arguments.h"
-#include "vndf.h"
+#include "vndf_build.h"
 
 /* ---- distributions ---- */
 
@@ -21,6 +22,21 @@ void distribution_close(chosen_distribution *chosen);
 
 /* A file with the tables of a family is known by its name, FILE.vndfs. */
 int is_family_file(const char *name);
+
+/* ---- sources ---- */
+
+/* --ndf, --slope, --csv, --family; NULL ends them. */
+extern const char *const source_kinds[];
+
+/* The source of the one that was given, or of the family `otherwise` where none was (NULL: one is needed). NULL after a
+ * complaint, also where --set stands with another one than a formula. */
+vndf_source *source_from_words(const arguments *given, const char *otherwise);
+
+/* Of rows of D or P22 in a CSV, or on stdin for "-"; NULL after a complaint. */
+vndf_source *source_from_csv(const char *command, const char *path);
+
+/* For people: its description; of a family its name. */
+const char *source_name(const vndf_source *source);
 
 /* ---- directions and roughness ---- */
 

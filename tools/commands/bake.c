@@ -45,25 +45,24 @@ static unsigned listed(const arguments *given, const char *option, unsigned othe
     return bits ? bits : otherwise;
 }
 
-static int make(const bake_settings *s, unsigned what, bake_shape shape, baked_list *list)
+static int make(const bake_settings *s, unsigned what, baked_list *list)
 {
-    static const double seconds[] = {2, 16, 17, 0.1, 50};
+    static const struct {
+        int (*bake)(const bake_settings *, baked_list *);
+        double seconds;
+    } parts[] = {{bake_dfg, 2}, {bake_energy, 16}, {bake_ltc, 17}, {bake_prefilter, 0.1}, {bake_anisotropic, 50}};
     double all = 0, end = 0;
-    int good = 1;
     for (int k = 0; k < 5; k++)
-        all += what >> k & 1 ? seconds[k] : 0;
-    for (int k = 0; k < 5 && good; k++) {
+        all += what >> k & 1 ? parts[k].seconds : 0;
+    for (int k = 0; k < 5; k++) {
         if (!(what >> k & 1))
             continue;
-        end += seconds[k] / all;
+        end += parts[k].seconds / all;
         progress_step(s->progress, end);
-        good = k == 0   ? bake_dfg(s, list)
-               : k == 1 ? bake_energy(s, shape, list)
-               : k == 2 ? bake_ltc(s, list)
-               : k == 3 ? bake_prefilter(s, list)
-                        : bake_anisotropic(s, list);
+        if (!parts[k].bake(s, list))
+            return 0;
     }
-    return good;
+    return 1;
 }
 
 static int write_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by,
@@ -109,7 +108,6 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
     const char *folder = option_value(given, "-o");
-    const bake_shape shape = (bake_shape)option_choice(given, "--shape", BAKE_GRID);
     char made_by[1024];
     baked_list list = {.count = 0};
     html_page page;
@@ -125,9 +123,9 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     snprintf(made_by + length, sizeof made_by - length, "; %s; Smith's masking, %s%s%s", alphas[s->mapping],
              s->masking == VNDF_MASKING_SEPARABLE ? "separable" : "correlated", source ? "; D: " : "",
              source ? source : "");
-    int status = make(s, what, shape, &list) ? STATUS_GOOD
-                 : output_stopping()         ? complain(name, "interrupted; '%s' was not touched", folder)
-                                             : complain(name, "no memory, or nothing is reflected");
+    int status = make(s, what, &list) ? STATUS_GOOD
+                 : output_stopping()  ? complain(name, "interrupted; '%s' was not touched", folder)
+                                      : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
     if (status == STATUS_GOOD &&
         !write_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
@@ -152,6 +150,7 @@ static int run(const arguments *given)
                        .mapping = (bake_mapping)option_choice(given, "--mapping", 0),
                        .masking = option_choice(given, "--masking", 0) ? VNDF_MASKING_SEPARABLE
                                                                        : VNDF_MASKING_HEIGHT_CORRELATED,
+                       .shape = (bake_shape)option_choice(given, "--shape", BAKE_GRID),
                        .size = (size_t)size};
     int status = bake(given, &s, listed(given, "--what", 15));
     distribution_close(&chosen);

@@ -6,7 +6,6 @@
 #include "cli/figures.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "evidence/evidence.h"

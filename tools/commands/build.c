@@ -7,7 +7,6 @@
 #include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/describe.h"

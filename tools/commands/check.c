@@ -13,7 +13,6 @@
 #include "cli/progress.h"
 #include "cli/random.h"
 #include "cli/sort.h"
-#include "cli/source_words.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "evidence/measure/bins.h"

@@ -4,7 +4,7 @@
 
 #include "cli/arguments.h"
 #include "cli/progress.h"
-#include "cli/source_words.h"
+#include "cli/subject.h"
 #include "command.h"
 #include "draw/svg.h"
 #include "evidence/page/report.h"
