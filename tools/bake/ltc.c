@@ -235,8 +235,8 @@ static const char norm_holds[] =
     "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E - density|";
 static const char error_says[] = "half the integral of |f cos/E - density| over all texels";
 
-/* Fits where the light comes from wi on a surface with these two alphas, beginning with p, which becomes what was
- * found, and where that is a bad place and `again` is not NULL once more with `again`; the inverse. 0: no reflection. */
+/* Fits where the light comes from wi on a surface with these two alphas; gives the inverse. It begins with p, which
+ * becomes what was found; where that is a bad place, once more with `again`, unless that is NULL. 0: no reflection. */
 static int fit(target *t, const bake_settings *s, const float alpha[2], const double wi[3], double step,
                const double *again, double p[NUMBERS], bake_cosine *found)
 {
