@@ -15,7 +15,7 @@ static method method_of(const vndf_distribution *d, const effect_set *set, float
 }
 
 /* What is off is one number of a run's sixth result. */
-enum { WO, LOBE, NOT_A_NUMBER, WEIGHT, VALUE, DENSITY, DEFECTS };
+enum { WO, LOBE, NOT_A_NUMBER, WEIGHT, VALUE, DENSITY, DEFECTS, BATCH = DEFECTS };
 
 static int defect;
 static method_run *right;
@@ -29,6 +29,7 @@ static void off(const method *m, block *of, size_t first, size_t count)
     case LOBE: spoilt->lobe = VNDF_LOBE_TRANSMISSION; break;
     case NOT_A_NUMBER: spoilt->weight[0] = NAN; break;
     case DENSITY: spoilt->density *= 1.001f; break;
+    case BATCH: of->y[5] = nextafterf(of->y[5], 2); break;
     default: spoilt->weight[2] *= 1.001f;
     }
 }
@@ -47,6 +48,11 @@ static void test_notices(void)
         TEST(!evidence_verify(&m, &law, &b, 500));
         *run[defect] = right;
     }
+    method batch = method_effect_batch(&m, VNDF_INSTRUCTIONS_PORTABLE);
+    TEST(evidence_verify(&batch, &law, &b, 500));
+    right = batch.each;
+    batch.each = off;
+    TEST(!evidence_verify(&batch, &law, &b, 500));
     method_release(&m);
 }
 
@@ -60,6 +66,10 @@ static void test_sets(const vndf_distribution *d)
         double found[COLUMNS];
         method m = method_of(d, set, 0.5f);
         int good = evidence_verify(&m, &law, &b, 500) & worth_of_material(&m, &law, 60, &b, 4, found);
+        for (int by = VNDF_INSTRUCTIONS_PORTABLE; by <= VNDF_INSTRUCTIONS_AVX512; by++) {
+            method batch = method_effect_batch(&m, (vndf_instructions)by);
+            good &= !batch.each || evidence_verify(&batch, &law, &b, 500);
+        }
         if (!TEST(good && found[COL_MEAN] > 0 && found[COL_MEAN] < 2.25))
             fprintf(stderr, "  %s: mean %g\n", set->name, found[COL_MEAN]);
         if (is->normals == VNDF_NORMALS_BOUNDED)

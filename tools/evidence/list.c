@@ -142,6 +142,8 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
         evidence_row *r = add(to, of, method_effect(set, &surface, to->error));
         if (!r)
             return to->error->status;
+        for (int by = VNDF_INSTRUCTIONS_PORTABLE; by < SETS; by++)
+            r->m[by] = method_effect_batch(r->m, (vndf_instructions)by);
         r->law = effect_law(set);
         r->number[COL_ALPHA_X] = (double)surface.alpha_x;
         r->number[COL_ALPHA_Y] = (double)surface.alpha_y;

@@ -38,7 +38,7 @@ typedef struct block {
     float alpha[BLOCK], wi[3][BLOCK], given[3][BLOCK], u[3][BLOCK];
     method_input in[BLOCK];
     float x[BLOCK], y[BLOCK], z[BLOCK], pdf[BLOCK]; /* normals, or wo, with their densities */
-    float value[3][BLOCK], half[3][BLOCK];          /* of batches of materials: weights or values, and normals */
+    float value[3][BLOCK], half[3][BLOCK];          /* of batches of materials: weights and normals */
     uint8_t lobe[BLOCK];
     vndf_scattered out[BLOCK]; /* of single calls of materials; eval fills weight, pdf density */
 } block;
@@ -127,16 +127,10 @@ method method_exported(const vndf_distribution *d, const char *name);
 
 /* ---- sets of effects of vndf_bsdf.h, each a method that scatters light ---------------------------- */
 
-typedef enum effect_kind {
-    EFFECT_LIBRARY, /* vndf_bsdf_at */
-    EFFECT_ROUGH,   /* vndf_bsdf_rough, a roughness for each hit */
-    EFFECT_BATCH    /* vndf_bsdf_sample_n and the like */
-} effect_kind;
-
 typedef struct effect_set {
     const char *name;
-    effect_kind kind;
     vndf_effects effects;
+    int is_rough;        /* a roughness for each hit, by vndf_bsdf_rough in the place of vndf_bsdf_at */
     int stretched;       /* alpha_y is a quarter of alpha_x */
     const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effect_set;
@@ -157,6 +151,9 @@ typedef struct effect_case {
 
 /* A method without `each` and an error if the set cannot be made. */
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
+
+/* The same by batches, whose state it shares; no `each` if they do not run here or the roughness is of the hits. */
+method method_effect_batch(const method *one_by_one, vndf_instructions limit);
 
 /* How blocks of a set are filled. */
 block_law effect_law(const effect_set *set);

@@ -53,9 +53,10 @@ static const char legend_normals[] =
 
 static const char legend_materials[] =
     "ns: hit and sample, a direction each (median of turns; spread: half of what lies between\n"
-    "quartiles); shared, eval, pdf: one hit for 256; ratio: to bare reflection. Of the weights from one\n"
-    "direction: the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the\n"
-    "same with visible normals.\n";
+    "quartiles); batch, avx2, avx512: the same by batches, compiled for every machine and for these;\n"
+    "shared, eval, pdf: one hit for 256; ratio: to bare reflection. Of the weights from one direction:\n"
+    "the largest, mean, part of samples lost, variance; eff: 1/(variance ns) over that of the same with\n"
+    "visible normals.\n";
 
 static void put_cell(figures *t, const evidence_row *r, evidence_column c)
 {

@@ -103,10 +103,10 @@ int worth_of_material(const method *m, const block_law *law, double theta, block
         block_aim(b, wi, 1);
         m->each(m, b, 0, BLOCK);
         for (size_t k = 0; k < BLOCK; k++) {
-            double weight = (double)(m->limit ? b->value[0][k] : b->out[k].weight[0]);
+            double weight = (double)b->out[k].weight[0];
             sum[half] += weight;
             square[half] += weight * weight;
-            lost += (m->limit ? b->lobe[k] : b->out[k].lobe) == VNDF_LOBE_NONE;
+            lost += b->out[k].lobe == VNDF_LOBE_NONE;
             most = fmax(most, weight);
         }
     }

@@ -24,7 +24,7 @@ const effect_set effect_sets[] = {
      .effects = {.masking = VNDF_MASKING_V_CAVITIES, .normals = VNDF_NORMALS_V_CAVITY},
      .visible = "V-cavity masking"},
     {.name = "two roughnesses", .stretched = 1},
-    {.name = "roughness per hit", .kind = EFFECT_ROUGH},
+    {.name = "roughness per hit", .is_rough = 1},
     {.name = "rotated axes", .effects = {.shape = VNDF_SHAPE_ROTATED}, .stretched = 1},
     {.name = "matrix", .effects = {.shape = VNDF_SHAPE_MATRIX}, .stretched = 1},
     {.name = "matrix and mean slope", .effects = {.shape = VNDF_SHAPE_AFFINE}, .stretched = 1},
@@ -35,11 +35,6 @@ const effect_set effect_sets[] = {
     {.name = "both lobes", .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "both lobes, separable",
      .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC, .masking = VNDF_MASKING_SEPARABLE}},
-    {.name = "batch: bare reflection", .kind = EFFECT_BATCH},
-    {.name = "batch: conductor Fresnel", .kind = EFFECT_BATCH, .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}},
-    {.name = "batch: both lobes",
-     .kind = EFFECT_BATCH,
-     .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}},
     {.name = "Turquin", .effects = {.scattering = VNDF_SCATTERING_TURQUIN}},
     {.name = "Kulla & Conty", .effects = {.scattering = VNDF_SCATTERING_KULLA_CONTY}},
     {.name = "walk", .effects = {.scattering = VNDF_SCATTERING_MULTIPLE}},
@@ -63,7 +58,7 @@ block_law effect_law(const effect_set *set)
 
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
-    if (of->set->kind == EFFECT_ROUGH) {
+    if (of->set->is_rough) {
         const vndf_description *is = &of->material.is;
         const vndf_roughness r = {in->alpha * is->alpha_x, in->alpha * is->alpha_y, 1.0f, 0.0f};
         vndf_bsdf_rough(bsdf, &of->material, &r, in->wi);
@@ -102,55 +97,23 @@ static void density(const method *m, block *b, size_t first, size_t count)
         b->out[i].density = vndf_bsdf_pdf(&bsdf, b->in[i].given);
 }
 
-/* ---- batches, with the best instructions of this machine ------------------------------------------ */
+/* ---- batches ------------------------------------------------------------------------------------- */
 
-enum { ONE_HIT = VNDF_SHARED_WI | VNDF_SHARED_ALPHA };
-
-#define AT(array, i)                                     \
-  {                                                      \
-    (array)[0] + (i), (array)[1] + (i), (array)[2] + (i) \
-  }
-
-static vndf_bsdf_batch batch_of(const method *m, const block *b, size_t i, size_t count, unsigned is_shared)
+static void batch_each(const method *m, block *b, size_t i, size_t count)
 {
-    return (vndf_bsdf_batch){.material = &((const effect_case *)m->state)->material,
-                             .count = count,
-                             .shared = is_shared,
-                             .wi_x = b->wi[0] + i,
-                             .wi_y = b->wi[1] + i,
-                             .wi_z = b->wi[2] + i};
-}
-
-static void sample_n(const method *m, block *b, size_t i, size_t count, unsigned is_shared)
-{
-    const vndf_bsdf_batch batch = batch_of(m, b, i, count, is_shared);
-    const float *const u[3] = AT(b->u, i);
-    const vndf_scattered_n to = {
-        {b->x + i, b->y + i, b->z + i}, AT(b->value, i), b->pdf + i, b->lobe + i, AT(b->half, i)};
+    const vndf_bsdf_batch batch = {.material = &((const effect_case *)m->state)->material,
+                                   .count = count,
+                                   .limit = m->limit,
+                                   .wi_x = b->wi[0] + i,
+                                   .wi_y = b->wi[1] + i,
+                                   .wi_z = b->wi[2] + i};
+    const float *const u[3] = {b->u[0] + i, b->u[1] + i, b->u[2] + i};
+    const vndf_scattered_n to = {{b->x + i, b->y + i, b->z + i},
+                                 {b->value[0] + i, b->value[1] + i, b->value[2] + i},
+                                 b->pdf + i,
+                                 b->lobe + i,
+                                 {b->half[0] + i, b->half[1] + i, b->half[2] + i}};
     vndf_bsdf_sample_n(&batch, u, to);
-}
-
-static void batch_each(const method *m, block *b, size_t first, size_t count)
-{
-    sample_n(m, b, first, count, 0);
-}
-
-static void batch_shared(const method *m, block *b, size_t first, size_t count)
-{
-    sample_n(m, b, first, count, ONE_HIT);
-}
-
-static void batch_eval(const method *m, block *b, size_t i, size_t count)
-{
-    const vndf_bsdf_batch batch = batch_of(m, b, i, count, ONE_HIT);
-    float *const value[3] = AT(b->value, i);
-    vndf_bsdf_eval_n(&batch, (vndf_normals)AT(b->given, i), NULL, value);
-}
-
-static void batch_density(const method *m, block *b, size_t i, size_t count)
-{
-    const vndf_bsdf_batch batch = batch_of(m, b, i, count, ONE_HIT);
-    vndf_bsdf_pdf_n(&batch, (vndf_normals)AT(b->given, i), b->pdf + i);
 }
 
 /* ---- materials ----------------------------------------------------------------------------------- */
@@ -214,12 +177,18 @@ method method_effect(const effect_set *set, const vndf_surface *surface, vndf_er
         method_release(&m);
         return m;
     }
-    const int is_batch = set->kind == EFFECT_BATCH;
-    if (is_batch)
-        m.limit = vndf_instructions_used(VNDF_INSTRUCTIONS_BEST);
-    m.each = is_batch ? batch_each : each;
-    m.shared = is_batch ? batch_shared : shared;
-    m.eval = is_batch ? batch_eval : eval;
-    m.density = is_batch ? batch_density : density;
+    m.each = each;
+    m.shared = shared;
+    m.eval = eval;
+    m.density = density;
+    return m;
+}
+
+method method_effect_batch(const method *one_by_one, vndf_instructions limit)
+{
+    method m = {.kind = ROW_EFFECT, .state = one_by_one->state, .limit = limit, .same_bits = each};
+    const int is_rough = ((const effect_case *)m.state)->set->is_rough; /* batches have arrays for that */
+    snprintf(m.name, sizeof m.name, "%.50s, batch", one_by_one->name);
+    m.each = vndf_instructions_used(limit) == limit && !is_rough ? batch_each : NULL;
     return m;
 }
