@@ -100,14 +100,6 @@ static void test_error(const method_reference *reference, const vndf_distributio
     TEST(worst <= 1.02 * claimed && worst > 0.1 * claimed);
 }
 
-static void test_fresnel(void)
-{
-    TEST_NEAR(worth_fresnel(1, 0.43, 2.455), (0.57 * 0.57 + 2.455 * 2.455) / (1.43 * 1.43 + 2.455 * 2.455), 1e-14);
-    TEST_NEAR(worth_fresnel(0, 0.43, 2.455), 1, 1e-14);
-    double brewster = 1 / sqrt(1 + 2.25), across = 1.25 / 3.25;
-    TEST_NEAR(worth_fresnel(brewster, 1.5, 0), 0.5 * across * across, 1e-14);
-}
-
 /* ---- verification ------------------------------------------------------------------------------ */
 
 static enum { LENGTH, AWAY, OTHER_BITS } defect;
@@ -163,7 +155,6 @@ static void test_any(void)
 
 int main(void)
 {
-    test_fresnel();
     test_verify();
     test_notices();
     test_visible(method_ggx_caps(), vndf_ggx());

@@ -30,6 +30,9 @@ static void off(const method *m, block *of, size_t first, size_t count)
     case NOT_A_NUMBER: spoilt->weight[0] = NAN; break;
     case DENSITY: spoilt->density *= 1.001f; break;
     case BATCH: of->y[5] = nextafterf(of->y[5], 2); break;
+    case BATCH + 1: of->value[2][5] = nextafterf(of->value[2][5], 2); break;
+    case BATCH + 2: of->pdf[5] = nextafterf(of->pdf[5], 0); break;
+    case BATCH + 3: of->lobe[5] ^= 1; break;
     default: spoilt->weight[2] *= 1.001f;
     }
 }
@@ -52,7 +55,8 @@ static void test_notices(void)
     TEST(evidence_verify(&batch, &law, &b, 500));
     right = batch.each;
     batch.each = off;
-    TEST(!evidence_verify(&batch, &law, &b, 500));
+    for (defect = BATCH; defect < BATCH + 4; defect++)
+        TEST(!evidence_verify(&batch, &law, &b, 500));
     method_release(&m);
 }
 

@@ -183,7 +183,5 @@ void evidence_free(evidence *of)
     for (size_t i = 0; of && i < of->count; i++)
         for (int set = 0; set < SETS; set++)
             method_release(&of->row[i].m[set]);
-    if (of)
-        subject_free(&of->student);
     free(of);
 }

@@ -113,8 +113,7 @@ struct evidence_row {
 typedef struct evidence {
     evidence_row row[ROWS_MAX];
     size_t count;
-    subject student; /* time for a D that everybody has, beside that at hand */
-    method_reference reference[4];
+    method_reference reference[3];
     const evidence_plan *plan;
     vndf_error *error;
 } evidence;
@@ -153,8 +152,5 @@ void worth_of_normals(const method *m, const method_reference *reference, double
 /* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
 int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
                       double found[COLUMNS]);
-
-/* Index of refraction n + ik, cosine of the angle to the microfacet: reflectance of unpolarised light. */
-double worth_fresnel(double cosine, double n, double k);
 
 #endif

@@ -101,11 +101,9 @@ static void add_closed(evidence *to, const method_reference *of)
     add_calls(to, of, d, "closed form", METHOD_AFFINE, METHOD_TWO_LOBES);
 }
 
-/* All tables, the default one by all calls, and the published ways for any D; and time for a D that everybody has,
- * beside that at hand. */
-static vndf_status list_normals(evidence *to)
+/* All tables, the default one by all calls, and the published ways for any D. */
+static void list_normals(evidence *to)
 {
-    static const char student[] = "student-t:2.5";
     const method_reference *ggx = to->reference, *beckmann = ggx + 1, *at_hand = ggx + 2;
     const char *name = table_sizes[SIZE_DEFAULT].name;
     vndf_distribution *const *table = to->plan->at_hand->table;
@@ -121,18 +119,10 @@ static vndf_status list_normals(evidence *to)
     add(to, at_hand, method_exported(table[SIZE_DEFAULT], name));
     add(to, at_hand, method_all_normals(at_hand));
     add(to, at_hand, method_warp(at_hand));
-    if (strcmp(to->plan->at_hand->name, student) != 0) {
-        subject_begin(&to->student, vndf_source_family(student, to->error), student);
-        if (!to->student.source || !subject_table(&to->student, SIZE_DEFAULT, to->plan, to->error))
-            return to->error->status;
-        to->reference[3] = method_reference_of(to->student.table[SIZE_DEFAULT], student);
-        add_calls(to, &to->reference[3], to->student.table[SIZE_DEFAULT], name, METHOD_SAMPLE, METHOD_SAMPLE);
-    }
     for (evidence_row *r = to->row; r < to->row + to->count; r++) {
         r->beside = caps;
         r->normals = find(to, "all normals (2007)", r->of);
     }
-    return VNDF_OK;
 }
 
 static vndf_status list_materials(evidence *to, const method_reference *of)
@@ -210,6 +200,6 @@ vndf_status evidence_list(evidence *to)
     for (int i = 0; i < 3 && is_of_materials && status == VNDF_OK; i++)
         status = list_materials(to, &to->reference[i]);
     if (!is_of_materials)
-        status = list_normals(to);
+        list_normals(to);
     return status == VNDF_OK ? choose(to) : status;
 }

@@ -19,19 +19,9 @@
 #include "cli/subject.h"
 #include "evidence/evidence.h"
 
-static const double gold_n = 0.43, gold_k = 2.455, alpha_measured = 0.5;
+static const float gold_n = 0.43f, gold_k = 2.455f;
+static const double alpha_measured = 0.5;
 static const double noise_limit = 6; /* standard errors between two halves of the same samples */
-
-/* Complex Fresnel for polarised light, in terms of a^2 + b^2 = |sqrt(m^2 - sin^2)|^2. */
-double worth_fresnel(double cosine, double n, double k)
-{
-    double c = fmin(fabs(cosine), 1), s2 = 1 - c * c, t = n * n - k * k - s2;
-    double square = sqrt(t * t + 4 * n * n * k * k), a = sqrt(fmax(0.5 * (square + t), 0));
-    double across = (square - 2 * a * c + c * c) / (square + 2 * a * c + c * c);
-    double sum = square * c * c + s2 * s2, cross = 2 * a * c * s2;
-    double along = across * (sum - cross) / (sum + cross);
-    return 0.5 * (across + along);
-}
 
 /* ---- normals ----------------------------------------------------------------------------------- */
 
@@ -62,7 +52,8 @@ void worth_of_normals(const method *m, const method_reference *reference, double
             const vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
             if (weight > 0 && wo.z > 0) {
                 double g2 = 1 / (1 + lambda + (double)vndf_lambda(&surface, wo));
-                value = worth_fresnel(facing, gold_n, gold_k) * weight * area * g2 / (double)wi.z; /* (1) */
+                value = (double)vndf_fresnel_conductor((float)facing, gold_n, gold_k) * weight * area * g2 /
+                        (double)wi.z; /* (1) */
             }
             sum += value;
             square += value * value;

@@ -74,7 +74,6 @@ static void put_family(figures *f, const vndf_family *family)
 int describe_verdict(const chosen_distribution *of, int by_default, char verdict[DESCRIBE_VERDICT])
 {
     const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
-    const double aim_above = 1e-3, aim_below = 3e-2;
     char more[160] = "good to ship";
     int good = 1;
     if (of->family) {
@@ -98,10 +97,10 @@ int describe_verdict(const chosen_distribution *of, int by_default, char verdict
         snprintf(more, sizeof more, "worth little at %.0f degrees: try a larger --max-bytes%s",
                  (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
                  !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
-    } else if (by_default && !(above <= aim_above && below <= aim_below)) {
+    } else if (by_default && !(above <= table_aim_above && below <= table_aim_below)) {
         good = 0;
         snprintf(more, sizeof more, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
-                 100 * aim_above, 100 * aim_below);
+                 100 * table_aim_above, 100 * table_aim_below);
     } else if (c->finest > 0)
         snprintf(more, sizeof more, "good to ship if no feature is narrower than %.2g of its slope",
                  (double)c->finest);

@@ -6,19 +6,22 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cli/subject.h"
 #include "draw/svg.h"
 #include "evidence/page/report.h"
 
-/* No sample is brighter than chance would make it; without the weight the error stays below half a step of 8 bits
- * above the horizon, where below it light has met the surface before. */
+/* No sample is brighter than chance would make it, and what tables are aimed at. */
 enum { WEIGHT, TV_ABOVE, TV_BELOW, LIMITS };
 
+static const double weight_most = 2;
+
 static const struct {
-    double most;
+    const double *most;
     const char *heading, *format, *sentence; /* of its column, of a number in it, and of one in a sentence */
-} limits[LIMITS] = {[WEIGHT] = {2, "weight", "%.3g", "weights up to %.3g"},
-                    [TV_ABOVE] = {1e-3, "TV above", "%.1e", "a total variation of %.2g above the horizon"},
-                    [TV_BELOW] = {3e-2, "TV below", "%.1e", "a total variation of %.2g below it"}};
+} limits[LIMITS] = {
+    [WEIGHT] = {&weight_most, "weight", "%.3g", "weights up to %.3g"},
+    [TV_ABOVE] = {&table_aim_above, "TV above", "%.1e", "a total variation of %.2g above the horizon"},
+    [TV_BELOW] = {&table_aim_below, "TV below", "%.1e", "a total variation of %.2g below it"}};
 
 static double number_of(const vndf_distribution *table, int limit)
 {
@@ -28,7 +31,7 @@ static double number_of(const vndf_distribution *table, int limit)
 
 static int keeps(const vndf_distribution *table, int limit)
 {
-    return number_of(table, limit) <= limits[limit].most;
+    return number_of(table, limit) <= *limits[limit].most;
 }
 
 int report_keeps(const vndf_distribution *table)
