@@ -19,21 +19,12 @@ static inline vndf_vec3 method_unit(float x, float y, float z)
     return (vndf_vec3){x * scale, y * scale, z * scale};
 }
 
-static inline void method_put(block *b, size_t i, vndf_vec3 wm, float pdf)
-{
-    b->x[i] = wm.x;
-    b->y[i] = wm.y;
-    b->z[i] = wm.z;
-    b->pdf[i] = pdf;
-}
-
 /* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler inlines it. */
 static inline void method_loop(method_one *one, const method *m, block *b, size_t first, size_t count)
 {
     for (size_t i = first; i < first + count; i++) {
-        float pdf;
-        vndf_vec3 wm = one(m, &b->in[i], &pdf);
-        method_put(b, i, wm, pdf);
+        const vndf_vec3 wm = one(m, &b->in[i], &b->pdf[i]);
+        b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
     }
 }
 
@@ -42,9 +33,8 @@ static inline void method_shared_loop(vndf_vec3 (*draw)(const void *view, float 
                                       const void *view, block *b, size_t first, size_t count)
 {
     for (size_t i = first; i < first + count; i++) {
-        float pdf;
-        vndf_vec3 wm = draw(view, b->in[i].u[0], b->in[i].u[1], &pdf);
-        method_put(b, i, wm, pdf);
+        const vndf_vec3 wm = draw(view, b->in[i].u[0], b->in[i].u[1], &b->pdf[i]);
+        b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
     }
 }
 
