@@ -55,8 +55,9 @@ VNDF_INLINE void vndf_share_lobes(int lobes, int count, int stride, const float 
         }
     for (int l = 0; l < lobes; l++)
         for (int i = 0; i < count; i++) {
-            const float by_area = share[l * stride + i] / sum[i], by_weight = weight[l * stride + i] / total[i];
-            share[l * stride + i] = sum[i] > FLT_MIN ? by_area : by_weight;
+            const float of = share[l * stride + i], w = weight[l * stride + i];
+            const float part = sum[i] > FLT_MIN ? of : w, all = sum[i] > FLT_MIN ? sum[i] : total[i];
+            share[l * stride + i] = part / all;
         }
 }
 
