@@ -3,7 +3,7 @@
  * unit, JSON that does not parse, and a verdict that praises a poor table. */
 #include "harness/run_program.h"
 
-/* Whether brackets are closed, nothing stands behind a last comma, and nothing is nan or inf. */
+/* Whether brackets are closed, a comma stands between them, nothing behind the last one, and nothing is nan or inf. */
 static int is_json(const char *text)
 {
     int depth = 0, is_good = *text == '{' || *text == '[';
@@ -12,6 +12,7 @@ static int is_json(const char *text)
             for (text++; *text && *text != '"'; text++)
                 text += *text == '\\';
         is_good &= !strchr("}]", *text) || before != ',';
+        is_good &= !strchr("{[", *text) || strchr(" {[,:", before) != NULL;
         is_good &= strncmp(text, "nan", 3) != 0 && strncmp(text, "inf", 3) != 0 && *text;
         depth += (*text == '{' || *text == '[') - (*text == '}' || *text == ']');
     }

@@ -58,6 +58,8 @@ static void check_page(void)
                                         ": ship ",
                                         "moments.</strong>",
                                         ">advised</text>",
+                                        "<tr class=\"chosen\"><td class=\"text\">",
+                                        "</td></tr>\n</tbody>",
                                         "href=\"tables.csv\"",
                                         "href=\"methods.csv\"",
                                         "href=\"frontier.svg\""};
