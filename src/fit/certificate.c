@@ -30,7 +30,6 @@ typedef struct survey {
     table table;
     const vndf_profile *profile;
     vndf_strips strips;
-    size_t *first;         /* strips of knots, and behind them the count */
     direction *at;         /* of each edge */
     double *xi, *kernel;   /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
     double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
@@ -59,7 +58,7 @@ static vndf_drawn drawn_in(table t, seen v, int i, int below)
 /* Compares what is drawn with what is seen, strip by strip. */
 static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
 {
-    const size_t *strip = s->first;
+    const size_t *strip = s->strips.first;
     double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
     memset(s->rarely, 0, sizeof s->rarely);
     for (int first = below ? v.first : 0, i = first; i <= s->table.cells; i++) {
@@ -114,7 +113,7 @@ static void look_from(survey *s, size_t edge)
     *at = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
     for (size_t i = 0; i < 2 * strips->count; i++) {
         double r = strips->at[i / 2].r[i % 2];
-        s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_kernel_below(r, rho) : 0;
+        s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_profile_kernel(r, rho) : 0;
     }
     look_at_side(s, edge, 0, at->side[0]);
     look_at_side(s, edge, 1, at->side[1]);
@@ -144,7 +143,7 @@ static void look_around(survey *s)
         look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count,
                                       1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
-        size_t from = s->first[i], strips = s->first[i + 1] - from;
+        size_t from = s->strips.first[i], strips = s->strips.first[i + 1] - from;
         look_from(s, from);
         look_from(s, from + strips / 3);
         if (i > 0)
@@ -178,7 +177,7 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
  * were, over the strips that hold all but LEFT_OUT of the mass on either side. */
 static double ndf_error(const survey *s)
 {
-    const size_t *first = s->first;
+    const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
         int tail = i == s->table.cells;
@@ -208,19 +207,15 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
         knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
-    s.first = malloc((cells + 2) * sizeof *s.first);
     s.at = calloc(n + 1, sizeof *s.at);
     s.xi = malloc((n + 1) * sizeof *s.xi);
     s.kernel = malloc((2 * n + 1) * sizeof *s.kernel);
-    good = good && s.first && s.at && s.xi && s.kernel;
+    good = good && s.at && s.xi && s.kernel;
     if (good) {
-        for (unsigned i = 0; i <= cells; i++)
-            s.first[i] = vndf_last_before(&s.strips.at->edge, sizeof *s.strips.at, n, knot[i]);
-        s.first[cells + 1] = n;
         for (unsigned i = 0; i <= cells; i++) {
             vndf_cell cell =
                 vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)d->squarings);
-            for (size_t k = s.first[i]; k < s.first[i + 1]; k++)
+            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++)
                 s.xi[k] = vndf_cell_place(&cell, s.strips.at[k].edge);
         }
         look_around(&s);
@@ -240,7 +235,6 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     }
     vndf_strips_free(&s.strips);
     free(knot);
-    free(s.first);
     free(s.at);
     free(s.xi);
     free(s.kernel);

@@ -26,12 +26,13 @@ typedef struct vndf_strip {
     double f, along;       /* of f and of R f */
     double p0, p1;         /* P22 inside both ends */
     double r[2], mass[2];  /* two points: f dR = mass */
-    double beyond[3];      /* integrals of R f, f and f/R from the edge on */
+    int gathered;          /* all of it stands at one place */
 } vndf_strip;
 
 typedef struct vndf_strips {
     size_t count;
-    vndf_strip *at; /* edges are floats where knots may be, and ascend from 0; at[count] has an infinite one */
+    vndf_strip *at; /* edges ascend from 0, as floats do; at[count] has an infinite one */
+    size_t *first;  /* those of knots, and behind them the count */
 } vndf_strips;
 
 /* About as many as a table of so many cells needs; some end at these knots, which ascend from 0. 0 if there is no
@@ -39,30 +40,6 @@ typedef struct vndf_strips {
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
                      size_t cells);
 void vndf_strips_free(vndf_strips *strips);
-
-/* sqrt(R^2 - rho^2) - rho acos(rho/R), R >= rho: the kernel of what is seen from below the horizon, times rho. With
- * v = 1 - rho/R it is (R - rho) sqrt(v) times a series of v, interpolated at Chebyshev's points; it errs by 3e-10. */
-static inline double vndf_kernel_below(double r, double rho)
-{
-    double way = r - rho, v = way / r;
-    return way * sqrt(v) *
-           (0.942809041755102 +
-            v * (0.0471404241180448 +
-                 v * (0.00757688010954708 +
-                      v * (0.00174636513315605 +
-                           v * (0.000524695280505182 +
-                                v * (0.0000530581966426208 +
-                                     v * (0.000203962682914189 +
-                                          v * (-0.00011057126242655 + v * 0.0000561436904973098))))))));
-}
-
-/* The unit problem from (s, 0, -c) with rho at an edge, s + c = 1: the projected area of what is visible, and its
- * derivatives by -c and by s. From (s, 0, c) the area is larger by c, and `turned` is what is missing of the derivative
- * 1. */
-typedef struct vndf_area {
-    double below, turned, along;
-} vndf_area;
-vndf_area vndf_strips_area(const vndf_strips *strips, size_t edge);
 
 /* ---- cells ---- */
 
@@ -123,7 +100,7 @@ typedef struct vndf_knots {
     double *xi;                    /* of the edges in the cell at hand */
     size_t first, last, deep;      /* edges: of the least and largest knot; of the largest rho that counts below */
     unsigned least, count;         /* how few knots there can be, how many there are, */
-    size_t at[VNDF_CELLS_MAX + 2]; /* and their edges; behind them the last of all */
+    size_t at[VNDF_CELLS_MAX + 1]; /* and their edges */
 } vndf_knots;
 
 /* For up to `most` knots. 0 if there is no memory; free them either way. */
@@ -132,6 +109,9 @@ void vndf_knots_free(vndf_knots *knots);
 
 /* Places at most `count` knots, but no more than errors are worth. */
 void vndf_knots_place(vndf_knots *knots, unsigned count);
+
+/* A knot as a float: what is gathered to one place stays on its side. */
+float vndf_knots_slope(const vndf_knots *knots, unsigned i);
 
 /* The areas for rho at an edge. */
 const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);

@@ -9,9 +9,10 @@
 
 static const double PI = 3.14159265358979323846;
 /* Weights of errors: below the horizon, beyond one that k~ hides there anyway, or less where cells err by less than AT;
- * of the area; of the largest of D; and of the width of the first cell, where D errs by twice that. */
+ * of the area, and of what is drawn of it below; of the largest of D; and of the width of the first cell, where D errs
+ * by twice that. */
 static const double BELOW = 1.4e-2, ANYWAY = 2e-3, AT = 1e-5;
-static const double AREA = 0.3, DENSITY = 2e-4, FIRST = 1e-3;
+static const double AREA = 0.3, DRAWN = 1e-4, DENSITY = 2e-4, FIRST = 1e-3;
 
 static const double ENOUGH = 1e-13, MOST = 0.1; /* errors of cells */
 /* A cell that holds more than WIDE_MASS is no wider than this factor, since k~ begins at a knot near rho. */
@@ -88,29 +89,46 @@ static double miss_below(const view *v, size_t edge)
     return sum / 2 / all;
 }
 
-/* By how much the spline of the area errs at the edge in the middle of the cell, where x = c/(c + s): of the area above
- * the horizon, or of what is left of it below, while that is not much smaller. */
+/* By how much the spline errs at an edge in the cell, where x = c/(c + s): of the area above the horizon, or of what is
+ * left of it below, while that is not much smaller; and below by how much the drawn area does, between shares that make
+ * it exact at the knots. */
+static double area_miss_at(const view *v, size_t middle)
+{
+    const double smaller = 0.02;
+    vndf_knots *k = v->knots;
+    int tail = v->cell.power > 0;
+    if (middle <= v->from || middle >= v->end || middle > k->last)
+        return 0;
+    vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
+    if (!tail)
+        b = *vndf_knots_area(k, v->end);
+    double x0 = v->cell.x, h = tail ? v->cell.z : v->cell.h, x1 = x0 + h, x = 1 - k->rim[middle].z,
+           t = (x - x0) / h, u = 1 - t, d0 = h * (1 - a.turned - a.along), d1 = h * (1 - b.turned - b.along);
+    double spline =
+        u * u * ((1 + 2 * t) * (a.below + x0) + t * d0) + t * t * ((1 + 2 * u) * (b.below + x1) - u * d1);
+    double miss = AREA * fabs(spline - m.below - x) / fmax(m.below, smaller * x);
+    if (v->from > 0 && v->end <= k->deep) {
+        const vndf_rim *r0 = &k->rim[v->from], *r1 = &k->rim[v->end], *r = &k->rim[middle];
+        double c0 = second_share(r0), c1 = second_share(r1), xi = k->xi[middle - v->from];
+        double b0 = (1 - xi) * a.below / (r0->z * (r0->s1 + c0 * r0->s2)),
+               b1 = xi * b.below / (r1->z * (r1->s1 + c1 * r1->s2));
+        double drawn = (b0 + b1) * r->s1 + (b0 * c0 + b1 * c1) * r->s2;
+        miss = fmax(miss, DRAWN * fmin(fabs(drawn * r->z / m.below - 1), 10));
+    }
+    return miss;
+}
+
+/* In the middle of its edges, and of its width: before a needle edges lie close to that. */
 static double area_miss(const view *v)
 {
-    const double smaller = 0.02, narrow = 2e-3; /* the error falls as the fourth power of h */
-    vndf_knots *k = v->knots;
-    double x0 = v->cell.x, h = v->cell.power > 0 ? v->cell.z : v->cell.h, z = v->cell.z - h / 2;
+    const vndf_knots *k = v->knots;
+    double z = v->cell.z - 0.5 * (v->cell.power > 0 ? v->cell.z : v->cell.h);
     size_t low = v->from, high = v->end;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;
         *(k->rim[middle].z > z ? &low : &high) = middle;
     }
-    size_t middle = low > v->from ? low : high;
-    if (h < narrow || middle >= v->end || middle > k->last)
-        return 0;
-    vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
-    if (v->cell.power == 0)
-        b = *vndf_knots_area(k, v->end);
-    double x1 = x0 + h, x = 1 - k->rim[middle].z, t = (x - x0) / h, u = 1 - t, d0 = h * (1 - a.turned - a.along),
-           d1 = h * (1 - b.turned - b.along);
-    double spline =
-        u * u * ((1 + 2 * t) * (a.below + x0) + t * d0) + t * t * ((1 + 2 * u) * (b.below + x1) - u * d1);
-    return AREA * fabs(spline - m.below - x) / fmax(m.below, smaller * x);
+    return fmax(area_miss_at(v, v->from + (v->end - v->from) / 2), area_miss_at(v, low > v->from ? low : high));
 }
 
 /* The error of the cell between two edges, or some of it that is more than enough. */
@@ -205,14 +223,23 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
     }
     k->count = n == count ? n : march(k, best, count);
     k->count = k->count > count ? count : k->count;
-    k->at[k->count] = k->strips.count;
+}
+
+float vndf_knots_slope(const vndf_knots *k, unsigned i)
+{
+    size_t edge = k->at[i];
+    double r = k->strips.at[edge].edge;
+    float knot = (float)r;
+    if (k->strips.at[edge].gathered)
+        return (double)knot > r ? nextafterf(knot, 0.0f) : knot;
+    return edge > 0 && k->strips.at[edge - 1].gathered && (double)knot < r ? nextafterf(knot, HUGE_VALF) : knot;
 }
 
 const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 {
     vndf_rim *rim = &k->rim[edge];
     if (!rim->known)
-        rim->area = vndf_strips_area(&k->strips, edge);
+        rim->area = vndf_profile_below(k->profile, rim->z, k->strips.at[edge].edge * rim->z);
     rim->known = 1;
     return &rim->area;
 }

@@ -79,14 +79,14 @@ static void test_claims(size_t index, size_t bytes)
     vndf_free(table);
 }
 
-/* Areas of the table against the oracle's, as near as certified: within 3e-4 in 16 KiB, where the last digit of floats
- * shows if little is left of the area. */
+/* Areas of the table against the oracle's, as near as certified: within 3e-4 in 16 KiB, or 4e-3 where D jumps; the last
+ * digit of floats shows there if little is left of the area. */
 static void test_areas(size_t index, size_t bytes)
 {
     oracle o = oracle_get(index);
     vndf_certificate claim = {0};
     vndf_distribution *table = oracle_build(o.name, bytes, &claim, NULL);
-    if (bytes > 2048 && !TEST(claim.area_error < 3e-4f))
+    if (bytes > 2048 && !TEST(claim.area_error < (o.rough ? 4e-3f : 3e-4f)))
         fprintf(stderr, "  %s: areas within %.3g\n", o.name, (double)claim.area_error);
     const vndf_surface surface = {table, 1, 1};
     for (double theta = 0.5; TEST(table != NULL) && theta < 170; theta += 7) {

@@ -181,6 +181,7 @@ void vndf_panels_sum(vndf_profile *profile)
     p[0].f0 = 0.0;
     p[n].t0 = profile->tail_m0;
     p[n].s = profile->tail_m1;
+    p[n].less = p[n].least = 0.0;
     for (size_t i = 0; i < n; i++) {
         p[i + 1].f0 = p[i].f0 + p[i].m0;
         before += p[i].m1 + p[i].r * p[i].m0;
@@ -188,6 +189,13 @@ void vndf_panels_sum(vndf_profile *profile)
     for (size_t i = n; i-- > 0;) {
         p[i].t0 = p[i + 1].t0 + p[i].m0;
         p[i].s = p[i + 1].s + p[i + 1].t0 * (p[i + 1].r - p[i].r) + p[i].m1;
+        p[i].less = p[i + 1].less;
+        p[i].least = p[i + 1].least;
+        for (int k = 0; k < VNDF_GAUSS; k++) {
+            double r = p[i].point[k].r, less = p[i].point[k].weight / r;
+            p[i].less += less;
+            p[i].least += less / (r * r);
+        }
     }
     profile->f0 = p[n].f0 + profile->tail_m0;
     profile->f1 = before + profile->tail_m1 + p[n].r * profile->tail_m0;

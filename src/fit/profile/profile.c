@@ -1,6 +1,6 @@
 /* From a source to its profile, or to the reason why it is no microsurface: panels are made, a proof looks between
  * their points, and where it finds more, panels are made anew with edges there. Then slopes and values are brought to
- * canonical scale. */
+ * canonical scale. The public oracle is a profile without a table. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -183,9 +183,4 @@ void vndf_profile_free(vndf_profile *profile)
     free(profile->panel);
     free(profile->edge);
     free(profile);
-}
-
-double vndf_profile_claimed(const vndf_profile *profile)
-{
-    return 1e-10 * fmin(fmax(profile->scale, 1e-4), 1.0);
 }
