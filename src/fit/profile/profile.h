@@ -47,7 +47,7 @@ typedef struct vndf_profile {
 } vndf_profile;
 
 /* NULL and an error with the reason if the source cannot be the normals of a microsurface. The profile keeps the
- * guard, which must live as long or be set to NULL. */
+ * guard, which must live as long. */
 vndf_profile *vndf_profile_from(const vndf_source *source, vndf_guard *guard, vndf_error *error);
 void vndf_profile_free(vndf_profile *profile);
 
