@@ -7,7 +7,6 @@
 #include "core/cursor.h"
 #include "core/error.h"
 #include "core/frame.h"
-#include "table/file.h"
 
 vndf_family *vndf_family_allocate(size_t count)
 {
@@ -126,7 +125,7 @@ void vndf_family_write(const vndf_family *family, vndf_writer *w)
         vndf_write_f32(w, family->distance[i]);
     for (size_t i = 0; i < family->count; i++) {
         vndf_writer table = {NULL, 0, 0, 0};
-        vndf_table_write_loaded(family->distribution[i], &table);
+        vndf_table_write(family->distribution[i], &table);
         vndf_write_u32(w, (uint32_t)table.size);
         vndf_write_bytes(w, table.bytes, table.size);
         w->failed |= table.failed;
