@@ -83,6 +83,7 @@ static int emit(parser *p, vndf_instruction instruction, int change)
         vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: too many operands wait here; nest less", p->at + 1);
         return 0;
     }
+    instruction.change = change;
     p->expression->program[p->expression->count++] = instruction;
     return 1;
 }
@@ -128,8 +129,8 @@ static const char *known_name(const vndf_names *n, size_t i)
         return i < n->variable_count ? n->variables[i] : "pi";
     if (behind_pi < n->parameter_count)
         return n->parameters[behind_pi].name;
-    const vndf_function *function = vndf_function_at(behind_pi - n->parameter_count);
-    return function ? function->name : NULL;
+    size_t function = behind_pi - n->parameter_count;
+    return function < VNDF_FUNCTIONS ? vndf_functions[function].name : NULL;
 }
 
 static int unknown_name(parser *p, size_t size)
@@ -161,7 +162,7 @@ static int name(parser *p, size_t size)
         return unknown_name(p, size);
     p->at += size;
     if (i < n->variable_count)
-        return emit(p, (vndf_instruction){.operation = VNDF_PUSH_VARIABLE, .variable = (unsigned)i}, 1);
+        return emit(p, (vndf_instruction){.operation = VNDF_PUSH_VARIABLE, .variable = i}, 1);
     if (i == n->variable_count)
         return emit_number(p, 3.14159265358979323846);
     i -= n->variable_count + 1;
@@ -185,11 +186,13 @@ static int close_parenthesis(parser *p, size_t opened)
 static int name_or_call(parser *p)
 {
     size_t start = p->at, size = name_length(p->text + start, p->length - start);
-    const vndf_function *function = vndf_function_find(p->text + start, size);
+    int function = 0;
+    while (function < VNDF_FUNCTIONS && !vndf_is_word(p->text + start, size, vndf_functions[function].name))
+        function++;
     p->at += size;
     int is_call = peek(p) == '(';
     size_t open = p->at;
-    if (!is_call || !function) {
+    if (!is_call || function == VNDF_FUNCTIONS) {
         p->at = start;
         return name(p, size) &&
                (!is_call || unexpected(p, "the name before it is no function; a product is written with *", ""));
@@ -197,9 +200,10 @@ static int name_or_call(parser *p)
     p->at++;
     if (!enter(p) || !sum(p))
         return 0;
-    if (function->one && peek(p) == ',')
+    int takes_two = vndf_functions[function].two != NULL;
+    if (!takes_two && peek(p) == ',')
         return unexpected(p, "this function takes one argument", "");
-    if (function->two) {
+    if (takes_two) {
         if (peek(p) != ',')
             return unexpected(p, "min, max and pow take two arguments, separated by a comma", "");
         p->at++;
@@ -207,7 +211,7 @@ static int name_or_call(parser *p)
             return 0;
     }
     return close_parenthesis(p, open) &&
-           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, function->two ? -1 : 0);
+           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
 }
 
 static int primary(parser *p)
