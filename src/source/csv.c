@@ -271,10 +271,9 @@ vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double
                               size_t count, const char *name, vndf_error *error)
 {
     if ((over != VNDF_ROWS_OVER_THETA && over != VNDF_ROWS_OVER_SLOPE) ||
-        (of != VNDF_ROWS_OF_NDF && of != VNDF_ROWS_OF_P22)) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22");
-        return NULL;
-    }
+        (of != VNDF_ROWS_OF_NDF && of != VNDF_ROWS_OF_P22))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22"),
+               NULL;
     reader r = {.unit = "row", .first = first_names[1 + over], .value = second_names[of], .error = error};
     if (!x || !value)
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the array of %s is NULL", x ? r.value : r.first);
@@ -373,10 +372,8 @@ static vndf_status read_lines(reader *r, vndf_span rest)
 
 vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error)
 {
-    if (!text) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
-        return NULL;
-    }
+    if (!text)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL"), NULL;
     size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 by spreadsheets */
     size_t lines = 1;
     for (size_t i = 0; i < size && lines < VNDF_LIMIT_CSV_ROWS; i++)

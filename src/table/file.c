@@ -73,10 +73,8 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
     vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
     uint32_t cells = vndf_read_u32(&r), moments = vndf_read_u32(&r), squarings = vndf_read_u32(&r);
-    if (cells < 2 || cells > VNDF_CELLS_MAX || moments < 2 || moments > 4 || squarings > VNDF_SQUARINGS_MAX) {
-        vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
-        return NULL;
-    }
+    if (cells < 2 || cells > VNDF_CELLS_MAX || moments < 2 || moments > 4 || squarings > VNDF_SQUARINGS_MAX)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format"), NULL;
     vndf_distribution *table = vndf_table_allocate(cells, moments, squarings);
     const char *why = NULL;
     if (table) {

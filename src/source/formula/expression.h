@@ -18,7 +18,7 @@
 
 enum {
     VNDF_VARIABLES = 3,
-    VNDF_EXPRESSION_STACK = 320 /* operands on the stack: at most 4 for each level of depth, see the grammar */
+    VNDF_EXPRESSION_STACK = 320 /* operands: a level of depth leaves at most 4 of them waiting, see the grammar */
 };
 
 /* clang-format off */
@@ -49,7 +49,7 @@ typedef struct vndf_instruction {
     double number;
 } vndf_instruction;
 
-/* A program whose stack ends with one value and never exceeds VNDF_EXPRESSION_STACK. */
+/* A program whose stack ends with one value. */
 typedef struct vndf_expression {
     vndf_instruction *program; /* owned */
     size_t count;

@@ -15,7 +15,6 @@ typedef struct parser {
     const char *text;
     size_t length, at; /* at: the first character that has not been read */
     size_t depth;      /* rules that are open around this one */
-    size_t stack;      /* operands on the stack of the program so far */
     const vndf_names *names;
     unsigned char used[VNDF_LIMIT_PARAMETERS];
     vndf_expression *expression;
@@ -78,11 +77,6 @@ static int unexpected_operand(parser *p, const char *wanted)
 /* Every instruction comes from a character of its own, so the program cannot outgrow the text. */
 static int emit(parser *p, vndf_instruction instruction, int change)
 {
-    p->stack = (size_t)((long)p->stack + change);
-    if (p->stack > VNDF_EXPRESSION_STACK) {
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: too many operands wait here; nest less", p->at + 1);
-        return 0;
-    }
     instruction.change = change;
     p->expression->program[p->expression->count++] = instruction;
     return 1;
@@ -97,10 +91,10 @@ static int enter(parser *p)
 {
     if (++p->depth <= VNDF_LIMIT_EXPRESSION_DEPTH)
         return 1;
-    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
-              "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
-              VNDF_LIMIT_EXPRESSION_DEPTH);
-    return 0;
+    return vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+                     "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
+                     VNDF_LIMIT_EXPRESSION_DEPTH),
+           0;
 }
 
 /* ---- the grammar ------------------------------------------------------------------------------ */
@@ -108,15 +102,14 @@ static int enter(parser *p)
 static int number(parser *p)
 {
     double value;
+    char excerpt[VNDF_EXCERPT];
     size_t size = vndf_number_read(p->text + p->at, p->length - p->at, &value);
     if (size == 0)
         return unexpected(p, "a number has digits, like 0.5 or 1e-3", "");
-    if (isinf(value)) {
-        char excerpt[VNDF_EXCERPT];
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double", p->at + 1,
-                  vndf_excerpt(excerpt, p->text + p->at, size));
-        return 0;
-    }
+    if (isinf(value))
+        return vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double",
+                         p->at + 1, vndf_excerpt(excerpt, p->text + p->at, size)),
+               0;
     p->at += size;
     return emit_number(p, value);
 }
@@ -151,6 +144,7 @@ static int unknown_name(parser *p, size_t size)
     return 0;
 }
 
+/* A name of this length that is no function. */
 static int name(parser *p, size_t size)
 {
     const char *known, *text = p->text + p->at;
@@ -313,7 +307,7 @@ vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vnd
                                   vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, {0}, expression, error};
+    parser p = {text, text ? strlen(text) : 0, 0, 0, names, {0}, expression, error};
     *expression = (vndf_expression){NULL, 0};
     if (!text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");

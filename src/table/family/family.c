@@ -55,13 +55,12 @@ vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const
     for (size_t i = 0; complete && i < count; i++)
         complete = distributions[i] != NULL;
     vndf_family *family = complete ? vndf_family_allocate(count) : NULL;
-    if (!family) {
-        vndf_fail(error, complete ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
-                  complete ? "no memory for a family"
-                           : "a family needs 1 to %d distributions, each with a parameter",
-                  VNDF_LIMIT_FAMILY_KNOTS);
-        return NULL;
-    }
+    if (!family)
+        return vndf_fail(error, complete ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
+                         complete ? "no memory for a family"
+                                  : "a family needs 1 to %d distributions, each with a parameter",
+                         VNDF_LIMIT_FAMILY_KNOTS),
+               NULL;
     memcpy(family->parameter, parameters, count * sizeof *parameters);
     memcpy((void *)family->distribution, (const void *)distributions, count * sizeof *distributions);
     const char *why = vndf_family_invalid(family);
@@ -191,15 +190,13 @@ vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error 
         return NULL;
     vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     uint32_t count = vndf_read_u32(&r), reciprocal = vndf_read_u32(&r);
-    if (count < 1 || count > VNDF_LIMIT_FAMILY_KNOTS || reciprocal > 1) {
-        vndf_fail(error, VNDF_ERROR_TABLE, "the family's counts are outside the limits of the format");
-        return NULL;
-    }
+    if (count < 1 || count > VNDF_LIMIT_FAMILY_KNOTS || reciprocal > 1)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the family's counts are outside the limits of the format"),
+               NULL;
     vndf_family *family = vndf_family_allocate(count);
-    if (!family) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size);
-        return NULL;
-    }
+    if (!family)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size),
+               NULL;
     family->owns = 1;
     family->reciprocal = reciprocal != 0;
     family->bytes = size;
