@@ -60,7 +60,7 @@ vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan,
 double report_number(const report *r, const vndf_distribution *table, evidence_column c)
 {
     for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++)
-        if (of->m->kind == ROW_TABLE && of->m->state == table)
+        if (of->m.kind == ROW_TABLE && of->m.d == table)
             return of->number[c];
     return NAN;
 }

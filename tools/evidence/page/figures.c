@@ -40,10 +40,10 @@ static void add_point(frontier *f, int k, double x, double y, const char *label)
  * tables it is the size alone, and only where there are 4 moments. */
 static void add_row(frontier *f, const report *r, const evidence_row *of)
 {
-    const row_kind kind = of->m->kind;
+    const row_kind kind = of->m.kind;
     const int moments = (int)fmax(of->number[COL_MOMENTS], 2),
               way = kind == ROW_TABLE ? TABLES + moments - 2 : (int)kind;
-    const int is_exact = kind == ROW_CLOSED || (kind == ROW_PUBLISHED && !strstr(of->m->name, "all normals"));
+    const int is_exact = kind == ROW_CLOSED || (kind == ROW_PUBLISHED && !strstr(of->m.name, "all normals"));
     char label[48] = "";
     if (kind > ROW_TABLE || (!is_exact && strcmp(of->of->name, r->subject[0].name) != 0))
         return;
@@ -52,7 +52,7 @@ static void add_row(frontier *f, const report *r, const evidence_row *of)
     else if (kind == ROW_CLOSED)
         snprintf(label, sizeof label, "vndf_%.40s()", of->of->name);
     else if (kind == ROW_PUBLISHED)
-        snprintf(label, sizeof label, "%.*s", (int)strcspn(of->m->name, ","), of->m->name);
+        snprintf(label, sizeof label, "%.*s", (int)strcspn(of->m.name, ","), of->m.name);
     /* a comparison with a density cannot tell an exact method's error from the rounding of floats */
     const double tv = kind != ROW_TABLE && of->number[COL_TV] < 3e-6 ? 0 : of->number[COL_TV];
     add_point(f, way, of->number[COL_NS], tv, label);
@@ -116,7 +116,7 @@ int report_times(html_page *page, const report *r)
     for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++) {
         figures_record(&t);
         figures_text(&t, "distribution", of->of->name);
-        figures_text(&t, "method", of->m->name);
+        figures_text(&t, "method", of->m.name);
         figures_time(&t, "one by one", of->number[COL_NS]);
         figures_time(&t, "of one direction", of->number[COL_SHARED]);
         figures_time(&t, "in a batch", of->number[r->batch]);
