@@ -2,9 +2,9 @@
  * same names for several numbers side by side; exported kernels have them in each language (tools/export). With either
  * page below it the text of the kernel gives the same bits: + - * /, roots, comparisons and bits of floats alone.
  *
- * With VNDF_KERNEL_DOUBLE `real` is a double: for what scatters light, since refraction where the index ratio is near 1,
- * and Fresnel's terms beside total reflection, want more digits of directions than floats have; and for certificates,
- * which compare what the run time draws with what is seen. */
+ * With VNDF_KERNEL_DOUBLE `real` is a double: for what scatters light, since refraction where the index ratio is near
+ * 1, and Fresnel's terms beside total reflection, want more digits of directions than floats have; and for
+ * certificates, which compare what the run time draws with what is seen. */
 #ifndef VNDF_KERNEL_ONE_H
 #define VNDF_KERNEL_ONE_H
 
@@ -25,7 +25,8 @@ typedef float real;
 
 /* ---- choices ---- */
 
-#if defined(__SSE2__) && !defined(VNDF_KERNEL_DOUBLE) /* without a branch, which random data would mispredict: lane 0 */
+#if defined(__SSE2__) && \
+    !defined(VNDF_KERNEL_DOUBLE) /* no branch, which random data would mispredict: lane 0 of 4 */
 #  include <emmintrin.h>
 #  define VNDF_KERNEL_SSE2 1
 typedef __m128 mask;
