@@ -11,7 +11,6 @@ enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
 /* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
  * a task found. */
 typedef struct mixed {
-    const vndf_mixture_batch *of;
     const vndf_lanes *lanes;
     vndf_call call[LOBES];
     vndf_prepared prepared[LOBES];
@@ -45,15 +44,6 @@ static float number(const mixed *m, int l, int which, int i)
     return !c->read[which] ? 0.0f : c->read[which][c->shared >> which & 1 ? 0 : m->first + (size_t)i];
 }
 
-static void set_weights(mixed *m)
-{
-    const int shared = m->of->shared & VNDF_SHARED_WEIGHT;
-    for (int l = 0; l < m->lobes; l++)
-        for (int i = 0; i < m->count; i++)
-            m->weight[l][i] = m->of->lobe[l].weight[shared ? 0 : m->first + (size_t)i];
-    vndf_weigh_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->weighed);
-}
-
 static void set_shares(mixed *m, vndf_task area)
 {
     float is_valid[BLOCK];
@@ -66,13 +56,22 @@ static void set_shares(mixed *m, vndf_task area)
     vndf_share_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->share[0]);
 }
 
-/* The sum of `by` times what a task finds, over the lobes. */
-static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3], float *sum)
+/* The sum over the lobes of `by` times what a task finds; what elements are `chosen` for, if any are, is known. */
+static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3],
+                      const int *chosen, const float *known, float *sum)
 {
-    memset(sum, 0, BLOCK * sizeof *sum);
+    int list[BLOCK];
+    for (int i = 0; i < m->count; i++)
+        sum[i] = 0.0f;
     for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {m->value[l]};
-        ask_lobe(m, l, task, NULL, m->count, inputs, write);
+        int count = chosen ? 0 : m->count;
+        for (int i = 0; chosen && i < m->count; i++) {
+            list[count] = i;
+            count += (chosen[i] >= 0) & (chosen[i] != l) & (m->weight[l][i] > 0.0f);
+            m->value[l][i] = known[i];
+        }
+        ask_lobe(m, l, task, chosen ? list : NULL, count, inputs, write);
         for (int i = 0; i < m->count; i++) {
             const float part = by[l][i] * m->value[l][i];
             sum[i] += m->weight[l][i] > 0.0f ? part : 0.0f;
@@ -82,39 +81,28 @@ static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const fl
 
 /* ---- tasks ---- */
 
-/* The lobes that numbers u1 pick, or -1, and in `u` u1 within their shares. */
-static void choose_lobes(const mixed *m, const float *u1, int *chosen, float *u)
+/* Lobes, -1 of what is invalid, normals and, if they are asked for, densities. */
+static void sample_mixtures(mixed *m, const float *const inputs[3], float to[4][BLOCK], int *chosen, int with_pdf)
 {
-    float begin[BLOCK], end[BLOCK], share[BLOCK];
+    float u1[BLOCK], begin[BLOCK], end[BLOCK], share[BLOCK], sum[BLOCK];
+    int list[BLOCK];
+    const float *const numbers[3] = {u1, inputs[1], NULL}, *const normal[3] = {to[0], to[1], to[2]};
     for (int i = 0; i < m->count; i++) {
-        u[i] = vndf_clamp_unit(u1[i]);
+        u1[i] = vndf_clamp_unit(inputs[0][i]);
         chosen[i] = -1;
-        begin[i] = end[i] = 0.0f;
-        share[i] = 1.0f;
+        begin[i] = end[i] = to[0][i] = to[1][i] = to[3][i] = 0.0f;
+        share[i] = to[2][i] = 1.0f;
     }
     for (int l = 0; l < m->lobes; l++)
         for (int i = 0; i < m->count; i++) { /* the last one takes what rounding leaves */
-            const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u[i] >= end[i]);
+            const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u1[i] >= end[i]);
             chosen[i] = takes ? l : chosen[i];
             share[i] = takes ? m->share[l][i] : share[i];
             begin[i] = takes ? end[i] : begin[i];
             end[i] = takes ? end[i] + m->share[l][i] : end[i];
         }
     for (int i = 0; i < m->count; i++)
-        u[i] = (u[i] - begin[i]) / share[i];
-}
-
-/* Normals, and densities if they are asked for, go to `to`. */
-static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[BLOCK], int *chosen, int with_pdf)
-{
-    float u1[BLOCK];
-    int list[BLOCK];
-    const float *const numbers[3] = {u1, inputs[1], NULL}, *const normal[3] = {to[0], to[1], to[2]};
-    choose_lobes(m, inputs[0], chosen, u1);
-    for (int i = 0; i < m->count; i++) {
-        to[0][i] = to[1][i] = to[3][i] = 0.0f;
-        to[2][i] = 1.0f;
-    }
+        u1[i] = (u1[i] - begin[i]) / share[i];
     for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {to[0], to[1], to[2], to[3]};
         int count = 0;
@@ -126,21 +114,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[
     }
     if (!with_pdf)
         return;
-    float sum[BLOCK] = {0.0f};
-    for (int l = 0; l < m->lobes; l++) {
-        float *const write[VNDF_WRITES] = {m->value[l]};
-        int count = 0;
-        for (int i = 0; i < m->count; i++) {
-            list[count] = i;
-            count += (chosen[i] >= 0) & (chosen[i] != l) & (m->weight[l][i] > 0.0f);
-        }
-        memcpy(m->value[l], to[3], sizeof m->value[l]);
-        ask_lobe(m, l, VNDF_TASK_PDF, list, count, normal, write);
-        for (int i = 0; i < m->count; i++) {
-            const float part = m->share[l][i] * m->value[l][i];
-            sum[i] += m->weight[l][i] > 0.0f ? part : 0.0f;
-        }
-    }
+    sum_lobes(m, VNDF_TASK_PDF, m->share, normal, chosen, to[3], sum);
     for (int i = 0; i < m->count; i++)
         to[3][i] = to[3][i] > 0.0f ? least(most(sum[i], FLT_MIN), FLT_MAX) : 0.0f;
 }
@@ -166,15 +140,16 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
 static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
 {
     const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
-    float first[BLOCK] = {0.0f};
-    sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, to);
-    for (int l = m->lobes; task == VNDF_TASK_PDF && l-- > 0;)
-        for (int i = 0; i < m->count; i++)
-            first[i] = m->weight[l][i] > 0.0f ? m->value[l][i] : first[i];
-    for (int i = 0; task == VNDF_TASK_PDF && i < m->count; i++)
-        to[i] = first[i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
-    for (int i = 0; i < m->count; i++)
+    sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, NULL, NULL,
+              to);
+    for (int i = 0; i < m->count; i++) {
+        int first = 0;
+        while (first + 1 < m->lobes && !(m->weight[first][i] > 0.0f))
+            first++;
+        if (task == VNDF_TASK_PDF)
+            to[i] = m->value[first][i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
         to[i] = least(to[i], FLT_MAX);
+    }
     if (masks)
         mask_mixtures(m, task, to);
     for (int i = 0; i < m->count; i++)
@@ -184,7 +159,6 @@ static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3],
 /* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
 static void set_lobes(mixed *m, const vndf_mixture_batch *b)
 {
-    m->of = b;
     m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
     m->lanes = vndf_lanes_for(b->count, 0, b->limit);
     for (int l = 0; l < m->lobes; l++)
@@ -205,14 +179,18 @@ void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays 
     mixed m; /* large: nothing of it is set but what is read */
     float to[4][BLOCK];
     int chosen[BLOCK];
+    const int one = (b->shared & VNDF_SHARED_WEIGHT) != 0;
     set_lobes(&m, b);
     for (m.first = 0; m.first < b->count; m.first += BLOCK) {
         const float *here[3];
         m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
         for (int i = 0; i < 3; i++)
             here[i] = a.given[i] ? a.given[i] + m.first : NULL;
-        if (m.first == 0 || !(b->shared & VNDF_SHARED_WEIGHT))
-            set_weights(&m);
+        for (int i = 0; i < m.count && (m.first == 0 || !one); i++) {
+            for (int l = 0; l < m.lobes; l++)
+                m.weight[l][i] = b->lobe[l].weight[one ? 0 : m.first + (size_t)i];
+            m.weighed[i] = vndf_weigh_lobes(m.lobes, BLOCK, &m.weight[0][i]);
+        }
         memcpy(m.valid, m.weighed, (size_t)m.count * sizeof(int));
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
