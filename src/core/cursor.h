@@ -1,5 +1,5 @@
-/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`. Bytes that grow, files that
- * are read at once, and what our files have in common. */
+/* A bounded little-endian cursor over bytes: reads past the end give zeros and set `failed`. Bytes that grow, files
+ * that are read at once, and what our files have in common. */
 #ifndef VNDF_CORE_CURSOR_H
 #define VNDF_CORE_CURSOR_H
 

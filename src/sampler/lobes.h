@@ -6,8 +6,8 @@
 
 #include "sampler/state.h"
 
-/* Of one mixture: divides weights by the largest and then by their sum; returns whether they are >= 0 and finite, and not all 0: else
- * they become 0. */
+/* Of one mixture: divides weights by the largest and then by their sum; returns whether they are >= 0 and finite, and
+ * not all 0: else they become 0. */
 VNDF_INLINE int vndf_weigh_lobes(int lobes, int stride, float *weight)
 {
     int valid = 1;

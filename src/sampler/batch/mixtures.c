@@ -38,12 +38,6 @@ static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int c
         m->lanes->run(&call);
 }
 
-static float number(const mixed *m, int l, int which, int i)
-{
-    const vndf_call *c = &m->call[l];
-    return !c->read[which] ? 0.0f : c->read[which][c->shared >> which & 1 ? 0 : m->first + (size_t)i];
-}
-
 static void set_shares(mixed *m, vndf_task area)
 {
     float is_valid[BLOCK];
@@ -125,9 +119,13 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
     for (int i = 0; i < m->count; i++) {
         float cosine = 0.0f;
         for (int l = 0; l < m->lobes; l++) {
-            const float x = number(m, l, VNDF_READ_WI_X, i), y = number(m, l, VNDF_READ_WI_Y, i);
-            const float level = x * number(m, l, VNDF_READ_MEAN_X, i) + y * number(m, l, VNDF_READ_MEAN_Y, i);
-            const float part = m->weight[l][i] * (number(m, l, VNDF_READ_WI_Z, i) - level);
+            const vndf_call *call = &m->call[l];
+            const size_t at = m->first + (size_t)i;
+            const float x = vndf_call_number(call, VNDF_READ_WI_X, at),
+                        y = vndf_call_number(call, VNDF_READ_WI_Y, at);
+            const float level = x * vndf_call_number(call, VNDF_READ_MEAN_X, at) +
+                                y * vndf_call_number(call, VNDF_READ_MEAN_Y, at);
+            const float part = m->weight[l][i] * (vndf_call_number(call, VNDF_READ_WI_Z, at) - level);
             cosine += m->weight[l][i] > 0.0f ? part : 0.0f;
         }
         cosine = least(cosine, FLT_MAX);
@@ -156,30 +154,49 @@ static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3],
         to[i] = m->valid[i] ? to[i] : 0.0f;
 }
 
+/* The numbers that the lobe which draws a normal most often makes it of, one by one. */
+static void invert_mixtures(const mixed *m, const vndf_batch *b, const float *const inputs[3], float to[4][BLOCK])
+{
+    for (int i = 0; i < m->count; i++) {
+        const size_t at = m->first + (size_t)i;
+        vndf_mixture of = {.count = m->lobes};
+        for (int l = 0; l < m->lobes; l++)
+            of.lobe[l] = (vndf_mixture_lobe){vndf_call_surface(&m->call[l], at),
+                                             b->lobe[l].weight[b->shared & VNDF_SHARED_WEIGHT ? 0 : at]};
+        const vndf_mixture_view view =
+            vndf_mixture_view_from(&of, vndf_call_vec3(&m->call[0], VNDF_READ_WI_X, at));
+        const vndf_vec3 wm = {inputs[0][i], inputs[1][i], inputs[2][i]};
+        vndf_mixture_invert(&view, wm, -1, &to[0][i], &to[1][i]);
+    }
+}
+
 /* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
-static void set_lobes(mixed *m, const vndf_mixture_batch *b)
+static void set_lobes(mixed *m, const vndf_batch *b)
 {
     m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
     m->lanes = vndf_lanes_for(b->count, 0, b->limit);
+    m->call[0] = vndf_call_of(b);
     for (int l = 0; l < m->lobes; l++)
         m->lanes = b->lobe[l].distribution ? m->lanes : &vndf_one_by_one;
     for (int l = 0; l < m->lobes; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
-        const vndf_batch surface = {a->distribution, b->count, b->shared, b->limit, a->xx,     a->yy,    b->wi_x,
-                                    b->wi_y,         b->wi_z,  a->xy,     a->yx,    a->mean_x, a->mean_y};
-        m->call[l] = vndf_call_of(&surface);
+        const float *const read[] = {a->xx, a->xy, a->yx, a->yy, a->mean_x, a->mean_y};
+        m->call[l] = vndf_call_of(b);
+        memcpy(m->call[l].read, read, sizeof read);
+        m->call[l].distribution = a->distribution;
         m->call[l].diagonal = 0;
         m->call[l].prepared = &m->prepared[l];
         m->lanes->prepare(a->distribution, &m->prepared[l]);
     }
 }
 
-void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays a, int *lobe)
+void vndf_run_mixtures(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
     mixed m; /* large: nothing of it is set but what is read */
-    float to[4][BLOCK];
+    float to[VNDF_WRITES][BLOCK];
     int chosen[BLOCK];
     const int one = (b->shared & VNDF_SHARED_WEIGHT) != 0;
+    const float *const normal[3] = {to[0], to[1], to[2]};
     set_lobes(&m, b);
     for (m.first = 0; m.first < b->count; m.first += BLOCK) {
         const float *here[3];
@@ -195,13 +212,21 @@ void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays 
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
         if (task == VNDF_TASK_SAMPLE)
-            sample_mixtures(&m, here, to, chosen, a.write[3] != NULL);
+            sample_mixtures(&m, here, to, chosen, a.write[3] || a.write[4]);
+        else if (task == VNDF_TASK_INVERT)
+            invert_mixtures(&m, b, here, to);
         else
             sum_mixtures(&m, task, here, to[0]);
-        for (int w = 0; w < 4; w++)
+        if (a.write[4]) {
+            set_shares(&m, VNDF_TASK_AREA);
+            sum_mixtures(&m, VNDF_TASK_VISIBLE, normal, to[4]);
+            for (int i = 0; i < m.count; i++)
+                to[4][i] = to[3][i] > 0.0f ? to[4][i] / to[3][i] : 0.0f;
+        }
+        for (int w = 0; w < VNDF_WRITES; w++)
             if (a.write[w])
                 memcpy(a.write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
-        if (lobe)
-            memcpy(lobe + m.first, chosen, (size_t)m.count * sizeof(int));
+        if (task == VNDF_TASK_SAMPLE && b->drawn)
+            memcpy(b->drawn + m.first, chosen, (size_t)m.count * sizeof(int));
     }
 }
