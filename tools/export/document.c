@@ -101,8 +101,8 @@ int document_add(export_document *document, const char *file, vndf_distribution 
 
 enum { PARTS_MAX = 300 };
 
-/* The parts that a file has, between blanks; of a BSDF its choices, "lobes=both fresnel=dielectric ...", whose length is
- * returned, and
+/* The parts that a file has, between blanks; of a BSDF its choices, "lobes=both fresnel=dielectric ...", whose length
+ * is returned, and
  *
  *     reflects, transmits    a lobe is on this side, on the other
  *     indexed                there is an index ratio, and both sides are seen

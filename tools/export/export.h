@@ -97,10 +97,10 @@ void put_prefixed(const export_document *as, FILE *to, const char *from, size_t 
  * It reads the part of C in which src/kernel is written. Of files there are comments, directives (which are left out),
  * `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float n[1] = {...};` and `HERE type name(...) {...}`.
  * Of statements there are declarations of types of one word, assignments, to no parameter, if, else,
- * `for (int i = A; i < B; i++)` and return; structs are made as `n v = {a, b};` with every member. Where an if has masks
- * they are in any(mask), and a name alone is a whole number. All else stays as it is, word by word, with the blanks and
- * comments between them, but for names, numbers and calls. The build translates the one text there is, so its shape is
- * not judged. */
+ * `for (int i = A; i < B; i++)` and return; structs are made as `n v = {a, b};` with every member. Where an if has
+ * masks they are in any(mask), and a name alone is a whole number. All else stays as it is, word by word, with the
+ * blanks and comments between them, but for names, numbers and calls. The build translates the one text there is, so
+ * its shape is not judged. */
 int translate(const export_document *as, const char *source, const char *wanted, FILE *to);
 
 #endif
