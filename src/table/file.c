@@ -6,7 +6,6 @@
 
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/frame.h"
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
 
