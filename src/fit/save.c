@@ -1,6 +1,6 @@
-/* Saving tables and families (core/frame.h). */
+/* Saving tables and families (core/cursor.h). */
 #include "core/error.h"
-#include "core/frame.h"
+#include "core/cursor.h"
 #include "table/family/family.h"
 #include "vndf_build.h"
 

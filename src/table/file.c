@@ -14,7 +14,6 @@
 #include <string.h>
 
 #include "core/error.h"
-#include "core/frame.h"
 #include "table/table.h"
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};

@@ -6,7 +6,6 @@
 
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/frame.h"
 
 vndf_family *vndf_family_allocate(size_t count)
 {
