@@ -118,7 +118,8 @@ double bake_cosine_density(const bake_cosine *c, const double wo[3]);
 /* As --format has them; the picture is always written. */
 typedef enum bake_form { BAKE_NPY, BAKE_DDS, BAKE_C, BAKE_GLSL, BAKE_JS, BAKE_PICTURE } bake_form;
 
-/* A page about all tables, with their files in these forms, a bit each; `made_by` is the command. 0 after a complaint. */
+/* A page about all tables, with their files in these forms, a bit each; `made_by` is the command. 0 after a
+ * complaint. */
 int bake_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by, const char *subject);
 
 /* The half float nearest to x, ties to even; what is too large is infinite. */
