@@ -15,15 +15,15 @@ static method method_of(const vndf_distribution *d, const effect_set *set, float
 }
 
 /* What is off is one number of a run's sixth result. */
-enum { WO, LOBE, NOT_A_NUMBER, WEIGHT, VALUE, DENSITY, DEFECTS, BATCH = DEFECTS };
+enum { WO, LOBE, NOT_A_NUMBER, WEIGHT, VALUE, DENSITY, BATCH, DEFECTS = BATCH + 4 };
 
 static int defect;
 static method_run *right;
 
-static void off(const method *m, block *of, size_t first, size_t count)
+static void off(const method *m, block *of)
 {
-    vndf_scattered *spoilt = &of->out[first + 5];
-    right(m, of, first, count);
+    vndf_scattered *spoilt = &of->out[5];
+    right(m, of);
     switch (defect) {
     case WO: spoilt->wo.x *= 1.001f; break;
     case LOBE: spoilt->lobe = VNDF_LOBE_TRANSMISSION; break;
@@ -43,20 +43,17 @@ static void test_notices(void)
                      *set = &conductor;
     const block_law law = effect_law(set);
     method m = method_of(vndf_ggx(), set, 0.3f);
-    method_run **const run[DEFECTS] = {&m.each, &m.each, &m.each, &m.shared, &m.eval, &m.density};
-    TEST(evidence_verify(&m, &law, &b, 500));
+    method_run **const run[BATCH + 1] = {&m.each, &m.each, &m.each, &m.shared, &m.eval, &m.density, &m.batch};
+    TEST(evidence_verify(&m, VNDF_INSTRUCTIONS_BEST, &law, &b, 500) &&
+         evidence_verify(&m, VNDF_INSTRUCTIONS_PORTABLE, &law, &b, 500));
     for (defect = 0; defect < DEFECTS; defect++) {
-        right = *run[defect];
-        *run[defect] = off;
-        TEST(!evidence_verify(&m, &law, &b, 500));
-        *run[defect] = right;
+        method_run **spoilt = run[defect < BATCH ? defect : BATCH];
+        right = *spoilt;
+        *spoilt = off;
+        TEST(!evidence_verify(&m, defect < BATCH ? VNDF_INSTRUCTIONS_BEST : VNDF_INSTRUCTIONS_PORTABLE, &law, &b,
+                              500));
+        *spoilt = right;
     }
-    method batch = method_effect_batch(&m, VNDF_INSTRUCTIONS_PORTABLE);
-    TEST(evidence_verify(&batch, &law, &b, 500));
-    right = batch.each;
-    batch.each = off;
-    for (defect = BATCH; defect < BATCH + 4; defect++)
-        TEST(!evidence_verify(&batch, &law, &b, 500));
     method_release(&m);
 }
 
@@ -69,11 +66,9 @@ static void test_sets(const vndf_distribution *d)
         const block_law law = effect_law(set);
         double found[COLUMNS];
         method m = method_of(d, set, 0.5f);
-        int good = evidence_verify(&m, &law, &b, 500) & worth_of_material(&m, &law, 60, &b, 4, found);
-        for (int by = VNDF_INSTRUCTIONS_PORTABLE; by <= VNDF_INSTRUCTIONS_AVX512; by++) {
-            method batch = method_effect_batch(&m, (vndf_instructions)by);
-            good &= !batch.each || evidence_verify(&batch, &law, &b, 500);
-        }
+        int good = worth_of_material(&m, &law, 60, &b, 4, found);
+        for (vndf_instructions by = VNDF_INSTRUCTIONS_BEST; by <= VNDF_INSTRUCTIONS_AVX512; by++)
+            good &= (by && !method_has_batch(&m, by)) || evidence_verify(&m, by, &law, &b, 500);
         if (!TEST(good && found[COL_MEAN] > 0 && found[COL_MEAN] < 2.25))
             fprintf(stderr, "  %s: mean %g\n", set->name, found[COL_MEAN]);
         if (is->normals == VNDF_NORMALS_BOUNDED)

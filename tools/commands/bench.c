@@ -46,8 +46,8 @@ static int judge(const evidence *found)
     int status = STATUS_GOOD;
     for (const evidence_row *r = found->row; r < found->row + found->count; r++)
         if (r->is_shown && r->number[COL_WRONG] > 0) {
-            complain(name, "%s of %s: wrong results, not timed", r->m->name, r->of->name);
-            status = r->m->kind == ROW_PUBLISHED ? status : STATUS_NO;
+            complain(name, "%s of %s: wrong results, not timed", r->m.name, r->of->name);
+            status = r->m.kind == ROW_PUBLISHED ? status : STATUS_NO;
         }
     return status;
 }

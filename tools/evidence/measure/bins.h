@@ -48,10 +48,9 @@ typedef struct bins_result {
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
 
 /* Its parts: borders of R, ascending; the bin of a normal, ring by ring; and the integral of the density over each bin,
- * to 1e-4 of it or 1e-9, whichever is larger, where the density is continuous. The sum over all bins is within 2e-6 of
- * 1 for a density whose integral is 1, jumps and narrow peaks included. test_bins measures both. Returns by how much
- * rounding of normals and densities may move that sum: next to nothing but for rings so narrow that floats hardly tell
- * slopes in them apart. */
+ * of whose cells none errs by more than 1e-9, but for rounding. The sum over all bins is within 2e-6 of 1 for a density
+ * whose integral is 1, jumps and narrow peaks included (test_bins). Returns by how much rounding of normals and
+ * densities may move that sum: next to nothing but for rings so narrow that floats hardly tell slopes in them apart. */
 void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1]);
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
 double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
