@@ -1,4 +1,4 @@
-/* As much of pbrt-v4's vectors as tools/pbrt needs, written for its test. Not to be used with pbrt, which has its own. */
+/* As much of pbrt-v4's vectors as tools/pbrt needs, written for its test; pbrt has its own. */
 #ifndef STAND_IN_PBRT_UTIL_VECMATH_H
 #define STAND_IN_PBRT_UTIL_VECMATH_H
 
