@@ -38,10 +38,9 @@ static double chi_square_of(const method *m, vndf_instructions set, const vndf_d
 {
     static block b;
     const vndf_surface surface = {d, alpha, alpha};
-    const vndf_affine shape = {d, alpha, 0, 0, alpha, 0, 0};
     const vndf_vec3 wi = direction_from(theta, 25);
     const drawn of = {m, vndf_view_from(&surface, wi), &b};
-    const bins_sampler judged = {bins_frame_from(&shape, wi), draw, density, &of};
+    const bins_sampler judged = {bins_frame_of(&surface, wi), draw, density, &of};
     block_aim(&b, wi, alpha);
     b.count = 1;
     b.limit = set;

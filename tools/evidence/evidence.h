@@ -149,8 +149,8 @@ typedef struct findings {
 findings worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
                           block *b);
 
-/* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
-int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      double found[COLUMNS]);
+/* Fills mean, noise, lost, weight and variance from `blocks` blocks. */
+void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
+                       double found[COLUMNS]);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 
-/* Q(a, x) of the incomplete gamma function, a = dof/2, by Q(a + 1, x) = Q(a, x) + x^a e^-x/Gamma(a + 1) (DLMF 8.8.6) from
- * Q(1/2, x) = erfc(sqrt(x)) or Q(0, x) = 0. All terms are positive. */
+/* Q(a, x) of the incomplete gamma function, a = dof/2, by Q(a + 1, x) = Q(a, x) + x^a e^-x/Gamma(a + 1) (DLMF 8.8.6)
+ * from Q(1/2, x) = erfc(sqrt(x)) or Q(0, x) = 0. All terms are positive. */
 double statistics_chi_square_p(double statistic, size_t dof)
 {
     const double x = statistic / 2, first = dof % 2 ? 0.5 : 0;

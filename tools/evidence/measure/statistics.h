@@ -6,8 +6,8 @@
 
 #include <stddef.h>
 
-/* The chance that chi-square with dof degrees of freedom exceeds the statistic, 1 if dof is 0: relative error below 1e-10
- * for 1e4 of them where it exceeds 1e-300. */
+/* The chance that chi-square with dof degrees of freedom exceeds the statistic, 1 if dof is 0: relative error below
+ * 1e-10 for 1e4 of them where it exceeds 1e-300. */
 double statistics_chi_square_p(double statistic, size_t dof);
 
 /* The level of each of n independent tests, so that all of them together err with probability `level`, which is
