@@ -147,16 +147,12 @@ static void batch_lobes(const method *m, block *b)
     float rough[BLOCK];
     for (size_t i = 0; i < b->count; i++)
         rough[i] = 3 * b->alpha[i];
-    vndf_mixture_batch batch = {.count = b->count,
-                                .shared = VNDF_SHARED_WEIGHT,
-                                .limit = b->limit,
-                                .lobes = 2,
-                                .wi_x = b->wi[0],
-                                .wi_y = b->wi[1],
-                                .wi_z = b->wi[2],
-                                .lobe = {{m->d, b->alpha, NULL, NULL, b->alpha, NULL, NULL, &core},
-                                         {m->d, rough, NULL, NULL, rough, NULL, NULL, &haze}}};
-    vndf_mixture_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf, NULL);
+    vndf_batch batch = batch_of(m, b);
+    batch.shared = VNDF_SHARED_WEIGHT;
+    batch.lobes = 2;
+    batch.lobe[0] = (vndf_lobe_batch){m->d, b->alpha, NULL, NULL, b->alpha, NULL, NULL, &core};
+    batch.lobe[1] = (vndf_lobe_batch){m->d, rough, NULL, NULL, rough, NULL, NULL, &haze};
+    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
 static void batch_call(const method *m, block *b)
