@@ -16,7 +16,8 @@
 #ifndef VNDF_BSDF_BSDF_H
 #define VNDF_BSDF_BSDF_H
 
-#include "kernel/wide.h"
+#define VNDF_KERNEL_DOUBLE
+#include "kernel/one.h"
 #include "math/exp_log.h"
 #include "math/vector.h"
 #include "sampler/sampler.h"

@@ -121,8 +121,9 @@ HERE real arc_half(real u1)
     return 2.0f * least(u1, 1.0f - u1);
 }
 
-HERE bearing arc_side(bearing a, real u1)
+HERE bearing arc_side(bearing bare, real u1)
 {
+    bearing a = bare;
     a.aside = with_sign(a.aside, u1 - 0.5f);
     return a;
 }

@@ -141,8 +141,9 @@ HERE piece law_cell_at(table t, real s, real c, whole i, quad k)
 }
 
 /* The densities at both ends over the mass. */
-HERE piece law_cell_of(piece at, real mass, real d0, real d1)
+HERE piece law_cell_of(piece bare, real mass, real d0, real d1)
 {
+    piece at = bare;
     at.mass = most(mass, set(1e-36f));
     at.per = 1.0f / at.mass;
     at.e0 = d0 * at.per;
@@ -171,11 +172,11 @@ HERE real law_weight_at(weights w, real x, real z)
 }
 
 /* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
-HERE piece law_cell_above(table t, seen v, weights w, whole i)
+HERE piece law_cell_above(table t, seen v, weights of_all, whole i)
 {
     quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
     piece at = law_cell_at(t, v.s, v.c, i, k);
-    w = law_weights_at(w, v.c, same(i, 0));
+    weights w = law_weights_at(of_all, v.c, same(i, 0));
     w.wq = w.wq + w.w4 * more.b;
     real a = w.w1 * k.a, line = a + w.w0, m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
     return law_cell_of(at, m, l.a * law_weight_at(w, at.x0, at.z0), l.b * law_weight_at(w, at.x1, at.z1));
@@ -216,8 +217,9 @@ HERE real law_weight_below(weights w, real x, real beyond)
 /* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
  * both ends; the factor makes the mass exact where rho is the knot. The end is held to 1e4 times the mean, so that
  * places in the piece are of moderate size. `part` of the cell is seen. */
-HERE weights law_partial(weights w, real rho, mask last, quad k, quad after, quad l, real m2, real part)
+HERE weights law_partial(weights of_all, real rho, mask last, quad k, quad after, quad l, real m2, real part)
 {
+    weights w = of_all;
     real x1 = pick(last, set(1.0f), after.a * after.b), one = set(1.0f);
     real beyond = pick(last, one, most(after.a - rho, set(0.0f)) * after.b);
     real at_knot = pick(last, one, (after.a - k.a) * after.b);

@@ -18,8 +18,9 @@ typedef struct affine_map {
 } affine_map;
 
 /* The same with its determinant. Only where its two products are close do they need all their digits. */
-HERE affine_map affine_measured(affine_map m)
+HERE affine_map affine_measured(affine_map bare)
 {
+    affine_map m = bare;
     m.determinant = m.xx * m.yy;
     if (m.plain == 0) {
         real across = m.xy * m.yx, sum = size(m.determinant) + size(across);
@@ -83,8 +84,9 @@ HERE triple affine_stretched(affine_map m, real x, real y, real z)
 
 /* Scales wi, then w, to a length of about 1 in the lanes where w is short or long (`odd`): its squares stay
  * floats. */
-HERE frame frame_scaled(frame f, mask odd)
+HERE frame frame_scaled(frame bare, mask odd)
 {
+    frame f = bare;
     real largest = most(most(size(f.wx), size(f.wy)), size(f.wz)),
          k = pick(odd, inverse_scale(largest), set(1.0f));
     f.wx = f.wx * k;

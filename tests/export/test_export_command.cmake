@@ -30,14 +30,13 @@ exports("// VNDF_STUDENT_T_2_5_SMALL, ;--family student-t:2.5\n;above the horizo
 vndf_pdf(;vndf_visible(;vndf_ndf(;vndf_lambda(;vndf_g1(;vndf_g2(;vndf_projected_area(;vndf_mixture_sample(;VNDF_NUMBERS"
     "" ${small})
 exports("VNDF_HAZY" "" ${SOURCE}/tables/hazy.vndf) # a table of the default size
-exports("vndf_sample(" "vndf_pdf;vndf_table_at;vndf_beckmann_draw;vndf_mixture_pdf" --distribution ggx
-    --only view,sample)
+exports("vndf_sample(" "vndf_pdf;vndf_table_pdf;vndf_mixture_pdf;vndf_family_at" ${small} --only view,sample)
 exports("lobes=both fresnel=dielectric masking=correlated;vndf_bsdf_sample(;vndf_bsdf_eval(;vndf_bsdf_pdf(;\
 vndf_dielectric(;vndf_beta_of(;vndf_refracted_at("
-    "vndf_conductor;vndf_schlick;vndf_masked_apart;vndf_table_at;vndf_mixture_pdf;vndf_g2" --distribution ggx
-    --bsdf both --fresnel dielectric)
+    "vndf_conductor;vndf_schlick;vndf_masked_apart;vndf_mixture_pdf;vndf_g2" ${small} --bsdf both
+    --fresnel dielectric)
 exports("vndf_bsdf_eval(" "vndf_bsdf_sample;vndf_bsdf_pdf;vndf_refracting;vndf_ggx_draw;vndf_masked_by_height"
-    --distribution ggx --bsdf reflection --masking none --only bsdf_eval)
+    ${small} --bsdf reflection --masking none --only bsdf_eval)
 # Numbers beside the file, two tables, another prefix.
 exports("// MY_D_STUDENT_T_2_5, ;MY_D_STUDENT_T_2_5_SMALL;my_d_sample(" "" ${small} ${large} --buffer two.f32
     --prefix my_d --lobes 2)
@@ -118,8 +117,6 @@ file(REMOVE ${OUT}/tails.vndfs)
 refuses("did you mean 'sample'?" --only smple,sample)
 refuses("did you mean 'both'?" --bsdf bth)
 refuses("needs --bsdf" --only bsdf_eval)
-refuses("table, ggx or beckmann" --distribution phong)
-refuses("leaves out" --distribution ggx)
 refuses("is for --bsdf, which is not given" --fresnel schlick)
 refuses("VNDF_FRESNEL_NONE" --bsdf both)
 file(GLOB after RELATIVE ${OUT} ${OUT}/*)

@@ -21,7 +21,7 @@
 
 #include "cli/random.h"
 #include "cli/sort.h"
-#include "export/document.h"
+#include "export/export.h"
 #include "harness/test.h"
 #include "vndf_build.h"
 
@@ -376,15 +376,15 @@ static int prepare(const struct run *r, const vndf_effects *effects, record *ask
     FILE *text = fopen(HERE "ask.h", "r"), *kernel = file_of(effects, "kernel", "w"),
          *questions = file_of(effects, "asked", "wb");
     export_document d = tables;
-    d.as = (translation){.to = language_named(r->language), .embeds = r->embeds && !effects};
-    d.as.by_pointer = !d.as.embeds && !d.as.to->bound;
+    d.to = language_named(r->language);
+    d.embeds = r->embeds && !effects;
     d.scatters = effects != NULL;
     d.effects = effects ? *effects : d.effects;
     d.only = "ask";
     for (size_t i = 0; i < QUESTIONS; i++)
         asked[i] = question_of(i, effects);
     return TEST(text && kernel && questions && fread(ask, 1, sizeof ask - 1, text) > 0 &&
-                translation_prefix(&d.as, effects ? "bsdf" : "normals") && document_write(&d, kernel, ask) &&
+                document_prefix(&d, effects ? "bsdf" : "normals") && document_write(&d, kernel, ask) &&
                 fwrite(asked, sizeof *asked, QUESTIONS, questions) == QUESTIONS && fclose(text) == 0 &&
                 fclose(kernel) == 0 && fclose(questions) == 0);
 }
@@ -421,7 +421,6 @@ static int begin(void)
     FILE *numbers = fopen("numbers.f32", "wb");
     tails = vndf_build_family("student-t:{p}", 1.6, 6, &few, NULL);
     tables.lobes = 4;
-    tables.kinds = EXPORT_ALL;
     if (!TEST(small && tails && document_add(&tables, "tails", NULL, tails) == 1))
         return 0;
     subject[0] = (struct subject){vndf_ggx(), -1.0f};

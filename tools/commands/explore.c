@@ -15,7 +15,7 @@
 #include "commands/parts/named_tables.h"
 #include "draw/png.h"
 #include "draw/svg.h"
-#include "export/document.h"
+#include "export/export.h"
 
 /* What the page is made of. */
 typedef struct contents {
@@ -208,8 +208,8 @@ static int write_page(const arguments *given, contents *of)
 
 static int run(const arguments *given)
 {
-    contents of = {.document = {.as = {.to = language_named("glsl")}, .lobes = 1, .kinds = EXPORT_ALL}};
-    translation_prefix(&of.document.as, "vndf");
+    contents of = {.document = {.to = language_named("glsl"), .lobes = 1}};
+    document_prefix(&of.document, "vndf");
     const int status = write_page(given, &of);
     named_tables_close(&of.document);
     free(of.baked);

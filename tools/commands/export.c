@@ -9,7 +9,7 @@
 #include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/named_tables.h"
-#include "export/document.h"
+#include "export/export.h"
 #include "measured/measured.h"
 
 static const char name[] = "vndf export";
@@ -30,7 +30,6 @@ static const char *const help[] = {
     "                   it they stand in OUT; refused where there are too many for the language: opencl and msl\n"
     "                   16384, glsl and hlsl 4096, wgsl 2047 (2 KiB make some 950)\n"
     "  --prefix NAME    names begin with NAME_ (default vndf), so that several files can live together\n"
-    "  --distribution table|ggx|beckmann ...  only these; a kernel has all three by default\n"
     "  --only view,sample,pdf,visible,ndf,lambda,g1,g2,projected_area,mixture,family,bsdf_sample,bsdf_eval,bsdf_pdf\n"
     "                   only these calls and what they need; the last three are of --bsdf\n"
     "  --lobes N        how many surfaces a mixture holds, 1 to 8 (default 4)\n"
@@ -62,21 +61,6 @@ static const char *const help[] = {
 
 /* ---- words --------------------------------------------------------------------------------------- */
 
-static int read_kinds(const arguments *given, export_document *document)
-{
-    const words kinds = option_values(given, "--distribution");
-    document->kinds = kinds.count ? 0 : EXPORT_ALL;
-    for (size_t i = 0; i < kinds.count; i++)
-        document->kinds |= *kinds.item[i] == 't'   ? EXPORT_TABLE
-                           : *kinds.item[i] == 'g' ? EXPORT_GGX
-                                                   : EXPORT_BECKMANN;
-    if ((document->kinds & EXPORT_TABLE) && !given->positional.count)
-        return complain(name, "FILE is missing"), 0;
-    if (!(document->kinds & EXPORT_TABLE) && given->positional.count)
-        return complain(name, "'%s' is a table, which --distribution leaves out", given->positional.item[0]), 0;
-    return 1;
-}
-
 /* What makes no sense is what the library says makes none. */
 static int read_effects(const arguments *given, export_document *document)
 {
@@ -106,11 +90,12 @@ static int read_settings(const arguments *given, export_document *document, char
     unsigned long long lobes = 4;
     if (!option_value(given, "--language"))
         return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl"), 0;
-    document->as.to = language_named(option_value(given, "--language"));
-    if (!read_kinds(given, document) || !read_effects(given, document) ||
-        !option_count(given, "--lobes", 1, 8, &lobes))
+    document->to = language_named(option_value(given, "--language"));
+    if (!given->positional.count)
+        return complain(name, "FILE is missing"), 0;
+    if (!read_effects(given, document) || !option_count(given, "--lobes", 1, 8, &lobes))
         return 0;
-    if (!translation_prefix(&document->as, prefix ? prefix : "vndf"))
+    if (!document_prefix(document, prefix ? prefix : "vndf"))
         return complain(
                    name,
                    "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none last; "
@@ -118,11 +103,11 @@ static int read_settings(const arguments *given, export_document *document, char
                    prefix, PREFIX_MAX - 1),
                0;
     document->lobes = (long)lobes;
-    document->as.embeds = option_value(given, "--buffer") == NULL;
-    document->as.by_pointer = !document->as.embeds && !document->as.to->bound;
+    document->embeds = option_value(given, "--buffer") == NULL;
     if (wanted && strstr(wanted, "bsdf_") && !document->scatters)
         return complain(name, "--only '%s': a BSDF needs --bsdf", wanted), 0;
     document->only = wanted ? only : NULL;
+    only += sprintf(only, "vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine ");
     for (const char *call = wanted; call && *call; call += strcspn(call, ","), call += *call == ',')
         only += sprintf(only, "vndf_%.*s ", (int)strcspn(call, ","), call);
     return 1;
@@ -133,12 +118,12 @@ static int read_settings(const arguments *given, export_document *document, char
 /* What does not fit is refused with the size that does: files have some 2.3 bytes a number. */
 static int fits(const export_document *document)
 {
-    const language *as = document->as.to;
+    const language *as = document->to;
     for (size_t i = 0; i < document->tables; i++)
         if (document->table[i].family && document->lobes < 2)
             return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
                    0;
-    if (!document->as.embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
+    if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     return complain(
                name,
@@ -228,8 +213,8 @@ static int export_rgl(const arguments *given)
 
 static int run(const arguments *given)
 {
-    static const char *const of_kernels[] = {"--language", "--buffer",       "--prefix", "--lobes",
-                                             "--only",     "--distribution", "--bsdf",   NULL};
+    static const char *const of_kernels[] = {"--language", "--buffer", "--prefix", "--lobes",
+                                             "--only",     "--bsdf",   NULL};
     const int is_rgl = option_value(given, "--rgl") != NULL;
     const char *wrong = is_rgl ? option_among(given, of_kernels) : NULL;
     export_document document = {0};

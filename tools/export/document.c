@@ -1,9 +1,21 @@
 #define _POSIX_C_SOURCE 200809L
-#include "export/document.h"
+#include "export/export.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+
+int document_prefix(export_document *document, const char *name)
+{
+    const size_t n = strlen(name);
+    if (n == 0 || n > PREFIX_MAX || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") < n || name[0] == '_' ||
+        isdigit((unsigned char)name[0]) || name[n - 1] == '_' || strstr(name, "__"))
+        return 0;
+    snprintf(document->lower, sizeof document->lower, "%s_", name);
+    for (size_t i = 0; i <= n + 1; i++)
+        document->upper[i] = (char)toupper((unsigned char)document->lower[i]);
+    return strncmp(document->lower, "gl_", 3) != 0;
+}
 
 /* ---- tables -------------------------------------------------------------------------------------- */
 
@@ -53,27 +65,23 @@ static int add_numbers(export_document *document, size_t more)
 static int add_distribution(export_document *document, const vndf_distribution *d)
 {
     const size_t at = document->count, size = vndf_numbers(d, NULL, 0);
-    if (!add_numbers(document, size))
-        return 0;
-    vndf_numbers(d, document->numbers + at, size);
-    return 1;
+    return add_numbers(document, size) && vndf_numbers(d, document->numbers + at, size) == size;
 }
 
 static int add_family(export_document *document, const vndf_family *family)
 {
     const vndf_family_facts facts = vndf_family_info(family);
     const size_t base = document->count;
-    if (!add_numbers(document, 2 + 2 * facts.count))
-        return 0;
-    document->numbers[base] = (float)facts.count;
-    document->numbers[base + 1] = (float)facts.reciprocal;
-    for (size_t i = 0; i < facts.count; i++) {
-        document->numbers[base + 2 + 2 * i] = vndf_family_parameter(family, i);
-        document->numbers[base + 3 + 2 * i] = (float)document->count;
-        if (!add_distribution(document, vndf_family_distribution(family, i)))
-            return 0;
+    int good = add_numbers(document, 2 + 2 * facts.count);
+    for (size_t i = 0; i < facts.count && good; i++) {
+        float *own = document->numbers + base;
+        own[0] = (float)facts.count;
+        own[1] = (float)facts.reciprocal;
+        own[2 + 2 * i] = vndf_family_parameter(family, i);
+        own[3 + 2 * i] = (float)document->count;
+        good = add_distribution(document, vndf_family_distribution(family, i));
     }
-    return 1;
+    return good;
 }
 
 int document_add(export_document *document, const char *file, vndf_distribution *distribution, vndf_family *family)
@@ -91,61 +99,53 @@ int document_add(export_document *document, const char *file, vndf_distribution 
 
 /* ---- effects ------------------------------------------------------------------------------------- */
 
-enum { EFFECTS_MAX = 120, PARTS_MAX = 300 };
+enum { PARTS_MAX = 300 };
 
-/* "lobes=both fresnel=dielectric ...", with all keys. */
-static void name_effects(const vndf_effects *is, char words[EFFECTS_MAX])
+/* The parts that a file has, between blanks; of a BSDF its choices, "lobes=both fresnel=dielectric ...", whose length
+ * is returned, and
+ *
+ *     reflects, transmits    a lobe is on this side, on the other
+ *     indexed                there is an index ratio, and both sides are seen
+ *     coloured               there are reflectances
+ *     smith                  masking takes the area that wo sees */
+static int name_parts(const export_document *document, char parts[PARTS_MAX])
 {
     static const char *const lobes[] = {"reflection", "transmission", "both"},
                              *const fresnel[] = {"none", "schlick", "dielectric", "conductor"},
                              *const masking[] = {"correlated", "separable", "v-cavities", "none"},
                              *const transport[] = {"radiance", "importance"},
                              *const reflection[] = {"specular", "retro"};
-    snprintf(words, EFFECTS_MAX, "lobes=%s fresnel=%s masking=%s transport=%s reflection=%s", lobes[is->lobes],
-             fresnel[is->fresnel], masking[is->masking], transport[is->transport], reflection[is->reflection]);
-}
-
-/* The parts that a file has, between blanks: kinds of distributions; of a BSDF its choices ("lobes=both"), and
- *
- *     reflects, transmits    a lobe is on this side, on the other
- *     indexed                there is an index ratio, and both sides are seen
- *     coloured               there are reflectances
- *     smith                  masking takes the area that wo sees */
-static void name_parts(const export_document *document, char parts[PARTS_MAX])
-{
     const vndf_effects *is = &document->effects;
     const int transmits = is->lobes != VNDF_LOBES_REFLECTION;
-    char words[EFFECTS_MAX];
-    name_effects(is, words);
-    snprintf(parts, PARTS_MAX, " %s%s%s%s %s %s%s%s%s%s", document->kinds & EXPORT_TABLE ? "table " : "",
-             document->kinds & EXPORT_GGX ? "ggx " : "", document->kinds & EXPORT_BECKMANN ? "beckmann " : "",
-             document->scatters ? "bsdf" : "normals", words,
-             is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "", transmits ? "transmits " : "",
-             transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
+    const int n =
+        snprintf(parts, PARTS_MAX, " lobes=%s fresnel=%s masking=%s transport=%s reflection=%s ", lobes[is->lobes],
+                 fresnel[is->fresnel], masking[is->masking], transport[is->transport], reflection[is->reflection]);
+    int has_family = 0;
+    for (size_t i = 0; i < document->tables; i++)
+        has_family |= document->table[i].family != NULL;
+    snprintf(parts + n, (size_t)(PARTS_MAX - n), "%s %s%s%s%s%s%s", document->scatters ? "bsdf" : "normals",
+             has_family ? "family " : "", is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "",
+             transmits ? "transmits " : "", transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
              transmits || is->fresnel != VNDF_FRESNEL_NONE ? "coloured " : "",
              is->masking < VNDF_MASKING_V_CAVITIES ? "smith " : "");
+    return n;
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */
-
-/* Text of a table file, which may hold anything: a line break would end the comment. */
-static void put_printable(FILE *to, const char *text)
-{
-    for (; *text; text++)
-        fputc(*text >= ' ' && *text < 127 && *text != '\\' ? *text : '?', to);
-}
 
 static void put_table(FILE *to, const export_document *document, const exported_table *t)
 {
     const vndf_info info = vndf_distribution_info(t->distribution);
     const vndf_family_facts facts = vndf_family_info(t->family);
-    fprintf(to, "// %s%s, %zu numbers, ", document->as.upper, t->name, t->size);
+    fprintf(to, "// %s%s, %zu numbers, ", document->upper, t->name, t->size);
     if (t->family)
         fprintf(to, "for parameters from %g to %g", (double)facts.low, (double)facts.high);
     else
         fprintf(to, "total variation above the horizon %.2g", (double)info.certificate.tv_above);
     fprintf(to, ", made by %s: ", t->family ? facts.tool : info.tool);
-    put_printable(to, t->family ? facts.source : info.source);
+    /* text of a file, which may hold anything: a line break would end the comment */
+    for (const char *text = t->family ? facts.source : info.source; *text; text++)
+        fputc(*text >= ' ' && *text < 127 && *text != '\\' ? *text : '?', to);
     fputs("\n", to);
 }
 
@@ -165,20 +165,20 @@ static const char bsdf_head[] =
 
 static void put_all(const export_document *document, FILE *to, const char *text)
 {
-    put_prefixed(&document->as, to, text, strlen(text));
+    put_prefixed(document, to, text, strlen(text));
 }
 
 static void put_head(const export_document *document, FILE *to)
 {
-    char words[EFFECTS_MAX];
+    char parts[PARTS_MAX];
+    const int effects = name_parts(document, parts);
     fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
-            document->as.to->title, VNDF_VERSION);
+            document->to->title, VNDF_VERSION);
     put_all(document, to, head);
     for (size_t i = 0; i < document->tables; i++)
         put_table(to, document, &document->table[i]);
     if (document->scatters) {
-        name_effects(&document->effects, words);
-        fprintf(to, "//\n// BSDF: %s.\n", words);
+        fprintf(to, "//\n// BSDF:%.*s.\n", effects - 1, parts);
         put_all(document, to, bsdf_head);
     }
     fputs("\n", to);
@@ -227,24 +227,21 @@ static char *whole_text(const export_document *document, const char *more)
     if (!to)
         return NULL;
     name_parts(document, parts);
-    if (!document->bare)
-        fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
+    fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
         fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    fputs(document->bare ? "" : " };\n", to);
-    if (document->as.embeds && document->count)
+    fputs(" };\n", to);
+    if (document->embeds)
         fprintf(to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
-    for (size_t i = 0; document->as.embeds && i < document->count; i++)
+    for (size_t i = 0; document->embeds && i < document->count; i++)
         fprintf(to, "%.8e%s", (double)document->numbers[i],
                 i + 1 == document->count ? "};\n"
                 : i % 8 == 7             ? ",\n    "
                                          : ", ");
-    for (const embedded_text *file = kernel_text; file->name; file++) {
-        const int left_out = (document->bare && strcmp(file->name, "face.h") == 0) ||
-                             (!document->scatters && strcmp(file->name, "scatter.h") == 0);
-        for (const char *const *line = file->lines; *line && !left_out; line++)
-            put_line(to, parts, *line, &in);
-    }
+    for (const embedded_text *file = kernel_text; file->name; file++)
+        for (const char *const *line = file->lines; *line; line++)
+            if (document->scatters || strcmp(file->name, "scatter.h") != 0)
+                put_line(to, parts, *line, &in);
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
         put_line(to, parts, line, &in);
     if (fclose(to) == 0)
@@ -253,37 +250,24 @@ static char *whole_text(const export_document *document, const char *more)
     return NULL;
 }
 
-/* Names that are wanted; those of a BSDF go in the place of those of normals. */
-static void name_wanted(const export_document *document, char *names, size_t size)
-{
-    const char *calls = document->only ? document->only
-                        : document->scatters
-                            ? "vndf_bsdf"
-                            : "vndf_view vndf_sample vndf_pdf vndf_visible vndf_ndf vndf_lambda vndf_g1 "
-                              "vndf_g2 vndf_projected_area vndf_mixture";
-    int has_family = 0;
-    for (size_t i = 0; i < document->tables; i++)
-        has_family |= document->table[i].family != NULL;
-    snprintf(names, size, "%s%s%s", calls,
-             document->bare ? "" : " VNDF_NUMBERS vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine",
-             has_family && !document->only && !document->scatters ? " vndf_family_at" : "");
-}
-
 int document_write(const export_document *document, FILE *to, const char *more)
 {
-    const language *in = document->as.to;
+    const language *in = document->to;
     const int guarded = !(in->is & LANGUAGE_APART);
-    char *whole = whole_text(document, more), names[600];
-    if (document->bare)
+    const char *calls = document->scatters ? "vndf_surface_of vndf_bsdf"
+                                           : "vndf_surface_of vndf_view vndf_sample vndf_pdf vndf_visible "
+                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area "
+                                             "vndf_mixture vndf_family_at";
+    char *whole = whole_text(document, more);
+    if (in->is & LANGUAGE_INDENTS)
         fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
     else
         put_head(document, to);
     put_all(document, to, guarded ? "#ifndef VNDF_KERNEL\n#define VNDF_KERNEL\n\n" : "");
     put_all(document, to, in->begin);
     fputs(*in->begin ? "\n" : "", to);
-    put_all(document, to, !document->as.embeds && in->bound && document->count ? in->bound : "");
-    name_wanted(document, names, sizeof names);
-    const int good = whole && translate(&document->as, whole, names, to);
+    put_all(document, to, !document->embeds && in->bound ? in->bound : "");
+    const int good = whole && translate(document, whole, document->only ? document->only : calls, to);
     fputs(guarded ? "#endif\n" : "", to);
     free(whole);
     return good;

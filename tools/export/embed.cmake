@@ -1,5 +1,5 @@
 # Writes texts as lines of C: the table NAME of {file name, lines}, ended by {NULL, NULL}; lines are ended by NULL.
-#   cmake "-DTEXTS=one.h;two.h" -DNAME=kernel_text -DHEADER=export/document.h -DTO=kernel_text.c -P embed.cmake
+#   cmake "-DTEXTS=one.h;two.h" -DNAME=kernel_text -DHEADER=export/export.h -DTO=kernel_text.c -P embed.cmake
 cmake_minimum_required(VERSION 3.16)
 
 set(body "/* Made by tools/export/embed.cmake. */\n#include \"${HEADER}\"\n")

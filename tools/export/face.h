@@ -23,10 +23,10 @@ typedef struct vndf_view {
     vec3 wi;
     frame at;
     float unit_area; /* of the unit problem */
-    table t;         /* only table */
-    float ex, ey;    /* only table */
-    seen v;          /* only table */
-    int below;       /* only table */
+    table t;
+    float ex, ey;
+    seen v;
+    int below;
 } vndf_view;
 
 /* A view without what the distribution makes of it; its frame has the matrix in units of the distribution's slopes. */
@@ -34,12 +34,10 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
 {
     vndf_view view;
     float scale = 1.0f;
-    /* only table */
     if (m.distribution >= 0) {
         scale = fetch(m.distribution + 3);
         view.t = table_at(m.distribution);
     }
-    /* end */
     const affine_map s = {m.xx * scale, m.xy * scale, m.yx * scale, m.yy * scale, m.mean_x, m.mean_y, 0, 0.0f};
     view.surface = m;
     view.wi = wi;
@@ -52,11 +50,10 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
 HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
 {
     vndf_view view = placed(m, wi);
-    if (m.distribution == VNDF_GGX)                                         /* only ggx */
-        view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);      /* only ggx */
-    if (m.distribution == VNDF_BECKMANN)                                    /* only beckmann */
-        view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz); /* only beckmann */
-    /* only table */
+    if (m.distribution == VNDF_GGX)
+        view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
+    if (m.distribution == VNDF_BECKMANN)
+        view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz);
     view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
         const table_view seen_from = table_view_of(view.t, view.at, view.below);
@@ -65,7 +62,6 @@ HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
         view.v = seen_from.v;
         view.unit_area = law_area(view.t, view.v, view.below) * frame_reach(view.at);
     }
-    /* end */
     return view;
 }
 
@@ -80,12 +76,12 @@ HERE float vndf_projected_area(vndf_view view)
 /* D times |det M|, of a normal of the unit problem. */
 HERE float unit_ndf(vndf_view view, unit_normal n)
 {
-    if (view.surface.distribution == VNDF_GGX)                        /* only ggx */
-        return ggx_p22(n.x, n.y, n.z);                                /* only ggx */
-    if (view.surface.distribution == VNDF_BECKMANN)                   /* only beckmann */
-        return beckmann_p22(n.x, n.y, n.z);                           /* only beckmann */
-    if (view.surface.distribution >= 0)                               /* only table */
-        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z)); /* only table */
+    if (view.surface.distribution == VNDF_GGX)
+        return ggx_p22(n.x, n.y, n.z);
+    if (view.surface.distribution == VNDF_BECKMANN)
+        return beckmann_p22(n.x, n.y, n.z);
+    if (view.surface.distribution >= 0)
+        return table_p22(view.t, table_given(view.t, n.x, n.y, n.z));
     return 0.0f;
 }
 
@@ -111,18 +107,16 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
     float density = 0.0f;
     if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
         return 0.0f;
-    if (view.surface.distribution == VNDF_GGX)                                               /* only ggx */
-        density = ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);           /* only ggx */
-    if (view.surface.distribution == VNDF_BECKMANN)                                          /* only beckmann */
-        density = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing); /* only beckmann */
-    /* only table */
+    if (view.surface.distribution == VNDF_GGX)
+        density = ggx_density(ggx_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
+    if (view.surface.distribution == VNDF_BECKMANN)
+        density = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n.x, n.y, n.z, n.facing);
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
         if (view.below != 0)
             n = table_unturned(view.ex, view.ey, n);
         density = table_pdf(view.t, seen_from, n, frame_reach(f), view.below);
     }
-    /* end */
     return frame_density(f, density / f.determinant);
 }
 
@@ -153,18 +147,16 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
     const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
     drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
     float weight = 1.0f;
-    if (view.surface.distribution == VNDF_GGX)                                       /* only ggx */
-        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);           /* only ggx */
-    if (view.surface.distribution == VNDF_BECKMANN)                                  /* only beckmann */
-        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2); /* only beckmann */
-    /* only table */
+    if (view.surface.distribution == VNDF_GGX)
+        n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
+    if (view.surface.distribution == VNDF_BECKMANN)
+        n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
         const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
         n = both_drawn.n;
         weight = both_drawn.weight;
     }
-    /* end */
     const sampled_normal s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
@@ -215,8 +207,8 @@ typedef struct vndf_mixture_view {
 HERE float drawn_area(vndf_view view)
 {
     float area = view.unit_area;
-    if (view.surface.distribution >= 0)                                   /* only table */
-        area = law_drawn_area(view.v, view.below) * frame_reach(view.at); /* only table */
+    if (view.surface.distribution >= 0)
+        area = law_drawn_area(view.v, view.below) * frame_reach(view.at);
     return area * view.at.size;
 }
 
@@ -339,6 +331,7 @@ HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
     return least(density, 3.4028234e38f);
 }
 
+/* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
@@ -369,3 +362,4 @@ HERE vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape
     }
     return mixture;
 }
+/* end */

@@ -1,15 +1,14 @@
-#include "export/languages.h"
+#include "export/export.h"
 
 #include <string.h>
 
-/* Forms: variables, parameters and members, N of them; functions, structs, constants, arrays and their ends; a struct
- * made of its members. Of some languages: what a struct is before its members are set (ZERO); a parameter that is
- * assigned to, which WGSL forbids and Python, whose names share structs, does for the caller too (GIVEN), and its copy;
+/* Of some languages: what a struct is before its members are set (ZERO), which Python needs of numbers, too (UNSET);
  * the pointer to numbers, which is the first parameter of what fetches them; what asks for a loop with a constant end
  * to be unrolled. */
 static const char common[] =
-    "TYPED: $T $V; SEVERAL: $T $V[$N]; FUNCTION: $T $D($P) {; STRUCT: struct $D {; STRUCT_END: };; "
-    "CONSTANT: enum { $D = $N };; ARRAY_END: \n};; MAKE: {; MADE: }; "
+    "VARIABLE: $T $V; MEMBER: $T $V; SEVERAL: $T $V[$N]; END: ;; MEMBER_END: ;; FUNCTION: $T $D($P) {$S}; "
+    "STRUCT: struct $D {$M};; CONSTANT: enum { $D = $N };; MAKE: {$I}; FOR: for (int $V = $A$;$V < $B$;$V++); "
+    "OPEN:  {; CLOSE: }; "
     "real: float; whole: int; mask: bool; vec3: float3; direction: float3; "
     "set = $1; set_whole = $1; any = $1; less = ($1 < $2); at_most = ($1 <= $2); same = ($1 == $2); both = ($1 && $2); "
     "either = ($1 || $2); pick = ($1 ? $2 : $3); pick_whole = ($1 ? $2 : $3); root = sqrt($1); size = abs($1); "
@@ -50,55 +49,57 @@ static const char python_begin[] =
 
 static const language languages[] = {
     {"c", "C99", 0, 0, NULL, NULL, "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
-     "FUNCTION: VNDF_FUNCTION $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
-     "ARRAY: static const float $D[$N] = {\n    ; ZERO: {0}; POINTER: const float *; "
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
+     "ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: const float *; "
      "vec3: vndf_vec3; direction: vndf_vec3; "
      "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_whole = (int)($1); "
      "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cpp", "C++11", 0, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
-     "FUNCTION: VNDF_FUNCTION $T $D($P) {; ARRAY: static const float $D[$N] = {\n    ; ZERO: {}; "
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {}; "
      "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cuda", "CUDA", 0, 0, NULL, NULL, "",
-     "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {; "
-     "ARRAY: static __device__ const float $D[$N] = {\n    ; ZERO: {}; POINTER: const float *__restrict__ ; "
+     "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {$S}; "
+     "ARRAY: static __device__ const float $D[$N] = {\n    $I\n};; ZERO:  = {}; POINTER: const float *__restrict__ ; "
      "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
      "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
-     "FUNCTION: static inline $T $D($P) {; STRUCT: typedef struct $D {; STRUCT_END: } $D;; "
-     "ARRAY: __constant float $D[$N] = {\n    ; ZERO: {0}; POINTER: __global const float *; size = fabs($1); "
+     "FUNCTION: static inline $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
+     "ARRAY: __constant float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: __global const float *; size = fabs($1); "
      "with_sign = copysign($1, $2); to_real = (float)($1); to_whole = (int)($1); bits = as_int($1); "
      "of_bits = as_float($1); vec3 = (float3)($1, $2, $3); "},
     {"glsl", "GLSL 4.30 and GLSL ES 3.00", 0, 4096,
      "drivers copy a constant array that is read at an index into registers, or refuse it",
      BOUND(", as a texture", "layout(std430, binding = 0) readonly buffer vndf_buffer { float vndf_numbers[]; };"),
      "",
-     "CONSTANT: const int $D = $N;; ARRAY: const float $D[$N] = float[$N](\n    ; ARRAY_END: \n);; MAKE: $T(; MADE: ); "
+     "CONSTANT: const int $D = $N;; ARRAY: const float $D[$N] = float[$N](\n    $I\n);; MAKE: $T($I); "
      "vec3: vec3; direction: vec3; bits = floatBitsToInt($1); of_bits = intBitsToFloat($1); vec3 = vec3($1, $2, $3); "
      "fetch = VNDF_FETCH($1); "},
     {"hlsl", "HLSL, shader model 5 and later", 0, 4096,
      "a shader's constants end at 64 KiB, where each number takes 16 bytes",
      BOUND("", "StructuredBuffer<float> vndf_numbers : register(t0);"), "",
-     "CONSTANT: static const int $D = $N;; ARRAY: static const float $D[$N] = {\n    ; ZERO: ($T)0; "
+     "CONSTANT: static const int $D = $N;; ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = ($T)0; "
      "bits = asint($1); of_bits = asfloat($1); fetch = VNDF_FETCH($1); "},
     /* naga copies constant arrays at every fetch, private ones not */
     {"wgsl", "WGSL", LANGUAGE_APART, 2047, "WGSL promises arrays of 2047 constants",
      "@group(0) @binding(0) var<storage, read> vndf_numbers: array<f32>;\n", "",
-     "TYPED: $V: $T; SEVERAL: $V: array<$T, $N>; GIVEN: $V_in: $T; COPY: var $V = $V_in;; FUNCTION: fn $D($P) -> $T {; "
-     "STRUCT_END: }; CONSTANT: const $D: i32 = $N;; ARRAY: var<private> $D: array<f32, $N> = array<f32, $N>(\n    ; "
-     "ARRAY_END: \n);; MAKE: $T(; MADE: ); int: i32; float: f32; real: f32; whole: i32; "
+     "VARIABLE: var $V: $T; MEMBER: $V: $T; SEVERAL: $V: array<$T, $N>; MEMBER_END: ,; "
+     "FUNCTION: fn $D($P) -> $T {$S}; STRUCT: struct $D {$M}; CONSTANT: const $D: i32 = $N;; "
+     "ARRAY: var<private> $D: array<f32, $N> = array<f32, $N>(\n    $I\n);; MAKE: $T($I); "
+     "FOR: for (var $V: i32 = $A$;$V < $B$;$V++); int: i32; float: f32; real: f32; whole: i32; "
      "vec3: vec3<f32>; direction: vec3<f32>; "
      "pick = select($3, $2, $1); pick_whole = select($3, $2, $1); to_real = f32($1); to_whole = i32($1); "
      "bits = bitcast<i32>($1); of_bits = bitcast<f32>($1); vec3 = vec3<f32>($1, $2, $3); fetch = vndf_numbers[$1]; "},
     {"msl", "the Metal shading language", 0, 16384, "Metal has 64 KiB of constants", NULL,
      "#include <metal_stdlib>\nusing namespace metal;\n",
-     "FUNCTION: inline $T $D($P) {; ARRAY: constant float $D[$N] = {\n    ; ZERO: {}; POINTER: device const float *; "
+     "FUNCTION: inline $T $D($P) {$S}; ARRAY: constant float $D[$N] = {\n    $I\n};; ZERO:  = {}; "
+     "POINTER: device const float *; "
      "bits = as_type<int>($1); of_bits = as_type<float>($1); with_sign = copysign($1, $2); "},
     {"python", "Python, for Dr.Jit", LANGUAGE_APART | LANGUAGE_INDENTS, 0, NULL, NULL, python_begin,
-     "TYPED: $V; GIVEN: $V; COPY: $V = _copy($V); FUNCTION: def $D($P):; "
-     "STRUCT: class $D(_Struct):\n    __slots__ = (; "
-     "STRUCT_END: ); CONSTANT: $D = $N; ARRAY: $D = (; ARRAY_END: ); MAKE: $T(; MADE: ); ZERO: $T(); "
+     "VARIABLE: $V; MEMBER: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
+     "STRUCT: class $D(_Struct):\n    __slots__ = \"\"\"$M\"\"\".split(); CONSTANT: $D = $N; ARRAY: $D = ($I); "
+     "MAKE: $T($I); ZERO:  = $T(); UNSET:  = 0; FOR: for $V in range($A, $B); OPEN: :; CLOSE: ; "
      "any = True; both = ($1 & $2); either = ($1 | $2); pick = dr.select($1, $2, $3); "
      "pick_whole = dr.select($1, $2, $3); least = _least($1, $2); most = _most($1, $2); "
      "least_whole = _least($1, $2); most_whole = _most($1, $2); root = _root($1); with_sign = dr.copysign($1, $2); "
@@ -114,15 +115,13 @@ const language *language_named(const char *name)
     return NULL;
 }
 
-const char *language_word(const language *in, const char *name, int size, const char *means, int *length)
+const char *language_word(const language *in, const char *name, int size, const char *means)
 {
     const size_t gap = strlen(means), n = (size_t)size;
-    for (const char *list = in->words, *end; list; list = list == in->words ? common : NULL)
-        for (const char *at = list; (end = strstr(at, "; ")) != NULL; at = end + 2)
-            if (strncmp(at, name, n) == 0 && strncmp(at + n, means, gap) == 0) {
-                *length = (int)(end - at - (long)(n + gap));
+    for (const char *list = in->words; list; list = list == in->words ? common : NULL)
+        for (const char *at = list; *at; at = strstr(at, "; ") + 2)
+            if (strncmp(at, name, n) == 0 && strncmp(at + n, means, gap) == 0)
                 return at + n + gap;
-            }
     return NULL;
 }
 

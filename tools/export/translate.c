@@ -1,4 +1,4 @@
-#include "export/translate.h"
+#include "export/export.h"
 
 #include <ctype.h>
 #include <stdlib.h>
@@ -28,36 +28,21 @@ typedef struct declaration {
 enum { DECLARATIONS_MAX = 1024 };
 
 typedef struct printer {
-    const translation *as;
-    int apart, indents; /* of the language */
+    const export_document *as;
+    int apart, indents, by_pointer; /* of the language */
     FILE *file;
     word *word;
     int words, count;
     declaration at[DECLARATIONS_MAX];
 } printer;
 
-/* ---- the prefix ---------------------------------------------------------------------------------- */
-
-int translation_prefix(translation *t, const char *name)
-{
-    const size_t n = strlen(name);
-    if (n == 0 || n > PREFIX_MAX || strspn(name, "abcdefghijklmnopqrstuvwxyz0123456789_") < n || name[0] == '_' ||
-        isdigit((unsigned char)name[0]) || name[n - 1] == '_' || strstr(name, "__") || strcmp(name, "gl") == 0 ||
-        strncmp(name, "gl_", 3) == 0)
-        return 0;
-    snprintf(t->lower, sizeof t->lower, "%s_", name);
-    for (size_t i = 0; i <= n + 1; i++)
-        t->upper[i] = (char)toupper((unsigned char)t->lower[i]);
-    return 1;
-}
-
-void put_prefixed(const translation *t, FILE *to, const char *from, size_t length)
+void put_prefixed(const export_document *as, FILE *to, const char *from, size_t length)
 {
     for (const char *at = from, *end = from + length; at < end;) {
         int in_word = at > from && (at[-1] == '_' || isalnum((unsigned char)at[-1]));
         int lower = !in_word && strncmp(at, "vndf_", 5) == 0, upper = !in_word && strncmp(at, "VNDF_", 5) == 0;
         if (lower || upper)
-            fputs(lower ? t->lower : t->upper, to);
+            fputs(lower ? as->lower : as->upper, to);
         else
             fputc(*at, to);
         at += lower || upper ? 5 : 1;
@@ -123,27 +108,29 @@ static int word_find(const printer *t, int at, int end, const char *sign)
 /* Adds the declaration that begins there; of an enum each name is one. Returns what follows. */
 static int read_declaration(printer *t, int at)
 {
-    const word *w = &t->word[at];
-    const int inner = at + (word_is(w, "enum") ? 1 : word_is(w, "static") ? 8 : 3), close = t->word[inner].other;
-    declaration d = {.kind = FUNCTION, .name = at + 2, .type = at + 1, .begin = at, .inner = inner};
-    d.end = t->word[close + 1].other + 1;
-    for (int name = at + 2; word_is(w, "enum") && name < close; name = d.end + 1) {
-        d = (declaration){.kind = CONSTANT, .name = name, .begin = at, .inner = name + 2};
-        d.end = word_find(t, name, close, ",");
+    static const struct shape {
+        const char *begins;
+        declaration_kind kind;
+        int name, inner, after; /* words from the first one; behind the bracket that closes */
+    } shapes[] = {{"HERE", FUNCTION, 2, 3, 0},
+                  {"typedef", STRUCT, 2, 3, 3},
+                  {"static", ARRAY, 3, 8, 2},
+                  {"enum", CONSTANT, 2, 1, 2}};
+    const struct shape *is = shapes;
+    while (!word_is(&t->word[at], is->begins))
+        is++;
+    const int close = t->word[at + is->inner].other;
+    const int end = is->kind == FUNCTION ? t->word[close + 1].other + 1 : close + is->after;
+    for (int name = at + is->name; name < close;
+         name = is->kind == CONSTANT ? t->at[t->count - 1].end + 1 : close) {
+        declaration d = {is->kind, name, at + 1, at, at + is->inner, end, 0, 0};
+        if (is->kind == CONSTANT) {
+            d.inner = name + 2;
+            d.end = word_find(t, name, close, ",");
+        }
         t->at[t->count++] = d;
     }
-    if (word_is(w, "enum"))
-        return close + 2;
-    if (word_is(w, "typedef")) {
-        d.kind = STRUCT;
-        d.end = close + 3;
-    } else if (word_is(w, "static")) {
-        d.kind = ARRAY;
-        d.name = at + 3;
-        d.end = close + 2;
-    }
-    t->at[t->count++] = d;
-    return d.end;
+    return end;
 }
 
 static int read_text(printer *t, const char *source)
@@ -188,6 +175,53 @@ static declaration *declared(printer *t, int name, int kinds)
     return NULL;
 }
 
+/* What the language has for a type (": ") or a call (" = "), or NULL. */
+static const char *own_word(const printer *t, int name, const char *means)
+{
+    const word *w = &t->word[name];
+    if (t->as->embeds && word_is(w, "fetch"))
+        return "VNDF_NUMBERS[$1]; ";
+    return language_word(t->as->to, w->text, w->length, means);
+}
+
+static int is_struct(printer *t, int type)
+{
+    return declared(t, type, 1 << STRUCT) && !own_word(t, type, ": ");
+}
+
+/* ---- forms --------------------------------------------------------------------------------------- */
+
+static void put_words(printer *t, int at, int end);
+static void put_parameters(printer *t, const declaration *d);
+static void put_members(printer *t, const declaration *d);
+static void put_statements(printer *t, const declaration *d);
+
+static void put(const printer *t, const char *text)
+{
+    fputs(text, t->file);
+}
+
+/* A new line with the blanks of the one that the word stands in. */
+static void put_line(const printer *t, int at)
+{
+    const char *line = t->word[at].text;
+    while (line[-1] != '\n')
+        line--;
+    fprintf(t->file, "\n%*s", (int)strspn(line, " "), "");
+}
+
+/* Blanks and comments before a word, without directives; in Python, where a line ends a statement, a blank. */
+static void put_gap(const printer *t, int at)
+{
+    const char *end = t->word[at].text, *from = end - t->word[at].gap;
+    if (t->indents)
+        put(t, from < end && *end != '}' ? " " : "");
+    for (const char *next; from < end && !t->indents; from = next) {
+        next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
+        put_prefixed(t->as, t->file, from, *from == '#' ? 0 : (size_t)(next - from));
+    }
+}
+
 /* Declarations, of these kinds, begin with the prefix; a variable or a member must not be a word of the language. */
 static void put_name(printer *t, int name, int kinds)
 {
@@ -196,25 +230,10 @@ static void put_name(printer *t, int name, int kinds)
     char spaced[80];
     snprintf(spaced, sizeof spaced, " %.*s ", w->length, w->text);
     if (d && strncmp(w->text, "vndf_", 5) != 0 && strncmp(w->text, "VNDF_", 5) != 0)
-        fputs(d->kind == CONSTANT ? t->as->upper : t->as->lower, t->file);
+        put(t, d->kind == CONSTANT ? t->as->upper : t->as->lower);
     put_prefixed(t->as, t->file, w->text, (size_t)w->length);
-    fputs(!d && strstr(language_reserved, spaced) ? "_" : "", t->file);
+    put(t, !d && strstr(language_reserved, spaced) ? "_" : "");
 }
-
-/* What the language has for a type, *length characters, or NULL. */
-static const char *own_type(const printer *t, int type, int *length)
-{
-    return language_word(t->as->to, t->word[type].text, t->word[type].length, ": ", length);
-}
-
-static int is_struct(printer *t, int type)
-{
-    int length;
-    return declared(t, type, 1 << STRUCT) && !own_type(t, type, &length);
-}
-
-static void put_words(printer *t, int at, int end);
-static void put_parameters(printer *t, const declaration *d);
 
 /* Argument i of a call, in brackets where it has signs that bind less than those of the pattern. */
 static void put_argument(printer *t, int call, int i, const char *signs)
@@ -229,32 +248,38 @@ static void put_argument(printer *t, int call, int i, const char *signs)
         brackets |= w->kind == WORD_SIGN && strchr(signs, *w->text);
         next = w->other > next ? w->other + 1 : next + 1;
     }
-    fputs(brackets ? "(" : "", t->file);
+    put(t, brackets ? "(" : "");
     put_words(t, at, end);
-    fputs(brackets ? ")" : "", t->file);
+    put(t, brackets ? ")" : "");
 }
 
 /* What the language has for a form, of a declaration, a type and a name, or for the call of that name. */
-static void put_own(printer *t, const char *own, int length, const declaration *d, int type, int name)
+static void put_own(printer *t, const char *own, const declaration *d, int type, int name)
 {
-    int type_length;
-    for (const char *at = own, *end = own + length, *plain, *type_is; at < end; at++) {
-        for (plain = at; at < end && *at != '$'; at++)
-            ;
-        put_prefixed(t->as, t->file, plain, (size_t)(at - plain));
-        switch (at < end ? *++at : ' ') {
-        case ' ': break;
+    const char *end = strstr(own, "; "), *signs = end == own + 2 ? "+-*/&|<>" : "&|<>", *its_type;
+    const int first = word_find(t, name, t->words, ";"), items = d ? d->inner : name + 2;
+    for (const char *next; own < end; own = next + 2) {
+        next = memchr(own, '$', (size_t)(end - own));
+        put_prefixed(t->as, t->file, own, (size_t)((next ? next : end) - own));
+        switch (next ? next[1] : ' ') {
+        case ' ': return;
+        case ';': put(t, "; "); break;
         case 'T':
-            if ((type_is = own_type(t, type, &type_length)) != NULL)
-                put_prefixed(t->as, t->file, type_is, (size_t)type_length);
+            if ((its_type = own_word(t, type, ": ")) != NULL)
+                put_own(t, its_type, NULL, 0, 0);
             else
                 put_name(t, type, 1 << STRUCT);
             break;
         case 'V': put_name(t, name, 0); break;
         case 'D': put_name(t, d->name, 1 << d->kind); break;
         case 'P': put_parameters(t, d); break;
+        case 'M': put_members(t, d); break;
+        case 'S': put_statements(t, d); break;
+        case 'I': put_words(t, items + 1, t->word[items].other); break;
         case 'N': put_words(t, name + 2, d && d->kind == CONSTANT ? d->end : name + 3); break;
-        default: put_argument(t, name, *at - '1', length == 2 ? "+-*/&|<>" : "&|<>");
+        case 'A': put_words(t, name + 2, first); break;
+        case 'B': put_words(t, first + 3, word_find(t, first + 1, t->words, ";")); break;
+        default: put_argument(t, name, next[1] - '1', signs);
         }
     }
 }
@@ -262,10 +287,9 @@ static void put_own(printer *t, const char *own, int length, const declaration *
 /* 0 if the language has no such form. */
 static int put_form(printer *t, const char *form, const declaration *d, int type, int name)
 {
-    int length;
-    const char *own = language_word(t->as->to, form, (int)strlen(form), ": ", &length);
+    const char *own = language_word(t->as->to, form, (int)strlen(form), ": ");
     if (own)
-        put_own(t, own, length, d, type, name);
+        put_own(t, own, d, type, name);
     return own != NULL;
 }
 
@@ -276,22 +300,14 @@ static void put_number(const printer *t, const word *number)
 {
     const size_t length = (size_t)number->length;
     const int is_hex = length > 1 && number->text[1] == 'x', is_float = !is_hex && number->text[length - 1] == 'f';
+    const int is_whole = !is_float && !memchr(number->text, is_hex ? 'p' : '.', length);
     char digits[40];
-    if (is_float || !memchr(number->text, is_hex ? 'p' : '.', length)) {
-        fprintf(t->file, "%.*s", number->length - (t->indents && is_float), number->text);
-        return;
-    }
-    snprintf(digits, sizeof digits, "%.9g", strtod(number->text, NULL));
-    fprintf(t->file, "%s%s%s", digits, strpbrk(digits, ".en") ? "" : ".0", t->indents ? "" : "f");
-}
-
-/* What the language has for a call, *length characters, or NULL. */
-static const char *own_call(const printer *t, int name, int *length)
-{
-    const word *w = &t->word[name];
-    const int embedded = t->as->embeds && word_is(w, "fetch");
-    *length = 16;
-    return embedded ? "VNDF_NUMBERS[$1]" : language_word(t->as->to, w->text, w->length, " = ", length);
+    if (is_float || is_whole)
+        snprintf(digits, sizeof digits, "%.*s", number->length - is_float, number->text);
+    else
+        snprintf(digits, sizeof digits, "%.9g", strtod(number->text, NULL));
+    fprintf(t->file, "%s%s%s", digits, is_whole || strpbrk(digits, ".en") ? "" : ".0",
+            is_whole || t->indents ? "" : "f");
 }
 
 /* A name before its brackets; returns what follows them. */
@@ -299,29 +315,16 @@ static int put_call(printer *t, int name)
 {
     const int close = t->word[name + 1].other;
     const declaration *d = declared(t, name, 1 << FUNCTION);
-    int length;
-    const char *own = own_call(t, name, &length);
+    const char *own = own_word(t, name, " = ");
     if (own) {
-        put_own(t, own, length, NULL, 0, name);
+        put_own(t, own, NULL, 0, name);
         return close + 1;
     }
     put_name(t, name, 1 << FUNCTION);
-    fputs(!d || !d->fetches || !t->as->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ", t->file);
+    put(t, !d || !d->fetches || !t->by_pointer ? "(" : close == name + 2 ? "(numbers" : "(numbers, ");
     put_words(t, name + 2, close);
-    fputs(")", t->file);
+    put(t, ")");
     return close + 1;
-}
-
-/* Blanks and comments before a word, without directives; Python, where a line ends a statement, has one blank. */
-static void put_gap(const printer *t, int at)
-{
-    const char *end = t->word[at].text, *from = end - t->word[at].gap;
-    if (t->indents)
-        fputs(from < end ? " " : "", t->file);
-    for (const char *next; from < end && !t->indents; from = next) {
-        next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
-        put_prefixed(t->as, t->file, from, *from == '#' ? 0 : (size_t)(next - from));
-    }
 }
 
 static void put_words(printer *t, int at, int end)
@@ -337,9 +340,9 @@ static void put_words(printer *t, int at, int end)
             at = put_call(t, at) - 1;
         else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
                  !memchr(w[1].text, '.', (size_t)w[1].length))
-            fputs("//", t->file); /* of whole numbers */
+            put(t, "//"); /* of whole numbers */
         else if (t->indents && word_is(w, "&&"))
-            fputs("and", t->file);
+            put(t, "and");
         else
             put_name(t, at, is_member ? 0 : 1 << CONSTANT | 1 << ARRAY);
     }
@@ -349,88 +352,62 @@ static void put_words(printer *t, int at, int end)
 
 static int put_statement(printer *t, int at);
 
-/* Blanks before the line of a word. */
-static int indent_of(const printer *t, int at)
-{
-    const char *line = t->word[at].text;
-    while (line[-1] != '\n')
-        line--;
-    return (int)strspn(line, " ");
-}
-
-/* Whether a function assigns to the name, or to a part of it: what stands before a "=" and is no declaration. */
-static int is_assigned(const printer *t, const declaration *d, int name)
-{
-    for (int at = t->word[d->inner].other + 2, from; at < d->end; at++) {
-        if (!word_is(&t->word[at], "="))
-            continue;
-        for (from = at - 1; word_is(&t->word[from - 1], ".") || word_is(&t->word[from], "]");)
-            from = word_is(&t->word[from], "]") ? t->word[from].other - 1 : from - 2;
-        if (is_same(t, from, name) && (t->word[from - 1].kind != WORD_NAME || word_is(&t->word[from - 1], "else")))
-            return 1;
-    }
-    return 0;
-}
-
 /* Python binds names to one struct where C copies it. */
-static void put_value(printer *t, int type, int at, int end)
+static void put_value(printer *t, int type, int name, int end)
 {
-    const int made = word_is(&t->word[at], "{");
-    const int copied = t->indents && !made && is_struct(t, type) && word_find(t, at, end, "(") == end;
-    if (made)
-        put_form(t, "MAKE", NULL, type, 0);
-    fputs(copied ? "_copy(" : "", t->file);
-    put_words(t, at + made, end - made);
-    fputs(copied ? ")" : "", t->file);
-    if (made)
-        put_form(t, "MADE", NULL, 0, 0);
+    const int copied = t->indents && is_struct(t, type) && word_find(t, name, end, "(") == end;
+    put(t, " = ");
+    if (word_is(&t->word[name + 2], "{")) {
+        put_form(t, "MAKE", NULL, type, name);
+        return;
+    }
+    put(t, copied ? "_copy(" : "");
+    put_words(t, name + 2, end);
+    put(t, copied ? ")" : "");
 }
 
 /* type a = x, b, c[N] to before `end`: variables, or members of a struct. */
 static void put_variables(printer *t, int type, int end, int members)
 {
-    int length;
-    const int zero = !members && is_struct(t, type) && language_word(t->as->to, "ZERO", 4, ": ", &length);
     for (int name = type + 1, stop; name < end; name = stop + 1) {
-        const int first = name == type + 1;
+        const int is_first = name == type + 1, is_set = word_is(&t->word[name + 1], "=");
         stop = word_find(t, name, end, ",");
-        if (!first && t->apart) {
-            fprintf(t->file, "%s\n%*s", members ? "," : t->indents ? "" : ";", indent_of(t, type), "");
-        } else if (!first) {
-            fputs(",", t->file);
+        if (!is_first && t->apart) {
+            put_form(t, members ? "MEMBER_END" : "END", NULL, 0, 0);
+            put_line(t, type);
+        } else if (!is_first) {
+            put(t, ",");
             put_gap(t, name);
         }
-        fputs(t->apart && !t->indents && !members ? "var " : "", t->file);
-        if (first || t->apart)
-            put_form(t, word_is(&t->word[name + 1], "[") ? "SEVERAL" : "TYPED", NULL, type, name);
+        if (is_first || t->apart)
+            put_form(t,
+                     word_is(&t->word[name + 1], "[") ? "SEVERAL"
+                     : members                        ? "MEMBER"
+                                                      : "VARIABLE",
+                     NULL, type, name);
         else
             put_name(t, name, 0);
-        if (word_is(&t->word[name + 1], "=")) {
-            fputs(" = ", t->file);
-            put_value(t, type, name + 2, stop);
-        } else if (zero) {
-            fputs(" = ", t->file);
-            put_form(t, "ZERO", NULL, type, 0);
-        } else if (!members && t->indents) {
-            fputs(" = 0", t->file);
-        }
+        if (is_set)
+            put_value(t, type, name, stop);
+        else if (!members)
+            put_form(t, is_struct(t, type) ? "ZERO" : "UNSET", NULL, type, 0);
     }
 }
 
 /* What an if or a for governs, in braces, which close under the line of `head`; returns what follows. */
 static int put_governed(printer *t, int head, int at)
 {
-    const int is_block = word_is(&t->word[at], "{"), close = is_block ? t->word[at].other : 0;
-    fputs(t->indents ? ":" : " {", t->file);
-    for (at += is_block; is_block && at < close;)
+    const int is_block = word_is(&t->word[at], "{"), close = t->word[at].other;
+    put_form(t, "OPEN", NULL, 0, 0);
+    at += is_block;
+    do
         at = put_statement(t, at);
-    if (!is_block)
-        at = put_statement(t, at);
-    if (!t->indents && is_block)
+    while (is_block && at < close);
+    if (is_block)
         put_gap(t, close);
     else if (!t->indents)
-        fprintf(t->file, "\n%*s", indent_of(t, head), "");
-    fputs(t->indents ? "" : "}", t->file);
+        put_line(t, head);
+    put_form(t, "CLOSE", NULL, 0, 0);
     return at + is_block;
 }
 
@@ -438,65 +415,47 @@ static int put_governed(printer *t, int head, int at)
 static void put_condition(printer *t, int at, int end)
 {
     const word *w = &t->word[at];
-    int length, whole = word_is(w, "any") && w[1].other == end - 1 && word_is(w + 3, "(") && w[3].other == end - 2;
-    const char *own = whole ? own_call(t, at + 2, &length) : NULL;
+    const int whole = word_is(w, "any") && w[1].other == end - 1 && word_is(w + 3, "(") && w[3].other == end - 2;
+    const char *own = whole ? own_word(t, at + 2, " = ") : NULL;
     const int is_not = word_is(w, "!") && at + 2 == end, is_name = at + 1 == end || is_not;
     if (own && *own == '(' && !t->indents) {
         put_call(t, at + 2);
         return;
     }
-    fputs("(", t->file);
+    put(t, "(");
     put_words(t, at + is_not, end);
-    fputs(!is_name ? ")" : is_not ? " == 0)" : " != 0)", t->file);
+    put(t, !is_name ? ")" : is_not ? " == 0)" : " != 0)");
 }
 
+/* Returns what follows. */
 static int put_if(printer *t, int at)
 {
-    const int close = t->word[at + 1].other, indents = t->indents;
-    fputs("if ", t->file);
+    const int close = t->word[at + 1].other;
+    put(t, "if ");
     put_condition(t, at + 2, close);
     const int next = put_governed(t, at, close + 1);
     if (!word_is(&t->word[next], "else"))
         return next;
-    if (indents)
-        fprintf(t->file, "\n%*s", indent_of(t, next), "");
-    if (word_is(&t->word[next + 1], "if")) {
-        fputs(indents ? "el" : " else ", t->file);
-        return put_if(t, next + 1);
-    }
-    fputs(indents ? "else" : " else", t->file);
+    if (t->indents)
+        put_line(t, next);
+    put(t, t->indents ? "else" : " else");
     return put_governed(t, next, next + 1);
 }
 
 /* for (int i = A; i < B; i++) */
 static int put_for(printer *t, int at)
 {
-    const int close = t->word[at + 1].other, first = word_find(t, at + 2, close, ";"),
-              second = word_find(t, first + 1, close, ";");
-    if (declared(t, first + 3, 1 << CONSTANT) && put_form(t, "UNROLL", NULL, 0, 0))
-        fprintf(t->file, "\n%*s", indent_of(t, at), "");
-    if (t->indents) {
-        put_own(t, "for $V in range(", 16, NULL, 0, at + 3);
-        put_words(t, at + 5, first);
-        fputs(", ", t->file);
-        put_words(t, first + 3, second);
-    } else {
-        fputs("for (", t->file);
-        put_variables(t, at + 2, first, 0);
-        fputs("; ", t->file);
-        put_words(t, first + 1, second);
-        fputs("; ", t->file);
-        put_words(t, second + 1, close);
-    }
-    fputs(")", t->file);
-    return put_governed(t, at, close + 1);
+    const int bound = word_find(t, at + 2, t->words, ";") + 3;
+    if (declared(t, bound, 1 << CONSTANT) && put_form(t, "UNROLL", NULL, 0, 0))
+        put_line(t, at);
+    put_form(t, "FOR", NULL, 0, at + 3);
+    return put_governed(t, at, t->word[at + 1].other + 1);
 }
 
-/* Returns what follows. */
 static int put_statement(printer *t, int at)
 {
     if (t->indents)
-        fprintf(t->file, "\n%*s", indent_of(t, at), "");
+        put_line(t, at);
     else
         put_gap(t, at);
     if (word_is(&t->word[at], "if"))
@@ -509,7 +468,7 @@ static int put_statement(printer *t, int at)
         put_variables(t, at, end, 0);
     else
         put_words(t, at, end);
-    fputs(t->indents ? "" : ";", t->file);
+    put_form(t, "END", NULL, 0, 0);
     return end + 1;
 }
 
@@ -518,55 +477,35 @@ static int put_statement(printer *t, int at)
 static void put_parameters(printer *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    if (d->fetches && t->as->by_pointer) {
+    if (d->fetches && t->by_pointer) {
         put_form(t, "POINTER", NULL, 0, 0);
-        fputs(close > d->inner + 2 ? "numbers, " : "numbers", t->file);
+        put(t, close > d->inner + 2 ? "numbers, " : "numbers");
     }
     for (int at = d->inner + 1; at + 1 < close; at++) {
         at += word_is(&t->word[at], "const");
-        if (!is_assigned(t, d, at + 1) || !put_form(t, "GIVEN", NULL, at, at + 1))
-            put_form(t, "TYPED", NULL, at, at + 1);
+        put_form(t, "MEMBER", NULL, at, at + 1);
         at = word_find(t, at, close, ",");
-        fputs(at < close ? ", " : "", t->file);
+        put(t, at < close ? ", " : "");
     }
 }
 
-static void put_function(printer *t, const declaration *d)
+static void put_members(printer *t, const declaration *d)
 {
     const int close = t->word[d->inner].other;
-    put_form(t, "FUNCTION", d, d->type, 0);
-    for (int at = d->inner + 1, end; at + 1 < close && t->apart; at = end + 1) {
-        end = word_find(t, at, close, ",");
-        if (is_assigned(t, d, end - 1)) {
-            fputs("\n    ", t->file);
-            put_form(t, "COPY", NULL, 0, end - 1);
-        }
-    }
-    for (int at = close + 2; at < d->end - 1;)
-        at = put_statement(t, at);
-    if (t->indents)
-        return;
-    put_gap(t, d->end - 1);
-    fputs("}", t->file);
-}
-
-static void put_struct(printer *t, const declaration *d)
-{
-    const int close = t->word[d->inner].other;
-    put_form(t, "STRUCT", d, 0, 0);
     for (int at = d->inner + 1, end; at < close; at = end + 1) {
         end = word_find(t, at, close, ";");
-        for (int name = at + 1; name < end && t->indents; name = word_find(t, name, end, ",") + 1)
-            put_own(t, "\"$V\", ", 6, NULL, 0, name);
-        if (t->indents)
-            continue;
         put_gap(t, at);
         put_variables(t, at, end, 1);
-        fputs(t->apart ? "," : ";", t->file);
+        put_form(t, "MEMBER_END", NULL, 0, 0);
     }
-    if (!t->indents)
-        put_gap(t, close);
-    put_form(t, "STRUCT_END", d, 0, 0);
+    put_gap(t, close);
+}
+
+static void put_statements(printer *t, const declaration *d)
+{
+    for (int at = t->word[d->inner].other + 2; at < d->end - 1;)
+        at = put_statement(t, at);
+    put_gap(t, d->end - 1);
 }
 
 /* The comment that ends on the line before. */
@@ -586,11 +525,11 @@ static void want(printer *t, declaration *d)
     if (d->wanted)
         return;
     d->wanted = 1;
-    for (int i = d->kind == CONSTANT ? d->end : d->begin, length; i < d->end; i++) {
+    for (int i = d->kind == CONSTANT ? d->end : d->begin; i < d->end; i++) {
         const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
         declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
         d->fetches |= word_is(&t->word[i], "fetch");
-        if (of && of != d && !own_call(t, i, &length) && !own_type(t, i, &length)) {
+        if (of && of != d && !own_word(t, i, " = ") && !own_word(t, i, ": ")) {
             want(t, of);
             d->fetches |= of->fetches;
         }
@@ -606,37 +545,27 @@ static void want_named(printer *t, const char *name, size_t length)
     }
 }
 
-int translate(const translation *as, const char *source, const char *wanted, FILE *to)
+int translate(const export_document *as, const char *source, const char *wanted, FILE *to)
 {
-    printer whole = {.as = as,
-                     .apart = (as->to->is & LANGUAGE_APART) != 0,
-                     .indents = (as->to->is & LANGUAGE_INDENTS) != 0,
-                     .file = to},
-            *t = &whole;
-    const int good = read_text(t, source);
+    static const char *const forms[] = {"FUNCTION", "STRUCT", "CONSTANT", "ARRAY"};
+    const int indents = (as->to->is & LANGUAGE_INDENTS) != 0, apart = (as->to->is & LANGUAGE_APART) != 0;
+    printer t = {.as = as, .file = to, .indents = indents, .apart = apart};
+    const int good = read_text(&t, source);
+    t.by_pointer = !as->embeds && language_word(as->to, "POINTER", 7, ": ");
     for (; good && *wanted; wanted += strcspn(wanted, " "), wanted += strspn(wanted, " "))
-        want_named(t, wanted, strcspn(wanted, " "));
-    for (int i = 0, in_constants = 0; i < t->count && good; i++) {
-        const declaration *d = &t->at[i];
-        if (!d->wanted && !(d->kind == CONSTANT && d->begin == 0)) /* those before the kernel are its host's */
+        want_named(&t, wanted, strcspn(wanted, " "));
+    want_named(&t, "VNDF_NUMBERS", 12);
+    for (int i = 0, in_constants = 0; i < t.count && good; i++) {
+        const declaration *d = &t.at[i];
+        if (!d->wanted && d->begin > 0) /* the first constants are its host's */
             continue;
-        fputs(in_constants && d->kind != CONSTANT ? "\n" : "", to);
+        put(&t, in_constants && d->kind != CONSTANT ? "\n" : "");
         in_constants = d->kind == CONSTANT;
         if (!in_constants || d->name == d->begin + 2)
-            put_comment_before(t, d);
-        if (d->kind == FUNCTION) {
-            put_function(t, d);
-        } else if (d->kind == STRUCT) {
-            put_struct(t, d);
-        } else if (d->kind == ARRAY) {
-            put_form(t, "ARRAY", d, 0, d->name);
-            put_words(t, d->inner + 1, t->word[d->inner].other);
-            put_form(t, "ARRAY_END", d, 0, 0);
-        } else {
-            put_form(t, "CONSTANT", d, 0, d->name);
-        }
-        fputs(in_constants ? "\n" : "\n\n", to);
+            put_comment_before(&t, d);
+        put_form(&t, forms[d->kind], d, d->type, d->name);
+        put(&t, in_constants ? "\n" : "\n\n");
     }
-    free(t->word);
+    free(t.word);
     return good;
 }

@@ -3,21 +3,18 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "export/document.h"
+#include "export/export.h"
 
 int main(int argc, char **argv)
 {
-    export_document document = {.lobes = 1, .count = 1, .kinds = EXPORT_ALL};
-    FILE *to = argc == 2 ? fopen(argv[1], "w") : NULL;
-    document.bare = argc == 2 && strlen(argv[1]) > 3 && strcmp(argv[1] + strlen(argv[1]) - 3, ".py") == 0;
-    document.as.to = language_named(document.bare ? "python" : "c");
-    document.as.by_pointer = !document.bare;
-    if (document.bare)
+    const size_t n = argc == 2 ? strlen(argv[1]) : 0;
+    const int is_python = n > 3 && strcmp(argv[1] + n - 3, ".py") == 0;
+    export_document document = {.to = language_named(is_python ? "python" : "c"), .lobes = 1};
+    FILE *to = n ? fopen(argv[1], "w") : NULL;
+    if (is_python)
         document.only =
             "frame ggx_see ggx_draw ggx_density ggx_area ggx_p22 beckmann_see beckmann_draw beckmann_area "
             "beckmann_density beckmann_p22 table_view_of table_draw table_pdf table_given table_p22 law_area";
-    if (!to || !translation_prefix(&document.as, document.bare ? "vndf" : "exported") ||
-        !document_write(&document, to, NULL))
-        return 1;
-    return fclose(to) != 0;
+    return !to || !document_prefix(&document, is_python ? "vndf" : "exported") ||
+           !document_write(&document, to, NULL) || fclose(to) != 0;
 }

@@ -19,7 +19,7 @@ int named_tables_open(const char *command, const words *files, int families, exp
             return complain(command, "no memory"), 0;
         if (!added)
             return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
-                            document->as.upper, document->table[i].name),
+                            document->upper, document->table[i].name),
                    0;
         if (document->count > (size_t)1 << 24)
             return complain(command, "'%s': the tables have more than 2^24 numbers, which a float cannot count",

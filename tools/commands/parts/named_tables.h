@@ -3,7 +3,7 @@
 #define TOOLS_COMMANDS_PARTS_NAMED_TABLES_H
 
 #include "cli/arguments.h"
-#include "export/document.h"
+#include "export/export.h"
 
 /* Opens the files and enters them in the document, whose prefix is set; 0 after a complaint. Close in any case. */
 int named_tables_open(const char *command, const words *files, int families, export_document *document);
