@@ -80,8 +80,8 @@ static void test_gaussian(double step)
     TEST_RELATIVE(case_number(&file, "rms_slope "), 0.2 * sqrt((1 + 1 / (step * step)) / 2), 0.02);
     TEST(off_by(&rows, BECKMANN, alpha) < 0.025);
     TEST_NEAR(case_number(&file, "anisotropy "), step, 5 * error);
-    TEST(error < 0.03 && case_number(&file, "residual_isotropy ") < 0.05);
-    TEST(fabs(case_number(&file, "tilt ")) < 0.01 && case_number(&file, "p22_error_99 ") < 0.1);
+    TEST(error < 0.04 && case_number(&file, "residual_isotropy ") < 0.05);
+    TEST(fabs(case_number(&file, "tilt ")) < 0.01 && case_number(&file, "p22_error_99 ") < 0.15);
     TEST(strstr(file.notes, "implausible") == NULL);
     if (step > 1) {
         TEST(matrix && sscanf(matrix, "\nmatrix %lf,%lf,%*f,%lf", &xx, &xy, &yy) == 3);
