@@ -113,8 +113,8 @@ void slopes_add(slope_set *to, double x, double y, int part);
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
 
-/* Reads heights, the first channel of an image: PFM, PGM of 8 or 16 bits (0 to 1), or numbers between blanks, a line for
- * each row, NaN where there is none. */
+/* Reads heights, the first channel of an image: PFM, PGM of 8 or 16 bits (0 to 1), or numbers between blanks, a line
+ * for each row, NaN where there is none. */
 int heights_read(data_file *file, image *made);
 
 /* Takes away what is shorter than `cutoff` samples, 2 to CUTOFF_MAX: the Gaussian filter of ISO 16610-21, which
