@@ -1,8 +1,8 @@
-/* `vndf explore` writes one page that asks the network for nothing and is the same each time, whatever its tables' names
- * are; and in a headless Chromium, which compiles its shaders, what it draws and measures is right: the density
+/* `vndf explore` writes one page that asks the network for nothing and is the same each time, whatever its tables are
+ * called; and in a headless Chromium, which compiles its shaders, what it draws and measures is right: the density
  * integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have light on them.
  * Without WebGL2 it says so, and a keyboard moves its sliders. Chromium takes a quarter of a minute for a setting where
- * there is no GPU: long_explore has four of them, and what engines make of them in one pass is near what samples say. */
+ * no GPU is: long_explore has four of them, and what engines make of them in one pass is near what samples say. */
 #include "harness/run_program.h"
 
 #define TABLES VNDF_SOURCE_DIR "/tables/"
