@@ -9,7 +9,7 @@
  *                     vndf_pdf, vndf_visible, vndf_invert; vndf_mixture_view_from with calls of its own
  *     any direction   vndf_ndf, vndf_p22, vndf_projected_area, vndf_lambda, vndf_g1, vndf_g2, and the same
  *                     with vndf_affine_ and vndf_mixture_
- *     many at once    the same calls with _n at their ends, for surfaces of both kinds, and of mixtures
+ *     many at once    the same calls with _n at their ends, for surfaces of all three kinds
  *     families        vndf_family_load, vndf_family_at: a parameter of the distribution that is a texture
  *     GPUs            vndf_numbers, and the kernels of `vndf export`
  *
@@ -236,18 +236,27 @@ VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
 /* `count` surfaces and incident directions, the arguments of vndf_view_from. An array holds `count` numbers; if
  * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment.
  *
- * With any of the last four arrays surfaces are vndf_affine (below), M = (alpha_x xy; yx alpha_y), and NULL is for 0;
- * VNDF_SHARED_ALPHA is for all of them. */
-enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2 };
+ * With any of xy, yx, mean_x and mean_y surfaces are vndf_affine (below), M = (alpha_x xy; yx alpha_y), and NULL is for
+ * 0; VNDF_SHARED_ALPHA is for all of them. With `lobes` above 0 they are vndf_mixture: the same arrays of each lobe
+ * count, and weights, not those of the batch. */
+enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2, VNDF_SHARED_WEIGHT = 4, VNDF_MIXTURE_LOBES = 8 };
+
+typedef struct vndf_lobe_batch {
+    const vndf_distribution *distribution;
+    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y, *weight;
+} vndf_lobe_batch;
 
 typedef struct vndf_batch {
     const vndf_distribution *distribution;
     size_t count;
-    unsigned shared; /* VNDF_SHARED_ALPHA, VNDF_SHARED_WI, both or 0 */
+    unsigned shared; /* a sum of VNDF_SHARED_ALPHA, VNDF_SHARED_WI and VNDF_SHARED_WEIGHT, or 0 */
     vndf_instructions limit;
     const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
     const float *xy, *yx, *mean_x, *mean_y;
+    int lobes;  /* 0, or the number of lobes of each mixture */
+    int *drawn; /* NULL, or what receives the index of the lobe of each sample of a mixture, -1 if it is invalid */
+    vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
 } vndf_batch;
 
 /* Normals, structure of arrays, `count` each. */
@@ -255,9 +264,11 @@ typedef struct vndf_normals {
     float *x, *y, *z;
 } vndf_normals;
 
-/* Element i equals, to the bit, the result of the call for one element. An array of results may be an array of
- * inputs that is not shared; apart from that arrays must not overlap. `pdf` of samples may be NULL. vndf_ndf_n
- * does not read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as their direction. */
+/* Element i equals, to the bit, the result of the call for one element; weights of mixtures are vndf_mixture_visible
+ * over the density, inverses those of the lobe that draws the normal most often. An array of results may be an array of
+ * inputs that is not shared; apart from that arrays must not overlap. `pdf` of samples may be NULL. vndf_ndf_n does not
+ * read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as their direction. Scratch of mixtures is on the
+ * stack: some 290 KiB, unoptimised up to 2.2 MiB. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
                             float *pdf);
 VNDF_API void vndf_sample_weight_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
@@ -345,8 +356,6 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
  * family. A mixture is one microsurface, where a blend of BSDFs has several: it masks as a whole, A = sum of w_i
  * A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH
  * 2023). Weights are >= 0 and finite; a lobe of weight 0 is not read. A plain value without memory of its own. */
-enum { VNDF_MIXTURE_LOBES = 8 };
-
 typedef struct vndf_mixture_lobe {
     vndf_affine surface;
     float weight;
@@ -393,40 +402,6 @@ VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec
 VNDF_API float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g1(const vndf_mixture *mixture, vndf_vec3 w);
 VNDF_API float vndf_mixture_g2(const vndf_mixture *mixture, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
-
-/* ---- many mixtures at once ---------------------------------------------------------------------- */
-
-/* A lobe of `count` mixtures: the numbers of a vndf_affine, of which xy, yx, mean_x and mean_y may each be NULL for 0,
- * and the weights. */
-typedef struct vndf_lobe_batch {
-    const vndf_distribution *distribution;
-    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y, *weight;
-} vndf_lobe_batch;
-
-/* VNDF_SHARED_ALPHA is for the matrices and mean slopes of all lobes, VNDF_SHARED_WEIGHT for all weights. */
-enum { VNDF_SHARED_WEIGHT = 4 };
-
-typedef struct vndf_mixture_batch {
-    size_t count;
-    unsigned shared;
-    vndf_instructions limit;
-    const float *wi_x, *wi_y, *wi_z;
-    int lobes; /* 1 to VNDF_MIXTURE_LOBES */
-    vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
-} vndf_mixture_batch;
-
-/* As above. Results `pdf` and `lobe` may be NULL. `asked` holds the argument `lobe` of vndf_mixture_invert, and
- * may be NULL for -1. Scratch is on the stack: some 290 KiB, unoptimised up to 2.2 MiB. */
-VNDF_API void vndf_mixture_sample_n(const vndf_mixture_batch *batch, const float *u1, const float *u2,
-                                    vndf_normals wm, float *pdf, int *lobe);
-VNDF_API void vndf_mixture_pdf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *pdf);
-VNDF_API void vndf_mixture_visible_n(const vndf_mixture_batch *batch, vndf_normals wm, float *visible);
-VNDF_API void vndf_mixture_invert_n(const vndf_mixture_batch *batch, vndf_normals wm, const int *asked, float *u1,
-                                    float *u2, int *lobe);
-VNDF_API void vndf_mixture_ndf_n(const vndf_mixture_batch *batch, vndf_normals wm, float *ndf);
-VNDF_API void vndf_mixture_projected_area_n(const vndf_mixture_batch *batch, float *area);
-VNDF_API void vndf_mixture_lambda_n(const vndf_mixture_batch *batch, float *lambda);
-VNDF_API void vndf_mixture_g1_n(const vndf_mixture_batch *batch, float *g1);
 
 /* ---- families with a textured parameter --------------------------------------------------------- */
 

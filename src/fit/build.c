@@ -2,10 +2,10 @@
  * measures the table. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/error.h"
 #include "fit/draft.h"
-#include "table/file.h"
 
 enum { BYTES_DEFAULT = 8192, BYTES_LEAST = 2048, BYTES_MOST = 1 << 20, MOMENTS_DEFAULT = 4, CELLS_LEAST = 2 };
 
@@ -34,38 +34,38 @@ static double excess_of(const vndf_certificate *c, double tv)
     return tv > 0 ? fmax((double)c->tv_above, (double)c->tv / BELOW) / tv : 0;
 }
 
-/* The table of a draft as it is read back from its file, measured. */
-static vndf_distribution *measured(const builder *b, vndf_table_draft *draft)
+static char *copy_of(const char *text)
 {
-    vndf_writer file = {NULL, 0, 0, 0};
-    vndf_error inner = {VNDF_ERROR_MEMORY, ""};
-    draft->tool = TOOL;
-    vndf_table_write(draft, &file);
-    vndf_distribution *table = file.failed ? NULL : vndf_load_memory(file.bytes, file.size, &inner);
-    free(file.bytes);
-    if (table && vndf_certificate_measure(&table->certificate, table, b->profile))
-        return table;
-    if (table || inner.status == VNDF_ERROR_MEMORY)
-        vndf_guard_starve(b->profile->guard);
-    else
-        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_DISTRIBUTION,
-                  "the distribution cannot be held in a table of floats: %s", inner.message);
-    vndf_free(table);
-    return NULL;
+    size_t size = strlen(text) + 1;
+    char *copy = malloc(size);
+    return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* Makes the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must end. */
+/* Makes and measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must
+ * end. */
 static double try_knots(builder *b, unsigned knots)
 {
-    vndf_table_draft draft;
+    vndf_guard *guard = b->profile->guard;
     vndf_free(b->table);
     vndf_knots_place(&b->knots, knots);
-    int good = vndf_draft_from(&draft, &b->knots, b->moments);
+    vndf_distribution *t = b->table = vndf_draft_from(&b->knots, b->moments);
+    const char *why = NULL;
+    int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL));
+    if (good) {
+        t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL);
+        why = vndf_table_fill(t);
+        good = why || vndf_guard_stopped(guard) || vndf_certificate_measure(&t->certificate, t, b->profile);
+    }
     if (!good)
-        vndf_guard_starve(b->profile->guard);
-    b->table = good && !vndf_guard_stopped(b->profile->guard) ? measured(b, &draft) : NULL;
-    free(draft.knot);
-    return b->table ? excess_of(&b->table->certificate, b->max_tv) : 0;
+        vndf_guard_starve(guard);
+    if (why)
+        vndf_fail(vndf_guard_why(guard), VNDF_ERROR_DISTRIBUTION,
+                  "the distribution cannot be held in a table of floats: not a consistent table: %s", why);
+    if (!vndf_guard_stopped(guard))
+        return excess_of(&t->certificate, b->max_tv);
+    vndf_free(t);
+    b->table = NULL;
+    return 0;
 }
 
 /* About as few knots as reach the target, from `least` to `most`: the total variation falls as the square of their

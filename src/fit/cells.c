@@ -93,16 +93,3 @@ vndf_drawn vndf_drawn_below(const vndf_cell *c, double rho, double b0, double b1
     return (vndf_drawn){(b0 + b1) * c->m2 + ((b0 + b1) * d + e) * c->m1 + d * e * c->m0,
                         c->g0 * (d * c->z) * (e * c->z), c->g1 * below_flat(c, rho, b0, b1)};
 }
-
-/* ---- tables ---- */
-
-vndf_cell vndf_cell_of(const vndf_table_draft *t, unsigned i)
-{
-    vndf_cell c = vndf_cell_between(t->knot[i], i < t->cells ? (double)t->knot[i + 1] : HUGE_VAL, t->squarings);
-    c.g0 = t->g0[i];
-    c.g1 = t->g1[i];
-    c.m0 = t->m0[i];
-    c.m1 = t->m1[i];
-    c.m2 = t->m2[i];
-    return c;
-}

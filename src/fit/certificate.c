@@ -4,12 +4,13 @@
 #include <stdlib.h>
 
 #include "fit/draft.h"
-#include "kernel/wide.h"
 #include "math/ascending.h"
 
-/* The text for the types of that page: first what reads a table, */
+#define VNDF_KERNEL_DOUBLE
+#include "kernel/one.h"
+
 #include "kernel/rows.h"
-/* then the law. */
+
 #include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;

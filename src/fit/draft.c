@@ -9,21 +9,19 @@ static const double PI = 3.14159265358979323846;
 /* Far out, where less than this lies beyond, f/R^4 counts for nothing: products with it would be denormal, and slow. */
 static const double FOURTH_LEAST = 1e-20;
 
-static void put_cells(vndf_table_draft *t, const vndf_strips *s, const vndf_profile *profile)
+static void put_cells(vndf_distribution *t, const vndf_strips *s, const vndf_profile *profile)
 {
-    for (unsigned i = 0; i <= t->cells; i++) {
-        vndf_cell c = vndf_cell_measure(profile, s, s->first[i], s->first[i + 1], t->squarings);
-        t->g0[i] = (float)c.g0;
-        t->g1[i] = (float)c.g1;
-        t->m0[i] = (float)c.m0;
-        t->m1[i] = (float)c.m1;
-        t->m2[i] = (float)c.m2;
-        t->cubes[i] = (float)c.cube;
-    }
     double beyond = 0;
-    for (unsigned i = t->cells; i > 0 && beyond <= FOURTH_LEAST; i--) {
-        beyond += (double)t->cubes[i] * t->m0[i];
-        t->cubes[i] = beyond > FOURTH_LEAST ? t->cubes[i] : 0;
+    for (unsigned i = (unsigned)t->cells + 1; i-- > 0;) {
+        vndf_cell c = vndf_cell_measure(profile, s, s->first[i], s->first[i + 1], (unsigned)t->squarings);
+        float *law = vndf_table_row(t, VNDF_LAW, i), *more = vndf_table_row(t, VNDF_MORE, i);
+        law[0] = (float)c.g0;
+        law[1] = (float)c.g1;
+        law[2] = (float)c.m0;
+        law[3] = (float)c.m1;
+        more[0] = (float)c.m2;
+        beyond += (double)(float)c.cube * law[2];
+        more[1] = t->moments == 4 && beyond > FOURTH_LEAST ? (float)c.cube : 0.0f;
     }
 }
 
@@ -80,65 +78,74 @@ static void put_best(const ray *at, size_t count, float *b0, float *b1)
 }
 
 /* Puts the shares of all knots, scaled so that the area that is drawn from there is the true one, below[i]. */
-static void put_shares(vndf_table_draft *t, const vndf_strips *s, const double *below, double *grazing,
+static void put_shares(vndf_distribution *t, const vndf_strips *s, const double *below, double *grazing,
                        vndf_cell *cell, ray *room)
 {
+    unsigned cells = (unsigned)t->cells;
+    float b0 = 0.43f, b1 = 0.57f;
     double sum = 0;
-    for (unsigned i = t->cells + 1; i-- > 0; grazing[i] = sum) {
-        cell[i] = vndf_cell_of(t, i);
+    for (unsigned i = cells + 1; i-- > 0; grazing[i] = sum) {
+        const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i);
+        cell[i] =
+            vndf_cell_between(knot[0], i < cells ? (double)knot[VNDF_STRIDE] : HUGE_VAL, (unsigned)t->squarings);
+        cell[i].g0 = law[0];
+        cell[i].g1 = law[1];
+        cell[i].m0 = law[2];
+        cell[i].m1 = law[3];
+        cell[i].m2 = vndf_table_row(t, VNDF_MORE, i)[0];
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
             sum += s->at[k].along;
     }
-    for (unsigned i = 0; i <= t->cells; i++) {
-        double rho = i ? t->knot[i] : 0.1 * (t->cells ? t->knot[1] : 1), drawn = 0, factor = 1;
-        double area = below[i] * (1 + rho);
-        t->b0[i] = i ? t->b0[i - 1] : 0.43f;
-        t->b1[i] = i ? t->b1[i - 1] : 0.57f;
-        put_best(room, look(s, i, t->cells, rho, grazing, room), &t->b0[i], &t->b1[i]);
-        for (unsigned k = i; i > 0 && k <= t->cells; k++)
-            drawn += vndf_drawn_below(&cell[k], rho, t->b0[i], t->b1[i]).mass / PI;
+    for (unsigned i = 0; i <= cells; i++) {
+        float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
+        double rho = i ? cell[i].r : 0.1 * cell[1].r, drawn = 0, factor = 1, area = below[i] * (1 + rho);
+        put_best(room, look(s, i, cells, rho, grazing, room), &b0, &b1);
+        for (unsigned k = i; i > 0 && k <= cells; k++)
+            drawn += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;
         if (drawn > 0 && area > 1e-30)
             factor = fmin(fmax(area / drawn, 0.5), 2);
-        t->b0[i] *= (float)factor;
-        t->b1[i] *= (float)factor;
+        b0 = shares[0] = b0 * (float)factor;
+        b1 = shares[1] = b1 * (float)factor;
     }
 }
 
 /* ---- the whole ---- */
 
-int vndf_draft_from(vndf_table_draft *t, vndf_knots *knots, unsigned moments)
+vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
 {
     const vndf_profile *profile = knots->profile;
     unsigned count = knots->count;
     vndf_strips strips = {0, NULL, NULL};
-    *t = (vndf_table_draft){.cells = count - 1,
-                            .moments = moments,
-                            .squarings = knots->squarings,
-                            .normalization = profile->normalization,
-                            .scale = profile->scale,
-                            .source = profile->source->description};
+    vndf_distribution *t = vndf_table_allocate(count - 1, moments, knots->squarings);
     double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
+    float *knot = malloc(count * sizeof *knot);
     vndf_cell *cell = malloc(count * sizeof *cell);
     ray *rays = NULL;
-    if (room && cell && vndf_table_draft_allocate(t)) {
+    if (t && room && knot && cell) {
+        t->normalization = profile->normalization;
+        t->scale = profile->scale;
         for (unsigned i = 0; i < count; i++) {
             const vndf_area *area = vndf_knots_area(knots, knots->at[i]);
-            double rho = t->knot[i] = vndf_knots_slope(knots, i);
-            t->area[i] = (float)(area->below + rho / (1 + rho));
-            t->slope[i] = (float)(1 - area->turned - area->along);
+            float *low = vndf_table_row(t, VNDF_LOW, i), r = knot[i] = vndf_knots_slope(knots, i);
+            vndf_table_row(t, VNDF_KNOT, i)[0] = r;
+            low[2] = (float)(area->below + (double)r / (1 + (double)r));
+            low[3] = (float)(1 - area->turned - area->along);
             below[i] = area->below;
         }
-        if (vndf_strips_from(&strips, profile, t->knot, count, t->cells))
+        if (vndf_strips_from(&strips, profile, knot, count, count - 1))
             rays = malloc(2 * strips.count * sizeof *rays);
     }
-    int good = rays != NULL;
-    if (good) {
+    if (rays) {
         put_cells(t, &strips, profile);
         put_shares(t, &strips, below, grazing, cell, rays);
+    } else {
+        vndf_free(t);
+        t = NULL;
     }
     free(room);
+    free(knot);
     free(cell);
     free(rays);
     vndf_strips_free(&strips);
-    return good;
+    return t;
 }

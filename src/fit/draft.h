@@ -55,9 +55,8 @@ typedef struct vndf_cell {
 vndf_cell vndf_cell_measure(const vndf_profile *profile, const vndf_strips *strips, size_t first, size_t end,
                             unsigned squarings);
 
-/* Where the cell of a table is, and all of it. */
+/* Where a cell is, without its numbers. */
 vndf_cell vndf_cell_between(double from, double to, unsigned squarings);
-vndf_cell vndf_cell_of(const vndf_table_draft *table, unsigned i);
 
 /* xi of a slope in the cell. */
 double vndf_cell_place(const vndf_cell *cell, double r);
@@ -118,9 +117,9 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
 /* ---- tables ---- */
 
-/* The table on these knots, complete but for its certificate and texts; 0 if there is no memory. Free table->knot
- * either way. */
-int vndf_draft_from(vndf_table_draft *table, vndf_knots *knots, unsigned moments);
+/* The table on these knots, but for its texts, its certificate and what vndf_table_fill fills; NULL if there is no
+ * memory. */
+vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments);
 
 /* How good a table is (certificate.c); 0 if there is no memory. */
 int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,

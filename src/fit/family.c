@@ -327,10 +327,8 @@ vndf_family *vndf_build_family(const char *specification, double low, double hig
     if (check(specification, low, high, options, error) != VNDF_OK)
         return NULL;
     builder *b = calloc(1, sizeof *b);
-    if (!b) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to build a family");
-        return NULL;
-    }
+    if (!b)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory to build a family"), NULL;
     b->guard = vndf_guard_from(options->progress, options->progress_user);
     b->pattern = specification;
     b->options = *options;

@@ -1,8 +1,7 @@
-/* Saving tables and families (core/frame.h). */
+/* Saving tables and families (core/cursor.h). */
 #include "core/error.h"
-#include "core/frame.h"
+#include "core/cursor.h"
 #include "table/family/family.h"
-#include "table/file.h"
 #include "vndf_build.h"
 
 /* One of a table and a family, to one of a file and memory. A family of vndf_family_of has no texts, and may hold
@@ -17,7 +16,7 @@ static vndf_status save(const vndf_distribution *table, const vndf_family *famil
                          "to save, a table or a family that was built or loaded, and a place are needed; closed "
                          "forms have no file");
     if (table)
-        vndf_table_write_loaded(table, &writer);
+        vndf_table_write(table, &writer);
     else
         vndf_family_write(family, &writer);
     return vndf_frame_save(&writer, path, bytes, size, error);

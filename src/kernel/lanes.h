@@ -190,15 +190,6 @@ HERE mask either(mask a, mask b)
     return (mask)(a | b);
 }
 
-HERE int all(mask m)
-{
-#if VNDF_LANES == 16
-    return m == 0xffff;
-#else
-    return !any(~m);
-#endif
-}
-
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. That is what the instructions of x86 do. */
 HERE real least(real a, real b)
 {

@@ -1,6 +1,10 @@
 /* The types of the kernel as one number: `real`, `whole` and `mask` are a float, an int and a truth. lanes.h has the
  * same names for several numbers side by side; exported kernels have them in each language (tools/export). With either
- * page below it the text of the kernel gives the same bits: + - * /, roots, comparisons and bits of floats alone. */
+ * page below it the text of the kernel gives the same bits: + - * /, roots, comparisons and bits of floats alone.
+ *
+ * With VNDF_KERNEL_DOUBLE `real` is a double: for what scatters light, since refraction where the index ratio is near
+ * 1, and Fresnel's terms beside total reflection, want more digits of directions than floats have; and for
+ * certificates, which compare what the run time draws with what is seen. */
 #ifndef VNDF_KERNEL_ONE_H
 #define VNDF_KERNEL_ONE_H
 
@@ -11,17 +15,21 @@
 
 #define HERE VNDF_INLINE
 
+#if defined(VNDF_KERNEL_DOUBLE)
+typedef double real;
+#  define REAL(function) function
+#else
 typedef float real;
+#  define REAL(function) function##f
+#endif
 
-#if defined(__SSE2__) /* choices without a branch, which random data would mispredict; lane 0 of four */
+/* ---- choices ---- */
+
+#if defined(__SSE2__) && \
+    !defined(VNDF_KERNEL_DOUBLE) /* no branch, which random data would mispredict: lane 0 of 4 */
 #  include <emmintrin.h>
 #  define VNDF_KERNEL_SSE2 1
 typedef __m128 mask;
-#else
-typedef int mask;
-#endif
-
-#if defined(VNDF_KERNEL_SSE2)
 
 /* Lane 0 is x; with gcc without an instruction that clears the others. */
 HERE __m128 lane(float x)
@@ -75,26 +83,84 @@ HERE real pick(mask m, real yes, real no)
     return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
 }
 
+#else
+
+typedef int mask;
+
+HERE mask less(real a, real b)
+{
+    return a < b;
+}
+
+HERE mask at_most(real a, real b)
+{
+    return a <= b;
+}
+
+HERE mask same(int32_t a, int b)
+{
+    return a == b;
+}
+
+HERE mask both(mask a, mask b)
+{
+    return a & b;
+}
+
+HERE mask either(mask a, mask b)
+{
+    return a | b;
+}
+
+HERE int any(mask m)
+{
+    return m;
+}
+
+HERE real pick(mask m, real yes, real no)
+{
+    return m ? yes : no;
+}
+
 #endif
 
-#include "kernel/plain.h"
-#include "kernel/rows.h"
+/* a < b ? a : b, so b for NaN; and a > b ? a : b. */
+HERE real least(real a, real b)
+{
+    return a < b ? a : b;
+}
+
+HERE real most(real a, real b)
+{
+    return a > b ? a : b;
+}
+
+/* ---- numbers ---- */
+
+HERE real set(real x)
+{
+    return x;
+}
 
 HERE real root(real x)
 {
-    return sqrtf(x);
+    return REAL(sqrt)(x);
 }
 
 HERE real size(real x)
 {
-    return fabsf(x);
+    return REAL(fabs)(x);
 }
 
 /* |x| with the sign of y. */
 HERE real with_sign(real x, real y)
 {
-    return copysignf(x, y);
+    return REAL(copysign)(x, y);
 }
+
+#ifndef VNDF_KERNEL_DOUBLE
+#  include "kernel/rows.h"
+#endif
 
 #if defined(VNDF_KERNEL_SSE2)
 

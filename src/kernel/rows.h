@@ -1,4 +1,4 @@
-/* Whole numbers and the rows of a table, for pages that have said what `real` and `mask` are: one.h, wide.h. */
+/* Whole numbers and the rows of a table. With doubles it is included where a table is read. */
 #ifndef VNDF_KERNEL_ROWS_H
 #define VNDF_KERNEL_ROWS_H
 
@@ -8,15 +8,6 @@
 #include "table/table.h"
 
 typedef int32_t whole;
-
-#ifndef VNDF_KERNEL_SSE2
-
-HERE mask same(whole a, int b)
-{
-    return a == b;
-}
-
-#endif
 
 HERE whole set_whole(int i)
 {

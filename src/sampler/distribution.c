@@ -1,5 +1,5 @@
 /* The closed forms as distributions, and what any distribution is. */
-#include "table/file.h"
+#include "table/table.h"
 
 /* The median of Beckmann's slopes is sqrt(log 2). */
 static const vndf_distribution ggx = {.kind = VNDF_KIND_GGX,

@@ -1,5 +1,4 @@
-/* Weights and shares of the lobes of mixtures, of `count` mixtures side by side: number l * stride + i is that of lobe
- * l of mixture i. For one mixture, and for blocks of them (batch/mixtures.c). */
+/* Weights and shares of the lobes of mixtures: number l * stride + i is that of lobe l of mixture i. */
 #ifndef VNDF_SAMPLER_LOBES_H
 #define VNDF_SAMPLER_LOBES_H
 
@@ -7,40 +6,30 @@
 
 #include "sampler/state.h"
 
-enum { VNDF_MIXTURES = 512 }; /* `count`, at most */
-
-/* Divides weights by the largest of each mixture and then by their sum; valid[i] says whether they are >= 0 and finite,
- * and not all 0: else they become 0. */
-VNDF_INLINE void vndf_weigh_lobes(int lobes, int count, int stride, float *weight, int *valid)
+/* Of one mixture: divides weights by the largest and then by their sum; returns whether they are >= 0 and finite, and
+ * not all 0: else they become 0. */
+VNDF_INLINE int vndf_weigh_lobes(int lobes, int stride, float *weight)
 {
-    float largest[VNDF_MIXTURES], sum[VNDF_MIXTURES];
-    for (int i = 0; i < count; i++) {
-        valid[i] = 1;
-        largest[i] = sum[i] = 0.0f;
+    int valid = 1;
+    float largest = 0.0f, sum = 0.0f;
+    for (int l = 0; l < lobes; l++) {
+        valid &= (weight[l * stride] >= 0.0f) & (weight[l * stride] <= FLT_MAX);
+        largest = most(largest, weight[l * stride]);
     }
-    for (int l = 0; l < lobes; l++)
-        for (int i = 0; i < count; i++) {
-            const float w = weight[l * stride + i];
-            valid[i] &= (w >= 0.0f) & (w <= FLT_MAX);
-            largest[i] = most(largest[i], w);
-        }
-    for (int i = 0; i < count; i++)
-        valid[i] &= largest[i] > 0.0f;
-    for (int l = 0; l < lobes; l++)
-        for (int i = 0; i < count; i++) {
-            const float w = weight[l * stride + i] / largest[i];
-            weight[l * stride + i] = valid[i] ? w : 0.0f;
-            sum[i] += weight[l * stride + i];
-        }
-    for (int l = 0; l < lobes; l++)
-        for (int i = 0; i < count; i++) {
-            const float w = weight[l * stride + i] / sum[i];
-            weight[l * stride + i] = valid[i] ? w : 0.0f;
-        }
+    valid &= largest > 0.0f;
+    for (int l = 0; l < lobes; l++) {
+        weight[l * stride] = valid ? weight[l * stride] / largest : 0.0f;
+        sum += weight[l * stride];
+    }
+    for (int l = 0; valid && l < lobes; l++)
+        weight[l * stride] = weight[l * stride] / sum;
+    return valid;
 }
 
-/* What areas make of these weights: share[] holds areas first. Where no lobe sees an area that a float can hold, the
- * weights alone count. */
+enum { VNDF_MIXTURES = 512 }; /* side by side, at most */
+
+/* What areas make of such weights, for `count` mixtures: share[] holds areas first. Where no lobe sees an area that a
+ * float can hold, the weights alone count. */
 VNDF_INLINE void vndf_share_lobes(int lobes, int count, int stride, const float *weight, float *share)
 {
     float sum[VNDF_MIXTURES], total[VNDF_MIXTURES];
@@ -56,8 +45,7 @@ VNDF_INLINE void vndf_share_lobes(int lobes, int count, int stride, const float 
     for (int l = 0; l < lobes; l++)
         for (int i = 0; i < count; i++) {
             const float of = share[l * stride + i], w = weight[l * stride + i];
-            const float part = sum[i] > FLT_MIN ? of : w, all = sum[i] > FLT_MIN ? sum[i] : total[i];
-            share[l * stride + i] = part / all;
+            share[l * stride + i] = (sum[i] > FLT_MIN ? of : w) / (sum[i] > FLT_MIN ? sum[i] : total[i]);
         }
 }
 

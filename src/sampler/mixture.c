@@ -10,13 +10,11 @@
 /* The weights of a mixture over their sum; 0 if they are invalid. */
 static int weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_LOBES])
 {
-    int valid = 0;
     if (!mixture || mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
         return 0;
     for (int i = 0; i < mixture->count; i++)
         weight[i] = mixture->lobe[i].weight;
-    vndf_weigh_lobes(mixture->count, 1, 1, weight, &valid);
-    return valid;
+    return vndf_weigh_lobes(mixture->count, 1, weight);
 }
 
 static void shares_of(const vndf_mixture_view *view, float (*area)(const vndf_view *view), float share[])

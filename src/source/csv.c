@@ -40,41 +40,86 @@ enum { OPERATIONS = 8 };
 static const double APART = 1e-12; /* of themselves: the abscissa of the curve could not tell closer rows apart */
 static const double RIGHT_ANGLE = 1.57079632679489661923;
 
-/* Points with x ascending, at least two, and dy/dx there. */
-typedef struct curve {
-    double *x, *y, *slope;
-    size_t count;
-} curve;
-
 typedef struct csv_source {
     vndf_source base; /* first: a vndf_source* is cast back to this */
     vndf_rows_over over;
     vndf_rows_of of;
-    curve curve; /* over asinh(x/scale) */
+    size_t count;   /* of rows */
+    double *slope;  /* owned, with the next three: of each row */
+    double *x, *y;  /* as given, angles in radians; then asinh(x/scale), and y or its logarithm */
+    double *change; /* dy/dx */
     double scale;
-    int logarithmic;       /* the curve is the logarithm of the second column */
+    int logarithmic;
     double last_slope;     /* where the tail begins; infinite if the rows reach 90 degrees */
     double last_p22, tail; /* beyond it P22 falls as r^-tail */
-    double *numbers;       /* owned: the slopes of all rows, and the numbers of the curve */
 } csv_source;
 
-/* What is read, row by row. Angles become radians; the last may be pi/2. */
+/* What is read into a source, row by row. */
 typedef struct reader {
-    vndf_span rest;    /* the text that has not been read */
-    const char *unit;  /* "line", or "row" of numbers in memory */
-    size_t at, before; /* number of the current one; of that of the row before */
-    const char *name;  /* of the text, NULL for numbers in memory */
-    vndf_status refusal;
-    vndf_rows_over over;
-    vndf_rows_of of;
-    int degrees; /* the first column */
-    vndf_writer x, value;
-    size_t count;
-    double last; /* of x */
+    csv_source *to;
+    const char *name;          /* of the text, NULL for numbers in memory */
+    const char *unit;          /* "line", or "row" of numbers */
+    size_t at, before;         /* number of the current one; of that of the row before */
+    const char *first, *value; /* names of the columns */
+    int degrees;               /* the first column */
     vndf_error *error;
 } reader;
 
-/* ---- the cubic -------------------------------------------------------------------------------- */
+/* ---- P22 -------------------------------------------------------------------------------------- */
+
+/* cos(theta)^4 at the slope r: P22 = D c^4. */
+static double cosine4(double r)
+{
+    double c = 1 / hypot(1, r), c2 = c * c;
+    return c2 * c2;
+}
+
+/* The cubic. */
+static double value_at(const csv_source *s, double x)
+{
+    size_t last = s->count - 1;
+    if (!(x > s->x[0]))
+        return s->y[0];
+    if (x >= s->x[last])
+        return s->y[last];
+    size_t i = vndf_last_before(s->x, sizeof *s->x, s->count, x);
+    double h = s->x[i + 1] - s->x[i], t = (x - s->x[i]) / h, u = 1 - t, y0 = s->y[i], y1 = s->y[i + 1];
+    double bend = t * u * (u * (s->change[i] * h) - t * (s->change[i + 1] * h));
+    double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend;
+    /* Rounding alone could leave the range, and a density must not be negative. */
+    return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
+}
+
+static double p22_at(const csv_source *s, double r)
+{
+    if (r > s->last_slope)
+        return s->last_p22 == 0 ? 0 : s->last_p22 * pow(r / s->last_slope, -s->tail);
+    double y = value_at(s, asinh((s->over == VNDF_ROWS_OVER_SLOPE ? r : atan(r)) / s->scale));
+    return (s->logarithmic ? exp(y) : y) * (s->of == VNDF_ROWS_OF_NDF ? cosine4(r) : 1);
+}
+
+static void p22(const vndf_source *self, const double *r, size_t count, double *values)
+{
+    for (size_t i = 0; i < count; i++)
+        values[i] = p22_at((const csv_source *)self, r[i]);
+}
+
+/* All rows are breaks, and between two of them the curve is one cubic, or the exponential of one, which a few points
+ * determine. */
+static vndf_reach reach(const vndf_source *self, double low, double high)
+{
+    const csv_source *s = (const csv_source *)self;
+    return (vndf_reach){p22_at(s, low), p22_at(s, high), 0};
+}
+
+static void destroy(vndf_source *self)
+{
+    free(((csv_source *)self)->slope);
+    free(self->description);
+    free(self);
+}
+
+/* ---- the curve -------------------------------------------------------------------------------- */
 
 /* The slope between the secants a and b of widths p and q: that of the parabola, reduced until both sides are monotone;
  * 0 at a local extremum. */
@@ -93,144 +138,51 @@ static double end_slope(double a, double p, double b, double q)
     return fabs(parabola) > 2 * fabs(a) ? 2 * a : parabola;
 }
 
-static void fit_cubic(curve *c)
+/* Through rows that have been checked. */
+static void fit(csv_source *s)
 {
-    size_t last = c->count - 1;
+    size_t last = s->count - 1;
+    double *x = s->x, *y = s->y, least = 4;
+    if (s->over == VNDF_ROWS_OVER_THETA && x[last] >= RIGHT_ANGLE && y[last] == 0 && y[last - 1] > 0) {
+        x[last] = (x[last - 1] + RIGHT_ANGLE) / 2;
+        y[last] = y[last - 1] / 2;
+        least = 5;
+    }
+    for (size_t i = 0; i <= last; i++)
+        s->slope[i] = s->over == VNDF_ROWS_OVER_SLOPE ? x[i] : x[i] >= RIGHT_ANGLE ? INFINITY : tan(x[i]);
+    s->base.breaks = s->slope + (s->slope[0] == 0);
+    s->base.break_count = s->count - (s->slope[0] == 0) - (size_t) !!isinf(s->slope[last]);
+
+    int is_ndf = s->of == VNDF_ROWS_OF_NDF;
+    double r0 = s->slope[last - 1], r1 = s->slope[last], before = y[last - 1] * (is_ndf ? cosine4(r0) : 1);
+    s->last_slope = r1;
+    s->last_p22 = y[last] * (is_ndf ? cosine4(r1) : 1);
+    s->tail = least;
+    if (r0 > 0 && before > 0 && s->last_p22 > 0 && isfinite(r1))
+        s->tail = fmax(least, log(before / s->last_p22) / log(r1 / r0));
+
+    double first_step = x[1] - x[0], last_step = x[last] - x[last - 1];
+    s->scale = fmax(x[last] * fmin(fmax(first_step / last_step, 1e-12), 1e3), DBL_MIN);
+    s->logarithmic = 1;
+    for (size_t i = 0; i <= last; i++)
+        s->logarithmic &= y[i] > 0;
+    for (size_t i = 0; i <= last; i++) {
+        x[i] = asinh(x[i] / s->scale);
+        y[i] = s->logarithmic ? log(y[i]) : y[i];
+    }
     double a = 0, p = 0; /* secant and width of the piece before */
     for (size_t i = 0; i < last; i++) {
-        double q = c->x[i + 1] - c->x[i], b = (c->y[i + 1] - c->y[i]) / q;
-        c->slope[i] = i > 0 ? inner_slope(a, p, b, q) : b;
+        double q = x[i + 1] - x[i], b = (y[i + 1] - y[i]) / q;
+        s->change[i] = i > 0 ? inner_slope(a, p, b, q) : b;
         if (i == 1)
-            c->slope[0] = end_slope(a, p, b, q);
-        c->slope[last] = i > 0 ? end_slope(b, q, a, p) : b;
+            s->change[0] = end_slope(a, p, b, q);
+        s->change[last] = i > 0 ? end_slope(b, q, a, p) : b;
         a = b;
         p = q;
     }
 }
 
-static double value_at(const curve *c, double x)
-{
-    size_t last = c->count - 1;
-    if (!(x > c->x[0]))
-        return c->y[0];
-    if (x >= c->x[last])
-        return c->y[last];
-    size_t i = vndf_last_before(c->x, sizeof *c->x, c->count, x);
-    double h = c->x[i + 1] - c->x[i], t = (x - c->x[i]) / h, u = 1 - t, y0 = c->y[i], y1 = c->y[i + 1];
-    double bend = t * u * (u * (c->slope[i] * h) - t * (c->slope[i + 1] * h));
-    double y = y0 + (y1 - y0) * t * t * (3 - 2 * t) + bend;
-    /* Rounding alone could leave the range, and a density must not be negative. */
-    return fmin(fmax(y, fmin(y0, y1)), fmax(y0, y1));
-}
-
-/* ---- P22 -------------------------------------------------------------------------------------- */
-
-/* cos(theta)^4 at the slope r: P22 = D c^4. */
-static double cosine4(double r)
-{
-    double c = 1 / hypot(1, r), c2 = c * c;
-    return c2 * c2;
-}
-
-static double p22_at(const csv_source *source, double r)
-{
-    if (r > source->last_slope)
-        return source->last_p22 == 0 ? 0 : source->last_p22 * pow(r / source->last_slope, -source->tail);
-    double x = source->over == VNDF_ROWS_OVER_SLOPE ? r : atan(r);
-    double y = value_at(&source->curve, asinh(x / source->scale)), value = source->logarithmic ? exp(y) : y;
-    return source->of == VNDF_ROWS_OF_NDF ? value * cosine4(r) : value;
-}
-
-static void p22(const vndf_source *self, const double *r, size_t count, double *values)
-{
-    for (size_t i = 0; i < count; i++)
-        values[i] = p22_at((const csv_source *)self, r[i]);
-}
-
-/* All rows are breaks, and between two of them the curve is one cubic, or the exponential of one, which a few points
- * determine. */
-static vndf_reach reach(const vndf_source *self, double low, double high)
-{
-    const csv_source *source = (const csv_source *)self;
-    return (vndf_reach){p22_at(source, low), p22_at(source, high), 0};
-}
-
-static void destroy(vndf_source *self)
-{
-    free(((csv_source *)self)->numbers);
-    free(self->description);
-    free(self);
-}
-
-/* ---- fits ------------------------------------------------------------------------------------- */
-
-static void fit_curve(csv_source *source, const double *given, const double *value)
-{
-    size_t last = source->curve.count - 1;
-    double x = given[last], first_step = given[1] - given[0], last_step = x - given[last - 1];
-    source->scale = fmax(x * fmin(fmax(first_step / last_step, 1e-12), 1e3), DBL_MIN);
-    source->logarithmic = 1;
-    for (size_t i = 0; i <= last; i++)
-        source->logarithmic &= value[i] > 0;
-    for (size_t i = 0; i <= last; i++) {
-        source->curve.x[i] = asinh(given[i] / source->scale);
-        source->curve.y[i] = source->logarithmic ? log(value[i]) : value[i];
-    }
-    fit_cubic(&source->curve);
-}
-
-/* By the slopes and values of the last two rows. */
-static void fit_tail(csv_source *source, const double *slope, const double *value, double least)
-{
-    int is_ndf = source->of == VNDF_ROWS_OF_NDF;
-    double before = value[0] * (is_ndf ? cosine4(slope[0]) : 1),
-           last = value[1] * (is_ndf ? cosine4(slope[1]) : 1);
-    source->last_slope = slope[1];
-    source->last_p22 = last;
-    source->tail = least;
-    if (slope[0] > 0 && before > 0 && last > 0 && isfinite(slope[1]))
-        source->tail = fmax(least, log(before / last) / log(slope[1] / slope[0]));
-}
-
-/* The curve through rows that have been checked; it takes description, also where it fails. */
-static vndf_source *curve_through(const reader *r, char *description, vndf_error *error)
-{
-    double *x = (double *)(void *)r->x.bytes, *value = (double *)(void *)r->value.bytes;
-    csv_source *source = calloc(1, sizeof *source);
-    size_t n = r->count;
-    double *slope = calloc(4 * n, sizeof *slope);
-    if (!source || !slope) {
-        free(source);
-        free(slope);
-        free(description);
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", n);
-        return NULL;
-    }
-    int over_slope = r->over == VNDF_ROWS_OVER_SLOPE,
-        vanishes = !over_slope && x[n - 1] >= RIGHT_ANGLE && value[n - 1] == 0 && value[n - 2] > 0;
-    if (vanishes) {
-        x[n - 1] = (x[n - 2] + RIGHT_ANGLE) / 2;
-        value[n - 1] = value[n - 2] / 2;
-    }
-    for (size_t i = 0; i < n; i++)
-        slope[i] = over_slope ? x[i] : x[i] >= RIGHT_ANGLE ? INFINITY : tan(x[i]);
-    *source = (csv_source){.base = {.p22 = p22,
-                                    .destroy = destroy,
-                                    .reach = reach,
-                                    .description = description,
-                                    .operations = OPERATIONS,
-                                    .breaks = slope + (slope[0] == 0)},
-                           .over = r->over,
-                           .of = r->of,
-                           .curve = {slope + n, slope + 2 * n, slope + 3 * n, n},
-                           .numbers = slope};
-    source->base.break_count = n - (slope[0] == 0) - (size_t) !!isinf(slope[n - 1]);
-    fit_curve(source, x, value);
-    fit_tail(source, slope + n - 2, value + n - 2, vanishes ? 5 : 4);
-    return &source->base;
-}
-
-/* ---- what is read ---- */
+/* ---- rows ------------------------------------------------------------------------------------- */
 
 /* Columns, in the order of vndf_rows_over behind degrees, and of vndf_rows_of. */
 static const char *const first_names[] = {"theta_deg", "theta", "slope"};
@@ -246,61 +198,96 @@ static vndf_status refuse(const reader *r, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    return vndf_fail(r->error, r->refusal, "%s%s%s %zu: %s", r->name ? r->name : "", r->name ? ": " : "", r->unit,
-                     r->at, text);
-}
-
-/* The source of rows that have been checked, or, where status is an error, none. Its description is
- * "--csv 'my gloss.csv' (crc32 0f3a22bc)". */
-static vndf_source *source_of(reader *r, vndf_status status, const char *option, const char *name, uint32_t crc)
-{
-    char checksum[32];
-    snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
-    char *description = status == VNDF_OK ? vndf_text_pair(option, name, checksum, r->error) : NULL;
-    vndf_source *source = description ? curve_through(r, description, r->error) : NULL;
-    free(r->x.bytes);
-    free(r->value.bytes);
-    return source;
-}
-
-/* ---- rows ------------------------------------------------------------------------------------- */
-
-static const char *first_name(const reader *r)
-{
-    return first_names[r->degrees ? 0 : 1 + r->over];
+    return vndf_fail(r->error, r->name ? VNDF_ERROR_SYNTAX : VNDF_ERROR_DISTRIBUTION, "%s%s%s %zu: %s",
+                     r->name ? r->name : "", r->name ? ": " : "", r->unit, r->at, text);
 }
 
 /* Checks a row and appends it, its angle in radians; 90 degrees is exact, also where an angle in radians is within 1e-9
  * of it. */
 static vndf_status take_row(reader *r, double given, double value)
 {
-    const char *first = first_name(r), *second = second_names[r->of];
-    int angle = r->over == VNDF_ROWS_OVER_THETA;
+    csv_source *s = r->to;
+    int angle = s->over == VNDF_ROWS_OVER_THETA, bad_first = !isfinite(given) || given < 0;
     int grazing = r->degrees ? given == 90 : angle && fabs(given - RIGHT_ANGLE) <= 1e-9;
     double x = grazing ? RIGHT_ANGLE : r->degrees ? given * (RIGHT_ANGLE / 90) : given;
     char number[VNDF_NUMBER_TEXT];
-    int bad_first = !isfinite(given) || given < 0;
     if (bad_first || !isfinite(value) || value < 0)
-        return refuse(r, "%s is %s; it must be finite and not negative", bad_first ? first : second,
+        return refuse(r, "%s is %s; it must be finite and not negative", bad_first ? r->first : r->value,
                       vndf_number_print(number, bad_first ? given : value));
-    if (grazing && r->of == VNDF_ROWS_OF_P22)
+    if (grazing && s->of == VNDF_ROWS_OF_P22)
         return refuse(r, "at 90 degrees the slope is infinite and p22 always 0; leave the row out or give ndf");
     if (angle && x > RIGHT_ANGLE)
-        return refuse(r, "%s is %s; angles from the normal are at most %s", first,
+        return refuse(r, "%s is %s; angles from the normal are at most %s", r->first,
                       vndf_number_print(number, given), r->degrees ? "90" : "pi/2");
-    if (r->count > 0 && !(x > r->last * (1 + APART)))
-        return refuse(r, "%s is %s, which is not above that of %s %zu; rows must ascend and not repeat", first,
+    if (s->count > 0 && !(x > s->x[s->count - 1] * (1 + APART)))
+        return refuse(r, "%s is %s, which is not above that of %s %zu; rows must ascend and not repeat", r->first,
                       vndf_number_print(number, given), r->unit, r->before);
-    if (r->count == VNDF_LIMIT_CSV_ROWS)
+    if (s->count == VNDF_LIMIT_CSV_ROWS)
         return refuse(r, "more than %d rows", VNDF_LIMIT_CSV_ROWS);
-    vndf_write_bytes(&r->x, &x, sizeof x);
-    vndf_write_bytes(&r->value, &value, sizeof value);
-    r->last = x;
+    s->x[s->count] = x;
+    s->y[s->count++] = value;
     r->before = r->at;
-    r->count++;
-    return r->x.failed || r->value.failed
-               ? vndf_fail(r->error, VNDF_ERROR_MEMORY, "no memory for %zu rows", r->count)
-               : VNDF_OK;
+    return VNDF_OK;
+}
+
+/* A source with room for rows; NULL and an error if there is no memory. */
+static csv_source *allocate(size_t rows, vndf_rows_over over, vndf_rows_of of, vndf_error *error)
+{
+    csv_source *s = calloc(1, sizeof *s);
+    double *numbers = calloc(4 * rows, sizeof *numbers);
+    if (s && numbers) {
+        *s = (csv_source){.base = {.p22 = p22, .destroy = destroy, .reach = reach, .operations = OPERATIONS},
+                          .over = over,
+                          .of = of,
+                          .slope = numbers,
+                          .x = numbers + rows,
+                          .y = numbers + 2 * rows,
+                          .change = numbers + 3 * rows};
+        return s;
+    }
+    free(s);
+    free(numbers);
+    vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for %zu rows", rows);
+    return NULL;
+}
+
+/* The source that was read, or, where status is an error, none. Its description is
+ * "--csv 'my gloss.csv' (crc32 0f3a22bc)". */
+static vndf_source *source_of(csv_source *s, vndf_status status, const char *option, const char *name,
+                              uint32_t crc, vndf_error *error)
+{
+    char checksum[32];
+    snprintf(checksum, sizeof checksum, " (crc32 %08lx)", (unsigned long)crc);
+    s->base.description = status == VNDF_OK ? vndf_text_pair(option, name, checksum, error) : NULL;
+    if (s->base.description) {
+        fit(s);
+        return &s->base;
+    }
+    destroy(&s->base);
+    return NULL;
+}
+
+vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
+                              size_t count, const char *name, vndf_error *error)
+{
+    if ((over != VNDF_ROWS_OVER_THETA && over != VNDF_ROWS_OVER_SLOPE) ||
+        (of != VNDF_ROWS_OF_NDF && of != VNDF_ROWS_OF_P22))
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22"),
+               NULL;
+    reader r = {.unit = "row", .first = first_names[1 + over], .value = second_names[of], .error = error};
+    if (!x || !value)
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the array of %s is NULL", x ? r.value : r.first);
+    else if (count < 2 || count > VNDF_LIMIT_CSV_ROWS)
+        vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu rows; from 2 to %d are possible", count, VNDF_LIMIT_CSV_ROWS);
+    else
+        r.to = allocate(count, over, of, error);
+    if (!r.to)
+        return NULL;
+    vndf_status status = VNDF_OK;
+    for (; r.at < count && status == VNDF_OK; r.at++)
+        status = take_row(&r, x[r.at], value[r.at]);
+    size_t bytes = count * sizeof *x; /* as the machine holds them */
+    return source_of(r.to, status, "--rows", name, vndf_crc32(vndf_crc32(0, x, bytes), value, bytes), error);
 }
 
 /* ---- lines ------------------------------------------------------------------------------------ */
@@ -315,42 +302,10 @@ static vndf_span trim(vndf_span s)
     return s;
 }
 
-/* The two fields of the next line that is neither blank nor a comment; *found is 0 at the end of the text. */
-static vndf_status next_line(reader *r, vndf_span field[2], int *found)
-{
-    size_t count = 1;
-    for (*found = 0; r->rest.size > 0;) {
-        vndf_span line = vndf_cut(&r->rest, '\n');
-        r->at++;
-        if (line.size > VNDF_LIMIT_CSV_LINE)
-            return refuse(r, "%zu characters; at most %d are possible", line.size, VNDF_LIMIT_CSV_LINE);
-        line = trim(line);
-        if (line.size == 0 || line.text[0] == '#')
-            continue;
-        for (size_t i = 0; i < line.size; i++)
-            count += line.text[i] == ',';
-        if (count != 2)
-            return refuse(r, "%zu field%s; two are needed, separated by a comma: an angle or slope, and a density",
-                          count, count == 1 ? "" : "s");
-        field[0] = trim(vndf_cut(&line, ','));
-        field[1] = trim(line);
-        *found = 1;
-        break;
-    }
-    return VNDF_OK;
-}
-
-static vndf_status read_header(reader *r)
+static vndf_status read_header(reader *r, const vndf_span field[2])
 {
     char excerpt[VNDF_EXCERPT];
-    vndf_span field[2];
-    int found, first = 0, second = 0;
-    vndf_status status = next_line(r, field, &found);
-    r->at += status == VNDF_OK && r->at == 0; /* an empty file lacks its header on line 1 */
-    if (status == VNDF_OK && !found)
-        return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
-    if (status != VNDF_OK)
-        return status;
+    int first = 0, second = 0;
     while (first < 3 && !vndf_is_word(field[0].text, field[0].size, first_names[first]))
         first++;
     while (second < 2 && !vndf_is_word(field[1].text, field[1].size, second_names[second]))
@@ -361,54 +316,74 @@ static vndf_status read_header(reader *r)
     if (second == 2)
         return refuse(r, "the second column is called '%s'; the header names it ndf or p22",
                       vndf_excerpt(excerpt, field[1].text, field[1].size));
+    r->first = first_names[first];
+    r->value = second_names[second];
     r->degrees = first == 0;
-    r->over = first == 2 ? VNDF_ROWS_OVER_SLOPE : VNDF_ROWS_OVER_THETA;
-    r->of = second == 0 ? VNDF_ROWS_OF_NDF : VNDF_ROWS_OF_P22;
+    r->to->over = first == 2 ? VNDF_ROWS_OVER_SLOPE : VNDF_ROWS_OVER_THETA;
+    r->to->of = second == 0 ? VNDF_ROWS_OF_NDF : VNDF_ROWS_OF_P22;
     return VNDF_OK;
 }
 
-static vndf_status read_number(reader *r, vndf_span field, const char *name, double *value)
+static vndf_status read_numbers(reader *r, const vndf_span field[2])
 {
-    char excerpt[VNDF_EXCERPT];
-    int good = vndf_number_is_all(field.text, field.size, value);
-    vndf_excerpt(excerpt, field.text, field.size);
-    if (!good)
-        return refuse(r, "%s is '%s', which is no number; one like 0.25 or 1e-3 is needed", name, excerpt);
-    return isinf(*value) ? refuse(r, "%s is '%s', too large for a double", name, excerpt) : VNDF_OK;
+    double number[2];
+    for (int i = 0; i < 2; i++) {
+        char excerpt[VNDF_EXCERPT];
+        const char *name = i ? r->value : r->first, *text = vndf_excerpt(excerpt, field[i].text, field[i].size);
+        if (!vndf_number_is_all(field[i].text, field[i].size, &number[i]))
+            return refuse(r, "%s is '%s', which is no number; one like 0.25 or 1e-3 is needed", name, text);
+        if (isinf(number[i]))
+            return refuse(r, "%s is '%s', too large for a double", name, text);
+    }
+    return take_row(r, number[0], number[1]);
 }
 
-static vndf_status read_all(reader *r)
+/* All lines; those that are neither blank nor a comment have two fields. */
+static vndf_status read_lines(reader *r, vndf_span rest)
 {
-    vndf_span field[2];
-    double x = 0, value = 0;
-    int found = 1;
-    vndf_status status = read_header(r);
-    while (status == VNDF_OK && (status = next_line(r, field, &found)) == VNDF_OK && found)
-        if (read_number(r, field[0], first_name(r), &x) != VNDF_OK ||
-            read_number(r, field[1], second_names[r->of], &value) != VNDF_OK || take_row(r, x, value) != VNDF_OK)
-            return VNDF_ERROR_SYNTAX;
-    if (status == VNDF_OK && r->count < 2)
-        return refuse(r, "the text ends with %zu row%s; at least two are needed", r->count,
-                      r->count == 1 ? "" : "s");
-    return status;
+    while (rest.size > 0) {
+        vndf_span line = vndf_cut(&rest, '\n');
+        r->at++;
+        if (line.size > VNDF_LIMIT_CSV_LINE)
+            return refuse(r, "%zu characters; at most %d are possible", line.size, VNDF_LIMIT_CSV_LINE);
+        line = trim(line);
+        if (line.size == 0 || line.text[0] == '#')
+            continue;
+        size_t fields = 1;
+        for (size_t i = 0; i < line.size; i++)
+            fields += line.text[i] == ',';
+        if (fields != 2)
+            return refuse(r, "%zu field%s; two are needed, separated by a comma: an angle or slope, and a density",
+                          fields, fields == 1 ? "" : "s");
+        vndf_span first = vndf_cut(&line, ',');
+        const vndf_span field[2] = {trim(first), trim(line)};
+        vndf_status status = r->first ? read_numbers(r, field) : read_header(r, field);
+        if (status != VNDF_OK)
+            return status;
+    }
+    r->at += r->at == 0; /* an empty file lacks its header on line 1 */
+    if (!r->first)
+        return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
+    if (r->to->count < 2)
+        return refuse(r, "the text ends with %zu row%s; at least two are needed", r->to->count,
+                      r->to->count == 1 ? "" : "s");
+    return VNDF_OK;
 }
 
 vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error)
 {
-    vndf_error own;
-    reader r = {.rest = {text, size, 1},
-                .unit = "line",
-                .name = name ? name : "unnamed",
-                .refusal = VNDF_ERROR_SYNTAX,
-                .error = error ? error : &own};
-    if (!text) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL");
+    if (!text)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the text of the CSV is NULL"), NULL;
+    size_t mark = size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; /* of UTF-8 by spreadsheets */
+    size_t lines = 1;
+    for (size_t i = 0; i < size && lines < VNDF_LIMIT_CSV_ROWS; i++)
+        lines += text[i] == '\n';
+    reader r = {
+        .to = allocate(lines, 0, 0, error), .name = name ? name : "unnamed", .unit = "line", .error = error};
+    if (!r.to)
         return NULL;
-    }
-    if (size >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0) /* the mark of UTF-8 by spreadsheets */
-        r.rest = (vndf_span){text + 3, size - 3, 1};
-    vndf_status status = read_all(&r);
-    return source_of(&r, status, "--csv", name, vndf_crc32(0, text, size));
+    vndf_status status = read_lines(&r, (vndf_span){text + mark, size - mark, 1});
+    return source_of(r.to, status, "--csv", name, vndf_crc32(0, text, size), error);
 }
 
 vndf_source *vndf_source_csv_file(const char *path, vndf_error *error)
@@ -423,35 +398,4 @@ vndf_source *vndf_source_csv_file(const char *path, vndf_error *error)
         source = vndf_source_csv_text(path, text, size, error);
     free(text);
     return source;
-}
-
-/* ---- numbers ---------------------------------------------------------------------------------- */
-
-static vndf_status check_arguments(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
-                                   size_t count, vndf_error *error)
-{
-    if ((over != VNDF_ROWS_OVER_THETA && over != VNDF_ROWS_OVER_SLOPE) ||
-        (of != VNDF_ROWS_OF_NDF && of != VNDF_ROWS_OF_P22))
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the columns are neither theta or slope nor ndf or p22");
-    if (!x || !value)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the array of %s is NULL",
-                         x ? second_names[of] : first_names[1 + over]);
-    if (count < 2 || count > VNDF_LIMIT_CSV_ROWS)
-        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%zu rows; from 2 to %d are possible", count,
-                         VNDF_LIMIT_CSV_ROWS);
-    return VNDF_OK;
-}
-
-vndf_source *vndf_source_rows(vndf_rows_over over, vndf_rows_of of, const double *x, const double *value,
-                              size_t count, const char *name, vndf_error *error)
-{
-    vndf_error own;
-    reader r = {
-        .unit = "row", .refusal = VNDF_ERROR_DISTRIBUTION, .over = over, .of = of, .error = error ? error : &own};
-    vndf_status status = check_arguments(over, of, x, value, count, error);
-    for (; r.at < count && status == VNDF_OK; r.at++)
-        status = take_row(&r, x[r.at], value[r.at]);
-    size_t bytes = status == VNDF_OK ? count * sizeof *x : 0; /* as the machine holds them */
-    uint32_t crc = vndf_crc32(vndf_crc32(0, x, bytes), value, bytes);
-    return source_of(&r, status, "--rows", name, crc);
 }

@@ -54,11 +54,10 @@ char *vndf_text_finish(vndf_writer *text, vndf_error *error)
 char *vndf_text_pair(const char *option, const char *word, const char *tail, vndf_error *error)
 {
     vndf_writer text = {NULL, 0, 0, 0};
-    if (word && strlen(word) > VNDF_LIMIT_NAME_LENGTH) {
-        vndf_fail(error, VNDF_ERROR_ARGUMENT, "a name of %zu characters; at most %d are possible", strlen(word),
-                  VNDF_LIMIT_NAME_LENGTH);
-        return NULL;
-    }
+    if (word && strlen(word) > VNDF_LIMIT_NAME_LENGTH)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "a name of %zu characters; at most %d are possible",
+                         strlen(word), VNDF_LIMIT_NAME_LENGTH),
+               NULL;
     vndf_text_add_word(&text, option);
     vndf_text_add_word(&text, word ? word : "unnamed");
     vndf_text_add(&text, tail);

@@ -1,99 +1,101 @@
-#include "table/file.h"
-
-#include <math.h>
+/* The table on disk, version 4. All little-endian; strings without terminator; floats are IEEE single.
+ *
+ *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
+ *     f64 normalization           f64 scale
+ *     u32 cells N, moments, squarings
+ *     12 f32 certificate (order of vndf_certificate)
+ *     u32 n, n bytes source       u32 n, n bytes tool
+ *     f32[N + 1] each: knot, g0, g1, m0, m1, m2, m4 (only if moments is 4), b0, b1, area, slope
+ *     u32 CRC-32 of all bytes before it
+ *
+ * A reader checks the size, the checksum, every count against its limit, and every array against what the sampler
+ * relies on: ascending knots, positive masses that add up to 1, finite densities. */
 #include <stdlib.h>
 #include <string.h>
 
-#include "core/cursor.h"
 #include "core/error.h"
-#include "core/frame.h"
+#include "table/table.h"
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
 
-/* Whether the file holds this array. */
-static int has_array(unsigned moments, int i)
+/* Where the arrays of the file stand in memory: row and place. */
+enum { ARRAYS = 11, ARRAY_OF_CUBES = 6 };
+static const int PLACES[ARRAYS][2] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0},  {VNDF_LAW, 1},  {VNDF_LAW, 2},
+                                      {VNDF_LAW, 3},  {VNDF_MORE, 0}, {VNDF_MORE, 1}, {VNDF_MORE, 2},
+                                      {VNDF_MORE, 3}, {VNDF_LOW, 2},  {VNDF_LOW, 3}};
+
+/* The number after this one in the file, the first after NULL; NULL after the last. */
+static float *next_number(const vndf_distribution *table, int *array, size_t *knot)
 {
-    return i != VNDF_ARRAY_OF_CUBES || moments == 4;
+    if (*knot > (size_t)table->cells) {
+        *knot = 0;
+        *array += *array + 1 == ARRAY_OF_CUBES && table->moments < 4 ? 2 : 1;
+    }
+    return *array < ARRAYS ? vndf_table_row(table, PLACES[*array][0], (*knot)++) + PLACES[*array][1] : NULL;
 }
 
 /* ---- writing ---- */
 
-void vndf_table_write(const vndf_table_draft *d, vndf_writer *w)
+void vndf_table_write(const vndf_distribution *table, vndf_writer *w)
 {
-    const float *claims = &d->certificate.tv;
+    const float *claims = &table->certificate.tv, *number;
+    int array = 0;
+    size_t knot = 0;
     vndf_frame_begin(&FRAME, w);
-    vndf_write_f64(w, d->normalization);
-    vndf_write_f64(w, d->scale);
-    vndf_write_u32(w, d->cells);
-    vndf_write_u32(w, d->moments);
-    vndf_write_u32(w, d->squarings);
+    vndf_write_f64(w, table->normalization);
+    vndf_write_f64(w, table->scale);
+    vndf_write_u32(w, (uint32_t)table->cells);
+    vndf_write_u32(w, (uint32_t)table->moments);
+    vndf_write_u32(w, (uint32_t)table->squarings);
     for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
         vndf_write_f32(w, claims[i]);
-    vndf_write_text(w, d->source);
-    vndf_write_text(w, d->tool);
-    for (int i = 0; i < VNDF_ARRAYS; i++)
-        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
-            vndf_write_f32(w, d->array[i][j * (d->stride ? d->stride : 1)]);
+    vndf_write_text(w, table->source);
+    vndf_write_text(w, table->tool);
+    while ((number = next_number(table, &array, &knot)) != NULL)
+        vndf_write_f32(w, *number);
     vndf_frame_end(w);
 }
 
 size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool)
 {
-    size_t numbers = (size_t)(VNDF_ARRAYS - 1 + has_array(moments, VNDF_ARRAY_OF_CUBES)) * knots;
+    size_t numbers = (ARRAYS - (size_t)(moments < 4)) * knots;
     size_t counts = 3 + VNDF_CERTIFICATE_FLOATS + 2; /* of 4 bytes, with the lengths of both texts */
     return VNDF_FRAME_HEAD + 2 * sizeof(double) + 4 * (counts + numbers + 1) + strlen(source) + strlen(tool);
 }
 
 /* ---- reading ---- */
 
-/* VNDF_OK and a table, or an error: also where the bytes end early (the reader fails). */
-static vndf_status read_table(vndf_reader *bytes, vndf_distribution *table, vndf_table_draft *d, vndf_error *error)
-{
-    const char *why = NULL;
-    float *claims = &d->certificate.tv;
-    d->normalization = vndf_read_f64(bytes);
-    d->scale = vndf_read_f64(bytes);
-    d->cells = vndf_read_u32(bytes);
-    d->moments = vndf_read_u32(bytes);
-    d->squarings = vndf_read_u32(bytes);
-    if (d->cells < 2 || d->cells > VNDF_CELLS_MAX || d->moments < 2 || d->moments > 4 ||
-        d->squarings > VNDF_SQUARINGS_MAX)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format");
-    for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
-        claims[i] = vndf_read_f32(bytes);
-    table->source = vndf_read_text(bytes);
-    table->tool = vndf_read_text(bytes);
-    int good = table->source && table->tool && vndf_table_draft_allocate(d);
-    for (int i = 0; good && i < VNDF_ARRAYS; i++)
-        for (size_t j = 0; has_array(d->moments, i) && j <= d->cells; j++)
-            d->array[i][j] = vndf_read_f32(bytes);
-    if (d->moments < 4)
-        d->cubes = NULL;
-    bytes->failed |= good && bytes->at + 4 != bytes->size;
-    good = good && !bytes->failed && vndf_table_fill(table, d, &why);
-    if (good && !why)
-        return VNDF_OK;
-    if (!why && !bytes->failed)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes",
-                         (unsigned long)bytes->size);
-    return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s",
-                     why ? why : "its parts do not fill the file");
-}
-
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
     if (vndf_frame_check(&FRAME, bytes, size, error) != VNDF_OK)
         return NULL;
-    vndf_reader reader = {bytes, size, VNDF_FRAME_HEAD, 0};
-    vndf_table_draft draft = {0};
-    vndf_distribution *table = calloc(1, sizeof *table);
-    int good = table && read_table(&reader, table, &draft, error) == VNDF_OK;
-    free(draft.knot);
-    if (good) {
+    vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
+    double normalization = vndf_read_f64(&r), scale = vndf_read_f64(&r);
+    uint32_t cells = vndf_read_u32(&r), moments = vndf_read_u32(&r), squarings = vndf_read_u32(&r);
+    if (cells < 2 || cells > VNDF_CELLS_MAX || moments < 2 || moments > 4 || squarings > VNDF_SQUARINGS_MAX)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the table's counts are outside the limits of the format"), NULL;
+    vndf_distribution *table = vndf_table_allocate(cells, moments, squarings);
+    const char *why = NULL;
+    if (table) {
+        float *claims = &table->certificate.tv, *number;
+        int array = 0;
+        size_t knot = 0;
+        table->normalization = normalization;
+        table->scale = scale;
         table->bytes = size;
-        return table;
+        for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
+            claims[i] = vndf_read_f32(&r);
+        table->source = vndf_read_text(&r);
+        table->tool = vndf_read_text(&r);
+        while ((number = next_number(table, &array, &knot)) != NULL)
+            *number = vndf_read_f32(&r);
+        why = r.failed || r.at + 4 != size ? "its parts do not fill the file" : vndf_table_fill(table);
     }
-    if (!table)
+    if (table && table->source && table->tool && !why)
+        return table;
+    if (why)
+        vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why);
+    else
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of %lu bytes", (unsigned long)size);
     vndf_free(table);
     return NULL;

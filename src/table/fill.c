@@ -3,17 +3,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "table/file.h"
+#include "table/table.h"
 
 /* The law of k~ begins at knot i for the rounded rho of its cell if that is less than NEAR times R_i, or nearer to R_i
  * than to the next knot. Down to 0.8 rho k~ is within 1.3% of k, for 2, 3 and 4 moments. In cell 0 there is no R_i to
  * compare with, and k~ has another form (kernel/law.h). */
 static const double NEAR = 1.18, NEAR_FIRST = 0.75;
-
-static float *row(const vndf_distribution *table, int group, size_t i)
-{
-    return table->numbers + VNDF_HEAD + VNDF_STRIDE * i + 4 * (size_t)group;
-}
 
 static int in_range(double value, double least, double most)
 {
@@ -24,23 +19,26 @@ static int in_range(double value, double least, double most)
  * density in the cell, but for knots beside a needle, which are a few floats apart, and for numbers at the end of
  * floats. End densities are compared with the mean of the cell; builders stay below 300 times of it. The cubic of the
  * area has to stay above 0. */
-static const char *knot_invalid(const vndf_table_draft *d, size_t i)
+static const char *knot_invalid(const vndf_distribution *t, size_t i)
 {
     static const double least = 1e-37, most = 1e36, steepest = 1e4;
-    int last = i == d->cells;
-    double r = d->knot[i], next = last ? HUGE_VAL : d->knot[i + 1], z0 = 1 / (1 + r), z1 = 1 / (1 + next);
-    double m0 = d->m0[i], m1 = d->m1[i], m2 = d->m2[i], gap = 8 * (next - r), width = z0 - z1;
+    int last = i == (size_t)t->cells;
+    const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i),
+                *more = vndf_table_row(t, VNDF_MORE, i), *area = vndf_table_row(t, VNDF_LOW, i);
+    double r = knot[0], next = last ? HUGE_VAL : knot[VNDF_STRIDE], z0 = 1 / (1 + r), z1 = 1 / (1 + next);
+    double m0 = law[2], m1 = law[3], m2 = more[0], gap = 8 * (next - r), width = z0 - z1;
     double mean0 = m0 / (z0 * z0), mean1 = last ? m2 + r * (2 * m1 + r * m0) : m0 / (z1 * z1);
-    double a0 = d->area[i], a1 = last ? 1 : d->area[i + 1], s0 = d->slope[i], s1 = last ? 1 : d->slope[i + 1];
+    double a0 = area[2], a1 = last ? 1 : area[VNDF_STRIDE + 2], s0 = area[3],
+           s1 = last ? 1 : area[VNDF_STRIDE + 3];
     if (!(next > r))
         return "the knots do not ascend";
     if (!in_range(m0, least, most) || !in_range(m1, least, fmin(most, gap * m0 + 1e-35)) ||
         !in_range(m2, least, fmin(most, gap * m1 + 1e-35)) ||
-        (d->cubes && !in_range(d->cubes[i], 0.0, i ? fmin(most, 1.0001 * pow(r, -3)) : most)))
+        !in_range(more[1], 0.0, i ? fmin(most, 1.0001 * pow(r, -3)) : most))
         return "a moment is out of range";
-    if (!in_range(d->g0[i], 0.0, steepest * mean0) || !in_range(d->g1[i], 0.0, steepest * mean1))
+    if (!in_range(law[0], 0.0, steepest * mean0) || !in_range(law[1], 0.0, steepest * mean1))
         return "a density is out of range";
-    if (!in_range(d->b0[i], 0.0, 1e6) || !in_range(d->b1[i], 0.0, 1e6) || !(d->b0[i] + d->b1[i] > 1e-6f))
+    if (!in_range(more[2], 0.0, 1e6) || !in_range(more[3], 0.0, 1e6) || !(more[2] + more[3] > 1e-6f))
         return "a share is out of range";
     if (!in_range(a0, 1e-20, 1e20) || !in_range(s0, -1e20, 1e20) || width * s0 < -3 * a0 ||
         !(width * s1 <= 3 * a1))
@@ -48,18 +46,19 @@ static const char *knot_invalid(const vndf_table_draft *d, size_t i)
     return NULL;
 }
 
-static const char *draft_invalid(const vndf_table_draft *d)
+static const char *numbers_invalid(const vndf_distribution *t)
 {
-    if (d->knot[0] != 0.0f || !(d->knot[1] > 1e-12f) || !(d->knot[d->cells] < 1e14f))
+    const float *knot = vndf_table_row(t, VNDF_KNOT, 0);
+    if (knot[0] != 0.0f || !(knot[VNDF_STRIDE] > 1e-12f) || !(knot[VNDF_STRIDE * t->cells] < 1e14f))
         return "the knots do not run from 0 to below 1e14";
-    if (!(d->scale > 1e-18 && d->scale < 1e18) || !(d->normalization > 0.0) || !isfinite(d->normalization))
+    if (!(t->scale > 1e-18 && t->scale < 1e18) || !(t->normalization > 0.0) || !isfinite(t->normalization))
         return "the scale or normalization is out of range";
-    for (size_t i = 0; i <= d->cells; i++) {
-        const char *why = knot_invalid(d, i);
+    for (size_t i = 0; i <= (size_t)t->cells; i++) {
+        const char *why = knot_invalid(t, i);
         if (why)
             return why;
     }
-    const vndf_certificate *c = &d->certificate;
+    const vndf_certificate *c = &t->certificate;
     const float claims[VNDF_CERTIFICATE_FLOATS] = {
         c->tv,         c->tv_theta,    c->tv_above,  c->tv_above_theta, c->max_weight, c->weight_bounded,
         c->area_error, c->consistency, c->ndf_error, c->hidden,         c->finest,     -c->horizon_power};
@@ -67,14 +66,6 @@ static const char *draft_invalid(const vndf_table_draft *d)
         if (!in_range(claims[i], 0.0, HUGE_VAL))
             return "the certificate holds what is no measurement";
     return NULL;
-}
-
-double vndf_table_turn(const vndf_table_draft *d, size_t i)
-{
-    if (i == 0)
-        return 0.0;
-    double a = d->knot[i - 1], b = d->knot[i];
-    return fmin(i > 1 ? fmax(NEAR * a, sqrt(a * b)) : NEAR_FIRST * b, b);
 }
 
 static void put(float *to, double a, double b, double c, double d)
@@ -85,36 +76,42 @@ static void put(float *to, double a, double b, double c, double d)
     to[3] = (float)d;
 }
 
-/* The rows of knot i that know of no other knot but the next. */
-static void fill_cell(vndf_distribution *table, const vndf_table_draft *d, size_t i)
+/* Places of knots, and from which rho on the law of k~ begins there. */
+static void fill_knots(vndf_distribution *t)
 {
-    double r = d->knot[i], z = 1 / (1 + r), h = ldexp(z, (int)d->squarings);
-    if (i < d->cells)
-        h = (d->knot[i + 1] - r) * z / (1 + (double)d->knot[i + 1]);
-    put(row(table, VNDF_KNOT, i), r, z, h, vndf_table_turn(d, i));
-    put(row(table, VNDF_LAW, i), d->g0[i], d->g1[i], d->m0[i], d->m1[i]);
-    put(row(table, VNDF_MORE, i), d->m2[i], d->cubes ? d->cubes[i] : 0.0, d->b0[i], d->b1[i]);
+    double before = 0;
+    for (int i = 0; i <= t->cells; i++) {
+        float *knot = vndf_table_row(t, VNDF_KNOT, (size_t)i);
+        double r = knot[0], z = 1 / (1 + r), h = ldexp(z, t->squarings);
+        if (i < t->cells)
+            h = (knot[VNDF_STRIDE] - r) * z / (1 + (double)knot[VNDF_STRIDE]);
+        put(knot, r, z, h, fmin(i > 1 ? fmax(NEAR * before, sqrt(before * r)) : NEAR_FIRST * r, r));
+        before = r;
+    }
 }
 
-/* Sums beyond each knot, from the last one; *mass becomes that of all. In the first cell k~ is a_1 y + pi, so that knot
+/* Sums beyond each knot, from the last one; returns that of all mass. In the first cell k~ is a_1 y + pi, so that knot
  * 0 has the sum of f R from there on, and those of knot 1. */
-static void fill_sums(vndf_distribution *table, const vndf_table_draft *d, double *mass)
+static double fill_sums(vndf_distribution *t)
 {
-    const float *first = row(table, VNDF_TAIL, 1);
+    const float *first = vndf_table_row(t, VNDF_TAIL, 1);
     double t1 = 0, t0 = 0, tq = 0, t4 = 0, n1 = 0, n2 = 0;
-    for (size_t i = d->cells + 1; i-- > 0;) {
-        double r = d->knot[i], gap = i < d->cells ? d->knot[i + 1] - r : 0, m0 = d->m0[i], m1 = d->m1[i],
-               m2 = d->m2[i];
+    for (size_t i = (size_t)t->cells + 1; i-- > 0;) {
+        const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i),
+                    *more = vndf_table_row(t, VNDF_MORE, i);
+        float *low = vndf_table_row(t, VNDF_LOW, i);
+        double r = knot[0], gap = i < (size_t)t->cells ? knot[VNDF_STRIDE] - r : 0, m0 = law[2], m1 = law[3],
+               m2 = more[0];
         n2 += gap * (2 * n1 + gap * tq) + m2;
         n1 += gap * tq + m1;
         tq += m0;
         t0 += m1 + r * m0;
         t1 += m2 + r * (2 * m1 + r * m0);
-        t4 += d->cubes && i > 0 ? d->cubes[i] * m0 : 0.0;
-        put(row(table, VNDF_TAIL, i), t1, i ? t0 : first[1], i ? tq : first[2], i ? t4 : first[3]);
-        put(row(table, VNDF_LOW, i), n1, n2, d->area[i], d->slope[i]);
+        t4 += i > 0 ? more[1] * m0 : 0.0;
+        put(vndf_table_row(t, VNDF_TAIL, i), t1, i ? t0 : first[1], i ? tq : first[2], i ? t4 : first[3]);
+        put(low, n1, n2, low[2], low[3]);
     }
-    *mass = t0;
+    return t0;
 }
 
 /* Columns of slopes and of sums beyond them, and their pivots. */
@@ -127,8 +124,8 @@ static void fill_columns(vndf_distribution *table)
     for (int c = 0; c < VNDF_COLUMNS; c++) {
         float *column = table->columns + c * size;
         for (int i = 0; i < size; i++)
-            column[i] =
-                i > n ? (c ? -1.0f : 3e38f) : row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
+            column[i] = i > n ? (c ? -1.0f : 3e38f)
+                              : vndf_table_row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
         for (int i = 0; i < pivots; i++) {
             int knot = (i + 1) * VNDF_COLUMN_STEP;
             pivot[c * pivots + i] = knot < size ? column[knot] : c ? -1.0f : 3e38f;
@@ -140,7 +137,7 @@ static void fill_first(vndf_distribution *table)
 {
     int knot = 0;
     for (int i = 0; i < VNDF_RHO_PARTS; i++) {
-        while (knot < table->cells && row(table, VNDF_KNOT, (size_t)knot + 1)[3] <= vndf_rounded_rho(i))
+        while (knot < table->cells && vndf_table_row(table, VNDF_KNOT, (size_t)knot + 1)[3] <= vndf_rounded_rho(i))
             knot++;
         table->first[i] = (uint16_t)knot;
     }
@@ -151,78 +148,45 @@ static size_t column_floats(const vndf_distribution *table)
     return (size_t)VNDF_COLUMNS * (size_t)(vndf_column_size(table->cells) + vndf_pivot_count(table->cells));
 }
 
-int vndf_table_fill(vndf_distribution *table, const vndf_table_draft *d, const char **why)
+vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigned squarings)
 {
-    double mass = 0;
-    *why = draft_invalid(d);
-    if (*why)
-        return 0;
-    table->cells = (int32_t)d->cells;
-    for (table->highest = table->steps = 1; 2 * table->highest <= table->cells; table->steps++)
-        table->highest *= 2;
-    table->moments = (int32_t)d->moments;
-    table->squarings = (int32_t)d->squarings;
-    table->unit = (float)d->scale;
-    table->normalization = d->normalization;
-    table->scale = d->scale;
-    table->certificate = d->certificate;
-    table->number_count = VNDF_HEAD + 4 * VNDF_GROUPS * ((size_t)d->cells + 1);
-    table->numbers = malloc(table->number_count * sizeof(float));
-    table->columns = malloc(column_floats(table) * sizeof(float));
-    if (!table->numbers || !table->columns)
-        return 0;
-    put(table->numbers, d->cells, d->moments, d->squarings, d->scale);
-    put(table->numbers + 4, table->highest, table->steps, 0, 0);
-    for (size_t i = 0; i <= d->cells; i++)
-        fill_cell(table, d, i);
-    fill_sums(table, d, &mass);
-    if (!(fabs(mass - 1) < 1e-4))
-        *why = "the masses of the cells do not add up to 1";
-    for (size_t i = 0; i < table->number_count && !*why; i++)
-        *why = isfinite(table->numbers[i]) ? NULL : "a sum of moments is not finite";
-    for (size_t i = 0; i <= d->cells && !*why; i++)
-        *why = row(table, VNDF_KNOT, i)[2] > 1e-30f ? NULL : "two knots coincide";
-    fill_columns(table);
-    fill_first(table);
-    return !*why;
+    vndf_distribution *t = calloc(1, sizeof *t);
+    if (!t)
+        return NULL;
+    t->cells = (int32_t)cells;
+    t->moments = (int32_t)moments;
+    t->squarings = (int32_t)squarings;
+    t->number_count = VNDF_HEAD + VNDF_STRIDE * ((size_t)cells + 1);
+    t->numbers = calloc(t->number_count, sizeof(float));
+    t->columns = malloc(column_floats(t) * sizeof(float));
+    if (t->numbers && t->columns)
+        return t;
+    vndf_free(t);
+    return NULL;
 }
 
-/* ---- the way back ---- */
-
-int vndf_table_draft_allocate(vndf_table_draft *draft)
+const char *vndf_table_fill(vndf_distribution *t)
 {
-    size_t n = (size_t)draft->cells + 1;
-    float *block = calloc(VNDF_ARRAYS * n, sizeof *block);
-    for (size_t a = 0; block && a < VNDF_ARRAYS; a++)
-        draft->array[a] = block + a * n;
-    return block != NULL;
-}
-
-/* The draft of a table, in its own numbers. */
-static vndf_table_draft draft_within(const vndf_distribution *t)
-{
-    static const int places[VNDF_ARRAYS][2] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0},  {VNDF_LAW, 1},  {VNDF_LAW, 2},
-                                               {VNDF_LAW, 3},  {VNDF_MORE, 0}, {VNDF_MORE, 1}, {VNDF_MORE, 2},
-                                               {VNDF_MORE, 3}, {VNDF_LOW, 2},  {VNDF_LOW, 3}};
-    vndf_table_draft draft = {.cells = (unsigned)t->cells,
-                              .moments = (unsigned)t->moments,
-                              .squarings = (unsigned)t->squarings,
-                              .stride = VNDF_STRIDE,
-                              .normalization = t->normalization,
-                              .scale = t->scale,
-                              .certificate = t->certificate,
-                              .source = t->source,
-                              .tool = t->tool};
-    for (int a = 0; a < VNDF_ARRAYS; a++)
-        draft.array[a] = row(t, places[a][0], 0) + places[a][1];
-    draft.cubes = t->moments == 4 ? draft.cubes : NULL;
-    return draft;
-}
-
-void vndf_table_write_loaded(const vndf_distribution *table, vndf_writer *writer)
-{
-    vndf_table_draft draft = draft_within(table);
-    vndf_table_write(&draft, writer);
+    const char *why = numbers_invalid(t);
+    if (why)
+        return why;
+    for (t->highest = t->steps = 1; 2 * t->highest <= t->cells; t->steps++)
+        t->highest *= 2;
+    t->unit = (float)t->scale;
+    put(t->numbers, t->cells, t->moments, t->squarings, t->scale);
+    put(t->numbers + 4, t->highest, t->steps, 0, 0);
+    fill_knots(t);
+    if (!(fabs(fill_sums(t) - 1) < 1e-4))
+        return "the masses of the cells do not add up to 1";
+    for (size_t i = 0; i < t->number_count; i++)
+        if (!isfinite(t->numbers[i]))
+            return "a sum of moments is not finite";
+    for (size_t i = 0; i <= (size_t)t->cells; i++)
+        if (!(vndf_table_row(t, VNDF_KNOT, i)[2] > 1e-30f))
+            return "two knots coincide";
+    fill_columns(t);
+    fill_first(t);
+    return NULL;
 }
 
 size_t vndf_table_memory(const vndf_distribution *table)

@@ -1,4 +1,4 @@
-/* A distribution of normals: in memory, and as a builder hands it over.
+/* A distribution of normals.
  *
  * Slopes are in units of the median, R; f(R) = 2 pi R P22(R) has the mass 1. Knots R_0 = 0 < R_1 < ... < R_N cut the
  * slopes into cells; the last, cell N, goes on to infinity. Inside a cell the place xi in [0, 1] is linear in
@@ -15,6 +15,7 @@
 
 #include <stdint.h>
 
+#include "core/cursor.h"
 #include "core/inline.h"
 #include "vndf.h"
 
@@ -41,7 +42,8 @@ VNDF_INLINE float vndf_rounded_rho(int i)
 /* The rows of a knot, 0 to N. */
 enum {
     VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
-    VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end; moments 0 and 1 */
+    VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end, in the last cell its limit for
+                  xi -> 1; moments 0 and 1 */
     VNDF_MORE, /* moment 2; mean of R^-3 in f/R; shares of the two terms below the horizon at this knot */
     VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4; at knot 0 the last three are those of knot 1 */
     VNDF_LOW, /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
@@ -89,31 +91,26 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
     return d->kind == VNDF_KIND_TABLE;
 }
 
-enum { VNDF_ARRAYS = 11, VNDF_ARRAY_OF_CUBES = 6 };
+/* The four numbers of a knot in a row. */
+VNDF_INLINE float *vndf_table_row(const vndf_distribution *d, int row, size_t knot)
+{
+    return d->numbers + VNDF_HEAD + VNDF_STRIDE * knot + 4 * (size_t)row;
+}
 
-/* What a builder measured, and what a file holds: arrays of cells + 1 numbers. A file has `cubes` if `moments` is 4. */
-typedef struct vndf_table_draft {
-    unsigned cells, moments, squarings;
-    unsigned stride; /* from number to number of an array; 0 for 1 */
-    union {
-        float *array[VNDF_ARRAYS]; /* in the order of the file */
-        struct {
-            float *knot; /* R_i */
-            float *g0,
-                *g1; /* 2 pi P22 h/z^4 at the left and the right end; in the last cell the limit for xi -> 1 */
-            float *m0, *m1, *m2;
-            float *cubes;   /* mean of R^-3 in f/R of the cell; no law reads the first */
-            float *b0, *b1; /* shares below the horizon at rho = R_i */
-            float *area,
-                *slope; /* A/(c + s) above the horizon at rho = R_i, and its derivative by x = c/(c + s) */
-        };
-    };
-    double normalization, scale;
-    vndf_certificate certificate;
-    const char *source, *tool;
-} vndf_table_draft;
+/* A table whose numbers are zeros. A builder or a reader puts scale, normalization and texts, and of each knot R, all
+ * of VNDF_LAW and VNDF_MORE, and the areas of VNDF_LOW. NULL if there is no memory. */
+vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigned squarings);
 
-/* Arrays of zeros in one block, draft->knot, to be freed; 0 if there is no memory. */
-int vndf_table_draft_allocate(vndf_table_draft *draft);
+/* Fills all other numbers; returns what is wrong with those that were put, NULL if nothing is. */
+const char *vndf_table_fill(vndf_distribution *table);
+
+/* Bytes of memory that it takes, all allocations together; bytes of a file. */
+size_t vndf_table_memory(const vndf_distribution *table);
+size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool);
+
+/* Writes the file (file.c). */
+void vndf_table_write(const vndf_distribution *table, vndf_writer *writer);
+
+enum { VNDF_CERTIFICATE_FLOATS = 12 };
 
 #endif

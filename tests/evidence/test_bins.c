@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "evidence/measure/bins.h"
+#include "evidence/measure/quadrature.h"
 #include "oracle/oracle.h"
 #include "harness/test.h"
 
@@ -55,9 +56,8 @@ static void test_view(const view_case *at)
     const vndf_vec3 wi = oracle_direction(at->theta, at->phi);
     if (!TEST(table != NULL))
         return;
-    const vndf_affine shape = {table, at->alpha_x, 0, 0, at->alpha_y, 0, 0};
     const vndf_view view = vndf_view_from(&surface, wi);
-    const bins_sampler of = bins_of_view(&view, &shape, wi);
+    const bins_sampler of = bins_of_view(&view, &surface, wi);
     double slope[BINS_RINGS + 1];
     bins_place(&of, 7, slope);
     /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
@@ -80,10 +80,9 @@ static void test_view(const view_case *at)
 static void test_ends(void)
 {
     const vndf_surface surface = {vndf_ggx(), 1, 1};
-    const vndf_affine shape = {vndf_ggx(), 1, 0, 0, 1, 0, 0};
     const vndf_vec3 wi = oracle_direction(30, 0);
     const vndf_view view = vndf_view_from(&surface, wi);
-    const bins_sampler of = bins_of_view(&view, &shape, wi);
+    const bins_sampler of = bins_of_view(&view, &surface, wi);
     double slope[BINS_RINGS + 1];
     bins_place(&of, 7, slope);
     const bins_frame *f = &of.frame;
@@ -99,9 +98,42 @@ static void test_ends(void)
     TEST(bins_bin(f, slope, (vndf_vec3){-0.6f, -0.01f, 0.8f}) % BINS_SECTORS == 0);
 }
 
+/* ---- the quadrature by itself ---- */
+
+static size_t points;
+
+/* Jumps along x and along y, and what Simpson's rule and Lobatto's have exactly. */
+static int answer(void *of, quadrature_point *at, size_t count)
+{
+    (void)of;
+    points += count;
+    for (size_t i = 0; i < count; i++) {
+        const double value[] = {at[i].x > 1 / PI, at[i].y > 1 / PI, pow(at[i].x, 7), pow(at[i].y, 7)};
+        memcpy(at[i].value, value, sizeof value);
+    }
+    return 1;
+}
+
+static void test_quadrature(void)
+{
+    static const quadrature_cell cells[] = {{1, {0, 1}, {0, 0.5}, 0}, {0, {0, 1}, {0.5, 1}, 0}};
+    static const double exact[2][4] = {{0.5 - 0.5 / PI, 0.5, 1.0 / 16, 255.0 / 2048},
+                                       {0.5 - 0.5 / PI, 0.5 - 1 / PI, 1.0 / 16, 1.0 / 2048}};
+    const quadrature q = {answer, NULL, 1e-9, 0, 0, 7, 100000, 40};
+    quadrature_sum sum[2] = {{{0}, 0, 0}};
+    TEST(quadrature_run(&q, cells, 2, sum));
+    for (int bin = 0; bin < 2; bin++) {
+        for (int v = 0; v < 4; v++)
+            TEST_NEAR(sum[bin].value[v], exact[bin][v], v < 2 ? 1e-7 : 1e-8);
+        TEST_NEAR(sum[bin].change, 0.5, 1e-6);
+    }
+    TEST(points < 250000);
+}
+
 int main(void)
 {
     test_ends();
+    test_quadrature();
     for (size_t i = 0; i < test_amount(1, CASE_COUNT, CASE_COUNT); i += test_amount(1, 4, 1))
         test_view(&CASES[i]);
     return test_done();

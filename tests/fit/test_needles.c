@@ -46,30 +46,20 @@ static const form forms[] = {
 };
 enum { FORMS = sizeof forms / sizeof *forms };
 
-typedef struct needle {
-    const form *form;
-    double r0, width, share;     /* slope, width relative to it, part of the mass */
-    vndf_parameter parameter[3]; /* a, s, k */
-} needle;
-
-static vndf_source *source_of(needle *n, double k)
+static vndf_source *source_of(const form *f, const vndf_parameter *parameters)
 {
-    n->parameter[2].value = k;
-    return n->form->in == SLOPE ? vndf_source_slope_expression(n->form->text, n->parameter, 3, NULL)
-                                : vndf_source_ndf_expression(n->form->text, n->parameter, 3, NULL);
+    return f->in == SLOPE ? vndf_source_slope_expression(f->text, parameters, 3, NULL)
+                          : vndf_source_ndf_expression(f->text, parameters, 3, NULL);
 }
 
-/* a and s in the formula's own variable. */
-static void place(needle *n)
+/* P22 at a slope for a height. */
+static double value_of(const form *f, vndf_parameter *parameters, double k, double r)
 {
-    double a = n->r0, s = n->r0 * n->width, q = 1 + a * a;
-    const vndf_parameter own[4][2] = {{{"a", a}, {"s", s}},
-                                      {{"a", a}, {"s", s}},
-                                      {{"a", atan(a)}, {"s", s / q}},
-                                      {{"a", 1 / sqrt(q)}, {"s", s * a / (q * sqrt(q))}}};
-    n->parameter[0] = own[n->form->in][0];
-    n->parameter[1] = own[n->form->in][1];
-    n->parameter[2].name = "k";
+    parameters[2].value = k;
+    vndf_source *source = source_of(f, parameters);
+    double value = vndf_source_p22(source, r);
+    vndf_source_free(source);
+    return value;
 }
 
 /* integral of P22 r dr from a + x0 to a + x1. */
@@ -97,38 +87,31 @@ static double mass_of(const vndf_source *source, double a, double s)
     return 2 * PI * sum;
 }
 
-static double mass_with(needle *n, double k)
-{
-    vndf_source *source = source_of(n, k);
-    double mass = TEST(source != NULL) ? mass_of(source, n->r0, n->r0 * n->width) : 0;
-    vndf_source_free(source);
-    return mass;
-}
-
-/* The height for the share; the needle's mass grows with it, but not always in proportion. */
-static double height_of(needle *n)
-{
-    double none = mass_with(n, 0), k = 1 / n->width, want = n->share / (1 - n->share) * none;
-    for (int i = 0; i < 4; i++)
-        k *= fmin(fmax(want / (mass_with(n, k) - none), 1e-8), 1e8);
-    return k;
-}
-
 static int seen, refused;
 
-static void test_needle(needle *n)
+/* At a slope, of this relative width, with about this share of the mass: that without a needle is some 4. */
+static void test_needle(const form *f, double r0, double width, double share)
 {
+    double q = 1 + r0 * r0, s = r0 * width; /* a and s of the slope become those of the formula's own variable */
+    vndf_parameter parameters[] = {{"a", f->in == THETA    ? atan(r0)
+                                         : f->in == COSINE ? 1 / sqrt(q)
+                                                           : r0},
+                                   {"s", f->in == THETA    ? s / q
+                                         : f->in == COSINE ? s * r0 / (q * sqrt(q))
+                                                           : s},
+                                   {"k", 0}};
+    double at = r0 + s / 2, per = value_of(f, parameters, 1, at) - value_of(f, parameters, 0, at);
+    parameters[2].value = share / (1 - share) * 0.4 / (per * r0 * s);
     vndf_error error = {VNDF_OK, ""};
-    double k = height_of(n), mass = mass_with(n, k);
-    vndf_source *source = source_of(n, k);
+    vndf_source *source = source_of(f, parameters);
     vndf_guard guard = vndf_guard_from(NULL, NULL);
     vndf_profile *profile = vndf_profile_from(source, &guard, &error);
-    double found = profile ? 1 / profile->normalization : 0;
+    double mass = mass_of(source, r0, s), found = profile ? 1 / profile->normalization : 0;
     int good = profile ? TEST_RELATIVE(found, mass, 1e-4)
                        : TEST(error.status == VNDF_ERROR_DISTRIBUTION) & TEST_HAS(error.message, " slope ");
     if (!good)
-        fprintf(stderr, "  %s at %g, width %g, share %g: %s %.9g for %.9g\n", n->form->text, n->r0, n->width,
-                n->share, error.message, found, mass);
+        fprintf(stderr, "  %s at %g, width %g, share %g: %s %.9g for %.9g\n", f->text, r0, width, share,
+                error.message, found, mass);
     seen += profile != NULL;
     refused += profile == NULL;
     vndf_profile_free(profile);
@@ -145,12 +128,8 @@ int main(int argc, char **argv)
     int count = argc > 1 ? atoi(argv[1]) : (int)test_amount(60, 60, 2500);
     unsigned long long state = 20261;
     for (int i = 0; i < count; i++) {
-        needle n = {.form = &forms[i % FORMS],
-                    .r0 = between(&state, 0.01, 50),
-                    .width = between(&state, 1e-12, 1e-2),
-                    .share = between(&state, 1e-3, 0.9)};
-        place(&n);
-        test_needle(&n);
+        double r0 = between(&state, 0.01, 50), width = between(&state, 1e-12, 1e-2);
+        test_needle(&forms[i % FORMS], r0, width, between(&state, 1e-3, 0.9));
     }
     fprintf(stderr, "%d needles seen, %d refused\n", seen, refused);
     TEST(seen > 5 * refused); /* formulas that doubles make rough, and widths near 1e-12 */

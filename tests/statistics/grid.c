@@ -1,7 +1,10 @@
 #include "statistics/grid.h"
 
 #include <math.h>
+#include <stdint.h>
 #include <string.h>
+
+#include "evidence/measure/quadrature.h"
 
 void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, double y0, double y1)
 {
@@ -22,50 +25,40 @@ size_t grid_bin(const grid *g, double x, double y)
 
 /* ---- integrals ---- */
 
-/* Gauss-Legendre with five points in both. */
-static double rule(grid_density *f, const void *of, const double x[2], const double y[2])
-{
-    static const double node[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683,
-                                   0.906179845938664};
-    static const double weight[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366,
-                                     0.236926885056189};
-    double sum = 0, h = (x[1] - x[0]) / 2, k = (y[1] - y[0]) / 2;
-    for (int i = 0; i < 25; i++)
-        sum += weight[i / 5] * weight[i % 5] * f(x[0] + h * (1 + node[i / 5]), y[0] + k * (1 + node[i % 5]), of);
-    return sum * h * k;
-}
+typedef struct asked {
+    grid_density *density;
+    const void *of;
+} asked;
 
-static double halve(grid_density *f, const void *of, const double x[2], const double y[2], double whole,
-                    double allowed, int halvings)
+static int answer(void *state, quadrature_point *at, size_t count)
 {
-    const double mx = (x[0] + x[1]) / 2, my = (y[0] + y[1]) / 2;
-    const double xs[2][2] = {{x[0], mx}, {mx, x[1]}}, ys[2][2] = {{y[0], my}, {my, y[1]}};
-    double a[2], b[2];
-    for (int i = 0; i < 2; i++)
-        a[i] = rule(f, of, xs[i], y), b[i] = rule(f, of, x, ys[i]);
-    double by_x = fabs(a[0] + a[1] - whole), by_y = fabs(b[0] + b[1] - whole);
-    if (halvings == 0 || fmax(by_x, by_y) <= fmax(1e-5 * whole, allowed))
-        return a[0] + a[1] + b[0] + b[1] - whole;
-    if (by_x > by_y)
-        return halve(f, of, xs[0], y, a[0], allowed, halvings - 1) +
-               halve(f, of, xs[1], y, a[1], allowed, halvings - 1);
-    return halve(f, of, x, ys[0], b[0], allowed, halvings - 1) +
-           halve(f, of, x, ys[1], b[1], allowed, halvings - 1);
-}
-
-static double integral(grid_density *f, const void *of, const double x[2], const double y[2], double allowed)
-{
-    return halve(f, of, x, y, rule(f, of, x, y), allowed, 24);
+    const asked *a = state;
+    for (size_t i = 0; i < count; i++)
+        at[i].value[0] = a->density(at[i].x, at[i].y, a->of);
+    return 1;
 }
 
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed)
 {
+    static quadrature_cell cells[4 * GRID_BINS];
+    static quadrature_sum sum[GRID_BINS];
+    asked state = {density, of};
+    const quadrature q = {answer, &state, allowed, 1e-5, 0, 1024, SIZE_MAX, 24};
     double mass = 0;
+    memset(sum, 0, sizeof sum);
+    for (size_t i = 0; i < 4 * g->elsewhere; i++) {
+        const double *x = g->x + i / 4 / g->columns, *y = g->y + i / 4 % g->columns;
+        const double middle[2] = {(x[0] + x[1]) / 2, (y[0] + y[1]) / 2};
+        cells[i] = (quadrature_cell){i / 4,
+                                     {i & 1 ? middle[0] : x[0], i & 1 ? x[1] : middle[0]},
+                                     {i & 2 ? middle[1] : y[0], i & 2 ? y[1] : middle[1]},
+                                     0};
+    }
+    if (!quadrature_run(&q, cells, 4 * g->elsewhere, sum))
+        return NAN;
     for (size_t i = 0; i < g->elsewhere; i++) {
-        const double *x = g->x + i / g->columns, *y = g->y + i % g->columns;
-        const double within = integral(density, of, x, y, allowed);
-        g->expected[i] = samples * within;
-        mass += within;
+        g->expected[i] = samples * sum[i].value[0];
+        mass += sum[i].value[0];
     }
     g->expected[g->elsewhere] = fmax(1 - mass, 0) * samples;
     return mass;

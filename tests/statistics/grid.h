@@ -21,8 +21,8 @@ void grid_even(grid *g, size_t rows, double x0, double x1, size_t columns, doubl
 size_t grid_bin(const grid *g, double x, double y);
 
 /* Writes the integral over every bin, times `samples`, to `expected`, and what they leave of 1 to the last;
- * returns the integral of all. A bin is halved, the way that changes more, until that changes less than `allowed`, or a
- * hundred-thousandth: at least once, since it may hold a narrow peak, and 24 times at most, where there is an edge. */
+ * returns the integral of all. A cell may err by `allowed`, or a hundred-thousandth; the first are quarters of bins,
+ * since a peak may be narrow. */
 typedef double grid_density(double x, double y, const void *of);
 double grid_expect(grid *g, grid_density *density, const void *of, double samples, double allowed);
 

@@ -1,12 +1,11 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
- * thing after the other, and has the page written; evidence/page/report.h maps the rest. */
+ * thing after the other, and has the page written (evidence/page/report.h). */
 #include <stdio.h>
 
 #include "cli/arguments.h"
 #include "cli/progress.h"
 #include "cli/subject.h"
 #include "command.h"
-#include "draw/svg.h"
 #include "evidence/page/report.h"
 
 static const char name[] = "vndf report";
@@ -67,55 +66,6 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
     return r->found ? STATUS_GOOD : complain(name, "%s", error.message);
 }
 
-/* ---- the page ------------------------------------------------------------------------------------ */
-
-static const struct {
-    const char *id, *title, *lead;
-    int (*write)(html_page *, const report *);
-} sections[] = {
-    {"advice", "Which table, and how many moments",
-     "Every table is exact with its weight; a coarse one costs noise. The advice is the smallest with weights up to "
-     "2 and a total variation (TV) up to 0.001 above the horizon, so that the weight may be left out where a bias "
-     "below half a step of 8 bits does not matter, and 0.03 below it. All are of the certificates of the tables.",
-     report_advice},
-    {"frontier", "Error against time",
-     "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
-     "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
-     "Methods in the band at the bottom are exact but for the rounding of floats.",
-     report_frontier},
-    {"time", "What a sample costs",
-     "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
-     "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
-     "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.",
-     report_times},
-    {"normals", "Density and samples",
-     "D against the angle of the normal, and the normals visible from three directions, the last below the "
-     "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "
-     "seen from above in an equal-area projection. A ring or an arrow marks the incident direction.",
-     report_normals}};
-
-static int write_page(html_page *page, const report *r)
-{
-    const size_t count = sizeof sections / sizeof *sections;
-    if (!page_begin(page, "What accuracy costs"))
-        return 0;
-    fputs(
-        "<p class=\"lead\">Visible normals sampled from tables: what accuracy costs in time and memory, for <code>",
-        page->html);
-    svg_escape(page->html, vndf_source_description(r->subject[0].source));
-    fprintf(page->html, "</code>. Batches ran on %s.</p>\n<nav>", r->instructions);
-    for (size_t i = 0; i < count; i++)
-        fprintf(page->html, "<a href=\"#%s\">%s</a> ", sections[i].id, sections[i].title);
-    fputs("</nav>\n", page->html);
-    int good = 1;
-    for (size_t i = 0; i < count && good; i++) {
-        page_section(page, sections[i].id, sections[i].title, sections[i].lead);
-        good = sections[i].write(page, r);
-    }
-    page_end(page);
-    return good;
-}
-
 /* ---- the command --------------------------------------------------------------------------------- */
 
 static int run(const arguments *given)
@@ -131,7 +81,7 @@ static int run(const arguments *given)
     static report r;
     int status = measure(&r, given, &plan);
     progress_end(&p);
-    if (status == STATUS_GOOD && !write_page(&page, &r))
+    if (status == STATUS_GOOD && !report_write(&page, &r))
         status = STATUS_USE;
     status = page_close(&page, status);
     if (status == STATUS_GOOD && !is_quiet && page.is_replaced)

@@ -4,11 +4,11 @@
 
 #include "cli/random.h"
 #include "cli/subject.h"
-#include "evidence/measure/stratified.h"
 #include "evidence/method.h"
 
 void block_pack(block *b)
 {
+    b->count = BLOCK;
     for (size_t i = 0; i < BLOCK; i++)
         b->in[i] = (method_input){{b->wi[0][i], b->wi[1][i], b->wi[2][i]},
                                   {b->given[0][i], b->given[1][i], b->given[2][i]},
@@ -31,16 +31,6 @@ static vndf_vec3 hemisphere(random_stream *stream)
     return (vndf_vec3){s * cosf(phi), s * sinf(phi), z};
 }
 
-/* wo is on the side that the set scatters to; with both lobes a coin chooses it. */
-static vndf_vec3 scattered(const block_law *law, random_stream *stream)
-{
-    vndf_vec3 wo = hemisphere(stream);
-    uint64_t coin = random_bits(stream);
-    int through = law->lobes == VNDF_LOBES_TRANSMISSION || (law->lobes == VNDF_LOBES_BOTH && (coin & 1));
-    wo.z = through ? -wo.z : wo.z;
-    return wo;
-}
-
 void block_fill(block *b, const block_law *law, uint64_t seed)
 {
     random_stream stream = random_from(seed);
@@ -48,8 +38,13 @@ void block_fill(block *b, const block_law *law, uint64_t seed)
         vndf_vec3 wi = hemisphere(&stream);
         if (!isnan(law->theta))
             wi = direction_from(law->theta, 360 * random_double(&stream));
+        /* wo is on the side that the set scatters to; with both lobes a coin chooses it */
+        vndf_vec3 wo = hemisphere(&stream);
+        const uint64_t coin = random_bits(&stream) & 1;
+        if (law->lobes == VNDF_LOBES_TRANSMISSION || (law->lobes == VNDF_LOBES_BOTH && coin))
+            wo.z = -wo.z;
         put(b->wi, i, wi);
-        put(b->given, i, scattered(law, &stream));
+        put(b->given, i, wo);
         b->alpha[i] = law->low + (law->high - law->low) * random_float(&stream);
         for (int k = 0; k < 3; k++)
             b->u[k][i] = random_float(&stream);
@@ -68,12 +63,5 @@ void block_aim(block *b, vndf_vec3 wi, float alpha)
         put(b->wi, i, wi);
         b->alpha[i] = alpha;
     }
-    block_pack(b);
-}
-
-void block_spread(block *b, uint32_t seed)
-{
-    for (uint32_t i = 0; i < BLOCK; i++)
-        stratified_point(i, seed, &b->u[0][i], &b->u[1][i]);
     block_pack(b);
 }

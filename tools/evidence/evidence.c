@@ -18,9 +18,8 @@ static void measure_normals(evidence_row *r, const evidence_plan *plan, block *b
 {
     double *to = r->number;
     for (size_t angle = 0; angle < ANGLES; angle++) {
-        size_t replicates = angle < ALBEDO_ANGLES && plan->seconds >= 10 ? LONG : SHORT;
-        findings f;
-        worth_of_normals(r->m, r->of, angles[angle], replicates, b, &f);
+        const size_t replicates = angle < ALBEDO_ANGLES && plan->seconds >= 10 ? LONG : SHORT;
+        const findings f = worth_of_normals(&r->m, r->of, angles[angle], replicates, b);
         to[COL_TV] = fmax(f.tv, to[COL_TV]);
         to[COL_WEIGHT] = fmax(f.max_weight, to[COL_WEIGHT]);
         if (angle < ALBEDO_ANGLES)
@@ -28,11 +27,11 @@ static void measure_normals(evidence_row *r, const evidence_plan *plan, block *b
         if (angle == 0)
             r->variance[2] = f.light_variance;
     }
-    if (r->m->kind != ROW_TABLE && r->m->kind != ROW_CLOSED)
+    if (r->m.kind != ROW_TABLE && r->m.kind != ROW_CLOSED)
         return;
-    const vndf_info info = vndf_distribution_info(r->m->state);
-    to[COL_SOBOL] = stratified_beside_caps(r->m->state, (float)(0.5 / (info.scale > 0 ? info.scale : 1)), 32, 1);
-    if (r->m->kind == ROW_TABLE) { /* what the builder measured is worth more than what a few samples show */
+    const vndf_info info = vndf_distribution_info(r->m.d);
+    to[COL_SOBOL] = stratified_beside_caps(r->m.d, (float)(0.5 / (info.scale > 0 ? info.scale : 1)), 32, 1);
+    if (r->m.kind == ROW_TABLE) { /* what the builder measured is worth more than what a few samples show */
         to[COL_TV] = (double)info.certificate.tv_above;
         to[COL_TV_BELOW] = (double)info.certificate.tv;
         to[COL_WEIGHT] = (double)info.certificate.max_weight;
@@ -44,17 +43,18 @@ static int measure(evidence *all, block *b)
 {
     const evidence_plan *plan = all->plan;
     for (evidence_row *r = all->row; r < all->row + all->count; r++) {
+        const method *m = &r->m;
         int good = 1;
         if (!r->is_needed)
             continue;
-        for (const method *m = r->m; m < r->m + SETS && good; m++)
-            good = !m->each || evidence_verify(m, &r->law, b, 500);
-        if (good && r->m->kind == ROW_EFFECT)
-            good = worth_of_material(r->m, &r->law, plan->theta, b, plan->seconds < 5 ? 8 : 64, r->number);
-        else if (good && r->m->kind != ROW_CALL)
+        for (vndf_instructions set = VNDF_INSTRUCTIONS_BEST; set <= VNDF_INSTRUCTIONS_AVX512 && good; set++)
+            good = (set && !method_has_batch(m, set)) || evidence_verify(m, set, &r->law, b, 500);
+        if (good && m->kind == ROW_EFFECT)
+            worth_of_material(m, &r->law, plan->theta, b, plan->seconds < 5 ? 16 : 128, r->number);
+        else if (good && m->kind != ROW_CALL)
             measure_normals(r, plan, b);
         r->number[COL_WRONG] = !good;
-        if (!evidence_go_on(plan, r->m->name))
+        if (!evidence_go_on(plan, m->name))
             return 0;
     }
     return 1;
@@ -72,25 +72,19 @@ int evidence_go_on(const evidence_plan *plan, const char *what)
     return progress_show(fmin(done, 0.99), what, plan->progress) == 0;
 }
 
-static void run_block(const method *m, method_run *run, block *b, size_t share)
-{
-    for (size_t first = 0; first < BLOCK; first += share)
-        run(m, b, first, share);
-}
-
 /* Nanoseconds for a sample. The first run, which is not counted, brings inputs and tables into the cache; then
  * it runs once against the clock, so that the branch predictor does not learn the inputs by heart, or more often
  * where a single run is too short for the clock. */
-static double time_run(const method *m, method_run *run, block *b, size_t share)
+static double time_run(const method *m, method_run *run, block *b)
 {
     if (!run)
         return NAN;
     double start = clock_seconds();
-    run_block(m, run, b, share);
+    run(m, b);
     int repeats = (int)fmin(fmax(shortest / fmax(clock_seconds() - start, 1e-7), 1), 100);
     start = clock_seconds();
     for (int i = 0; i < repeats; i++)
-        run_block(m, run, b, share);
+        run(m, b);
     return 1e9 * (clock_seconds() - start) / repeats / BLOCK;
 }
 
@@ -102,13 +96,16 @@ static int is_timed(const evidence_row *r)
 static int take_turn(evidence *all, block *b, size_t turn)
 {
     for (evidence_row *r = all->row; r < all->row + all->count; r++) {
-        method_run *const of_one[SERIES - SETS] = {r->m->shared, r->m->eval, r->m->density};
+        const method *m = &r->m;
+        method_run *const of_one[SERIES - SETS] = {m->shared, m->eval, m->density};
         if (!is_timed(r))
             continue;
         block_fill(b, &r->law, 1000 + turn);
-        for (int way = 0; way < SERIES; way++)
-            r->ns[way][turn] = way < SETS ? time_run(&r->m[way], r->m[way].each, b, BLOCK)
-                                          : time_run(r->m, of_one[way - SETS], b, SHARE);
+        r->ns[0][turn] = time_run(m, m->each, b);
+        for (b->limit = VNDF_INSTRUCTIONS_PORTABLE; b->limit <= VNDF_INSTRUCTIONS_AVX512; b->limit++)
+            r->ns[b->limit][turn] = time_run(m, method_has_batch(m, b->limit) ? m->batch : NULL, b);
+        for (int k = 0; k < SERIES - SETS; k++)
+            r->ns[SETS + k][turn] = time_run(m, of_one[k], b);
         if (!evidence_go_on(all->plan, "taking turns"))
             return 0;
     }
@@ -151,7 +148,7 @@ static void relate(evidence_row *r)
     if (!r->normals)
         return;
     const double *from = r->normals->number;
-    if (r->m->kind == ROW_EFFECT)
+    if (r->m.kind == ROW_EFFECT)
         to[COL_EFF_VISIBLE] = efficiency(to[COL_VARIANCE], ns, from[COL_VARIANCE], from[COL_NS]);
     for (size_t k = 0; k < 3; k++)
         to[COL_EFF_60 + k] = efficiency(r->variance[k], ns, r->normals->variance[k], from[COL_NS]);
@@ -181,7 +178,6 @@ evidence *evidence_run(const evidence_plan *plan, vndf_error *error)
 void evidence_free(evidence *of)
 {
     for (size_t i = 0; of && i < of->count; i++)
-        for (int set = 0; set < SETS; set++)
-            method_release(&of->row[i].m[set]);
+        method_release(&of->row[i].m);
     free(of);
 }

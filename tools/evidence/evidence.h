@@ -94,13 +94,13 @@ typedef enum evidence_column {
     COLUMNS
 } evidence_column;
 
-/* A method is a row with up to SETS ways to call it: one by one, and in batches by each set of instructions. What is
- * timed, in the order of COL_NS and the columns behind it: these, and shared, eval and density of the first. */
+/* What is timed of a method, in the order of COL_NS and the columns behind it: one by one; batches by each set of
+ * instructions; shared, eval and density. */
 enum { SETS = VNDF_INSTRUCTIONS_AVX512 + 1, SERIES = SETS + 3, TURNS_MOST = 501, ROWS_MAX = 96 };
 
 typedef struct evidence_row evidence_row;
 struct evidence_row {
-    method m[SETS]; /* without `each` where this machine cannot run it */
+    method m;
     const method_reference *of;
     block_law law;
     int is_shown, is_needed;        /* needed: shown, or the yardstick of what is */
@@ -132,10 +132,10 @@ int evidence_print(FILE *file, const evidence *all, figures_form form);
 /* All rows, not yet measured; an error if a table or a material cannot be made or `only` fits nothing. */
 vndf_status evidence_list(evidence *to);
 
-/* Whether the method's results are right: unit normals above the surface that face wi (where the method says
- * so), densities positive and finite, the same bits as the scalar call where that is promised; of materials
- * samples, values and densities that agree. */
-int evidence_verify(const method *m, const block_law *law, block *b, uint64_t seed);
+/* Whether the results of a method, or of its batch by a set of instructions, are right: unit normals above the surface
+ * that face wi (where the method says so), densities positive and finite, the same bits as of single calls where that
+ * is promised; of materials samples that are sane. BEST stands for single calls. */
+int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed);
 
 /* What a few samples of a method from one direction show, roughness 1/2 at the scale of the reference. */
 typedef struct findings {
@@ -146,11 +146,11 @@ typedef struct findings {
 } findings;
 
 /* `replicates` blocks of samples. */
-void worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
-                      block *b, findings *found);
+findings worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
+                          block *b);
 
-/* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
-int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      double found[COLUMNS]);
+/* Fills mean, noise, lost, weight and variance from `blocks` blocks. */
+void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
+                       double found[COLUMNS]);
 
 #endif

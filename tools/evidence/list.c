@@ -52,23 +52,24 @@ const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
-/* Takes the method; NULL if it cannot run here. */
+/* Takes the method. */
 static evidence_row *add(evidence *to, const method_reference *of, method m)
 {
     if (!m.each || to->count == ROWS_MAX) {
         method_release(&m);
         return NULL;
     }
+    const vndf_info info = vndf_distribution_info(m.d);
     evidence_row *r = &to->row[to->count++];
-    *r = (evidence_row){.m = {m}, .of = of, .variance = {NAN, NAN, NAN}};
+    *r = (evidence_row){.m = m, .of = of, .variance = {NAN, NAN, NAN}};
     r->law = (block_law){of->canonical.distribution, 0.05f / of->scale, 0.95f / of->scale, NAN, 0};
     for (evidence_column c = 0; c < COLUMNS; c++)
         r->number[c] = NAN;
     if (m.kind != ROW_EFFECT)
         r->number[COL_MEMORY] = (double)m.memory;
-    if (m.file_bytes) {
-        r->number[COL_FILE] = (double)m.file_bytes;
-        r->number[COL_MOMENTS] = m.moments;
+    if (info.bytes) {
+        r->number[COL_FILE] = (double)info.bytes;
+        r->number[COL_MOMENTS] = info.moments;
     }
     return r;
 }
@@ -77,48 +78,33 @@ static evidence_row *add(evidence *to, const method_reference *of, method m)
 static evidence_row *find(evidence *in, const char *name, const method_reference *of)
 {
     for (evidence_row *r = in->row; name && r < in->row + in->count; r++)
-        if (r->of == of && strcmp(r->m->name, name) == 0)
+        if (r->of == of && strcmp(r->m.name, name) == 0)
             return r;
     return NULL;
 }
 
-/* Calls of ours, one by one and in batches. */
 static void add_calls(evidence *to, const method_reference *of, const vndf_distribution *d, const char *name,
                       method_call first, method_call last)
 {
-    for (method_call call = first; call <= last; call++) {
-        evidence_row *r = add(to, of, method_ours(d, name, call, VNDF_INSTRUCTIONS_BEST));
-        for (int set = VNDF_INSTRUCTIONS_PORTABLE; r && set < SETS; set++)
-            r->m[set] = method_ours(d, name, call, (vndf_instructions)set);
-    }
+    for (method_call call = first; call <= last; call++)
+        add(to, of, method_ours(d, name, call));
 }
 
-static void add_closed(evidence *to, const method_reference *of)
-{
-    const vndf_distribution *d = of->canonical.distribution;
-    add(to, of, method_all_normals(of));
-    add_calls(to, of, d, "closed form", METHOD_SAMPLE, METHOD_SAMPLE);
-    add_calls(to, of, d, "closed form", METHOD_AFFINE, METHOD_TWO_LOBES);
-}
-
-/* All tables, the default one by all calls, and the published ways for any D. */
+/* The closed forms; all tables, the default one by all calls; and the published ways. */
 static void list_normals(evidence *to)
 {
-    const method_reference *ggx = to->reference, *beckmann = ggx + 1, *at_hand = ggx + 2;
-    const char *name = table_sizes[SIZE_DEFAULT].name;
-    vndf_distribution *const *table = to->plan->at_hand->table;
+    const method_reference *ggx = to->reference, *at_hand = ggx + 2;
     evidence_row *caps = add(to, ggx, method_ggx_caps());
-    for (int set = VNDF_INSTRUCTIONS_PORTABLE; set < SETS; set++)
-        caps->m[set] = method_ggx_caps_batch((vndf_instructions)set);
-    add_closed(to, ggx);
-    add(to, ggx, method_exported(vndf_ggx(), "closed form"));
-    add_closed(to, beckmann);
+    for (const method_reference *of = ggx; of < at_hand; of++) {
+        const vndf_distribution *d = of->canonical.distribution;
+        add(to, of, method_all_normals(of));
+        add_calls(to, of, d, "closed form", METHOD_SAMPLE, METHOD_SAMPLE);
+        add_calls(to, of, d, "closed form", METHOD_AFFINE, of == ggx ? METHOD_EXPORTED : METHOD_TWO_LOBES);
+    }
     for (size_t i = 0; i < SIZES; i++)
-        add_calls(to, at_hand, table[i], table_sizes[i].name, METHOD_SAMPLE,
-                  i == SIZE_DEFAULT ? METHOD_TWO_LOBES : METHOD_SAMPLE);
-    add(to, at_hand, method_exported(table[SIZE_DEFAULT], name));
+        add_calls(to, at_hand, to->plan->at_hand->table[i], table_sizes[i].name, METHOD_SAMPLE,
+                  i == SIZE_DEFAULT ? METHOD_EXPORTED : METHOD_SAMPLE);
     add(to, at_hand, method_all_normals(at_hand));
-    add(to, at_hand, method_warp(at_hand));
     for (evidence_row *r = to->row; r < to->row + to->count; r++) {
         r->beside = caps;
         r->normals = find(to, "all normals (2007)", r->of);
@@ -132,8 +118,6 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
         evidence_row *r = add(to, of, method_effect(set, &surface, to->error));
         if (!r)
             return to->error->status;
-        for (int by = VNDF_INSTRUCTIONS_PORTABLE; by < SETS; by++)
-            r->m[by] = method_effect_batch(r->m, (vndf_instructions)by);
         r->law = effect_law(set);
         r->number[COL_ALPHA_X] = (double)surface.alpha_x;
         r->number[COL_ALPHA_Y] = (double)surface.alpha_y;
@@ -149,31 +133,29 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
 static void find_near(const evidence *all, char near[64])
 {
     for (size_t i = 0; i < 2 * all->count; i++) {
-        char text[64];
-        snprintf(text, sizeof text, "%s", i % 2 ? all->row[i / 2].m->name : all->row[i / 2].of->name);
-        for (char *word = strtok(text, " ,:()"); word; word = strtok(NULL, " ,:()")) {
-            const char *const candidate = word;
-            if (nearest_word(all->plan->only, &candidate, 1)) {
-                snprintf(near, 64, "%s", word);
+        snprintf(near, 64, "%s", i % 2 ? all->row[i / 2].m.name : all->row[i / 2].of->name);
+        for (const char *word = strtok(near, " ,:()"); word; word = strtok(NULL, " ,:()"))
+            if (nearest_word(all->plan->only, &word, 1)) {
+                memmove(near, word, strlen(word) + 1);
                 return;
             }
-        }
     }
+    *near = '\0';
 }
 
 static vndf_status choose(evidence *all)
 {
     const char *only = all->plan->only;
-    char near[64] = "";
+    char near[64];
     size_t shown = 0;
     for (evidence_row *r = all->row; r < all->row + all->count; r++)
-        if (!only || strstr(r->m->name, only) || strstr(r->of->name, only)) {
-            r->is_shown = r->is_needed = 1;
+        if (!only || strstr(r->m.name, only) || strstr(r->of->name, only)) {
+            evidence_row *const needed[] = {r, r->beside, r->normals};
+            for (int i = 0; i < 3; i++)
+                if (needed[i])
+                    needed[i]->is_needed = 1;
+            r->is_shown = 1;
             shown++;
-            if (r->beside)
-                r->beside->is_needed = 1;
-            if (r->normals)
-                r->normals->is_needed = 1;
         }
     if (shown)
         return VNDF_OK;

@@ -1,6 +1,6 @@
 /* A method: a way to draw normals, or a material that scatters light, as `vndf bench` measures it. It prepares what
- * depends on the distribution alone; what depends on the direction is part of each draw, or of the head of a run whose
- * samples share one direction.
+ * depends on the distribution alone; what depends on the direction is part of each draw, or of SHARE draws of a run
+ * whose samples share directions.
  *
  * A method is a few loops over a block of inputs. Scalar loops call what they time by name, so that the compiler
  * may inline it, and are compiled without vector loops (CMakeLists.txt). */
@@ -35,6 +35,8 @@ typedef struct method_input {
  * vndf_vec3 from three arrays and pass it on costs some 40 ns with gcc 12, which stores four bytes at a time and
  * loads eight.) Some 150 KB, which stay in the second cache. */
 typedef struct block {
+    size_t count;            /* how many are run: all of them, unless a caller says less */
+    vndf_instructions limit; /* of batches */
     float alpha[BLOCK], wi[3][BLOCK], given[3][BLOCK], u[3][BLOCK];
     method_input in[BLOCK];
     float x[BLOCK], y[BLOCK], z[BLOCK], pdf[BLOCK]; /* normals, or wo, with their densities */
@@ -57,20 +59,16 @@ void block_fill(block *b, const block_law *law, uint64_t seed);
 /* One direction and roughness for all. */
 void block_aim(block *b, vndf_vec3 wi, float alpha);
 
-/* Scrambled Sobol' points in the place of random numbers. */
-void block_spread(block *b, uint32_t seed);
-
 /* Copies the arrays into in[]. */
 void block_pack(block *b);
 
 /* ---- methods ------------------------------------------------------------------------------------- */
 
 typedef struct method method;
-typedef vndf_vec3 method_one(const method *m, const method_input *in, float *pdf);
-typedef void method_run(const method *m, block *b, size_t first, size_t count);
+typedef void method_run(const method *m, block *b);
 
 /* What is called of a distribution of ours: view, sample and density; other calls; surfaces beyond two
- * roughnesses. */
+ * roughnesses; what is exported. */
 typedef enum method_call {
     METHOD_SAMPLE,
     METHOD_WEIGHT,
@@ -80,23 +78,40 @@ typedef enum method_call {
     METHOD_LAMBDA,
     METHOD_AFFINE,
     METHOD_TWO_LOBES,
+    METHOD_EXPORTED,
     METHOD_CALLS
 } method_call;
 
 struct method {
     char name[64];
     row_kind kind;
-    size_t memory, file_bytes; /* as in rows */
-    int moments;
+    size_t memory;              /* as in rows */
+    const vndf_distribution *d; /* of ours: whose call it is */
+    method_call call;
     const void *state;          /* what was prepared */
-    void (*release)(void *);    /* NULL: the state has another owner */
-    method_call call;           /* of ours */
-    vndf_instructions limit;    /* of batches */
-    method_run *each, *shared;  /* a direction each; of some the first one for all, or NULL */
-    method_run *eval, *density; /* values and densities of materials, the first direction for all */
-    method_run *same_bits;      /* what `each` must equal to the bit, or NULL */
+    void (*release)(void *);    /* NULL: there is nothing to be freed */
+    method_run *each, *batch;   /* a direction each, by single calls and at once */
+    method_run *shared;         /* the first direction of each SHARE for all of it */
+    method_run *eval, *density; /* values and densities of materials, the same */
+    int same_bits;              /* of a batch as of single calls */
     int turned;                 /* some normals face away from wi */
 };
+
+/* The loop of a scalar method's `each`. `one` is a constant there, so that the compiler inlines it. */
+static inline void method_loop(vndf_vec3 (*one)(const method *m, const method_input *in, float *pdf),
+                               const method *m, block *b)
+{
+    for (size_t i = 0; i < b->count; i++) {
+        const vndf_vec3 wm = one(m, &b->in[i], &b->pdf[i]);
+        b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
+    }
+}
+
+/* Whether its batch runs here by a set of instructions. */
+static inline int method_has_batch(const method *m, vndf_instructions set)
+{
+    return m->batch && vndf_instructions_used(set) == set;
+}
 
 /* D itself for methods of any D: a table so fine that it stands for it, or a closed form; and the scale that
  * brings its median slope to 1. */
@@ -109,21 +124,15 @@ method_reference method_reference_of(const vndf_distribution *d, const char *nam
 
 void method_release(method *m);
 
-/* Each makes a method; its `each` is NULL if this machine cannot run it or memory is short. */
+/* Each makes a method; its `each` is NULL if memory is short. */
 
-/* GGX, from the publication; the batch by one of the three instruction sets. */
+/* From the publications: GGX, with the batch of caps_batch.c; and any D. */
 method method_ggx_caps(void);
-method method_ggx_caps_batch(vndf_instructions set);
-
-/* Any D, from the publications. */
+void method_caps_batch(const method *m, block *b);
 method method_all_normals(const method_reference *reference);
-method method_warp(const method_reference *reference);
 
-/* Ours; VNDF_INSTRUCTIONS_BEST stands for the scalar calls. */
-method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit);
-
-/* The exported kernel in C, with the numbers of a table, or its GGX. */
-method method_exported(const vndf_distribution *d, const char *name);
+/* Ours. */
+method method_ours(const vndf_distribution *d, const char *name, method_call call);
 
 /* ---- sets of effects of vndf_bsdf.h, each a method that scatters light ---------------------------- */
 
@@ -151,9 +160,6 @@ typedef struct effect_case {
 
 /* A method without `each` and an error if the set cannot be made. */
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
-
-/* The same by batches, whose state it shares; no `each` if they do not run here or the roughness is of the hits. */
-method method_effect_batch(const method *one_by_one, vndf_instructions limit);
 
 /* How blocks of a set are filled. */
 block_law effect_law(const effect_set *set);

@@ -91,9 +91,9 @@ int evidence_print(FILE *file, const evidence *all, figures_form form)
             continue;
         figures_record(&t);
         figures_text(&t, "distribution", r->of->name);
-        figures_text(&t, is_of_materials && !is_whole ? "effects" : "method", r->m->name);
+        figures_text(&t, is_of_materials && !is_whole ? "effects" : "method", r->m.name);
         if (is_whole)
-            figures_add(&t, FIGURE_WORD, "kind", kinds[r->m->kind]);
+            figures_add(&t, FIGURE_WORD, "kind", kinds[r->m.kind]);
         for (evidence_column c = 0; c < COLUMNS; c++)
             if (is_whole)
                 figures_number(&t, columns[c].key, "%.6g", r->number[c], "");

@@ -18,10 +18,10 @@
 
 #include "cli/subject.h"
 #include "evidence/evidence.h"
+#include "evidence/measure/stratified.h"
 
 static const float gold_n = 0.43f, gold_k = 2.455f;
 static const double alpha_measured = 0.5;
-static const double noise_limit = 6; /* standard errors between two halves of the same samples */
 
 /* ---- normals ----------------------------------------------------------------------------------- */
 
@@ -30,8 +30,8 @@ static double dot(vndf_vec3 a, vndf_vec3 b)
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-void worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
-                      block *b, findings *found)
+findings worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
+                          block *b)
 {
     const float alpha = (float)alpha_measured / reference->scale;
     const vndf_surface surface = {reference->canonical.distribution, alpha, alpha};
@@ -42,8 +42,10 @@ void worth_of_normals(const method *m, const method_reference *reference, double
     block_aim(b, wi, alpha);
     for (size_t replicate = 0; replicate < replicates; replicate++) {
         double before = sum;
-        block_spread(b, 77 + (uint32_t)replicate);
-        m->each(m, b, 0, BLOCK);
+        for (uint32_t i = 0; i < BLOCK; i++)
+            stratified_point(i, 77 + (uint32_t)replicate, &b->u[0][i], &b->u[1][i]);
+        block_pack(b);
+        m->each(m, b);
         for (size_t i = 0; i < BLOCK; i++) {
             const vndf_vec3 wm = {b->x[i], b->y[i], b->z[i]};
             double facing = dot(wi, wm), pdf = (double)b->pdf[i], d = (double)vndf_ndf(&surface, wm), value = 0;
@@ -65,47 +67,38 @@ void worth_of_normals(const method *m, const method_reference *reference, double
         means_square += (sum - before) * (sum - before) / (BLOCK * BLOCK);
     }
     double mean = sum / count, spread = fmax(means_square / (double)replicates - mean * mean, 0);
-    *found = (findings){.albedo = mean,
-                        .albedo_noise = replicates > 1 ? sqrt(spread / (double)(replicates - 1)) : INFINITY,
-                        .variance = square / count - mean * mean,
-                        .light_variance = lit_square / count - lit * lit / (count * count),
-                        .tv = excess / count,
-                        .max_weight = most};
+    return (findings){.albedo = mean,
+                      .albedo_noise = replicates > 1 ? sqrt(spread / (double)(replicates - 1)) : INFINITY,
+                      .variance = square / count - mean * mean,
+                      .light_variance = lit_square / count - lit * lit / (count * count),
+                      .tv = excess / count,
+                      .max_weight = most};
 }
 
 /* ---- materials ----------------------------------------------------------------------------------- */
 
-static double variance_of(double sum, double square, double count)
+void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
+                       double found[COLUMNS])
 {
-    return fmax(square / count - sum / count * (sum / count), 0) * count / (count - 1);
-}
-
-int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      double found[COLUMNS])
-{
-    const vndf_vec3 wi = direction_from(theta, 25);
     const double n = (double)(blocks * BLOCK);
-    double sum[2] = {0, 0}, square[2] = {0, 0}, lost = 0, most = 0;
+    double sum = 0, square = 0, lost = 0, most = 0;
     block_law of = *law;
     of.theta = theta;
-    for (size_t i = 0; i < 2 * blocks; i++) {
-        const int half = i >= blocks;
-        block_fill(b, &of, ((uint64_t)(half + 1) << 20) + i % blocks);
-        block_aim(b, wi, 1);
-        m->each(m, b, 0, BLOCK);
+    for (size_t i = 0; i < blocks; i++) {
+        block_fill(b, &of, 1000 + i);
+        block_aim(b, direction_from(theta, 25), 1);
+        m->each(m, b);
         for (size_t k = 0; k < BLOCK; k++) {
             double weight = (double)b->out[k].weight[0];
-            sum[half] += weight;
-            square[half] += weight * weight;
+            sum += weight;
+            square += weight * weight;
             lost += b->out[k].lobe == VNDF_LOBE_NONE;
             most = fmax(most, weight);
         }
     }
-    found[COL_MEAN] = (sum[0] + sum[1]) / (2 * n);
-    found[COL_VARIANCE] = variance_of(sum[0] + sum[1], square[0] + square[1], 2 * n);
-    found[COL_NOISE] = sqrt(found[COL_VARIANCE] / (2 * n));
-    found[COL_LOST] = lost / (2 * n);
+    found[COL_MEAN] = sum / n;
+    found[COL_VARIANCE] = fmax(square / n - sum / n * (sum / n), 0) * n / (n - 1);
+    found[COL_NOISE] = sqrt(found[COL_VARIANCE] / n);
+    found[COL_LOST] = lost / n;
     found[COL_WEIGHT] = most;
-    const double noise = sqrt((variance_of(sum[0], square[0], n) + variance_of(sum[1], square[1], n)) / n);
-    return fabs(sum[0] - sum[1]) / n <= noise_limit * noise + 1e-5;
 }

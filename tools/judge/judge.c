@@ -8,6 +8,7 @@
 #include "cli/sort.h"
 #include "cli/subject.h"
 #include "evidence/measure/bins.h"
+#include "evidence/measure/quadrature.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -120,110 +121,81 @@ static int agree(const judge_task *task, judge_view *views)
 
 /* ---- integrals ----------------------------------------------------------------------------------- */
 
-/* Gauss' 5 nodes on [-1, 1], exact to degree 9, and the rule of degree 3 on three of them. */
-enum { NODES = 5, POINTS = NODES * NODES };
-static const double node[NODES] = {-0.90617984593866399, -0.53846931010568309, 0, 0.53846931010568309,
-                                   0.90617984593866399};
-static const double fine[NODES] = {0.23692688505618909, 0.47862867049936647, 0.56888888888888889,
-                                   0.47862867049936647, 0.23692688505618909};
-static const double coarse[NODES] = {0.40592887709596639, 0, 1.1881422458080672, 0, 0.40592887709596639};
-
-/* A cell counts when its two rules differ by no more than this part of all mass, or in the last round. */
+/* A cell counts when its two rules differ by no more than this part of all mass, or in the last round: each of them
+ * runs the command. */
 static const double CLOSE = 1e-6;
 enum { ROUNDS = 8, CELLS_MAX = 100000 };
 
-typedef struct cell {
-    int view, bin;
-    double theta, phi, half_theta, half_phi; /* its middle and half its size, radians; the azimuth from wi */
-} cell;
+/* What is integrated; the efficiency is the reciprocal of SQUARE. */
+enum { MASS, TRUTH, DISTANCE, SQUARE, UNCOVERED };
 
-static size_t first_cells(const judge_view *views, cell *to)
+typedef struct integrating {
+    const judge_task *task;
+    judge_view *views;
+    vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
+    progress *bar;
+    double rounds;
+} integrating;
+
+/* By theta and the azimuth from wi. */
+static int answer_densities(void *state, quadrature_point *at, size_t count)
+{
+    integrating *of = state;
+    query *asked = malloc(count * sizeof *asked);
+    for (size_t i = 0; i < count && asked; i++) {
+        const judge_view *v = &of->views[at[i].bin / JUDGE_BINS];
+        const double theta = at[i].x, phi = at[i].y + v->turn, sine = sin(theta);
+        asked[i] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(theta)}};
+    }
+    progress_show(++of->rounds / ROUNDS, "densities", of->bar);
+    answer *got = process_ask(of->task->who, of->task->command, asked, count);
+    for (size_t i = 0; i < count && got; i++) {
+        const size_t view = at[i].bin / JUDGE_BINS;
+        const int is_valid = got[i].pdf >= 0 && isfinite(got[i].pdf);
+        const double p = is_valid ? got[i].pdf : 0, v = (double)vndf_visible(&of->truth[view], asked[i].x);
+        const double value[] = {p, v, fabs(p - v) / 2, p > 0 ? v / p * v : 0, p > 0 ? 0 : v};
+        for (int k = 0; k < QUADRATURE_VALUES; k++)
+            at[i].value[k] = value[k] * sin(at[i].x);
+        of->views[view].found[JUDGE_VALID] += !is_valid;
+    }
+    free(asked);
+    free(got);
+    return got != NULL;
+}
+
+static size_t divide(const judge_view *views, quadrature_cell *to)
 {
     size_t count = 0;
-    for (int i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++) {
+    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++) {
         const judge_view *v = &views[i / JUDGE_BINS];
-        const int bin = i % JUDGE_BINS;
-        const double *theta = &v->ring[bin / JUDGE_SECTORS], *phi = &v->sector[bin % JUDGE_SECTORS];
+        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SECTORS], *phi = &v->sector[i % JUDGE_SECTORS];
         if (theta[0] < theta[1] && phi[0] < phi[1])
-            to[count++] = (cell){i / JUDGE_BINS,
-                                 bin,
-                                 (theta[0] + theta[1]) / 2,
-                                 (phi[0] + phi[1]) / 2,
-                                 (theta[1] - theta[0]) / 2,
-                                 (phi[1] - phi[0]) / 2};
+            to[count++] = (quadrature_cell){i, {theta[0], theta[1]}, {phi[0], phi[1]}, 0};
     }
     return count;
 }
 
-static void ask_cell(const cell *c, const judge_view *v, query to[POINTS])
-{
-    for (int k = 0; k < POINTS; k++) {
-        double theta = c->theta + node[k / NODES] * c->half_theta;
-        double phi = c->phi + node[k % NODES] * c->half_phi + v->turn, sine = sin(theta);
-        to[k] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(theta)}};
-    }
-}
-
-/* Adds a cell to its bin, unless its rules differ by more than `close`; then 0. */
-static int add_cell(const cell *c, judge_view *view, const vndf_surface *surface, const query *asked,
-                    const answer *got, double close)
-{
-    double all_p = 0, few_p = 0, all_v = 0, few_v = 0, distance = 0, square = 0, uncovered = 0, invalid = 0;
-    vndf_view truth = vndf_view_from(surface, view->wi); /* without a distribution all is 0 */
-    for (int k = 0; k < POINTS; k++) {
-        const int i = k / NODES, j = k % NODES, is_valid = got[k].pdf >= 0 && isfinite(got[k].pdf);
-        double p = is_valid ? got[k].pdf : 0, v = (double)vndf_visible(&truth, asked[k].x);
-        double area = c->half_theta * c->half_phi * sin(c->theta + node[i] * c->half_theta);
-        double weight = area * fine[i] * fine[j];
-        few_p += area * coarse[i] * coarse[j] * p;
-        few_v += area * coarse[i] * coarse[j] * v;
-        all_p += weight * p;
-        all_v += weight * v;
-        distance += weight * fabs(p - v) / 2;
-        *(p > 0 ? &square : &uncovered) += weight * (p > 0 ? v / p * v : v);
-        invalid += !is_valid;
-    }
-    double error = fmax(fabs(few_p - all_p), fabs(few_v - all_v));
-    if (error > close)
-        return 0;
-    view->expected[c->bin] += all_p;
-    view->mass += all_p;
-    view->mass_error += error;
-    view->tv += distance;
-    view->efficiency += square; /* its reciprocal, until all is there */
-    view->found[JUDGE_COVERS] += uncovered;
-    view->found[JUDGE_VALID] += invalid;
-    return 1;
-}
-
-/* Rounds: what is asked for in the next stands behind what was asked for before. */
 static int integrate(const judge_task *task, judge_view *views, progress *bar)
 {
-    cell *cells = malloc(CELLS_MAX * sizeof *cells);
-    size_t begin = 0, end = cells ? first_cells(views, cells) : 1;
-    int good = 1;
-    for (int round = 1; begin < end && good; round++) {
-        const size_t count = end - begin;
-        query *asked = cells ? malloc(count * POINTS * sizeof *asked) : NULL;
-        for (size_t i = 0; i < count && asked; i++)
-            ask_cell(&cells[begin + i], &views[cells[begin + i].view], asked + i * POINTS);
-        progress_show((double)round / ROUNDS, "densities", bar);
-        answer *got = process_ask(task->who, task->command, asked, count * POINTS);
-        good = got != NULL;
-        for (size_t i = 0; i < count * POINTS && good; i += POINTS, begin++) {
-            const cell c = cells[begin];
-            double close = round == ROUNDS || end + 4 > CELLS_MAX ? HUGE_VAL : CLOSE;
-            if (add_cell(&c, &views[c.view], &task->surface, asked + i, got + i, close))
-                continue;
-            for (int k = 0; k < 4; k++) {
-                double theta = c.theta + (k / 2 - 0.5) * c.half_theta, phi = c.phi + (k % 2 - 0.5) * c.half_phi;
-                cells[end++] = (cell){c.view, c.bin, theta, phi, c.half_theta / 2, c.half_phi / 2};
-            }
-        }
-        free(asked);
-        free(got);
+    enum { ALL = JUDGE_VIEWS * JUDGE_BINS };
+    integrating of = {task, views, {{0}}, bar, 0};
+    const quadrature q = {answer_densities, &of, CLOSE, 0, 0, CELLS_MAX, CELLS_MAX, ROUNDS - 1};
+    quadrature_cell *cells = malloc(ALL * sizeof *cells);
+    quadrature_sum *sum = calloc(ALL, sizeof *sum);
+    for (int i = 0; i < JUDGE_VIEWS; i++)
+        of.truth[i] = vndf_view_from(&task->surface, views[i].wi);
+    const int good = cells && sum && quadrature_run(&q, cells, divide(views, cells), sum);
+    for (size_t i = 0; i < ALL && good; i++) {
+        judge_view *v = &views[i / JUDGE_BINS];
+        v->expected[i % JUDGE_BINS] = sum[i].value[MASS];
+        v->mass += sum[i].value[MASS];
+        v->mass_error += sum[i].error;
+        v->tv += sum[i].value[DISTANCE];
+        v->efficiency += sum[i].value[SQUARE]; /* its reciprocal, until all is there */
+        v->found[JUDGE_COVERS] += sum[i].value[UNCOVERED];
     }
     free(cells);
+    free(sum);
     return good;
 }
 

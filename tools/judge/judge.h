@@ -3,8 +3,7 @@
  *
  * The bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi. Half of the
  * borders are even, so that a hole has bins of its own; half are quantiles of samples drawn before, so that half of the
- * bins lie where the samples do. The density is integrated over each by Gauss' rule, and where a coarser rule differs
- * the cell is quartered and asked for in another round. */
+ * bins lie where the samples do. The density is integrated over each in rounds (evidence/measure/quadrature.h). */
 #ifndef TOOLS_JUDGE_JUDGE_H
 #define TOOLS_JUDGE_JUDGE_H
 

@@ -75,6 +75,10 @@ static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
     vndf_prepared prepared;
     vndf_call call = vndf_call_of(b);
+    if (b->lobes) {
+        vndf_run_mixtures(b, task, a);
+        return;
+    }
     const int one_by_one = !call.distribution || task == VNDF_TASK_INVERT;
     const vndf_lanes *lanes =
         one_by_one ? &vndf_one_by_one : vndf_lanes_for(call.count, vndf_is_table(call.distribution), b->limit);
@@ -85,8 +89,6 @@ static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
     lanes->prepare(call.distribution, &prepared);
     lanes->run(&call);
 }
-
-/* ---- surfaces ---- */
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)
 {
@@ -132,74 +134,4 @@ void vndf_lambda_n(const vndf_batch *b, float *lambda)
 void vndf_g1_n(const vndf_batch *b, float *g1)
 {
     run(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}});
-}
-
-/* ---- mixtures ---- */
-
-static float at(const float *array, int shared, size_t i)
-{
-    return array ? array[shared ? 0 : i] : 0.0f;
-}
-
-static vndf_mixture_view mixture_view_at(const vndf_mixture_batch *b, size_t i)
-{
-    const int one = (b->shared & VNDF_SHARED_ALPHA) != 0, one_wi = (b->shared & VNDF_SHARED_WI) != 0;
-    vndf_mixture m = {.count = b->lobes};
-    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++) {
-        const vndf_lobe_batch *o = &b->lobe[l];
-        m.lobe[l].surface =
-            (vndf_affine){o->distribution,   at(o->xx, one, i),     at(o->xy, one, i),    at(o->yx, one, i),
-                          at(o->yy, one, i), at(o->mean_x, one, i), at(o->mean_y, one, i)};
-        m.lobe[l].weight = at(o->weight, (b->shared & VNDF_SHARED_WEIGHT) != 0, i);
-    }
-    return vndf_mixture_view_from(
-        &m, (vndf_vec3){at(b->wi_x, one_wi, i), at(b->wi_y, one_wi, i), at(b->wi_z, one_wi, i)});
-}
-
-void vndf_mixture_sample_n(const vndf_mixture_batch *b, const float *u1, const float *u2, vndf_normals wm,
-                           float *pdf, int *lobe)
-{
-    vndf_run_mixtures(b, VNDF_TASK_SAMPLE, (vndf_arrays){{u1, u2}, {wm.x, wm.y, wm.z, pdf}}, lobe);
-}
-
-void vndf_mixture_pdf_n(const vndf_mixture_batch *b, vndf_normals wm, float *pdf)
-{
-    vndf_run_mixtures(b, VNDF_TASK_PDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {pdf}}, NULL);
-}
-
-void vndf_mixture_visible_n(const vndf_mixture_batch *b, vndf_normals wm, float *visible)
-{
-    vndf_run_mixtures(b, VNDF_TASK_VISIBLE, (vndf_arrays){{wm.x, wm.y, wm.z}, {visible}}, NULL);
-}
-
-void vndf_mixture_invert_n(const vndf_mixture_batch *b, vndf_normals wm, const int *asked, float *u1, float *u2,
-                           int *lobe)
-{
-    for (size_t i = 0; i < b->count; i++) {
-        const vndf_mixture_view view = mixture_view_at(b, i);
-        const vndf_vec3 normal = {wm.x[i], wm.y[i], wm.z[i]};
-        const int found = vndf_mixture_invert(&view, normal, asked ? asked[i] : -1, &u1[i], &u2[i]);
-        if (lobe)
-            lobe[i] = found;
-    }
-}
-
-void vndf_mixture_ndf_n(const vndf_mixture_batch *b, vndf_normals wm, float *ndf)
-{
-    vndf_run_mixtures(b, VNDF_TASK_NDF, (vndf_arrays){{wm.x, wm.y, wm.z}, {ndf}}, NULL);
-}
-
-void vndf_mixture_projected_area_n(const vndf_mixture_batch *b, float *area)
-{
-    vndf_run_mixtures(b, VNDF_TASK_AREA, (vndf_arrays){.write = {area}}, NULL);
-}
-
-void vndf_mixture_lambda_n(const vndf_mixture_batch *b, float *lambda)
-{
-    vndf_run_mixtures(b, VNDF_TASK_LAMBDA, (vndf_arrays){.write = {lambda}}, NULL);
-}
-
-void vndf_mixture_g1_n(const vndf_mixture_batch *b, float *g1)
-{
-    vndf_run_mixtures(b, VNDF_TASK_G1, (vndf_arrays){.write = {g1}}, NULL);
 }

@@ -83,7 +83,28 @@ typedef struct vndf_arrays {
     float *write[VNDF_WRITES];
 } vndf_arrays;
 
-/* A task on mixtures; `lobe` for the lobes that were drawn, or NULL. */
-void vndf_run_mixtures(const vndf_mixture_batch *batch, vndf_task task, vndf_arrays arrays, int *lobe);
+/* A task on mixtures. */
+void vndf_run_mixtures(const vndf_batch *batch, vndf_task task, vndf_arrays arrays);
+
+/* Number `which` of element i, and its surface. */
+static inline float vndf_call_number(const vndf_call *call, int which, size_t i)
+{
+    const float *array = call->read[which];
+    return array ? array[call->shared >> which & 1 ? 0 : i] : 0.0f;
+}
+
+static inline vndf_affine vndf_call_surface(const vndf_call *call, size_t i)
+{
+    float of[VNDF_READ_WI_X];
+    for (int r = 0; r < VNDF_READ_WI_X; r++)
+        of[r] = vndf_call_number(call, r, i);
+    return (vndf_affine){call->distribution, of[0], of[1], of[2], of[3], of[4], of[5]};
+}
+
+static inline vndf_vec3 vndf_call_vec3(const vndf_call *call, int first, size_t i)
+{
+    return (vndf_vec3){vndf_call_number(call, first, i), vndf_call_number(call, first + 1, i),
+                       vndf_call_number(call, first + 2, i)};
+}
 
 #endif

@@ -3,27 +3,10 @@
 #include "sampler/batch/call.h"
 #include "sampler/sampler.h"
 
-static float number(const vndf_call *c, int which, size_t i)
-{
-    const float *array = c->read[which];
-    return array ? array[c->shared >> which & 1 ? 0 : i] : 0.0f;
-}
-
-static vndf_vec3 triple(const vndf_call *c, int first, size_t i)
-{
-    return (vndf_vec3){number(c, first, i), number(c, first + 1, i), number(c, first + 2, i)};
-}
-
 static void run_one(const vndf_call *c, size_t i)
 {
-    vndf_affine s = {c->distribution,
-                     number(c, VNDF_READ_XX, i),
-                     number(c, VNDF_READ_XY, i),
-                     number(c, VNDF_READ_YX, i),
-                     number(c, VNDF_READ_YY, i),
-                     number(c, VNDF_READ_MEAN_X, i),
-                     number(c, VNDF_READ_MEAN_Y, i)};
-    const vndf_vec3 wi = triple(c, VNDF_READ_WI_X, i), given = triple(c, VNDF_READ_A, i);
+    vndf_affine s = vndf_call_surface(c, i);
+    const vndf_vec3 wi = vndf_call_vec3(c, VNDF_READ_WI_X, i), given = vndf_call_vec3(c, VNDF_READ_A, i);
     const vndf_surface rough = {s.distribution, s.xx, s.yy};
     const vndf_view view = c->diagonal ? vndf_view_from(&rough, wi) : vndf_affine_view_from(&s, wi);
     vndf_vec3 wm;

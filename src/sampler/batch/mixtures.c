@@ -11,7 +11,6 @@ enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
 /* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
  * a task found. */
 typedef struct mixed {
-    const vndf_mixture_batch *of;
     const vndf_lanes *lanes;
     vndf_call call[LOBES];
     vndf_prepared prepared[LOBES];
@@ -39,21 +38,6 @@ static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int c
         m->lanes->run(&call);
 }
 
-static float number(const mixed *m, int l, int which, int i)
-{
-    const vndf_call *c = &m->call[l];
-    return !c->read[which] ? 0.0f : c->read[which][c->shared >> which & 1 ? 0 : m->first + (size_t)i];
-}
-
-static void set_weights(mixed *m)
-{
-    const int shared = m->of->shared & VNDF_SHARED_WEIGHT;
-    for (int l = 0; l < m->lobes; l++)
-        for (int i = 0; i < m->count; i++)
-            m->weight[l][i] = m->of->lobe[l].weight[shared ? 0 : m->first + (size_t)i];
-    vndf_weigh_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->weighed);
-}
-
 static void set_shares(mixed *m, vndf_task area)
 {
     float is_valid[BLOCK];
@@ -66,13 +50,22 @@ static void set_shares(mixed *m, vndf_task area)
     vndf_share_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->share[0]);
 }
 
-/* The sum of `by` times what a task finds, over the lobes. */
-static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3], float *sum)
+/* The sum over the lobes of `by` times what a task finds; what elements are `chosen` for, if any are, is known. */
+static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3],
+                      const int *chosen, const float *known, float *sum)
 {
-    memset(sum, 0, BLOCK * sizeof *sum);
+    int list[BLOCK];
+    for (int i = 0; i < m->count; i++)
+        sum[i] = 0.0f;
     for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {m->value[l]};
-        ask_lobe(m, l, task, NULL, m->count, inputs, write);
+        int count = chosen ? 0 : m->count;
+        for (int i = 0; chosen && i < m->count; i++) {
+            list[count] = i;
+            count += (chosen[i] >= 0) & (chosen[i] != l) & (m->weight[l][i] > 0.0f);
+            m->value[l][i] = known[i];
+        }
+        ask_lobe(m, l, task, chosen ? list : NULL, count, inputs, write);
         for (int i = 0; i < m->count; i++) {
             const float part = by[l][i] * m->value[l][i];
             sum[i] += m->weight[l][i] > 0.0f ? part : 0.0f;
@@ -82,39 +75,28 @@ static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const fl
 
 /* ---- tasks ---- */
 
-/* The lobes that numbers u1 pick, or -1, and in `u` u1 within their shares. */
-static void choose_lobes(const mixed *m, const float *u1, int *chosen, float *u)
+/* Lobes, -1 of what is invalid, normals and, if they are asked for, densities. */
+static void sample_mixtures(mixed *m, const float *const inputs[3], float to[4][BLOCK], int *chosen, int with_pdf)
 {
-    float begin[BLOCK], end[BLOCK], share[BLOCK];
+    float u1[BLOCK], begin[BLOCK], end[BLOCK], share[BLOCK], sum[BLOCK];
+    int list[BLOCK];
+    const float *const numbers[3] = {u1, inputs[1], NULL}, *const normal[3] = {to[0], to[1], to[2]};
     for (int i = 0; i < m->count; i++) {
-        u[i] = vndf_clamp_unit(u1[i]);
+        u1[i] = vndf_clamp_unit(inputs[0][i]);
         chosen[i] = -1;
-        begin[i] = end[i] = 0.0f;
-        share[i] = 1.0f;
+        begin[i] = end[i] = to[0][i] = to[1][i] = to[3][i] = 0.0f;
+        share[i] = to[2][i] = 1.0f;
     }
     for (int l = 0; l < m->lobes; l++)
         for (int i = 0; i < m->count; i++) { /* the last one takes what rounding leaves */
-            const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u[i] >= end[i]);
+            const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u1[i] >= end[i]);
             chosen[i] = takes ? l : chosen[i];
             share[i] = takes ? m->share[l][i] : share[i];
             begin[i] = takes ? end[i] : begin[i];
             end[i] = takes ? end[i] + m->share[l][i] : end[i];
         }
     for (int i = 0; i < m->count; i++)
-        u[i] = (u[i] - begin[i]) / share[i];
-}
-
-/* Normals, and densities if they are asked for, go to `to`. */
-static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[BLOCK], int *chosen, int with_pdf)
-{
-    float u1[BLOCK];
-    int list[BLOCK];
-    const float *const numbers[3] = {u1, inputs[1], NULL}, *const normal[3] = {to[0], to[1], to[2]};
-    choose_lobes(m, inputs[0], chosen, u1);
-    for (int i = 0; i < m->count; i++) {
-        to[0][i] = to[1][i] = to[3][i] = 0.0f;
-        to[2][i] = 1.0f;
-    }
+        u1[i] = (u1[i] - begin[i]) / share[i];
     for (int l = 0; l < m->lobes; l++) {
         float *const write[VNDF_WRITES] = {to[0], to[1], to[2], to[3]};
         int count = 0;
@@ -126,21 +108,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float (*to)[
     }
     if (!with_pdf)
         return;
-    float sum[BLOCK] = {0.0f};
-    for (int l = 0; l < m->lobes; l++) {
-        float *const write[VNDF_WRITES] = {m->value[l]};
-        int count = 0;
-        for (int i = 0; i < m->count; i++) {
-            list[count] = i;
-            count += (chosen[i] >= 0) & (chosen[i] != l) & (m->weight[l][i] > 0.0f);
-        }
-        memcpy(m->value[l], to[3], sizeof m->value[l]);
-        ask_lobe(m, l, VNDF_TASK_PDF, list, count, normal, write);
-        for (int i = 0; i < m->count; i++) {
-            const float part = m->share[l][i] * m->value[l][i];
-            sum[i] += m->weight[l][i] > 0.0f ? part : 0.0f;
-        }
-    }
+    sum_lobes(m, VNDF_TASK_PDF, m->share, normal, chosen, to[3], sum);
     for (int i = 0; i < m->count; i++)
         to[3][i] = to[3][i] > 0.0f ? least(most(sum[i], FLT_MIN), FLT_MAX) : 0.0f;
 }
@@ -151,9 +119,13 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
     for (int i = 0; i < m->count; i++) {
         float cosine = 0.0f;
         for (int l = 0; l < m->lobes; l++) {
-            const float x = number(m, l, VNDF_READ_WI_X, i), y = number(m, l, VNDF_READ_WI_Y, i);
-            const float level = x * number(m, l, VNDF_READ_MEAN_X, i) + y * number(m, l, VNDF_READ_MEAN_Y, i);
-            const float part = m->weight[l][i] * (number(m, l, VNDF_READ_WI_Z, i) - level);
+            const vndf_call *call = &m->call[l];
+            const size_t at = m->first + (size_t)i;
+            const float x = vndf_call_number(call, VNDF_READ_WI_X, at),
+                        y = vndf_call_number(call, VNDF_READ_WI_Y, at);
+            const float level = x * vndf_call_number(call, VNDF_READ_MEAN_X, at) +
+                                y * vndf_call_number(call, VNDF_READ_MEAN_Y, at);
+            const float part = m->weight[l][i] * (vndf_call_number(call, VNDF_READ_WI_Z, at) - level);
             cosine += m->weight[l][i] > 0.0f ? part : 0.0f;
         }
         cosine = least(cosine, FLT_MAX);
@@ -166,64 +138,95 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
 static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
 {
     const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
-    float first[BLOCK] = {0.0f};
-    sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, to);
-    for (int l = m->lobes; task == VNDF_TASK_PDF && l-- > 0;)
-        for (int i = 0; i < m->count; i++)
-            first[i] = m->weight[l][i] > 0.0f ? m->value[l][i] : first[i];
-    for (int i = 0; task == VNDF_TASK_PDF && i < m->count; i++)
-        to[i] = first[i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
-    for (int i = 0; i < m->count; i++)
+    sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, NULL, NULL,
+              to);
+    for (int i = 0; i < m->count; i++) {
+        int first = 0;
+        while (first + 1 < m->lobes && !(m->weight[first][i] > 0.0f))
+            first++;
+        if (task == VNDF_TASK_PDF)
+            to[i] = m->value[first][i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
         to[i] = least(to[i], FLT_MAX);
+    }
     if (masks)
         mask_mixtures(m, task, to);
     for (int i = 0; i < m->count; i++)
         to[i] = m->valid[i] ? to[i] : 0.0f;
 }
 
-/* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
-static void set_lobes(mixed *m, const vndf_mixture_batch *b)
+/* The numbers that the lobe which draws a normal most often makes it of, one by one. */
+static void invert_mixtures(const mixed *m, const vndf_batch *b, const float *const inputs[3], float to[4][BLOCK])
 {
-    m->of = b;
+    for (int i = 0; i < m->count; i++) {
+        const size_t at = m->first + (size_t)i;
+        vndf_mixture of = {.count = m->lobes};
+        for (int l = 0; l < m->lobes; l++)
+            of.lobe[l] = (vndf_mixture_lobe){vndf_call_surface(&m->call[l], at),
+                                             b->lobe[l].weight[b->shared & VNDF_SHARED_WEIGHT ? 0 : at]};
+        const vndf_mixture_view view =
+            vndf_mixture_view_from(&of, vndf_call_vec3(&m->call[0], VNDF_READ_WI_X, at));
+        const vndf_vec3 wm = {inputs[0][i], inputs[1][i], inputs[2][i]};
+        vndf_mixture_invert(&view, wm, -1, &to[0][i], &to[1][i]);
+    }
+}
+
+/* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
+static void set_lobes(mixed *m, const vndf_batch *b)
+{
     m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
     m->lanes = vndf_lanes_for(b->count, 0, b->limit);
+    m->call[0] = vndf_call_of(b);
     for (int l = 0; l < m->lobes; l++)
         m->lanes = b->lobe[l].distribution ? m->lanes : &vndf_one_by_one;
     for (int l = 0; l < m->lobes; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
-        const vndf_batch surface = {a->distribution, b->count, b->shared, b->limit, a->xx,     a->yy,    b->wi_x,
-                                    b->wi_y,         b->wi_z,  a->xy,     a->yx,    a->mean_x, a->mean_y};
-        m->call[l] = vndf_call_of(&surface);
+        const float *const read[] = {a->xx, a->xy, a->yx, a->yy, a->mean_x, a->mean_y};
+        m->call[l] = vndf_call_of(b);
+        memcpy(m->call[l].read, read, sizeof read);
+        m->call[l].distribution = a->distribution;
         m->call[l].diagonal = 0;
         m->call[l].prepared = &m->prepared[l];
         m->lanes->prepare(a->distribution, &m->prepared[l]);
     }
 }
 
-void vndf_run_mixtures(const vndf_mixture_batch *b, vndf_task task, vndf_arrays a, int *lobe)
+void vndf_run_mixtures(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
     mixed m; /* large: nothing of it is set but what is read */
-    float to[4][BLOCK];
+    float to[VNDF_WRITES][BLOCK];
     int chosen[BLOCK];
+    const int one = (b->shared & VNDF_SHARED_WEIGHT) != 0;
+    const float *const normal[3] = {to[0], to[1], to[2]};
     set_lobes(&m, b);
     for (m.first = 0; m.first < b->count; m.first += BLOCK) {
         const float *here[3];
         m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
         for (int i = 0; i < 3; i++)
             here[i] = a.given[i] ? a.given[i] + m.first : NULL;
-        if (m.first == 0 || !(b->shared & VNDF_SHARED_WEIGHT))
-            set_weights(&m);
+        for (int i = 0; i < m.count && (m.first == 0 || !one); i++) {
+            for (int l = 0; l < m.lobes; l++)
+                m.weight[l][i] = b->lobe[l].weight[one ? 0 : m.first + (size_t)i];
+            m.weighed[i] = vndf_weigh_lobes(m.lobes, BLOCK, &m.weight[0][i]);
+        }
         memcpy(m.valid, m.weighed, (size_t)m.count * sizeof(int));
         if (task < VNDF_TASK_NDF)
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
         if (task == VNDF_TASK_SAMPLE)
-            sample_mixtures(&m, here, to, chosen, a.write[3] != NULL);
+            sample_mixtures(&m, here, to, chosen, a.write[3] || a.write[4]);
+        else if (task == VNDF_TASK_INVERT)
+            invert_mixtures(&m, b, here, to);
         else
             sum_mixtures(&m, task, here, to[0]);
-        for (int w = 0; w < 4; w++)
+        if (a.write[4]) {
+            set_shares(&m, VNDF_TASK_AREA);
+            sum_mixtures(&m, VNDF_TASK_VISIBLE, normal, to[4]);
+            for (int i = 0; i < m.count; i++)
+                to[4][i] = to[3][i] > 0.0f ? to[4][i] / to[3][i] : 0.0f;
+        }
+        for (int w = 0; w < VNDF_WRITES; w++)
             if (a.write[w])
                 memcpy(a.write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
-        if (lobe)
-            memcpy(lobe + m.first, chosen, (size_t)m.count * sizeof(int));
+        if (task == VNDF_TASK_SAMPLE && b->drawn)
+            memcpy(b->drawn + m.first, chosen, (size_t)m.count * sizeof(int));
     }
 }

@@ -1,9 +1,34 @@
-/* Runs formulas: the stack machine, over doubles and over bounds. */
+/* The functions of formulas, and the stack machine over numbers. Every function lets NaN pass, so that the builder can
+ * say where a formula has no value; fmin and fmax of the C library would hide it. */
 #include "source/formula/expression.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static double step(double x)
+{
+    return isnan(x) ? x : x >= 0;
+}
+
+static double smaller(double x, double y)
+{
+    return isnan(x) || x < y ? x : y;
+}
+
+static double larger(double x, double y)
+{
+    return isnan(x) || x > y ? x : y;
+}
+
+const vndf_function vndf_functions[VNDF_FUNCTIONS] = {
+    {"exp", exp, NULL},      {"log", log, NULL},   {"log1p", log1p, NULL}, {"sqrt", sqrt, NULL},
+    {"sin", sin, NULL},      {"cos", cos, NULL},   {"tan", tan, NULL},     {"asin", asin, NULL},
+    {"acos", acos, NULL},    {"atan", atan, NULL}, {"sinh", sinh, NULL},   {"cosh", cosh, NULL},
+    {"tanh", tanh, NULL},    {"erf", erf, NULL},   {"erfc", erfc, NULL},   {"lgamma", lgamma, NULL},
+    {"gamma", tgamma, NULL}, {"abs", fabs, NULL},  {"min", NULL, smaller}, {"max", NULL, larger},
+    {"pow", NULL, pow},      {"step", step, NULL},
+};
 
 static double combined(const vndf_instruction *at, double x, double y)
 {
@@ -13,30 +38,22 @@ static double combined(const vndf_instruction *at, double x, double y)
     case '*': return x * y;
     case '/': return x / y;
     case '^': return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
-    default: return at->function->two(x, y);
+    case VNDF_NEGATE: return -x;
+    default: return at->change ? vndf_functions[at->function].two(x, y) : vndf_functions[at->function].one(x);
     }
 }
 
 void vndf_expression_run(const vndf_expression *expression, vndf_points *variables, size_t count, double *values)
 {
-    vndf_points stack[VNDF_EXPRESSION_STACK];
-    size_t top = 0; /* number of operands */
+    vndf_points stack[VNDF_EXPRESSION_STACK], *top = stack; /* behind the last operand */
     for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
-        if (at->operation == VNDF_PUSH_NUMBER) {
+        top += at->change;
+        double *x = top[-1], *y = at->change < 0 ? *top : x;
+        if (at->operation == VNDF_PUSH_VARIABLE)
+            memcpy(x, variables[at->variable], count * sizeof *x);
+        else
             for (size_t i = 0; i < count; i++)
-                stack[top][i] = at->number;
-            top++;
-        } else if (at->operation == VNDF_PUSH_VARIABLE) {
-            memcpy(stack[top++], variables[at->variable], count * sizeof(double));
-        } else if (at->operation == VNDF_NEGATE || (at->operation == VNDF_CALL && at->function->one)) {
-            double *x = stack[top - 1];
-            for (size_t i = 0; i < count; i++)
-                x[i] = at->operation == VNDF_NEGATE ? -x[i] : at->function->one(x[i]);
-        } else {
-            double *x = stack[--top - 1], *y = stack[top];
-            for (size_t i = 0; i < count; i++)
-                x[i] = combined(at, x[i], y[i]);
-        }
+                x[i] = at->change > 0 ? at->number : combined(at, x[i], y[i]);
     }
     memcpy(values, stack[0], count * sizeof *values);
 }
@@ -45,61 +62,4 @@ void vndf_expression_free(vndf_expression *expression)
 {
     free(expression->program);
     *expression = (vndf_expression){NULL, 0};
-}
-
-/* ---- bounds ----------------------------------------------------------------------------------- */
-
-static vndf_jet combine_jets(const vndf_instruction *at, vndf_jet x, vndf_jet y)
-{
-    switch (at->operation) {
-    case '+': return vndf_jet_sum(x, y);
-    case '-': return vndf_jet_difference(x, y);
-    case '*': return vndf_jet_product(x, y);
-    case '/': return vndf_jet_quotient(x, y);
-    case '^': return vndf_jet_pow(x, y);
-    default: return vndf_function_jet(at->function, x, y);
-    }
-}
-
-vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables)
-{
-    vndf_jet stack[VNDF_EXPRESSION_STACK];
-    size_t top = 0;
-    for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
-        if (at->operation == VNDF_PUSH_NUMBER)
-            stack[top++] = vndf_jet_number(at->number);
-        else if (at->operation == VNDF_PUSH_VARIABLE)
-            stack[top++] = variables[at->variable];
-        else if (at->operation == VNDF_NEGATE)
-            stack[top - 1] = vndf_jet_negative(stack[top - 1]);
-        else if (at->operation == VNDF_CALL && at->function->one)
-            stack[top - 1] = vndf_function_jet(at->function, stack[top - 1], stack[top - 1]);
-        else {
-            top--;
-            stack[top - 1] = combine_jets(at, stack[top - 1], stack[top]);
-        }
-    }
-    return stack[top - 1];
-}
-
-/* r = exp(u): all derivatives are r. */
-vndf_jet vndf_jet_of_slope(double low, double high)
-{
-    vndf_interval r = vndf_interval_from(low, high);
-    return (vndf_jet){0, {r, r, vndf_interval_scaled(r, 0.5), vndf_interval_scaled(r, 1.0 / 6)}};
-}
-
-/* If the k-th Taylor coefficient of f lies within an interval of width w on a whole piece of width h with middle
- * m, f is within w/2 |u - m|^k of a polynomial of degree k, and the integral of the difference is at most w
- * (h/2)^(k+1)/(k+1). */
-vndf_reach vndf_reach_from(vndf_jet p22, vndf_jet r, double low, double high)
-{
-    vndf_jet f = vndf_jet_product(vndf_jet_product(p22, r), r);
-    double h = log(high / low) * (1 + 1e-9), power = h / 2;
-    vndf_reach reach = {vndf_interval_low(p22.at[0]), vndf_interval_high(p22.at[0]), HUGE_VAL};
-    for (int k = 0; k <= VNDF_JET; k++, power *= h / 2) {
-        double stray = vndf_interval_high(vndf_interval_difference(f.at[k], f.at[k])) * power / (k + 1);
-        reach.stray = stray < reach.stray ? stray : reach.stray;
-    }
-    return reach;
 }

@@ -7,8 +7,8 @@
  *     primary = number | name | function ( sum [, sum] ) | ( sum )
  *
  * A name stands for a variable of the formula, for pi or for a parameter of the caller. A parenthesis behind a
- * name makes it a function, so a parameter may be called gamma. Blanks separate. parse.c reads, functions.c has the
- * functions, expression.c runs the program over numbers and over bounds, and formula.c makes a distribution of it. */
+ * name makes it a function, so a parameter may be called gamma. Blanks separate. parse.c reads, expression.c runs the
+ * program over numbers, bounds.c over bounds, and formula.c makes a distribution of it. */
 #ifndef VNDF_SOURCE_FORMULA_EXPRESSION_H
 #define VNDF_SOURCE_FORMULA_EXPRESSION_H
 
@@ -18,8 +18,16 @@
 
 enum {
     VNDF_VARIABLES = 3,
-    VNDF_EXPRESSION_STACK = 320 /* operands on the stack: at most 4 for each level of depth, see the grammar */
+    VNDF_EXPRESSION_STACK = 320 /* operands: a level of depth leaves at most 4 of them waiting, see the grammar */
 };
+
+/* clang-format off */
+enum {
+    VNDF_EXP, VNDF_LOG, VNDF_LOG1P, VNDF_SQRT, VNDF_SIN, VNDF_COS, VNDF_TAN, VNDF_ASIN, VNDF_ACOS, VNDF_ATAN,
+    VNDF_SINH, VNDF_COSH, VNDF_TANH, VNDF_ERF, VNDF_ERFC, VNDF_LGAMMA, VNDF_GAMMA, VNDF_ABS, VNDF_MIN, VNDF_MAX,
+    VNDF_POW, VNDF_STEP, VNDF_FUNCTIONS
+};
+/* clang-format on */
 
 /* A function of one argument or of two; the other pointer is NULL. */
 typedef struct vndf_function {
@@ -28,17 +36,20 @@ typedef struct vndf_function {
     double (*two)(double, double);
 } vndf_function;
 
+extern const vndf_function vndf_functions[VNDF_FUNCTIONS];
+
 /* Operations beside + - * / ^, which are named as they are written. */
 enum { VNDF_PUSH_NUMBER = '#', VNDF_PUSH_VARIABLE = '$', VNDF_NEGATE = '~', VNDF_CALL = '(' };
 
 typedef struct vndf_instruction {
     char operation;
-    unsigned variable;             /* of PUSH_VARIABLE */
-    double number;                 /* of PUSH_NUMBER */
-    const vndf_function *function; /* of CALL */
+    int change;   /* of the number of operands: 1, or 0 with one argument, or -1 with two */
+    int function; /* of CALL */
+    size_t variable;
+    double number;
 } vndf_instruction;
 
-/* A program whose stack ends with one value and never exceeds VNDF_EXPRESSION_STACK. */
+/* A program whose stack ends with one value. */
 typedef struct vndf_expression {
     vndf_instruction *program; /* owned */
     size_t count;
@@ -65,18 +76,6 @@ typedef double vndf_points[VNDF_SOURCE_MANY];
  * same bits. */
 void vndf_expression_run(const vndf_expression *expression, vndf_points *variables, size_t count, double *values);
 
-/* Bounds on all slopes between two: r itself, the value of the formula, and p22 with the stray of p22 r^2. */
-vndf_jet vndf_jet_of_slope(double low, double high);
-vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables);
-vndf_reach vndf_reach_from(vndf_jet p22, vndf_jet r, double low, double high);
-
-/* The function of this name, NULL if there is none; the i-th, NULL past the last. */
-const vndf_function *vndf_function_find(const char *name, size_t size);
-const vndf_function *vndf_function_at(size_t index);
-
-/* Its bounds; y is of no matter where it has one argument. */
-vndf_jet vndf_function_jet(const vndf_function *function, vndf_jet x, vndf_jet y);
-
 /* ---- distributions ---- */
 
 /* One lobe of P22: factor F(r/scale), F by a formula in r, or by one of D in c, theta, t. */
@@ -91,5 +90,25 @@ typedef enum vndf_formula_of { VNDF_FORMULA_OF_P22, VNDF_FORMULA_OF_NDF } vndf_f
 /* The source that is the sum of `count` lobes. It takes the formulas and the description, also where it fails. */
 vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
                                  vndf_error *error);
+
+/* ---- bounds ---- */
+
+/* Bounds of a function on an interval of u: enclosures of its values and of its Taylor coefficients, f^(k)(u)/k!,
+ * at all points of the interval. Where f is not smooth the coefficients are the whole line; at a kink the first
+ * coefficient stays bounded. */
+enum { VNDF_JET = 3 }; /* the last coefficient */
+
+typedef struct vndf_jet {
+    int constant; /* coefficients beyond the value are 0 */
+    vndf_interval at[VNDF_JET + 1];
+} vndf_jet;
+
+vndf_jet vndf_jet_number(double x);
+
+/* Bounds over u = log r on all slopes between two: of r itself, and of formulas and P22 of it. */
+vndf_jet vndf_jet_of_slope(double low, double high);
+vndf_jet vndf_expression_jet(const vndf_expression *expression, const vndf_jet *variables);
+vndf_jet vndf_lobes_jet(vndf_formula_of of, const vndf_lobe *lobes, size_t count, vndf_jet r);
+vndf_reach vndf_lobes_reach(vndf_formula_of of, const vndf_lobe *lobes, size_t count, double low, double high);
 
 #endif

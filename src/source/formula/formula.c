@@ -39,35 +39,12 @@ static void set_variables(vndf_formula_of of, const double *r, size_t count, vnd
     }
 }
 
-/* F at r; of D, it is the formula times c^4. */
-static vndf_jet bounds(vndf_formula_of of, const vndf_expression *formula, vndf_jet r)
-{
-    if (of == VNDF_FORMULA_OF_P22)
-        return vndf_expression_jet(formula, &r);
-    vndf_jet q = vndf_jet_sum(vndf_jet_number(1), vndf_jet_product(r, r));
-    vndf_jet theta = vndf_function_jet(vndf_function_find("atan", 4), r, r);
-    vndf_jet variables[VNDF_VARIABLES] = {vndf_jet_power(q, -0.5), theta, r};
-    return vndf_jet_quotient(vndf_expression_jet(formula, variables), vndf_jet_product(q, q));
-}
-
-/* ---- values and bounds of all lobes ---- */
-
-static vndf_jet p22_bounds(const formula_source *source, vndf_jet r)
-{
-    vndf_jet sum = vndf_jet_number(0);
-    for (size_t i = 0; i < source->count; i++) {
-        const vndf_lobe *l = &source->lobe[i];
-        vndf_jet unit = vndf_jet_quotient(r, vndf_jet_number(l->scale));
-        vndf_jet value = bounds(source->of, &l->formula, unit);
-        sum = vndf_jet_sum(sum, vndf_jet_product(vndf_jet_number(l->factor), value));
-    }
-    return sum;
-}
+/* ---- values and bounds ---- */
 
 static vndf_reach reach(const vndf_source *self, double low, double high)
 {
-    vndf_jet r = vndf_jet_of_slope(low, high);
-    return vndf_reach_from(p22_bounds((const formula_source *)self, r), r, low, high);
+    const formula_source *source = (const formula_source *)self;
+    return vndf_lobes_reach(source->of, source->lobe, source->count, low, high);
 }
 
 /* The value at a slope where doubles overflow on the way, as in r^11 exp(-r^2) far out: the value that the bounds
@@ -76,7 +53,7 @@ static double bounded_value(const formula_source *source, double r, double value
 {
     if (!(r > 0) || isinf(r))
         return r > 0 ? 0 : value;
-    vndf_interval at = p22_bounds(source, vndf_jet_number(r)).at[0];
+    vndf_interval at = vndf_lobes_jet(source->of, source->lobe, source->count, vndf_jet_number(r)).at[0];
     double low = vndf_interval_low(at), high = vndf_interval_high(at), size = fmax(fabs(low), fabs(high));
     return isfinite(size) && high - low <= fmax(TIGHT * size, 8 * DBL_MIN) ? fmax(low, 0) : value;
 }

@@ -15,7 +15,6 @@ typedef struct parser {
     const char *text;
     size_t length, at; /* at: the first character that has not been read */
     size_t depth;      /* rules that are open around this one */
-    size_t stack;      /* operands on the stack of the program so far */
     const vndf_names *names;
     unsigned char used[VNDF_LIMIT_PARAMETERS];
     vndf_expression *expression;
@@ -78,11 +77,7 @@ static int unexpected_operand(parser *p, const char *wanted)
 /* Every instruction comes from a character of its own, so the program cannot outgrow the text. */
 static int emit(parser *p, vndf_instruction instruction, int change)
 {
-    p->stack = (size_t)((long)p->stack + change);
-    if (p->stack > VNDF_EXPRESSION_STACK) {
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: too many operands wait here; nest less", p->at + 1);
-        return 0;
-    }
+    instruction.change = change;
     p->expression->program[p->expression->count++] = instruction;
     return 1;
 }
@@ -96,10 +91,10 @@ static int enter(parser *p)
 {
     if (++p->depth <= VNDF_LIMIT_EXPRESSION_DEPTH)
         return 1;
-    vndf_fail(p->error, VNDF_ERROR_SYNTAX,
-              "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
-              VNDF_LIMIT_EXPRESSION_DEPTH);
-    return 0;
+    return vndf_fail(p->error, VNDF_ERROR_SYNTAX,
+                     "column %zu: nested deeper than %d levels (parentheses, calls, signs, powers)", p->at + 1,
+                     VNDF_LIMIT_EXPRESSION_DEPTH),
+           0;
 }
 
 /* ---- the grammar ------------------------------------------------------------------------------ */
@@ -107,15 +102,14 @@ static int enter(parser *p)
 static int number(parser *p)
 {
     double value;
+    char excerpt[VNDF_EXCERPT];
     size_t size = vndf_number_read(p->text + p->at, p->length - p->at, &value);
     if (size == 0)
         return unexpected(p, "a number has digits, like 0.5 or 1e-3", "");
-    if (isinf(value)) {
-        char excerpt[VNDF_EXCERPT];
-        vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double", p->at + 1,
-                  vndf_excerpt(excerpt, p->text + p->at, size));
-        return 0;
-    }
+    if (isinf(value))
+        return vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the number %s is too large for a double",
+                         p->at + 1, vndf_excerpt(excerpt, p->text + p->at, size)),
+               0;
     p->at += size;
     return emit_number(p, value);
 }
@@ -128,8 +122,8 @@ static const char *known_name(const vndf_names *n, size_t i)
         return i < n->variable_count ? n->variables[i] : "pi";
     if (behind_pi < n->parameter_count)
         return n->parameters[behind_pi].name;
-    const vndf_function *function = vndf_function_at(behind_pi - n->parameter_count);
-    return function ? function->name : NULL;
+    size_t function = behind_pi - n->parameter_count;
+    return function < VNDF_FUNCTIONS ? vndf_functions[function].name : NULL;
 }
 
 static int unknown_name(parser *p, size_t size)
@@ -150,6 +144,7 @@ static int unknown_name(parser *p, size_t size)
     return 0;
 }
 
+/* A name of this length that is no function. */
 static int name(parser *p, size_t size)
 {
     const char *known, *text = p->text + p->at;
@@ -161,7 +156,7 @@ static int name(parser *p, size_t size)
         return unknown_name(p, size);
     p->at += size;
     if (i < n->variable_count)
-        return emit(p, (vndf_instruction){.operation = VNDF_PUSH_VARIABLE, .variable = (unsigned)i}, 1);
+        return emit(p, (vndf_instruction){.operation = VNDF_PUSH_VARIABLE, .variable = i}, 1);
     if (i == n->variable_count)
         return emit_number(p, 3.14159265358979323846);
     i -= n->variable_count + 1;
@@ -185,11 +180,13 @@ static int close_parenthesis(parser *p, size_t opened)
 static int name_or_call(parser *p)
 {
     size_t start = p->at, size = name_length(p->text + start, p->length - start);
-    const vndf_function *function = vndf_function_find(p->text + start, size);
+    int function = 0;
+    while (function < VNDF_FUNCTIONS && !vndf_is_word(p->text + start, size, vndf_functions[function].name))
+        function++;
     p->at += size;
     int is_call = peek(p) == '(';
     size_t open = p->at;
-    if (!is_call || !function) {
+    if (!is_call || function == VNDF_FUNCTIONS) {
         p->at = start;
         return name(p, size) &&
                (!is_call || unexpected(p, "the name before it is no function; a product is written with *", ""));
@@ -197,9 +194,10 @@ static int name_or_call(parser *p)
     p->at++;
     if (!enter(p) || !sum(p))
         return 0;
-    if (function->one && peek(p) == ',')
+    int takes_two = vndf_functions[function].two != NULL;
+    if (!takes_two && peek(p) == ',')
         return unexpected(p, "this function takes one argument", "");
-    if (function->two) {
+    if (takes_two) {
         if (peek(p) != ',')
             return unexpected(p, "min, max and pow take two arguments, separated by a comma", "");
         p->at++;
@@ -207,7 +205,7 @@ static int name_or_call(parser *p)
             return 0;
     }
     return close_parenthesis(p, open) &&
-           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, function->two ? -1 : 0);
+           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
 }
 
 static int primary(parser *p)
@@ -309,7 +307,7 @@ vndf_status vndf_expression_parse(const char *text, const vndf_names *names, vnd
                                   vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
-    parser p = {text, text ? strlen(text) : 0, 0, 0, 0, names, {0}, expression, error};
+    parser p = {text, text ? strlen(text) : 0, 0, 0, names, {0}, expression, error};
     *expression = (vndf_expression){NULL, 0};
     if (!text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the expression is NULL");

@@ -6,8 +6,6 @@
 
 #include "core/cursor.h"
 #include "core/error.h"
-#include "core/frame.h"
-#include "table/file.h"
 
 vndf_family *vndf_family_allocate(size_t count)
 {
@@ -56,13 +54,12 @@ vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const
     for (size_t i = 0; complete && i < count; i++)
         complete = distributions[i] != NULL;
     vndf_family *family = complete ? vndf_family_allocate(count) : NULL;
-    if (!family) {
-        vndf_fail(error, complete ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
-                  complete ? "no memory for a family"
-                           : "a family needs 1 to %d distributions, each with a parameter",
-                  VNDF_LIMIT_FAMILY_KNOTS);
-        return NULL;
-    }
+    if (!family)
+        return vndf_fail(error, complete ? VNDF_ERROR_MEMORY : VNDF_ERROR_ARGUMENT,
+                         complete ? "no memory for a family"
+                                  : "a family needs 1 to %d distributions, each with a parameter",
+                         VNDF_LIMIT_FAMILY_KNOTS),
+               NULL;
     memcpy(family->parameter, parameters, count * sizeof *parameters);
     memcpy((void *)family->distribution, (const void *)distributions, count * sizeof *distributions);
     const char *why = vndf_family_invalid(family);
@@ -126,7 +123,7 @@ void vndf_family_write(const vndf_family *family, vndf_writer *w)
         vndf_write_f32(w, family->distance[i]);
     for (size_t i = 0; i < family->count; i++) {
         vndf_writer table = {NULL, 0, 0, 0};
-        vndf_table_write_loaded(family->distribution[i], &table);
+        vndf_table_write(family->distribution[i], &table);
         vndf_write_u32(w, (uint32_t)table.size);
         vndf_write_bytes(w, table.bytes, table.size);
         w->failed |= table.failed;
@@ -192,15 +189,13 @@ vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error 
         return NULL;
     vndf_reader r = {bytes, size, VNDF_FRAME_HEAD, 0};
     uint32_t count = vndf_read_u32(&r), reciprocal = vndf_read_u32(&r);
-    if (count < 1 || count > VNDF_LIMIT_FAMILY_KNOTS || reciprocal > 1) {
-        vndf_fail(error, VNDF_ERROR_TABLE, "the family's counts are outside the limits of the format");
-        return NULL;
-    }
+    if (count < 1 || count > VNDF_LIMIT_FAMILY_KNOTS || reciprocal > 1)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the family's counts are outside the limits of the format"),
+               NULL;
     vndf_family *family = vndf_family_allocate(count);
-    if (!family) {
-        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size);
-        return NULL;
-    }
+    if (!family)
+        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size),
+               NULL;
     family->owns = 1;
     family->reciprocal = reciprocal != 0;
     family->bytes = size;

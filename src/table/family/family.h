@@ -4,7 +4,7 @@
  *     u32 count                   u32 1 if mixtures are linear in 1/p, else 0
  *     f32 grazing distance        u32 n, n bytes source       u32 n, n bytes tool
  *     f32 parameter[count], ascending                         f32 distance[count - 1], between knots
- *     count times: u32 n, n bytes, a whole table (table/file.h)
+ *     count times: u32 n, n bytes, a whole table (table/file.c)
  *     u32 CRC-32 of all bytes before it */
 #ifndef VNDF_TABLE_FAMILY_FAMILY_H
 #define VNDF_TABLE_FAMILY_FAMILY_H

@@ -2,18 +2,16 @@
  * dwm = z^3 |det M| R^2 dlog(R) da.
  *
  * Nothing in it is singular; but the lobe may have parts of very different width, and tails that fall by a power so low
- * that slopes of 1e20 count. D is isotropic, so all that is steep in a density lies at a constant R: the borders of a
- * table's cells, jumps and rings. Along the azimuth it is smooth to the horizon of wi, where the sectors end. So at one
- * slope all bins of a ring are integrated over their azimuths by Gauss' rule, and over log(R) all of them together,
- * adaptively: the panel whose two rules differ most is halved next. (A quadrature in two dimensions for each bin chases
- * the roundings of a narrow ring for minutes.) */
+ * that slopes of 1e20 count. */
 #include "evidence/measure/bins.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 #include "cli/random.h"
 #include "cli/sort.h"
+#include "evidence/measure/quadrature.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -36,12 +34,26 @@ bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi)
     return f;
 }
 
+bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi)
+{
+    const vndf_affine shape = {surface->distribution, surface->alpha_x, 0, 0, surface->alpha_y, 0, 0};
+    return bins_frame_from(&shape, wi);
+}
+
 void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3])
 {
     const double z = (double)wm.z, x = (double)wm.x + f->mean_x * z, y = (double)wm.y + f->mean_y * z;
     const double u = (f->yy * x - f->xy * y) / f->det, v = (f->xx * y - f->yx * x) / f->det;
     const double length = sqrt(u * u + v * v + z * z);
     n[0] = (f->x * u + f->y * v) / length, n[1] = (f->x * v - f->y * u) / length, n[2] = z / length;
+}
+
+double bins_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b)
+{
+    double n[3], m[3];
+    bins_over(f, a, n);
+    bins_over(f, b, m);
+    return hypot(hypot(n[0] - m[0], n[1] - m[1]), n[2] - m[2]);
 }
 
 /* The azimuth to which normals of slope R are seen. */
@@ -72,9 +84,9 @@ static float pdf_of_view(const void *view, vndf_vec3 wm)
     return vndf_pdf(view, wm);
 }
 
-bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi)
+bins_sampler bins_of_view(const vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    return (bins_sampler){bins_frame_from(shape, wi), draw_of_view, pdf_of_view, view};
+    return (bins_sampler){bins_frame_of(surface, wi), draw_of_view, pdf_of_view, view};
 }
 
 /* ---- bins ---------------------------------------------------------------------------------------- */
@@ -124,139 +136,70 @@ size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_ve
            (sector < BINS_SECTORS ? (size_t)fmax(sector, 0) : last);
 }
 
-/* ---- one slope ----------------------------------------------------------------------------------- */
+/* ---- integrals ----------------------------------------------------------------------------------- */
 
-/* What the density adds to a bin, per log(R), between two azimuths: Gauss' 4 nodes, exact to degree 7. */
-static double integrate_arc(const bins_sampler *judged, double slope, double low, double high)
+/* The density of log R and of the azimuth over its reach. */
+static int answer(void *of, quadrature_point *at, size_t count)
 {
-    static const double gauss[4] = {-0.86113631159405258, -0.33998104358485626, 0.33998104358485626,
-                                    0.86113631159405258};
-    static const double weight[4] = {0.34785484513745386, 0.65214515486254614, 0.65214515486254614,
-                                     0.34785484513745386};
+    const bins_sampler *judged = of;
     const bins_frame *f = &judged->frame;
-    const double half = (high - low) / 2;
-    double sum = 0;
-    for (int i = 0; i < 4; i++) {
-        const double phi = (low + high) / 2 + half * gauss[i], along = slope * cos(phi), across = slope * sin(phi);
+    for (quadrature_point *p = at; p < at + count; p++) {
+        const double slope = exp(p->x), wide = reach(f, slope);
+        const double along = slope * cos(wide * p->y), across = slope * sin(wide * p->y);
         const double u = f->x * along - f->y * across, v = f->y * along + f->x * across;
         const double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
         const double z = 1 / sqrt(1 + x * x + y * y);
         const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
-        sum += weight[i] * half * (double)judged->pdf(judged->of, wm) * z * z * z;
+        if (wide > 0)
+            p->value[0] = (double)judged->pdf(judged->of, wm) * z * z * z * fabs(f->det) * slope * slope * wide;
     }
-    return sum * fabs(f->det) * slope * slope;
+    return 1;
 }
-
-static void integrate_sectors(const bins_sampler *judged, double slope, double to[BINS_SECTORS])
-{
-    const double wide = 2 * reach(&judged->frame, slope) / BINS_SECTORS;
-    for (int i = 0; i < BINS_SECTORS; i++) {
-        const double low = (i - BINS_SECTORS / 2) * wide;
-        to[i] = wide > 0 ? integrate_arc(judged, slope, low, low + wide) : 0;
-    }
-}
-
-/* ---- rings --------------------------------------------------------------------------------------- */
-
-/* Lobatto's 4 nodes on [-1, 1], exact to degree 5, among the 7 of Kronrod's extension, exact to degree 9 (Gander
- * and Gautschi, Adaptive Quadrature - Revisited, 2000). The end points are drawn in by 1e-7 of the interval: the
- * density there is that of this side of a border. */
-enum { NODES = 7 };
-static const double node[NODES] = {-0.9999999, -0.81649658092772603, -0.44721359549995794,
-                                   0,          0.44721359549995794,  0.81649658092772603,
-                                   0.9999999};
-static const double kronrod[NODES] = {77.0 / 1470,  432.0 / 1470, 625.0 / 1470, 672.0 / 1470,
-                                      625.0 / 1470, 432.0 / 1470, 77.0 / 1470};
-static const double lobatto[NODES] = {1.0 / 6, 0, 5.0 / 6, 0, 5.0 / 6, 0, 1.0 / 6};
-
-/* An interval of log R, the integrals of all bins over it, and the sum of how far its two rules are apart. */
-typedef struct panel {
-    double low, high, value[BINS_SECTORS], sum, error;
-    double change; /* from node to node, of the mass per log R */
-} panel;
-
-/* A normal is rounded by this part of its slope, and its density is that of a normal this far away (promise 2 of the
- * library): the integral of what that adds is at most the change of the mass per log R, times this. */
-static const double ONE_ROUNDING = 0x1p-23;
-
-/* What is so narrow is left alone: normals are floats, which do not tell its slopes apart. */
-static const double narrowest = 0x1p-23;
-
-static panel measure(const bins_sampler *judged, double low, double high)
-{
-    panel of = {.low = low, .high = high};
-    double middle = (low + high) / 2, half = (high - low) / 2, at_slope[BINS_SECTORS], few[BINS_SECTORS] = {0},
-           before = 0;
-    for (int i = 0; i < NODES; i++) {
-        double sum = 0;
-        integrate_sectors(judged, exp(middle + half * node[i]), at_slope);
-        for (size_t bin = 0; bin < BINS_SECTORS; bin++) {
-            sum += at_slope[bin];
-            of.value[bin] += half * kronrod[i] * at_slope[bin];
-            few[bin] += half * lobatto[i] * at_slope[bin];
-        }
-        of.change += i > 0 ? fabs(sum - before) : 0;
-        before = sum;
-    }
-    for (size_t bin = 0; bin < BINS_SECTORS; bin++) {
-        of.sum += of.value[bin];
-        of.error += high - low < narrowest ? 0 : fabs(few[bin] - of.value[bin]);
-    }
-    return of;
-}
-
-/* A ring is good when the rules of its panels are so far apart in all, relative to its integral or absolutely (the
- * better rule is much closer to it). PANELS_MAX ends what is not a jump but noise. */
-static const double RELATIVE = 1e-6, ABSOLUTE = 1e-10;
-enum { PANELS_MAX = 400 };
 
 /* Slopes beyond which nothing is: a cell of a table that begins at 0 or ends at infinity has some 1e-7 of its mass
  * there. */
 static const double LEAST = 0x1p-80, LARGEST = 0x1p100;
 
-/* Panels between the slopes of a ring span a factor of 4 at most and end where the horizon enters. Returns how much the
- * mass per log R changes on the way. */
-static double integrate_ring(const bins_sampler *judged, const double slope[2], double probability[BINS_SECTORS])
+/* Cells span a factor of 4 in R at most and end where the horizon enters, since the reach has a root there. */
+enum { RINGS_MAX = BINS_RINGS + 92 };
+
+static size_t divide(const bins_frame *f, const double slope[BINS_RINGS + 1], quadrature_cell *to)
 {
-    panel all[PANELS_MAX];
-    const double end = log(fmin(slope[1], LARGEST)), enters = log(fabs(judged->frame.c) / judged->frame.s);
-    double change = 0;
+    const double enters = log(fabs(f->c) / f->s);
     size_t count = 0;
-    for (double low = log(fmax(slope[0], LEAST)), high; low < end; low = high) {
-        high = fmin(low + log(4), end);
-        high = enters > low && enters < high ? enters : high;
-        all[count++] = measure(judged, low, high);
-    }
-    while (count < PANELS_MAX) {
-        double sum = 0, error = 0;
-        panel *worst = all;
-        for (panel *of = all; of < all + count; of++) {
-            sum += of->sum;
-            error += of->error;
-            worst = of->error > worst->error ? of : worst;
+    for (size_t ring = 0; ring < BINS_RINGS; ring++) {
+        const double end = log(fmin(slope[ring + 1], LARGEST));
+        for (double low = log(fmax(slope[ring], LEAST)), high; low < end; low = high) {
+            high = fmin(low + log(4), end);
+            high = enters > low && enters < high ? enters : high;
+            for (size_t i = 0; i < BINS_SECTORS; i++) {
+                const double from = 2 * (double)i / BINS_SECTORS - 1, wide = 2.0 / BINS_SECTORS;
+                to[count++] = (quadrature_cell){ring * BINS_SECTORS + i, {low, high}, {from, from + wide}, 0};
+            }
         }
-        if (error <= fmax(ABSOLUTE, RELATIVE * sum))
-            break;
-        const double low = worst->low, high = worst->high, middle = (low + high) / 2;
-        *worst = measure(judged, low, middle);
-        all[count++] = measure(judged, middle, high);
     }
-    for (size_t bin = 0; bin < BINS_SECTORS; bin++)
-        probability[bin] = 0;
-    for (size_t i = 0; i < count; i++) {
-        change += all[i].change;
-        for (size_t bin = 0; bin < BINS_SECTORS; bin++)
-            probability[bin] += all[i].value[bin];
-    }
-    return change;
+    return count;
 }
+
+/* A normal is rounded by this part of its slope, and its density is that of a normal this far away (promise 2 of the
+ * library): the integral of what that adds is at most the change of the mass per log R, times this. Cells of this width
+ * are not halved: normals are floats, which do not tell their slopes apart. */
+static const double ONE_ROUNDING = 0x1p-23;
 
 double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
                       double probability[BINS_COUNT])
 {
+    const quadrature q = {answer, (void *)judged, 1e-9, 0, ONE_ROUNDING, 1024, SIZE_MAX, 24};
+    quadrature_cell *cells = malloc(RINGS_MAX * BINS_SECTORS * sizeof *cells);
+    quadrature_sum *sum = calloc(BINS_COUNT, sizeof *sum);
     double change = 0;
-    for (size_t ring = 0; ring < BINS_RINGS; ring++)
-        change += integrate_ring(judged, slope + ring, probability + ring * BINS_SECTORS);
+    const int good = cells && sum && quadrature_run(&q, cells, divide(&judged->frame, slope, cells), sum);
+    for (size_t i = 0; i < BINS_COUNT; i++) {
+        probability[i] = good ? sum[i].value[0] : (double)NAN;
+        change += good ? sum[i].change : 0;
+    }
+    free(cells);
+    free(sum);
     return ONE_ROUNDING * change;
 }
 

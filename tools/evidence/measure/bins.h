@@ -20,11 +20,15 @@ typedef struct bins_frame {
     double s, c, x, y;                          /* the direction in it: (s, 0, c) */
 } bins_frame;
 
-/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi. */
+/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; and of two roughnesses. */
 bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi);
+bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi);
 
 /* The normal where its slopes are over the matrix, unit, turned to wi. */
 void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3]);
+
+/* How far two normals are apart where their slopes are over the matrix, as unit vectors. */
+double bins_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b);
 
 /* What draws normals, and the density that they should have. */
 typedef struct bins_sampler {
@@ -35,7 +39,7 @@ typedef struct bins_sampler {
 } bins_sampler;
 
 /* Of a view of the library's; it has to outlive the sampler. */
-bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi);
+bins_sampler bins_of_view(const vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTORS };
 
@@ -48,10 +52,9 @@ typedef struct bins_result {
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
 
 /* Its parts: borders of R, ascending; the bin of a normal, ring by ring; and the integral of the density over each bin,
- * to 1e-4 of it or 1e-9, whichever is larger, where the density is continuous. The sum over all bins is within 2e-6 of
- * 1 for a density whose integral is 1, jumps and narrow peaks included. test_bins measures both. Returns by how much
- * rounding of normals and densities may move that sum: next to nothing but for rings so narrow that floats hardly tell
- * slopes in them apart. */
+ * of whose cells none errs by more than 1e-9, but for rounding. The sum over all bins is within 2e-6 of 1 for a density
+ * whose integral is 1, jumps and narrow peaks included (test_bins). Returns by how much rounding of normals and
+ * densities may move that sum: next to nothing but for rings so narrow that floats hardly tell slopes in them apart. */
 void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1]);
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
 double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],

@@ -1,5 +1,5 @@
 /* GGX by spherical caps in a batch: the cost of the best closed form, to compare our batches with. Dupuy & Benyoub
- * 2023 as in ggx.c, in loops that the compiler makes vectors of, for three instruction sets in turn: this file is
+ * 2023 as in published.c, in loops that the compiler makes vectors of, for three instruction sets in turn: this file is
  * compiled with -O3 -ffast-math (CMakeLists.txt), hence with the machine's approximate reciprocals and roots, each
  * with a Newton step, within 3 ulps of 2^-24. But
  *
@@ -39,9 +39,9 @@ INLINED void caps_draw(block *b, size_t i)
     b->pdf[i] = mm * mm * share;
 }
 
-INLINED void caps_each(block *b, size_t first, size_t count)
+INLINED void caps_each(block *b)
 {
-    for (size_t i = first; i < first + count; i++)
+    for (size_t i = 0; i < b->count; i++)
         caps_draw(b, i);
 }
 
@@ -58,30 +58,25 @@ INLINED void caps_each(block *b, size_t first, size_t count)
 #  define FOR_AVX512
 #endif
 
-static void each_portable(const method *m, block *b, size_t first, size_t count)
+static void run_portable(block *b)
 {
-    (void)m;
-    caps_each(b, first, count);
+    caps_each(b);
 }
 
-FOR_AVX2 static void each_avx2(const method *m, block *b, size_t first, size_t count)
+FOR_AVX2 static void run_avx2(block *b)
 {
-    (void)m;
-    caps_each(b, first, count);
+    caps_each(b);
 }
 
-FOR_AVX512 static void each_avx512(const method *m, block *b, size_t first, size_t count)
+FOR_AVX512 static void run_avx512(block *b)
 {
-    (void)m;
-    caps_each(b, first, count);
+    caps_each(b);
 }
 
-method method_ggx_caps_batch(vndf_instructions set)
+void method_caps_batch(const method *m, block *b)
 {
-    method m = {.name = "spherical caps (2023), batch", .kind = ROW_PUBLISHED, .limit = set};
-    if (vndf_instructions_used(set) == set)
-        m.each = set == VNDF_INSTRUCTIONS_AVX512 ? each_avx512
-                 : set == VNDF_INSTRUCTIONS_AVX2 ? each_avx2
-                                                 : each_portable;
-    return m;
+    (void)m;
+    (b->limit == VNDF_INSTRUCTIONS_AVX512 ? run_avx512
+     : b->limit == VNDF_INSTRUCTIONS_AVX2 ? run_avx2
+                                          : run_portable)(b);
 }

@@ -54,7 +54,7 @@ block_law effect_law(const effect_set *set)
     return (block_law){.low = 0.5f, .high = 1.5f, .theta = NAN, .lobes = set->effects.lobes};
 }
 
-/* ---- hits one by one ----------------------------------------------------------------------------- */
+/* ---- hits and batches ----------------------------------------------------------------------------- */
 
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
@@ -67,53 +67,59 @@ static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf 
     }
 }
 
-static void shared(const method *m, block *b, size_t first, size_t count)
+/* What is done with each hit and those that share it; constants where it is inlined. */
+enum { SAMPLES, VALUES, DENSITIES };
+
+static inline void run(const method *m, block *b, size_t share, int what)
 {
-    vndf_bsdf bsdf;
-    hit(m->state, &b->in[first], &bsdf);
-    for (size_t i = first; i < first + count; i++)
-        vndf_bsdf_sample(&bsdf, b->in[i].u, &b->out[i]);
+    for (size_t first = 0; first < b->count; first += share) {
+        vndf_bsdf bsdf;
+        hit(m->state, &b->in[first], &bsdf);
+        for (size_t i = first; i < first + share; i++)
+            if (what == SAMPLES)
+                vndf_bsdf_sample(&bsdf, b->in[i].u, &b->out[i]);
+            else if (what == VALUES)
+                vndf_bsdf_eval(&bsdf, b->in[i].given, i, b->out[i].weight);
+            else
+                b->out[i].density = vndf_bsdf_pdf(&bsdf, b->in[i].given);
+    }
 }
 
-static void each(const method *m, block *b, size_t first, size_t count)
+static void each(const method *m, block *b)
 {
-    for (size_t i = first; i < first + count; i++)
-        shared(m, b, i, 1);
+    run(m, b, 1, SAMPLES);
 }
 
-static void eval(const method *m, block *b, size_t first, size_t count)
+static void shared(const method *m, block *b)
 {
-    vndf_bsdf bsdf;
-    hit(m->state, &b->in[first], &bsdf);
-    for (size_t i = first; i < first + count; i++)
-        vndf_bsdf_eval(&bsdf, b->in[i].given, i, b->out[i].weight);
+    run(m, b, SHARE, SAMPLES);
 }
 
-static void density(const method *m, block *b, size_t first, size_t count)
+static void eval(const method *m, block *b)
 {
-    vndf_bsdf bsdf;
-    hit(m->state, &b->in[first], &bsdf);
-    for (size_t i = first; i < first + count; i++)
-        b->out[i].density = vndf_bsdf_pdf(&bsdf, b->in[i].given);
+    run(m, b, SHARE, VALUES);
 }
 
-/* ---- batches ------------------------------------------------------------------------------------- */
-
-static void batch_each(const method *m, block *b, size_t i, size_t count)
+static void density(const method *m, block *b)
 {
-    const vndf_bsdf_batch batch = {.material = &((const effect_case *)m->state)->material,
-                                   .count = count,
-                                   .limit = m->limit,
-                                   .wi_x = b->wi[0] + i,
-                                   .wi_y = b->wi[1] + i,
-                                   .wi_z = b->wi[2] + i};
-    const float *const u[3] = {b->u[0] + i, b->u[1] + i, b->u[2] + i};
-    const vndf_scattered_n to = {{b->x + i, b->y + i, b->z + i},
-                                 {b->value[0] + i, b->value[1] + i, b->value[2] + i},
-                                 b->pdf + i,
-                                 b->lobe + i,
-                                 {b->half[0] + i, b->half[1] + i, b->half[2] + i}};
-    vndf_bsdf_sample_n(&batch, u, to);
+    run(m, b, SHARE, DENSITIES);
+}
+
+static void batch(const method *m, block *b)
+{
+    const vndf_bsdf_batch of = {.material = &((const effect_case *)m->state)->material,
+                                .count = b->count,
+                                .limit = b->limit,
+                                .wi_x = b->wi[0],
+                                .wi_y = b->wi[1],
+                                .wi_z = b->wi[2]};
+    const float *const u[3] = {b->u[0], b->u[1], b->u[2]};
+    const vndf_scattered_n to = {{b->x, b->y, b->z},
+                                 {b->value[0], b->value[1], b->value[2]},
+                                 b->pdf,
+                                 b->lobe,
+                                 {b->half[0], b->half[1], b->half[2]}};
+    vndf_bsdf_sample_n(&of, u, to);
 }
 
 /* ---- materials ----------------------------------------------------------------------------------- */
@@ -177,18 +183,8 @@ method method_effect(const effect_set *set, const vndf_surface *surface, vndf_er
         method_release(&m);
         return m;
     }
-    m.each = each;
-    m.shared = shared;
-    m.eval = eval;
-    m.density = density;
-    return m;
-}
-
-method method_effect_batch(const method *one_by_one, vndf_instructions limit)
-{
-    method m = {.kind = ROW_EFFECT, .state = one_by_one->state, .limit = limit, .same_bits = each};
-    const int is_rough = ((const effect_case *)m.state)->set->is_rough; /* batches have arrays for that */
-    snprintf(m.name, sizeof m.name, "%.50s, batch", one_by_one->name);
-    m.each = vndf_instructions_used(limit) == limit && !is_rough ? batch_each : NULL;
+    m.each = each, m.shared = shared, m.eval = eval, m.density = density;
+    m.batch = set->is_rough ? NULL : batch; /* roughness of hits are arrays to it */
+    m.same_bits = 1;
     return m;
 }

@@ -1,8 +1,12 @@
 /* The library itself: view, sample and density, one by one or by batches up to a set of instructions; the other
- * calls, which are only timed; and surfaces beyond two roughnesses: affine ones and two lobes. */
+ * calls, which are only timed; surfaces beyond two roughnesses: affine ones and two lobes; and what `vndf export
+ * --language c` writes, beside them: the build writes the kernel (tools/export/write_kernel.c). */
 #include <stdio.h>
+#include <stdlib.h>
 
-#include "evidence/methods/vector.h"
+#include "evidence/method.h"
+
+#include "exported_kernel.h"
 
 /* ---- one by one ---------------------------------------------------------------------------------- */
 
@@ -10,7 +14,7 @@ static const float core = 0.7f, haze = 0.3f; /* of two lobes */
 
 static inline vndf_view view_of(const method *m, const method_input *in)
 {
-    const vndf_surface surface = {m->state, in->alpha, in->alpha};
+    const vndf_surface surface = {m->d, in->alpha, in->alpha};
     return vndf_view_from(&surface, in->wi);
 }
 
@@ -20,32 +24,32 @@ static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
     return vndf_sample(&view, in->u[0], in->u[1], pdf);
 }
 
-static void each(const method *m, block *b, size_t first, size_t count)
+static void each(const method *m, block *b)
 {
-    method_loop(one, m, b, first, count);
+    method_loop(one, m, b);
 }
 
-static vndf_vec3 draw(const void *view, float u1, float u2, float *pdf)
+static void shared(const method *m, block *b)
 {
-    return vndf_sample(view, u1, u2, pdf);
-}
-
-static void shared(const method *m, block *b, size_t first, size_t count)
-{
-    vndf_view view = view_of(m, &b->in[first]);
-    method_shared_loop(draw, &view, b, first, count);
+    for (size_t first = 0; first < b->count; first += SHARE) {
+        vndf_view view = view_of(m, &b->in[first]);
+        for (size_t i = first; i < first + SHARE; i++) {
+            const vndf_vec3 wm = vndf_sample(&view, b->in[i].u[0], b->in[i].u[1], &b->pdf[i]);
+            b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
+        }
+    }
 }
 
 /* Turned, sheared, and with a mean slope. */
 static inline vndf_affine oblique(const method *m, float alpha)
 {
-    return (vndf_affine){m->state, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
+    return (vndf_affine){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
 }
 
 /* The other calls, and the surfaces: a core and a haze three times as rough are the two lobes. */
 static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
 {
-    const vndf_surface surface = {m->state, in->alpha, in->alpha};
+    const vndf_surface surface = {m->d, in->alpha, in->alpha};
     const float a = in->alpha, b = 3 * a;
     vndf_vec3 wm = {0, 0, 0};
     vndf_view view;
@@ -54,7 +58,7 @@ static inline vndf_vec3 one_call(const method *m, const method_input *in, float 
         return wm;
     }
     if (m->call == METHOD_TWO_LOBES) {
-        vndf_mixture mixture = {2, {{{m->state, a, 0, 0, a, 0, 0}, core}, {{m->state, b, 0, 0, b, 0, 0}, haze}}};
+        vndf_mixture mixture = {2, {{{m->d, a, 0, 0, a, 0, 0}, core}, {{m->d, b, 0, 0, b, 0, 0}, haze}}};
         vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, in->wi);
         return vndf_mixture_sample(&lobes, in->u[0], in->u[1], pdf, NULL);
     }
@@ -77,118 +81,123 @@ static inline vndf_vec3 one_call(const method *m, const method_input *in, float 
     return wm;
 }
 
-static void each_call(const method *m, block *b, size_t first, size_t count)
+static void each_call(const method *m, block *b)
 {
-    method_loop(one_call, m, b, first, count);
+    method_loop(one_call, m, b);
+}
+
+static inline vndf_vec3 one_exported(const method *m, const method_input *in, float *pdf)
+{
+    const float *numbers = m->state;
+    exported_surface surface = exported_surface_of(numbers ? 0 : EXPORTED_GGX, in->alpha, in->alpha);
+    exported_view view = exported_view_of(numbers, surface, (exported_vec3){in->wi.x, in->wi.y, in->wi.z});
+    exported_sampled drawn = exported_sample(numbers, view, in->u[0], in->u[1]);
+    *pdf = drawn.pdf;
+    return (vndf_vec3){drawn.wm.x, drawn.wm.y, drawn.wm.z};
+}
+
+static void each_exported(const method *m, block *b)
+{
+    method_loop(one_exported, m, b);
 }
 
 /* ---- batches of them ----------------------------------------------------------------------------- */
 
-static vndf_batch batch_of(const method *m, const block *b, size_t i, size_t count)
+static vndf_batch batch_of(const method *m, const block *b)
 {
-    return (vndf_batch){.distribution = m->state,
-                        .count = count,
-                        .limit = m->limit,
-                        .alpha_x = b->alpha + i,
-                        .alpha_y = b->alpha + i,
-                        .wi_x = b->wi[0] + i,
-                        .wi_y = b->wi[1] + i,
-                        .wi_z = b->wi[2] + i};
+    return (vndf_batch){.distribution = m->d,
+                        .count = b->count,
+                        .limit = b->limit,
+                        .alpha_x = b->alpha,
+                        .alpha_y = b->alpha,
+                        .wi_x = b->wi[0],
+                        .wi_y = b->wi[1],
+                        .wi_z = b->wi[2]};
 }
 
-static vndf_normals drawn(block *b, size_t i)
+static vndf_normals drawn(block *b)
 {
-    return (vndf_normals){b->x + i, b->y + i, b->z + i};
+    return (vndf_normals){b->x, b->y, b->z};
 }
 
-static void batch_each(const method *m, block *b, size_t first, size_t count)
+static void batch_each(const method *m, block *b)
 {
-    vndf_batch batch = batch_of(m, b, first, count);
-    vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
+    vndf_batch batch = batch_of(m, b);
+    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
 /* Matrices are formed as the calls of one form theirs. */
-static void batch_affine(const method *m, block *b, size_t first, size_t count)
+static void batch_affine(const method *m, block *b)
 {
     float of[6][BLOCK];
-    for (size_t i = 0; i < count; i++) {
-        vndf_affine a = oblique(m, b->alpha[first + i]);
+    for (size_t i = 0; i < b->count; i++) {
+        vndf_affine a = oblique(m, b->alpha[i]);
         const float number[6] = {a.xx, a.xy, a.yx, a.yy, a.mean_x, a.mean_y};
         for (int k = 0; k < 6; k++)
             of[k][i] = number[k];
     }
-    vndf_batch batch = batch_of(m, b, first, count);
+    vndf_batch batch = batch_of(m, b);
     batch.alpha_x = of[0], batch.xy = of[1], batch.yx = of[2], batch.alpha_y = of[3];
     batch.mean_x = of[4], batch.mean_y = of[5];
-    vndf_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first);
+    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
-static void batch_lobes(const method *m, block *b, size_t first, size_t count)
+static void batch_lobes(const method *m, block *b)
 {
     float rough[BLOCK];
-    const float *alpha = b->alpha + first;
-    for (size_t i = 0; i < count; i++)
-        rough[i] = 3 * alpha[i];
-    vndf_mixture_batch batch = {.count = count,
-                                .shared = VNDF_SHARED_WEIGHT,
-                                .limit = m->limit,
-                                .lobes = 2,
-                                .wi_x = b->wi[0] + first,
-                                .wi_y = b->wi[1] + first,
-                                .wi_z = b->wi[2] + first,
-                                .lobe = {{m->state, alpha, NULL, NULL, alpha, NULL, NULL, &core},
-                                         {m->state, rough, NULL, NULL, rough, NULL, NULL, &haze}}};
-    vndf_mixture_sample_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), b->pdf + first, NULL);
+    for (size_t i = 0; i < b->count; i++)
+        rough[i] = 3 * b->alpha[i];
+    vndf_batch batch = batch_of(m, b);
+    batch.shared = VNDF_SHARED_WEIGHT;
+    batch.lobes = 2;
+    batch.lobe[0] = (vndf_lobe_batch){m->d, b->alpha, NULL, NULL, b->alpha, NULL, NULL, &core};
+    batch.lobe[1] = (vndf_lobe_batch){m->d, rough, NULL, NULL, rough, NULL, NULL, &haze};
+    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
-static void batch_call(const method *m, block *b, size_t first, size_t count)
+static void batch_call(const method *m, block *b)
 {
-    const vndf_batch batch = batch_of(m, b, first, count);
-    const vndf_normals normals = {b->given[0] + first, b->given[1] + first, b->given[2] + first};
-    float *pdf = b->pdf + first;
+    const vndf_batch batch = batch_of(m, b);
+    const vndf_normals normals = {b->given[0], b->given[1], b->given[2]};
     switch (m->call) {
-    case METHOD_PDF: vndf_pdf_n(&batch, normals, pdf); break;
-    case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x + first, b->y + first); break;
-    case METHOD_NDF: vndf_ndf_n(&batch, normals, pdf); break;
-    case METHOD_LAMBDA: vndf_lambda_n(&batch, pdf); break;
-    case METHOD_AFFINE: batch_affine(m, b, first, count); break;
-    case METHOD_TWO_LOBES: batch_lobes(m, b, first, count); break;
+    case METHOD_PDF: vndf_pdf_n(&batch, normals, b->pdf); break;
+    case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x, b->y); break;
+    case METHOD_NDF: vndf_ndf_n(&batch, normals, b->pdf); break;
+    case METHOD_LAMBDA: vndf_lambda_n(&batch, b->pdf); break;
+    case METHOD_AFFINE: batch_affine(m, b); break;
+    case METHOD_TWO_LOBES: batch_lobes(m, b); break;
     default:
-        vndf_sample_weight_n(&batch, b->u[0] + first, b->u[1] + first, drawn(b, first), pdf, b->value[0] + first);
-        for (size_t i = first; i < first + count; i++)
+        vndf_sample_weight_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf, b->value[0]);
+        for (size_t i = 0; i < b->count; i++)
             b->pdf[i] *= b->value[0][i];
     }
 }
 
 /* ---- methods ------------------------------------------------------------------------------------- */
 
-static const char *const calls[METHOD_CALLS] = {
-    [METHOD_SAMPLE] = "",         [METHOD_WEIGHT] = ": weight",     [METHOD_PDF] = ": pdf",
-    [METHOD_INVERT] = ": invert", [METHOD_NDF] = ": ndf",           [METHOD_LAMBDA] = ": lambda",
-    [METHOD_AFFINE] = ": affine", [METHOD_TWO_LOBES] = ": mixture",
-};
-
-method method_ours(const vndf_distribution *d, const char *name, method_call call, vndf_instructions limit)
+method method_ours(const vndf_distribution *d, const char *name, method_call call)
 {
-    vndf_info info = vndf_distribution_info(d);
-    method m = {.kind = call != METHOD_SAMPLE ? ROW_CALL
-                        : info.memory         ? ROW_TABLE
-                                              : ROW_CLOSED,
-                .memory = info.memory,
-                .file_bytes = info.bytes,
-                .moments = info.moments,
-                .state = d,
-                .call = call,
-                .limit = limit};
-    snprintf(m.name, sizeof m.name, "%s%s%s", name, calls[call], limit ? ", batch" : "");
-    method_run *one_by_one = call == METHOD_SAMPLE ? each : each_call;
-    if (limit == VNDF_INSTRUCTIONS_BEST) {
-        m.each = one_by_one;
-        m.shared = call == METHOD_SAMPLE ? shared : NULL;
-    } else if (vndf_instructions_used(limit) == limit) {
-        m.each = call == METHOD_SAMPLE ? batch_each : batch_call;
-        m.same_bits = one_by_one;
+    static const char *const calls[METHOD_CALLS] = {"",         ": weight", ": pdf",     ": invert",    ": ndf",
+                                                    ": lambda", ": affine", ": mixture", ", exported C"};
+    const vndf_info info = vndf_distribution_info(d);
+    method m = {.kind = info.memory ? ROW_TABLE : ROW_CLOSED, .memory = info.memory, .d = d, .call = call};
+    snprintf(m.name, sizeof m.name, "%s%s", name, calls[call]);
+    if (call == METHOD_SAMPLE) {
+        m.each = each, m.shared = shared, m.batch = batch_each;
+    } else if (call == METHOD_EXPORTED) {
+        const size_t count = vndf_numbers(d, NULL, 0);
+        float *numbers = count ? malloc(count * sizeof *numbers) : NULL;
+        m.kind = ROW_EXPORTED;
+        m.memory = count * sizeof *numbers;
+        m.state = numbers;
+        m.release = free;
+        m.each = numbers || !count ? each_exported : NULL;
+        vndf_numbers(d, numbers, numbers ? count : 0);
+    } else {
+        m.kind = ROW_CALL;
+        m.each = each_call, m.batch = batch_call;
     }
+    m.same_bits = m.batch != NULL;
     return m;
 }
 

@@ -30,7 +30,6 @@ MixtureSample = namedtuple("MixtureSample", ["wm", "pdf", "lobe"])
 class Rough:
     """What all surfaces answer."""
 
-    _prefix = "mixture_"  # of the C calls
     _groups: dict[str, Floats]  # "shape", and "weight" of mixtures
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
@@ -47,9 +46,9 @@ class Rough:
             to = [*batch.addresses("u"), struct("vndf_normals")(*to[:3]), *to[3:]]
         elif "wm" in given:
             to = [struct("vndf_normals")(*batch.addresses("wm")), *to]
-        if self._prefix == "mixture_" and name == "invert":
-            to = [to[0], None, *to[1:], None]  # of any lobe, which is not told
-        getattr(library, f"{self._prefix}{name}_n")(byref(filled), *to)
+        if name == "sample" and filled.lobes:
+            filled.drawn = to.pop()
+        getattr(library, f"{name}_n")(byref(filled), *to)
         return result
 
     def _draw(self, name: str, rows: int, wi: Any, u: Any) -> Floats:
@@ -106,8 +105,6 @@ class Surface(Rough):
     ``rotation``, the angle from x to the axis of alpha, radians; or by any ``matrix``, shape (2, 2, ...), and moved by
     a ``mean`` slope, shape (2, ...), as filtered normal maps have them: slopes are M u + mean. alpha = 1 is the
     distribution as it was built. Single numbers that are no surface are refused; in arrays they scatter nothing."""
-
-    _prefix = ""
 
     def __init__(
         self, distribution: Distribution, alpha: Numbers = 1.0, alpha_y: Optional[Numbers] = None, *,
@@ -189,7 +186,7 @@ class Mixture(Rough):
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
         shapes, weights = batch.addresses("shape", share=True), batch.addresses("weight", share=True)
-        filled = struct("vndf_mixture_batch")(batch.count, batch.shared(), 0, *wi, len(self.lobes))
+        filled = struct("vndf_batch")(None, batch.count, batch.shared(), 0, None, None, *wi, lobes=len(self.lobes))
         for i, lobe in enumerate(self.lobes):
             six = shapes[6 * i : 6 * i + 6]
             filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *six, weights[i])
