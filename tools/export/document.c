@@ -198,14 +198,16 @@ static int has_parts(const char *parts, const char *mark)
     return 1;
 }
 
-/* A line that ends in a mark is left out where the file has not what that names; so are the lines between a mark that
- * stands alone and the next one, "end". *in: whether lines are written. */
+/* Directives are left out, and a line that ends in a mark where the file has not what that names; so are the lines
+ * between a mark that stands alone and the next one, "end". *in: whether lines are written. */
 static void put_line(FILE *to, const char *parts, const char *line, int *in)
 {
     static const char only[] = "/* only ";
     int length = (int)strcspn(line, "\n");
     const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
     int has = mark && mark < line + length ? has_parts(parts, mark + sizeof only - 1) : -1;
+    if (*line == '#')
+        return;
     if (end && end < line + length) {
         *in = 1;
     } else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line)) {
