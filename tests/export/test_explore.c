@@ -31,7 +31,7 @@ static const struct {
     {"drawn", 1, 48, ""},
     {"error", 0, 0, ""},
     {"%c_whole", 0.99, 1.01, ""},
-    {"%c_true_whole", 0.99, 1.01, ""},
+    {"%c_truth", 0.99, 1.01, ""},
     {"%c_facing_to_density", 0.999, 1.001, ""},
     {"%c_faults", 0, 0, ""},
     {"%c_off", 0, 1e-4, ""},

@@ -59,10 +59,8 @@ function drawSpheres() {
 function tell() {
   const all = {drawn: spheres[0].drawn, error: gl.getError()};
   for (const sphere of spheres) {
-    const {samples, density} = says[sphere.name], {mean, spread, faults} = lightOf(sphere);
-    const told = {whole: density.whole, true_whole: density.truth, facing: samples.facing,
-                  facing_to_density: samples.facing / density.facing, faults: samples.faults, off: samples.off,
-                  kept: samples.kept, light: mean, spread, light_faults: faults};
+    const {samples: {facing, faults, off, kept}, density} = says[sphere.name];
+    const told = {...density, facing_to_density: facing / density.facing, faults, off, kept, ...lightOf(sphere)};
     for (const [what, value] of Object.entries(told)) all[`${sphere.name}_${what}`] = value;
   }
   for (const {name, pictures} of scenes) all[`${name}_error`] = pictures.error;

@@ -66,7 +66,7 @@ function lightsOf(picture) {
 
 // Mean and spread of the picture's light, and how many of its pixels are no light.
 function lightOf(sphere) {
-  const lights = lightsOf(sphere).map((y) => Math.min(y, 4)), middle = mean(lights);
-  return {mean: middle, spread: Math.sqrt(mean(lights.map((y) => (y - middle) ** 2))),
-          faults: lights.filter((y) => !(y >= 0)).length};
+  const lights = lightsOf(sphere).map((y) => Math.min(y, 4)), light = mean(lights);
+  return {light, spread: Math.sqrt(mean(lights.map((y) => (y - light) ** 2))),
+          light_faults: lights.filter((y) => !(y >= 0)).length};
 }
