@@ -4,7 +4,7 @@
 #include "harness/run_program.h"
 
 #include "command.h"
-#include "evidence/page/report.h"
+#include "evidence/evidence.h"
 #include "oracle/oracle.h"
 
 /* ---- the page ---- */

@@ -4,8 +4,8 @@
 
 #include "draw/svg.h"
 
-/* Logarithmic, and fits all points that are positive and finite by whole decades, of y at most 7; or with a step between
- * its ticks linear, from 0 to `high`. */
+/* Logarithmic, and fits all points that are positive and finite by whole decades, of y at most 7; or with a step
+ * between its ticks linear, from 0 to `high`. */
 typedef struct chart_axis {
     const char *label; /* with its unit */
     double step, high;

@@ -1,14 +1,13 @@
 /* Which table to ship. Every table is exact with its weight: the certificate bounds it, and a coarse table costs noise.
  * So the advice is the smallest table whose certificate keeps the limits below, which are those that `vndf build` aims
  * at. No table keeps a limit that the finest breaks; there a table is good if it is within a quarter of the finest. */
-#include "evidence/page/report.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "cli/subject.h"
 #include "draw/chart.h"
 #include "draw/panels.h"
+#include "evidence/evidence.h"
 
 /* No sample is brighter than chance would make it, and what tables are aimed at. */
 enum { LIMITS = 3 };
