@@ -117,24 +117,10 @@ static void tabulate(builder *b, double p, shares *to)
     vndf_source_free(source);
 }
 
-/* Adds the distance at p between two knots, which are tabulated. */
-static void measure_at(builder *b, double low, double high, double p, double *slopes, double *grazing)
-{
-    double sum = 0, along = 0, t = vndf_family_weight(low, high, p, b->reciprocal);
-    double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
-    tabulate(b, p, &b->own);
-    for (size_t i = 0; i < SLOPES; i++) {
-        double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
-        sum += fabs(mixed - own);
-        along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
-    }
-    *slopes = fmax(*slopes, sum / 2);
-    *grazing = fmax(*grazing, along / 2);
-}
-
-/* At the probes between all knots. */
+/* The distances between all knots, at the probes. */
 static void measure(builder *b, spread *s)
 {
+    const shares *left = &b->left, *right = &b->right, *own = &b->own;
     tabulate(b, s->knot[0], &b->right);
     s->worst = s->grazing = 0;
     for (size_t i = 0; i + 1 < b->count && !vndf_guard_stopped(&b->guard); i++) {
@@ -143,9 +129,18 @@ static void measure(builder *b, spread *s)
         tabulate(b, high, &b->right);
         s->distance[i] = 0;
         for (int k = 1; k <= PROBES && !vndf_guard_stopped(&b->guard); k++) {
-            double part = (double)k / (PROBES + 1); /* the weight of the upper knot */
+            double part = (double)k / (PROBES + 1), sum = 0, along = 0; /* the weight of the upper knot */
             double p = b->reciprocal ? low * high / (high - part * (high - low)) : low + part * (high - low);
-            measure_at(b, low, high, p, &s->distance[i], &s->grazing);
+            double t = vndf_family_weight(low, high, p, b->reciprocal);
+            double grazing = (1 - t) * left->grazing + t * right->grazing;
+            tabulate(b, p, &b->own);
+            for (size_t n = 0; n < SLOPES; n++) {
+                double mixed = (1 - t) * left->slope[n] + t * right->slope[n];
+                sum += fabs(mixed - own->slope[n]);
+                along += fabs(mixed / grazing - own->slope[n] / own->grazing) * slope_at(n);
+            }
+            s->distance[i] = fmax(s->distance[i], sum / 2);
+            s->grazing = fmax(s->grazing, along / 2);
         }
         vndf_guard_stage(&b->guard, b->begin, b->stage);
         s->worst = fmax(s->worst, s->distance[i]);
@@ -245,23 +240,17 @@ static void place(builder *b)
 
 /* ---- tables ---- */
 
-/* Arguments of `vndf build`, to be freed. */
-static char *describe(builder *b)
-{
-    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
-    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
-             vndf_number_print(high, b->high));
-    return vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
-}
-
 static void fill(builder *b, vndf_family *family)
 {
     const vndf_build_options options = {
         .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
+    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
+    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
+             vndf_number_print(high, b->high));
     family->owns = 1;
     family->reciprocal = b->reciprocal;
     family->grazing = (float)fmin(b->spread.grazing, 1);
-    family->source = describe(b);
+    family->source = vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
     family->tool = vndf_text_pair("vndf", VNDF_VERSION, "", vndf_guard_why(&b->guard));
     b->width = (1 - PLACED) / (double)b->count;
     for (size_t i = 0; i < b->count; i++) {
