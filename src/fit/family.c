@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/guard.h"
+#include "fit/profile/profile.h"
 #include "source/source.h"
 #include "source/words.h"
 #include "table/family/family.h"

@@ -1,6 +1,6 @@
 /* Saved and loaded, a table is the same, numbers and file, to the byte; a file is the bytes that memory gets. What
- * cannot be saved or loaded gives its status and leaves nothing behind. vndf_numbers gives as many numbers as it says, a head
- * of 8 and five rows of four for each knot, and no more than there is room for. (What they say: exported_*.) */
+ * cannot be saved or loaded gives its status and leaves nothing behind. vndf_numbers gives as many numbers as it says,
+ * a head of 8 and five rows of four for each knot, and no more than there is room for. (What they say: exported_*.) */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
