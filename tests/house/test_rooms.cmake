@@ -12,7 +12,7 @@ set(order_src
     "bsdf: core math table kernel sampler"
     "source: core math" "source/interval: core math source" "source/formula: core math source source/interval"
     "source/family: core math source source/formula source/interval"
-    "fit/profile: core math fit source"
+    "fit/profile: core math source"
     "fit: core math table table/family kernel sampler source fit/profile")
 set(order_tools
     "cli:" "draw: cli" "bake: cli draw" "render: cli draw" "export: draw" "measured: cli render"
