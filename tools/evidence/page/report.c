@@ -221,15 +221,13 @@ static int write_frontier(html_page *page, const report *r)
         add_row(&f, r, of);
     add_point(&f, advised, measured(r, table, COL_NS), tv, "advised");
     add_point(&f, advised, measured(r, table, r->batch), tv, "advised");
-    chart c = {.title = title,
-               .box = {0, 0, 1080, 640},
-               .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
-               .zero = "exact",
-               .band = 90,
-               .series = f.series,
-               .count = f.count};
-    chart_fit(&c, 7);
+    const chart c = {.title = title,
+                     .box = {0, 0, 1080, 640},
+                     .x = {.label = "nanoseconds per sample (view, sample and density; one thread)"},
+                     .y = {.label = "total variation, worst angle above the horizon"},
+                     .zero = "exact",
+                     .series = f.series,
+                     .count = f.count};
     fputs("<figure class=\"scroll wide\" title=\"error against time\">\n", page->html);
     chart_draw(page->html, &c, 0);
     fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
