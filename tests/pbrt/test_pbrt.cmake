@@ -1,5 +1,5 @@
-# The BxDF of tools/pbrt, by a C++ compiler against a stand-in for pbrt's interface, does what bxdf.cpp says. Noticed:
-# the factor of refraction on the wrong transport, flags that are not read, directions or cosines exchanged.
+# The distribution of tools/pbrt, by a C++ compiler against a stand-in for pbrt's vectors, does what distribution.cpp
+# says. Noticed: directions that are not turned up, a density for another, roughness exchanged.
 cmake_minimum_required(VERSION 3.16)
 
 if(NOT CXX_COMPILER OR CXX_COMPILER MATCHES "cl(.exe)?$" OR SANITIZE)
@@ -9,8 +9,9 @@ endif()
 file(MAKE_DIRECTORY ${OUT})
 execute_process(COMMAND ${CXX_COMPILER} -std=c++17 -O2 -Wall -Wextra -Wpedantic -Werror -I${SOURCE}/tests/pbrt/stand_in
     -I${SOURCE}/tools/pbrt -I${SOURCE}/include -I${SOURCE}/tests "-DVNDF_SOURCE_DIR=\"${SOURCE}\""
-    ${SOURCE}/tests/pbrt/bxdf.cpp -o ${OUT}/bxdf ${STATIC_LIBRARY} -lm -lpthread COMMAND_ERROR_IS_FATAL ANY)
-execute_process(COMMAND ${OUT}/bxdf RESULT_VARIABLE bad)
+    ${SOURCE}/tests/pbrt/distribution.cpp -o ${OUT}/distribution ${STATIC_LIBRARY} -lm -lpthread
+    COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${OUT}/distribution RESULT_VARIABLE bad)
 if(bad)
-    message(FATAL_ERROR "the BxDF is not what its interface says")
+    message(FATAL_ERROR "the distribution is not what its interface says")
 endif()

@@ -41,12 +41,11 @@ static inline scene *case_point(const char *text)
 static inline void case_render(film *f, const scene *s, path_sampler sampler, uint64_t samples, uint64_t seed)
 {
     vndf_error error;
-    const film_run run = {.samples = samples, .threads = 2, .seed = seed};
     path_plan *plan = path_prepare(s, sampler, &error);
     if (!TEST(plan != NULL))
         fprintf(stderr, "    %s\n", error.message);
     else if (TEST(f->sum || film_make(f, s->width, s->height)))
-        TEST(film_render(f, plan, &run));
+        film_add(f, plan, samples, 2, seed);
     free(plan);
 }
 

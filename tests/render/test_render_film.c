@@ -88,14 +88,10 @@ static void test_run(void)
 {
     vndf_error error;
     scene *s = scene_of(30, 0.2);
-    comparison c = {.count = 2,
-                    .run = {.samples = 24, .threads = 2},
-                    .way = {{.sampler = SAMPLER_VISIBLE}, {.sampler = SAMPLER_ALL}}};
+    comparison c = {
+        .count = 2, .samples = 24, .threads = 2, .way = {{.sampler = SAMPLER_VISIBLE}, {.sampler = SAMPLER_ALL}}};
     const film *one = &c.way[0].film, *other = &c.way[1].film;
-    for (size_t i = 0; i < 2; i++) {
-        c.way[i].plan = path_prepare(s, c.way[i].sampler, &error);
-        TEST(c.way[i].plan && film_make(&c.way[i].film, s->width, s->height));
-    }
+    TEST(comparison_begin(&c, s, &error));
     TEST(comparison_run(&c) && one->samples == 24 && other->samples == 24);
     TEST(memcmp(one->sum, other->sum, 3 * film_pixels(one) * sizeof(double)) != 0);
     film once = {.sum = NULL}; /* which is the same in one run */
@@ -103,12 +99,9 @@ static void test_run(void)
     TEST(memcmp(one->sum, once.sum, 3 * film_pixels(one) * sizeof(double)) == 0);
     film_free(&once);
     c.has_equal_time = 1;
-    c.run.samples = 96;
+    c.samples = 96;
     TEST(comparison_run(&c) && one->samples == 96 && other->processor >= one->processor);
-    for (size_t i = 0; i < 2; i++) {
-        free(c.way[i].plan);
-        film_free(&c.way[i].film);
-    }
+    comparison_end(&c);
     scene_free(s);
 }
 

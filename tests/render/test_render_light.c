@@ -111,7 +111,7 @@ static void test_sky(void)
                    "image sky pattern studio width 24 height 14\nenvironment image sky turn 40\n" LAMP
                    "sphere centre 2 1.5 0 radius 0.05 material lamp\n");
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
-    TEST(s->environment.rows != NULL);
+    TEST(s->environment.sums != NULL);
     for (int i = 0; i < WIDTH * HEIGHT * FINER * FINER; i++) {
         const double u = (i % (WIDTH * FINER) + 0.5) / (WIDTH * FINER),
                      longitude = 2 * PI * (u - 0.5 - 40.0 / 360);

@@ -1,8 +1,6 @@
 /* vndf render: a scene file into a picture, by one sampler or by several side by side. Reads the words, prepares
  * the scene, renders, saves the picture, prints figures. */
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "cli/figures.h"
 #include "cli/output.h"
@@ -45,15 +43,13 @@ static const char *const help[] = {
 /* What was asked for, and what comes of it. */
 typedef struct render_work {
     comparison ways; /* one of them is no comparison */
-    unsigned long long spp, width;
+    unsigned long long samples, width;
     double exposure;
     const char *path; /* of the picture; NULL: none */
     output_file output;
     int is_pfm;
     figures_form form;
 } render_work;
-
-/* ---- words ---- */
 
 /* All words, before anything is read or rendered. */
 static int read_words(const arguments *given, render_work *w)
@@ -62,9 +58,10 @@ static int read_words(const arguments *given, render_work *w)
     unsigned long long threads = film_processors(), seed = 0;
     int sampler[WORDS_MAX] = {option_choice(given, "--sampler", 0)};
     const size_t compared = option_choices(given, "--compare", sampler);
+    comparison *c = &w->ways;
     *w = (render_work){.path = option_value(given, "-o"), .form = figures_begin(given).form};
-    if (!option_count(given, "--spp", 1, 1e9, &w->spp) || !option_count(given, "--threads", 1, 256, &threads) ||
-        !option_count(given, "--seed", 0, 0x1p53, &seed) ||
+    if (!option_count(given, "--spp", 1, 1e9, &w->samples) ||
+        !option_count(given, "--threads", 1, 256, &threads) || !option_count(given, "--seed", 0, 0x1p53, &seed) ||
         !option_count(given, "--width", 1, IMAGE_SIDE_MAX, &w->width) ||
         !option_number(given, "--exposure", 1e-6, 1e6, &w->exposure))
         return 0;
@@ -72,11 +69,10 @@ static int read_words(const arguments *given, render_work *w)
         return complain(name, "--sampler is of one picture, --compare of several; leave one out"), 0;
     if (compared == 1)
         return complain(name, "--compare takes two samplers at least"), 0;
-    w->ways.run = (film_run){.threads = (unsigned)threads, .seed = seed};
-    w->ways.has_equal_time = option_choice(given, "--equal", 0) == 0;
-    w->ways.count = compared ? compared : 1;
-    for (size_t k = 0; k < w->ways.count; k++)
-        w->ways.way[k].sampler = (path_sampler)sampler[k];
+    *c = (comparison){.count = compared ? compared : 1, .threads = (unsigned)threads, .seed = seed};
+    c->has_equal_time = option_choice(given, "--equal", 0) == 0;
+    for (size_t k = 0; k < c->count; k++)
+        c->way[k].sampler = (path_sampler)sampler[k];
     if (!w->path)
         return compared || (complain(name, "-o OUT.png or -o OUT.pfm is missing"), 0);
     if (output_is_stdout(w->path) && (compared || w->form == FIGURES_JSON))
@@ -84,8 +80,6 @@ static int read_words(const arguments *given, render_work *w)
     w->is_pfm = output_form(name, w->path, forms);
     return w->is_pfm >= 0;
 }
-
-/* ---- figures ---- */
 
 /* For people "1.32+-0.01" under the first heading; in JSON two numbers. */
 static void add_measured(figures *t, const char *heading, const char *spread, const measured *m, int has_json)
@@ -156,8 +150,8 @@ static int tell(const render_work *w, int is_whole)
     if (w->form == FIGURES_TEXT) {
         printf("%d x %d pixels, %llu samples each%s\n", f->width, f->height, (unsigned long long)f->samples,
                is_whole ? "" : " (interrupted)");
-        printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->run.threads,
-               c->run.threads == 1 ? "" : "s", paths / seconds, (double)f->counts.rays / paths);
+        printf("%.3g s on %u thread%s: %.3g paths/s, %.3g rays a path\n", seconds, c->threads,
+               c->threads == 1 ? "" : "s", paths / seconds, (double)f->counts.rays / paths);
         if (f->counts.lost)
             printf("%llu samples were not finite and count as black\n", (unsigned long long)f->counts.lost);
     }
@@ -166,65 +160,41 @@ static int tell(const render_work *w, int is_whole)
     return status;
 }
 
-/* ---- rendering ---- */
-
-/* 0 if it was stopped, or there is no memory. */
-static int render_ways(comparison *c, const scene *s, int is_quiet)
+static int save(render_work *w)
 {
-    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", is_quiet);
-    int is_whole = 1;
-    line.tells_left = 1;
-    c->run.progress = progress_show;
-    c->run.user = &line;
-    for (size_t i = 0; i < c->count && is_whole; i++)
-        is_whole = film_make(&c->way[i].film, s->width, s->height);
-    is_whole = is_whole && comparison_run(c);
-    progress_end(&line);
-    return is_whole;
-}
-
-static int save(render_work *w, float exposure)
-{
-    const comparison *c = &w->ways;
     image made;
-    const float by = w->exposure > 0 ? (float)w->exposure : exposure;
-    if (!(c->count > 1 ? comparison_image(c, w->is_pfm ? 1.0f : by, &made) : film_image(&c->way[0].film, &made)))
-        return output_give_up(&w->output, "no memory for the picture");
-    int is_written = w->is_pfm ? image_write_pfm(w->output.file, &made)
-                               : image_write_png(w->output.file, &made, c->count > 1 ? 1.0f : by);
+    int is_made = comparison_image(&w->ways, w->is_pfm ? 1.0f : (float)w->exposure, &made);
+    if (is_made && !(w->is_pfm ? image_write_pfm : image_write_png)(w->output.file, &made))
+        is_made = ferror(w->output.file); /* which is told by closing */
     image_free(&made);
-    return is_written || ferror(w->output.file) /* which is told by closing */
-               ? output_commit(&w->output)
-               : output_give_up(&w->output, "no memory for the picture");
+    return is_made ? output_commit(&w->output) : output_give_up(&w->output, "no memory for the picture");
 }
 
 /* With a picture, which is open, or figures alone. */
-static int render(render_work *w, scene *s)
+static int render(render_work *w)
 {
-    vndf_error error = {VNDF_OK, ""};
     comparison *c = &w->ways;
-    int is_ready = !w->width || scene_resize(s, (int)w->width, &error);
-    c->run.samples = w->spp ? w->spp : s->samples;
-    for (size_t i = 0; i < c->count && is_ready; i++)
-        is_ready = (c->way[i].plan = path_prepare(s, c->way[i].sampler, &error)) != NULL;
-    const int is_whole = is_ready && render_ways(c, s, w->form == FIGURES_NONE);
-    if (!is_whole && (c->count > 1 || !c->way[0].film.samples)) {
-        complain(name, "%s",
-                 !is_ready           ? error.message
-                 : output_stopping() ? "interrupted; nothing was written"
-                                     : "no memory for the films");
+    progress line = progress_begin(c->count > 1 ? "comparing" : "rendering", w->form == FIGURES_NONE);
+    line.tells_left = 1;
+    c->progress = progress_show;
+    c->user = &line;
+    const int is_whole = comparison_run(c);
+    progress_end(&line);
+    if (!is_whole && c->count > 1) {
+        complain(name, "interrupted; nothing was written");
         return w->path ? output_give_up(&w->output, NULL) : STATUS_USE;
     }
     const int status = w->path && !w->output.path ? STATUS_GOOD : tell(w, is_whole);
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */
-    const int saved = w->path ? save(w, s->exposure) : STATUS_GOOD;
+    const int saved = w->path ? save(w) : STATUS_GOOD;
     return saved != STATUS_GOOD ? saved : status;
 }
 
 static int run(const arguments *given)
 {
-    vndf_error error;
+    vndf_error error = {VNDF_OK, ""};
     render_work w;
+    int status = STATUS_USE;
     if (option_value(given, "--grammar"))
         return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
     if (!given->positional.count)
@@ -232,13 +202,14 @@ static int run(const arguments *given)
     if (!read_words(given, &w))
         return STATUS_USE;
     scene *s = scene_read(given->positional.item[0], &error);
-    if (!s)
-        return complain(name, "%s", error.message);
-    int status = !w.path || output_open(&w.output, name, w.path) ? render(&w, s) : STATUS_USE;
-    for (size_t i = 0; i < w.ways.count; i++) {
-        free(w.ways.way[i].plan);
-        film_free(&w.ways.way[i].film);
+    if (!s || (w.width && !scene_resize(s, (int)w.width, &error)) || !comparison_begin(&w.ways, s, &error))
+        complain(name, "%s", error.message);
+    else if (!w.path || output_open(&w.output, name, w.path)) {
+        w.ways.samples = w.samples ? w.samples : s->samples;
+        w.exposure = w.exposure > 0 ? w.exposure : (double)s->exposure;
+        status = render(&w);
     }
+    comparison_end(&w.ways);
     scene_free(s);
     return status;
 }

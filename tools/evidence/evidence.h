@@ -134,7 +134,7 @@ vndf_status evidence_list(evidence *to);
 
 /* Whether the results of a method, or of its batch by a set of instructions, are right: unit normals above the surface
  * that face wi (where the method says so), densities positive and finite, the same bits as of single calls where that
- * is promised; of materials samples, values and densities that agree. BEST stands for single calls. */
+ * is promised; of materials samples that are sane. BEST stands for single calls. */
 int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed);
 
 /* What a few samples of a method from one direction show, roughness 1/2 at the scale of the reference. */
@@ -149,8 +149,8 @@ typedef struct findings {
 findings worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
                           block *b);
 
-/* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
-int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      double found[COLUMNS]);
+/* Fills mean, noise, lost, weight and variance from `blocks` blocks. */
+void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
+                       double found[COLUMNS]);
 
 #endif

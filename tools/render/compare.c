@@ -1,6 +1,8 @@
 #include "render/film.h"
 
-enum { TURNS = 16, BLOCK = 16, GAP = 4 };
+#include <stdlib.h>
+
+enum { TURNS = 16, PASS_PATHS = 32768, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,
  * since the noise of a block with fireflies is underestimated. */
@@ -10,35 +12,52 @@ const char *const verdict_names[3] = {"same", "differs", "unknown"};
 
 /* ---- rendering ---- */
 
-/* How far all ways are, whatever is done of a pass of one of several. */
-static int tell(double done, const char *what, void *user)
+int comparison_begin(comparison *c, const scene *s, vndf_error *error)
 {
-    const comparison *c = user;
-    double whole = 0;
-    for (size_t i = 0; i < c->count; i++)
-        whole += fmin((double)c->way[i].film.samples / (double)c->run.samples, 1) / (double)c->count;
-    return c->run.progress ? c->run.progress(c->count == 1 ? done : whole, what, c->run.user) : 0;
+    for (size_t i = 0; i < c->count; i++) {
+        if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, error)))
+            return 0;
+        if (!film_make(&c->way[i].film, s->width, s->height))
+            return refuse_at(error, "film", 0, 0, "there is no memory for %d x %d pixels", s->width, s->height);
+    }
+    return 1;
+}
+
+void comparison_end(comparison *c)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        free(c->way[i].plan);
+        film_free(&c->way[i].film);
+    }
+}
+
+/* Small films take several samples in a pass, so that starting threads does not dominate the time. */
+static uint64_t pass_samples(const film *f)
+{
+    const uint64_t samples = PASS_PATHS / film_pixels(f);
+    return samples > 1 ? samples : 1;
 }
 
 int comparison_run(comparison *c)
 {
     const film *first = &c->way[0].film;
-    const uint64_t all = c->run.samples, part = c->count == 1 ? all : all < TURNS ? 1 : all / TURNS;
-    film_run run = c->run;
-    run.progress = tell;
-    run.user = c;
-    while (first->samples < all)
+    const uint64_t part = c->samples < TURNS ? 1 : c->samples / TURNS, most = pass_samples(first);
+    for (uint64_t until = 0; until < c->samples;) {
+        until = part < c->samples - until ? until + part : c->samples;
         for (size_t i = 0; i < c->count; i++) {
             film *f = &c->way[i].film;
-            run.seed = c->run.seed + i * 0x9E3779B97F4A7C15u;
-            run.samples = part < all - f->samples ? part : all - f->samples;
-            const uint64_t until = i ? first->samples : f->samples + run.samples;
             const int by_time = i && c->has_equal_time;
-            run.samples = by_time ? film_pass_samples(f) : run.samples;
-            while (by_time ? f->processor < first->processor : f->samples < until)
-                if (!film_render(f, c->way[i].plan, &run))
+            while (by_time ? f->processor < first->processor : f->samples < until) {
+                const uint64_t samples = by_time || most < until - f->samples ? most : until - f->samples;
+                double done = 0;
+                film_add(f, c->way[i].plan, samples, c->threads, c->seed + i * 0x9E3779B97F4A7C15u);
+                for (size_t k = 0; k < c->count; k++)
+                    done += fmin((double)c->way[k].film.samples / (double)c->samples, 1) / (double)c->count;
+                if (c->progress && c->progress(done, NULL, c->user) && done < 1)
                     return 0;
+            }
         }
+    }
     return 1;
 }
 
@@ -151,7 +170,8 @@ void comparison_find(const comparison *c, finding found[SAMPLERS])
 int comparison_image(const comparison *c, float exposure, image *made)
 {
     const film *of = &c->way[0].film;
-    if (!image_make(made, (of->width + GAP) * (int)c->count - GAP, 2 * of->height + GAP))
+    const int rows = c->count > 1 ? 2 * of->height + GAP : of->height; /* of one film the noise is not shown */
+    if (!image_make(made, (of->width + GAP) * (int)c->count - GAP, rows))
         return 0;
     for (size_t i = 0; i < 3 * (size_t)made->width * (size_t)made->height; i++)
         made->rgb[i] = 1.0f; /* the gaps */
@@ -165,7 +185,9 @@ int comparison_image(const comparison *c, float exposure, image *made)
             const double grey = 0.5 * log10(fmax(100 * error, 1)); /* of one sample NaN, and black */
             for (size_t k = 0; k < 3; k++) {
                 image_pixel(made, x, y)[k] = exposure * (float)(f->sum[3 * at + k] / (double)f->samples);
-                image_pixel(made, x, f->height + GAP + y)[k] = (float)fmin(grey * grey, 1); /* even to the eye */
+                if (c->count > 1)
+                    image_pixel(made, x, f->height + GAP + y)[k] =
+                        (float)fmin(grey * grey, 1); /* even to the eye */
             }
         }
     }

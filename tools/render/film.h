@@ -50,19 +50,8 @@ static inline size_t film_pixels(const film *f)
 int film_make(film *f, int width, int height);
 void film_free(film *f);
 
-typedef struct film_run {
-    uint64_t samples; /* a pixel, to add */
-    unsigned threads;
-    uint64_t seed;
-    vndf_progress *progress; /* a result other than 0 stops after the pass; may be NULL */
-    void *user;
-} film_run;
-
-/* Adds samples. Returns 0 if it was stopped early; the film then holds the complete passes. */
-int film_render(film *f, const path_plan *plan, const film_run *run);
-
-/* Samples a pixel in one pass. */
-uint64_t film_pass_samples(const film *f);
+/* Adds samples to each pixel, by so many threads, at most 256. */
+void film_add(film *f, const path_plan *plan, uint64_t samples, unsigned threads, uint64_t seed);
 
 /* The number of threads that the machine runs at once, 1 to 256. */
 unsigned film_processors(void);
@@ -70,9 +59,6 @@ unsigned film_processors(void);
 /* The luminance of a pixel, and the variance of that mean: not known (NaN) of less than two samples. */
 double film_light(const film *f, size_t pixel);
 double film_variance(const film *f, size_t pixel);
-
-/* The mean. 0 if there is no memory. */
-int film_image(const film *f, image *made);
 
 /* ---- samplers side by side ---- */
 
@@ -88,10 +74,19 @@ typedef struct comparison {
     way way[SAMPLERS];
     size_t count;
     int has_equal_time;
-    film_run run; /* of the first way; each way has its own numbers */
+    uint64_t samples; /* a pixel, of the first way */
+    unsigned threads;
+    uint64_t seed;           /* each way has its own numbers */
+    vndf_progress *progress; /* a result other than 0 stops; may be NULL */
+    void *user;
 } comparison;
 
-/* Renders the ways in turns, so that a busy machine slows all of them alike. 0 if it was stopped. */
+/* Makes plans and films of the ways, of samplers that are given; 0 and an error. To be ended in both cases. */
+int comparison_begin(comparison *c, const scene *s, vndf_error *error);
+void comparison_end(comparison *c);
+
+/* Renders the ways in turns, so that a busy machine slows all of them alike. 0 if it was stopped: the films then hold
+ * the passes that are complete. */
 int comparison_run(comparison *c);
 
 typedef struct measured {
@@ -126,8 +121,8 @@ typedef struct finding {
 
 void comparison_find(const comparison *c, finding found[SAMPLERS]);
 
-/* A sheet: the films of all ways side by side, and below them the noise of each pixel, beside its light, from 1%
- * (black) to 100% (white) by its logarithm. 0 if there is no memory. */
+/* The film of one way; or a sheet: those of all ways side by side, and below them the noise of each pixel, beside its
+ * light, from 1% (black) to 100% (white) by its logarithm. 0 if there is no memory. */
 int comparison_image(const comparison *c, float exposure, image *made);
 
 #endif

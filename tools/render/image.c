@@ -219,14 +219,14 @@ static unsigned char srgb(float linear)
     return (unsigned char)(255.0f * encoded + 0.5f);
 }
 
-int image_write_png(FILE *file, const image *written, float exposure)
+int image_write_png(FILE *file, const image *written)
 {
     size_t count = (size_t)written->width * (size_t)written->height * 3;
     unsigned char *rgb = malloc(count);
     if (!rgb)
         return 0;
     for (size_t i = 0; i < count; i++)
-        rgb[i] = srgb(exposure * written->rgb[i]);
+        rgb[i] = srgb(written->rgb[i]);
     int good = png_write(file, rgb, (size_t)written->width, (size_t)written->height, NULL);
     free(rgb);
     return good && fflush(file) == 0 && !ferror(file);

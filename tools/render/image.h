@@ -39,9 +39,9 @@ int image_read_pfm(image *made, const char *path, vndf_error *error);
 /* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
 int image_make_pattern(image *made, const char *name, int width, int height, vndf_error *error);
 
-/* Writes to an open file; 0 if that fails. `exposure` multiplies before sRGB; values are clamped to [0, 1]. */
+/* Writes to an open file; 0 if that fails. In a PNG numbers are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
-int image_write_png(FILE *file, const image *image, float exposure);
+int image_write_png(FILE *file, const image *image);
 
 /* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Control
  * characters become '?'. Returns 0. */

@@ -41,13 +41,15 @@ static double pixel_light(const image *map, int x, int y)
     return sum;
 }
 
-/* Divides sums by the last of them; 0: all are 0. */
-static int normalise(float *sums, int count)
+static double row_top(const image *map, size_t y)
 {
-    const float all = sums[count - 1];
-    for (int i = 0; i < count; i++)
-        sums[i] = all > 0.0f ? fminf(sums[i] / all, 1.0f) : (float)(i + 1) / (float)count;
-    return all > 0.0f;
+    return cos(PI * (double)y / map->height);
+}
+
+/* The part of the sphere that a pixel fills. */
+static double pixel_part(const image *map, size_t y)
+{
+    return (row_top(map, y) - row_top(map, y + 1)) / (2.0 * map->width);
 }
 
 /* 0 if there is no memory. An image is drawn if the mean square of its light is `even` times the square of its mean:
@@ -55,70 +57,50 @@ static int normalise(float *sums, int count)
 static int sum_up(environment *e)
 {
     static const double even = 2;
-    const size_t width = (size_t)e->map->width, height = (size_t)e->map->height;
-    double all = 0, square = 0, area = 0;
-    e->rows = calloc(height, sizeof *e->rows);
-    e->cells = calloc(width * height, sizeof *e->cells);
-    const int is_made = e->rows && e->cells;
-    for (size_t y = 0; y < height && is_made; y++) {
-        const double sine = sin(PI * ((double)y + 0.5) / (double)height);
-        float *row = e->cells + y * width;
-        double sum = 0;
-        for (size_t x = 0; x < width; x++) {
-            const double here = pixel_light(e->map, (int)x, (int)y);
-            row[x] = (float)(sum += here);
-            square += here * here * sine;
-        }
-        normalise(row, e->map->width);
-        e->rows[y] = (float)(all += sum * sine);
-        area += sine * (double)width;
+    const size_t width = (size_t)e->map->width, count = width * (size_t)e->map->height;
+    double sum = 0, square = 0;
+    e->sums = malloc(count * sizeof *e->sums);
+    for (size_t i = 0; i < count && e->sums; i++) {
+        const double here = pixel_light(e->map, (int)(i % width), (int)(i / width));
+        const double part = pixel_part(e->map, i / width);
+        e->sums[i] = sum += here * part;
+        square += here * here * part;
     }
-    if (is_made && (!normalise(e->rows, e->map->height) || square * area < even * all * all)) {
-        free(e->rows);
-        e->rows = NULL;
+    for (size_t i = 0; i < count && e->sums; i++)
+        e->sums[i] /= sum;
+    const int is_made = e->sums != NULL;
+    if (is_made && !(sum > 0 && square >= even * sum * sum)) {
+        free(e->sums);
+        e->sums = NULL;
     }
     return is_made;
 }
 
-static double row_top(const image *map, int y)
+static double pixel_density(const environment *e, size_t i)
 {
-    return cos(PI * y / map->height);
+    const double chance = e->sums[i] - (i ? e->sums[i - 1] : 0);
+    return chance / (4 * PI * pixel_part(e->map, i / (size_t)e->map->width));
 }
 
-static double pixel_density(const environment *e, int x, int y)
+/* The pixel of the first sum above u, which gives the place across it, too. */
+static int draw_environment(const environment *e, double u, double v, light_sample *sample)
 {
-    const float *row = e->cells + (size_t)y * (size_t)e->map->width;
-    const double of_row = (double)(e->rows[y] - (y ? e->rows[y - 1] : 0.0f));
-    const double of_pixel = (double)(row[x] - (x ? row[x - 1] : 0.0f));
-    return of_row * of_pixel * e->map->width / (2 * PI * (row_top(e->map, y) - row_top(e->map, y + 1)));
-}
-
-/* The first sum above *u; *u becomes the place in its part. */
-static int draw_part(const float *sums, int count, double *u)
-{
-    int low = 0, high = count - 1;
+    const size_t width = (size_t)e->map->width;
+    size_t low = 0, high = width * (size_t)e->map->height - 1;
     while (low < high) {
-        const int middle = (low + high) / 2;
-        if ((double)sums[middle] > *u)
+        const size_t middle = (low + high) / 2;
+        if (e->sums[middle] > u)
             high = middle;
         else
             low = middle + 1;
     }
-    const double before = low ? (double)sums[low - 1] : 0;
-    *u = fmin((*u - before) / ((double)sums[low] - before), 1);
-    return low;
-}
-
-static int draw_environment(const environment *e, double u, double v, light_sample *sample)
-{
-    const int y = draw_part(e->rows, e->map->height, &v);
-    const int x = draw_part(e->cells + (size_t)y * (size_t)e->map->width, e->map->width, &u);
-    const double height = row_top(e->map, y) + v * (row_top(e->map, y + 1) - row_top(e->map, y));
-    const double longitude = 2 * PI * ((x + u) / e->map->width - 0.5 - e->turn);
+    const double before = low ? e->sums[low - 1] : 0, across = (u - before) / (e->sums[low] - before);
+    const double top = row_top(e->map, low / width), height = top + v * (row_top(e->map, low / width + 1) - top);
+    const double longitude = 2 * PI * (((double)(low % width) + across) / e->map->width - 0.5 - e->turn);
     const double sine = sqrt(fmax(1 - height * height, 0));
     sample->direction = vec(sine * sin(longitude), height, -sine * cos(longitude));
     sample->distance = HUGE_VAL;
-    sample->density = e->part * pixel_density(e, x, y);
+    sample->density = e->part * pixel_density(e, low);
     environment_radiance(e, sample->direction, sample->radiance);
     return sample->density > 0;
 }
@@ -181,7 +163,7 @@ int lights_make(scene *s)
     }
     if (s->environment.map && !sum_up(&s->environment))
         return 0;
-    s->environment.part = !s->environment.rows ? 0 : s->light_count ? 0.5 : 1;
+    s->environment.part = !s->environment.sums ? 0 : s->light_count ? 0.5 : 1;
     for (size_t i = 0; i < s->light_count; i++)
         s->lights[i].part *= (1 - s->environment.part) / power;
     return 1;
@@ -189,7 +171,7 @@ int lights_make(scene *s)
 
 int lights_any(const scene *s)
 {
-    return s->light_count > 0 || s->environment.rows != NULL;
+    return s->light_count > 0 || s->environment.sums != NULL;
 }
 
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample)
@@ -214,9 +196,10 @@ double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h)
     for (size_t i = 0; i < s->light_count && h; i++)
         if (s->lights[i].shape == h->shape)
             return s->lights[i].part * shape_density(h->shape, place, direction, h->place);
-    if (h || !e->rows)
+    if (h || !e->sums)
         return 0;
     place_in_image(e, direction, &u, &v);
-    return e->part * pixel_density(e, (int)fmin(u * e->map->width, e->map->width - 1),
-                                   (int)fmin(v * e->map->height, e->map->height - 1));
+    const int x = (int)fmin(u * e->map->width, e->map->width - 1);
+    const int y = (int)fmin(v * e->map->height, e->map->height - 1);
+    return e->part * pixel_density(e, (size_t)y * (size_t)e->map->width + (size_t)x);
 }

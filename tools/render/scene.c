@@ -732,8 +732,7 @@ void scene_free(scene *s)
         image_free(&s->images[i]);
     for (size_t i = 0; i < s->table_count; i++)
         vndf_free(s->tables[i]);
-    free(s->environment.rows);
-    free(s->environment.cells);
+    free(s->environment.sums);
     geometry_free(&s->geometry);
     free(s);
 }

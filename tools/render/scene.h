@@ -35,15 +35,14 @@ typedef struct emitter {
 } emitter;
 
 /* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
- * drawn from its pixels, by their light: `rows` has sums over rows, `cells` in each row sums over pixels, each up
- * to 1. */
+ * drawn from its pixels, by their light, of which `sums` has the sum up to each, the last one 1. */
 typedef struct environment {
     float constant[3];
     const image *map; /* NULL: the constant */
     float scale;
-    double turn;         /* a part of a full turn */
-    float *rows, *cells; /* rows NULL: it is not drawn */
-    double part;         /* how likely it is */
+    double turn;  /* a part of a full turn */
+    double *sums; /* NULL: it is not drawn */
+    double part;  /* how likely it is */
 } environment;
 
 typedef struct scene {

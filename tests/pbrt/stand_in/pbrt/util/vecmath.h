@@ -1,0 +1,20 @@
+/* As much of pbrt-v4's vectors as tools/pbrt needs, written for its test; pbrt has its own. */
+#ifndef STAND_IN_PBRT_UTIL_VECMATH_H
+#define STAND_IN_PBRT_UTIL_VECMATH_H
+
+namespace pbrt
+{
+
+using Float = float;
+
+struct Point2f {
+    Float x, y;
+};
+
+struct Vector3f {
+    Float x, y, z;
+};
+
+} // namespace pbrt
+
+#endif
