@@ -271,8 +271,8 @@ static int read_number(reader *r, const key *k, const word *at, double *number)
            refuse(r, at, "%s is %.9g, it must be a whole number", k->name, *number);
 }
 
-/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `at` on. A keyword ends what may be
- * left out; values that have to be there are taken as they are, since a name may look like a keyword. */
+/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `at` on. A keyword ends what may
+ * be left out; values that have to be there are taken as they are, since a name may look like a keyword. */
 static int read_clauses(reader *r, size_t at, const char *of, const char *also)
 {
     const word *const begin = &r->list[at - 1], *const end = &r->list[r->count];
