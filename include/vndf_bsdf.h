@@ -98,9 +98,9 @@ VNDF_API void vndf_albedo_free(vndf_albedo *albedo);
  * below a cosine of 5e-5 times the median slope, E is that at this cosine.) */
 VNDF_API float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alpha);
 
-/* E_avg = 2 integral_0^1 E mu dmu of the E that vndf_albedo_directional returns, so that lobes made of both keep the
- * energy, within 1e-4. `side` >= 0: the side of z; < 0: the other one. */
-VNDF_API float vndf_albedo_average(const vndf_albedo *albedo, float alpha, int side);
+/* E_avg = 2 integral_0^1 E mu dmu of the E that vndf_albedo_directional returns for the side of z, so that lobes made
+ * of both keep the energy, within 1e-4. */
+VNDF_API float vndf_albedo_average(const vndf_albedo *albedo, float alpha);
 
 /* ---- effects ------------------------------------------------------------------------------------ */
 
@@ -148,11 +148,10 @@ typedef enum vndf_scattering {
      * E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection is scaled by 1 + F0
      * (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
     VNDF_SCATTERING_TURQUIN,
-    /* The same by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with
-     * F_ms = F_avg^2 E_avg/(1 - F_avg (1 - E_avg)) (Kulla & Conty 2017). Of both lobes F_ms is 1, and the part
-     * (1 - F_avg) min/(1 - E_avg) is transmitted, where min is the smaller 1 - E_avg of the two sides, and spread
-     * by E and E_avg of the other side. f is reciprocal. A sample takes this lobe as often as light does; wm is
-     * then 0. Where 1 - E_avg is below 1e-5, on smooth surfaces, Turquin's factor takes its place. */
+    /* The same for reflection alone by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with
+     * F_ms = F_avg^2 E_avg/(1 - F_avg (1 - E_avg)) (Kulla & Conty 2017). f is reciprocal. A sample takes this lobe as
+     * often as light does; wm is then 0. Where 1 - E_avg is below 1e-5, on smooth surfaces, Turquin's factor takes its
+     * place. */
     VNDF_SCATTERING_KULLA_CONTY
 } vndf_scattering;
 
@@ -229,7 +228,7 @@ typedef struct vndf_material {
     struct {
         const struct vndf_routines *routines; /* of its scattering */
         vndf_affine surface;                  /* of hits that bring none */
-        float cos_rotation, sin_rotation;     /* of hits that bring a roughness alone */
+        vndf_roughness rough;                 /* of hits that bring no rotation */
         double per_wavelength;                /* one over their number */
         float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
         float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
@@ -248,10 +247,8 @@ VNDF_API vndf_status vndf_material_resolve(const vndf_description *description, 
 struct vndf_compensation {
     float alpha;
     float gain[VNDF_WAVELENGTHS];   /* of single scattering */
-    float lost;                     /* Kulla & Conty: 1 - E(wi), */
-    float per, beyond;              /* 1/(pi (1 - E_avg)) of this side and of the other, */
+    float lost, per;                /* Kulla & Conty: 1 - E(wi), 1/(pi (1 - E_avg)), */
     float share;                    /* the part of the samples, */
-    float reflected;                /* the part of that which stays on this side, */
     float near, per_log;            /* how its cosines are drawn, */
     float colour[VNDF_WAVELENGTHS]; /* F_ms */
 };
@@ -331,7 +328,7 @@ VNDF_API void vndf_bsdf_eval(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed,
  * importance sampling: positive wherever f is, with integral 1 over the directions above the horizon. */
 VNDF_API float vndf_bsdf_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
-/* Both at once, with the same bits. */
+/* Both at once, with the same bits; either of value and pdf may be NULL. */
 VNDF_API void vndf_bsdf_eval_pdf(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 
 /* The cosine of wo that f is multiplied by: wo.z, or n.wo where mean slopes tilt the surface. */
@@ -366,12 +363,9 @@ typedef struct vndf_scattered_n {
 } vndf_scattered_n;
 
 /* Element i equals, to the bit, the result of the call for one element. No array of results may overlap an array
- * of inputs. `seed` may be NULL unless the material is a random walk. */
+ * of inputs. `seed` may be NULL unless the material is a random walk; `value` or `pdf` for what is not asked. */
 VNDF_API void vndf_bsdf_sample_n(const vndf_bsdf_batch *batch, const float *const u[3],
                                  vndf_scattered_n scattered);
-VNDF_API void vndf_bsdf_eval_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
-                               float *const *value);
-VNDF_API void vndf_bsdf_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, float *pdf);
 VNDF_API void vndf_bsdf_eval_pdf_n(const vndf_bsdf_batch *batch, vndf_normals wo, const uint64_t *seed,
                                    float *const *value, float *pdf);
 

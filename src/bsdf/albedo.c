@@ -27,8 +27,8 @@ enum { COLUMNS = 32, ROWS = 24 };
 struct vndf_albedo {
     float eta, scale, from;        /* eta 0: a mirror; from: X */
     float value[2][ROWS][COLUMNS]; /* of light from the side of z, and from the other side of a dielectric */
-    float average[2][ROWS];
-    char source[]; /* of the distribution, as vndf_info has it */
+    float average[ROWS];           /* of light from the side of z */
+    char source[];                 /* of the distribution, as vndf_info has it */
 };
 
 static const float knee = 4.0f;  /* K */
@@ -95,12 +95,12 @@ float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alp
     return clamp(sum, 1.0f);
 }
 
-float vndf_albedo_average(const vndf_albedo *albedo, float alpha, int side)
+float vndf_albedo_average(const vndf_albedo *albedo, float alpha)
 {
     if (!albedo)
         return 1.0f;
     place y = row_of(albedo, slope_of(albedo, alpha));
-    return clamp(sum_at(albedo->average[albedo->eta > 0.0f && side < 0], &y), 1.0f);
+    return clamp(sum_at(albedo->average, &y), 1.0f);
 }
 
 /* ---- building ---- */
@@ -122,18 +122,6 @@ static double cosine_at(const vndf_albedo *albedo, int column, double alpha)
     double t = q > 0.0 ? (q * q) * (q * q) : 0.0, bent = (double)knee * (double)albedo->scale * alpha;
     double cosine = t * bent / (bent + (1.0 - t));
     return cosine < 1.0 ? cosine : 1.0;
-}
-
-/* 2 integral E mu dmu of the look-ups, by midpoints of the root of mu, since E changes most at small cosines. */
-static double average_of(const vndf_albedo *albedo, float side, float alpha)
-{
-    enum { NODES = 1024 };
-    double sum = 0.0;
-    for (int i = 0; i < NODES; i++) {
-        double root = (i + 0.5) / NODES, mu = root * root;
-        sum += mu * root * (double)vndf_albedo_directional(albedo, side * (float)mu, alpha);
-    }
-    return 4.0 * sum / NODES;
 }
 
 /* E from the side of z, or the other; `lobe` has a material of each lobe that light takes. */
@@ -161,13 +149,19 @@ static float kept_of(const vndf_material *lobe, int lobes, double cosine, double
 
 static void fill(vndf_albedo *albedo, const vndf_material *lobe, int lobes)
 {
-    for (int side = 0; side < lobes; side++)
-        for (int i = 0; i < ROWS; i++) {
-            double alpha = alpha_at(albedo, i);
-            for (int j = 0; j < COLUMNS; j++)
-                albedo->value[side][i][j] = kept_of(lobe, lobes, cosine_at(albedo, j, alpha), alpha, side);
-            albedo->average[side][i] = (float)average_of(albedo, side ? -1.0f : 1.0f, (float)alpha);
+    enum { NODES = 1024 }; /* of E_avg: midpoints of the root of mu, since E changes most at small cosines */
+    for (int i = 0; i < ROWS; i++) {
+        double alpha = alpha_at(albedo, i), sum = 0.0;
+        for (int j = 0; j < COLUMNS * lobes; j++) {
+            int side = j / COLUMNS, column = j % COLUMNS;
+            albedo->value[side][i][column] = kept_of(lobe, lobes, cosine_at(albedo, column, alpha), alpha, side);
         }
+        for (int n = 0; n < NODES; n++) {
+            double root = (n + 0.5) / NODES, mu = root * root;
+            sum += mu * root * (double)vndf_albedo_directional(albedo, (float)mu, (float)alpha);
+        }
+        albedo->average[i] = (float)(4.0 * sum / NODES);
+    }
 }
 
 vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error)

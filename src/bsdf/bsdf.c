@@ -11,74 +11,50 @@ static int nothing(vndf_bsdf *b, const vndf_material *material)
     return 0;
 }
 
-/* A refused material has no routines. */
-static int may_scatter(const vndf_material *material, vndf_vec3 wi)
+/* Of a mixture, or of a surface where that is NULL. A refused material has no routines, an invalid view no area. */
+VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_affine *surface, const vndf_mixture *mixture,
+                    vndf_vec3 wi)
 {
-    return material->own.routines && vndf_is_near_unit(wi);
-}
-
-/* The side of wi and what hangs on it. */
-VNDF_INLINE void take_side(vndf_bsdf *b, const vndf_material *material, vndf_vec3 wi, int below)
-{
-    b->material = material;
-    b->own.side = 1.0f;
-    b->own.eta = b->own.carried = 1.0;
-    if (material->own.two_sided) {
-        b->own.side = below ? -1.0f : 1.0f;
-        b->own.eta = below ? 1.0 / (double)material->is.eta : (double)material->is.eta;
-        b->own.carried =
-            material->is.effects.transport == VNDF_TRANSPORT_RADIANCE ? 1.0 / (b->own.eta * b->own.eta) : 1.0;
+    struct vndf_hit_view *view = &b->own.view;
+    int is_plain = 0, below;
+    if (!m->own.routines || !vndf_is_near_unit(wi))
+        return nothing(b, m);
+    b->material = m;
+    if (mixture) {
+        view->kind = VNDF_HIT_MIXTURE;
+        view->of.mixture = vndf_mixture_view_from(mixture, wi); /* which says which side wi is on */
+        below = vndf_mixture_view_cosine(&view->of.mixture, wi) < 0.0f;
+    } else {
+        b->own.surface = *surface;
+        view->kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
+        is_plain = view->kind == VNDF_HIT_LEVEL && surface->xy == 0.0f && surface->yx == 0.0f &&
+                   surface->xx > 0.0f && surface->yy > 0.0f;
+        below = wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y;
     }
+    b->own.side = below && m->own.two_sided ? -1.0f : 1.0f;
+    b->own.eta = !m->own.two_sided ? 1.0 : below ? 1.0 / (double)m->is.eta : (double)m->is.eta;
+    b->own.carried = m->own.two_sided && m->is.effects.transport == VNDF_TRANSPORT_RADIANCE
+                         ? 1.0 / (b->own.eta * b->own.eta)
+                         : 1.0;
     b->own.wi = vndf_turned(wi, b->own.side);
-}
-
-/* Of a view that is formed; an invalid one has no area. */
-VNDF_INLINE int complete(vndf_bsdf *b, const vndf_material *material)
-{
-    b->own.tilt = 1.0f;
+    if (!mixture)
+        vndf_view_make(&view->of.one, &b->own.surface, b->own.wi, is_plain);
+    else if (b->own.side < 0.0f)
+        view->of.mixture = vndf_mixture_view_from(mixture, b->own.wi);
+    b->own.rise = vndf_hit_cosine(view, b->own.wi);
+    b->own.area =
+        mixture ? vndf_mixture_view_area(&view->of.mixture, b->own.wi) : vndf_view_own_area(&view->of.one);
     if (!(b->own.rise > 0.0f) || !(b->own.area > 0.0f))
-        return nothing(b, material);
-    if (b->own.view.kind != VNDF_HIT_LEVEL) {
-        float x = vndf_hit_cosine(&b->own.view, vndf_vec3_of(1.0f, 0.0f, 0.0f));
-        float y = vndf_hit_cosine(&b->own.view, vndf_vec3_of(0.0f, 1.0f, 0.0f));
+        return nothing(b, m);
+    b->own.tilt = 1.0f;
+    if (view->kind != VNDF_HIT_LEVEL) {
+        float x = vndf_hit_cosine(view, vndf_vec3_of(1.0f, 0.0f, 0.0f));
+        float y = vndf_hit_cosine(view, vndf_vec3_of(0.0f, 1.0f, 0.0f));
         b->own.tilt = sqrtf(1.0f + (x * x + y * y));
     }
-    if (vndf_compensates(&material->is.effects))
+    if (vndf_compensates(&m->is.effects))
         vndf_compensation_prepare(b);
     return 1;
-}
-
-static int hit_surface(vndf_bsdf *b, const vndf_material *material, const vndf_affine *surface, vndf_vec3 wi)
-{
-    if (!may_scatter(material, wi))
-        return nothing(b, material);
-    b->own.surface = *surface;
-    b->own.view.kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
-    take_side(b, material, wi, wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y);
-    int aligned = b->own.view.kind == VNDF_HIT_LEVEL && surface->xy == 0.0f && surface->yx == 0.0f;
-    vndf_view_make(&b->own.view.of.one, &b->own.surface, b->own.wi,
-                   aligned && surface->xx > 0.0f && surface->yy > 0.0f);
-    b->own.rise = vndf_hit_cosine(&b->own.view, b->own.wi);
-    b->own.area = vndf_view_own_area(&b->own.view.of.one);
-    return complete(b, material);
-}
-
-/* The view of a mixture says which side wi is on. */
-static int hit_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mixture *mixture, vndf_vec3 wi)
-{
-    vndf_mixture_view *view = &b->own.view.of.mixture;
-    if (!may_scatter(material, wi))
-        return nothing(b, material);
-    b->own.view.kind = VNDF_HIT_MIXTURE;
-    *view = vndf_mixture_view_from(mixture, wi);
-    if (!view->count)
-        return nothing(b, material);
-    take_side(b, material, wi, vndf_mixture_view_cosine(view, wi) < 0.0f);
-    if (b->own.side < 0.0f)
-        *view = vndf_mixture_view_from(mixture, b->own.wi);
-    b->own.rise = vndf_mixture_view_cosine(view, b->own.wi);
-    b->own.area = vndf_mixture_view_area(view, b->own.wi);
-    return complete(b, material);
 }
 
 int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf_affine *surface)
@@ -101,7 +77,7 @@ int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf
 int vndf_bsdf_at(vndf_bsdf *b, const vndf_material *material, vndf_vec3 wi)
 {
     return material->is.effects.shape == VNDF_SHAPE_MIXTURE ? vndf_bsdf_mixture(b, material, NULL, wi)
-                                                            : hit_surface(b, material, &material->own.surface, wi);
+                                                            : hit(b, material, &material->own.surface, NULL, wi);
 }
 
 int vndf_bsdf_rough(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi)
@@ -111,7 +87,7 @@ int vndf_bsdf_rough(vndf_bsdf *b, const vndf_material *material, const vndf_roug
         return vndf_bsdf_at(b, material, wi);
     if (material->is.effects.shape > VNDF_SHAPE_ROTATED || !vndf_surface_of(material, roughness, &surface))
         return nothing(b, material);
-    return hit_surface(b, material, &surface, wi);
+    return hit(b, material, &surface, NULL, wi);
 }
 
 int vndf_bsdf_affine(vndf_bsdf *b, const vndf_material *material, const vndf_affine *affine, vndf_vec3 wi)
@@ -125,7 +101,7 @@ int vndf_bsdf_affine(vndf_bsdf *b, const vndf_material *material, const vndf_aff
     surface.distribution = material->is.distribution;
     if (shape == VNDF_SHAPE_MATRIX)
         surface.mean_x = surface.mean_y = 0.0f;
-    return hit_surface(b, material, &surface, wi);
+    return hit(b, material, &surface, NULL, wi);
 }
 
 int vndf_bsdf_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mixture *mixture, vndf_vec3 wi)
@@ -133,7 +109,7 @@ int vndf_bsdf_mixture(vndf_bsdf *b, const vndf_material *material, const vndf_mi
     mixture = mixture ? mixture : material->is.mixture;
     if (material->is.effects.shape != VNDF_SHAPE_MIXTURE || !mixture)
         return nothing(b, material);
-    return hit_mixture(b, material, mixture, wi);
+    return hit(b, material, NULL, mixture, wi);
 }
 
 /* ---- calls on a hit ---- */
@@ -157,7 +133,7 @@ void vndf_bsdf_sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
         s->wo = turned_about(b, s->wo);
 }
 
-void vndf_bsdf_look(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
+void vndf_bsdf_eval_pdf(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
 {
     if (b->own.area > 0.0f && vndf_is_near_unit(wo) &&
         b->material->own.routines->eval(b, turned_about(b, wo), seed, value, pdf))
@@ -170,18 +146,13 @@ void vndf_bsdf_look(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *valu
 
 void vndf_bsdf_eval(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value)
 {
-    vndf_bsdf_look(b, wo, seed, value, NULL);
-}
-
-void vndf_bsdf_eval_pdf(const vndf_bsdf *b, vndf_vec3 wo, uint64_t seed, float *value, float *pdf)
-{
-    vndf_bsdf_look(b, wo, seed, value, pdf);
+    vndf_bsdf_eval_pdf(b, wo, seed, value, NULL);
 }
 
 float vndf_bsdf_pdf(const vndf_bsdf *b, vndf_vec3 wo)
 {
     float pdf;
-    vndf_bsdf_look(b, wo, 0, NULL, &pdf);
+    vndf_bsdf_eval_pdf(b, wo, 0, NULL, &pdf);
     return pdf;
 }
 

@@ -77,15 +77,11 @@ VNDF_INLINE int vndf_compensates(const vndf_effects *e)
 /* Whether a compensated material has the albedos of its distribution and eta; else an error (albedo.c). */
 vndf_status vndf_albedo_check(const vndf_description *is, vndf_error *error);
 
-/* Whether the numbers and the combination of effects make sense; else an error that names what does not. */
-vndf_status vndf_description_check(const vndf_description *is, vndf_error *error);
-
 /* The surface of a roughness; 0 if it is none. */
 int vndf_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
 
-/* bsdf.c: a lost sample; vndf_bsdf_eval_pdf, of which value and pdf may be NULL. */
+/* bsdf.c: a lost sample. */
 extern const vndf_scattered vndf_scattered_nothing;
-void vndf_bsdf_look(const vndf_bsdf *bsdf, vndf_vec3 wo, uint64_t seed, float *value, float *pdf);
 
 /* ---- a hit: one surface, level or tilted, or a mixture ---- */
 

@@ -54,17 +54,29 @@ float vndf_fresnel_schlick(float cosine, float f0)
     return (float)schlick(1.0 - cosine_of(cosine), f0);
 }
 
-/* How many wavelengths are told apart; all others have the values of the first. */
-static int colours_of(const vndf_material *m)
-{
-    vndf_fresnel fresnel = m->is.effects.fresnel;
-    return fresnel == VNDF_FRESNEL_NONE || fresnel == VNDF_FRESNEL_DIELECTRIC ? 1 : m->is.wavelengths;
-}
-
 /* A shape alone, which reflects all light: F is not asked for. */
 static int is_white(const vndf_material *m)
 {
     return m->is.effects.lobes == VNDF_LOBES_REFLECTION && m->is.effects.fresnel == VNDF_FRESNEL_NONE;
+}
+
+/* The part of the samples that a lobe takes. */
+VNDF_INLINE double share_of(const vndf_material *m, const double *f, int reflects)
+{
+    if (m->is.effects.lobes != VNDF_LOBES_BOTH)
+        return 1.0;
+    double mean = vndf_mean_of(m, f);
+    return reflects ? mean : 1.0 - mean;
+}
+
+/* What a lobe has of `whole` in each wavelength, over its share; all are as the first where F is one number. */
+VNDF_INLINE void colour(const vndf_material *m, const double *f, int reflects, double whole, double share,
+                        float *to)
+{
+    const vndf_fresnel fresnel = m->is.effects.fresnel;
+    const int alike = fresnel == VNDF_FRESNEL_NONE || fresnel == VNDF_FRESNEL_DIELECTRIC;
+    for (int i = 0; i < m->is.wavelengths; i++)
+        to[i] = i && alike ? to[0] : vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / share));
 }
 
 /* ---- masking and normals ---- */
@@ -120,8 +132,8 @@ VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
 
 /* ---- samples ---- */
 
-/* At a normal by one lobe, which has these parts of the light and takes `part` of the samples. */
-VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f, double part,
+/* By one lobe at a normal. */
+VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
                       const int reflects, vndf_scattered *s)
 {
     direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
@@ -131,14 +143,12 @@ VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosin
     if (!e.met || !(e.rise > 0.0))
         return 0;
     double whole = masked(b, &e, reflects) * e.rise * ((double)b->own.area * (double)n->weight);
-    const int count = b->material->is.wavelengths, colours = colours_of(b->material);
-    for (int i = 0; i < count; i++)
-        s->weight[i] =
-            i < colours ? vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part)) : s->weight[0];
+    double share = share_of(b->material, f, reflects);
     int straight = !reflects && b->own.eta == 1.0;
+    colour(b->material, f, reflects, whole, share, s->weight);
     s->wo = vndf_turned(up, reflects ? b->own.side : -b->own.side);
     s->wm = vndf_turned(n->wm, b->own.side);
-    s->density = straight ? 1.0f : vndf_positive(vndf_density_from((double)n->density * e.jacobian * part));
+    s->density = straight ? 1.0f : vndf_positive(vndf_density_from((double)n->density * e.jacobian * share));
     s->lobe = reflects ? VNDF_LOBE_REFLECTION : straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     return 1;
 }
@@ -146,18 +156,17 @@ VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosin
 /* Numbers outside [0, 1] do not choose what never happens. */
 int vndf_scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    const vndf_lobes lobes = b->material->is.effects.lobes;
+    const vndf_material *m = b->material;
     const direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
+    seen_cosine c = {dot_of(wi, wm), 0.0};
     double f[VNDF_WAVELENGTHS] = {1.0};
-    if (is_white(b->material))
-        return leave(b, n, (seen_cosine){dot_of(wi, wm), 0.0}, f, 1.0, 1, s);
-    const seen_cosine c = seen_cosine_of(wi, wm);
-    vndf_reflectances(b->material, c, b->own.eta, f);
-    double mean = lobes == VNDF_LOBES_BOTH ? vndf_mean_of(b->material, f) : 1.0;
-    if (lobes == VNDF_LOBES_REFLECTION ||
-        (lobes == VNDF_LOBES_BOTH && ((mean > 0.0 && u3 < mean) || !(mean < 1.0))))
-        return leave(b, n, c, f, mean, 1, s);
-    return leave(b, n, c, f, lobes == VNDF_LOBES_BOTH ? 1.0 - mean : 1.0, 0, s);
+    if (!is_white(m)) {
+        c = seen_cosine_of(wi, wm);
+        vndf_reflectances(m, c, b->own.eta, f);
+    }
+    double mean = share_of(m, f, 1);
+    int reflects = m->is.effects.lobes != VNDF_LOBES_TRANSMISSION && ((mean > 0.0 && u3 < mean) || !(mean < 1.0));
+    return reflects ? leave(b, n, c, f, 1, s) : leave(b, n, c, f, 0, s);
 }
 
 static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -168,11 +177,9 @@ static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 
 /* ---- values and densities ---- */
 
-/* Of one lobe; the density is its own times the part of the samples that take it. */
 VNDF_INLINE int look(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int reflects, float *value, float *pdf)
 {
     const vndf_material *m = b->material;
-    const vndf_lobes lobes = m->is.effects.lobes;
     direction from = vndf_direction(b->own.wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
     event e = reflects ? reflecting(from, to) : refracting(from, to, b->own.eta);
     if (!e.met)
@@ -182,20 +189,14 @@ VNDF_INLINE int look(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int re
     e.rise = rise;
     if (reflects && m->is.effects.fresnel == VNDF_FRESNEL_SCHLICK)
         e.rest = reflecting_rest(e, from, to);
-    if (!is_white(m) && (value || lobes == VNDF_LOBES_BOTH))
+    if (!is_white(m) && (value || m->is.effects.lobes == VNDF_LOBES_BOTH))
         vndf_reflectances(m, (seen_cosine){e.facing, e.rest}, b->own.eta, f);
     if (value) {
-        double g = masked(b, &e, reflects);
-        double shape = (double)b->own.tilt * (double)vndf_hit_ndf(&b->own.view, wm) * e.facing * e.jacobian * g;
-        const int count = m->is.wavelengths, colours = colours_of(m);
-        for (int i = 0; i < count; i++)
-            value[i] = i < colours ? vndf_density_from(shape * (reflects ? f[i] : 1.0 - f[i])) : value[0];
+        double ndf = (double)vndf_hit_ndf(&b->own.view, wm), g = masked(b, &e, reflects);
+        colour(m, f, reflects, (double)b->own.tilt * ndf * e.facing * e.jacobian * g, 1.0, value);
     }
-    if (pdf) {
-        double mean = lobes == VNDF_LOBES_BOTH ? vndf_mean_of(m, f) : 1.0;
-        double part = reflects || lobes != VNDF_LOBES_BOTH ? mean : 1.0 - mean;
-        *pdf = vndf_density_from(part * ((double)pdf_of(b, wm) * e.jacobian));
-    }
+    if (pdf)
+        *pdf = vndf_density_from(share_of(m, f, reflects) * ((double)pdf_of(b, wm) * e.jacobian));
     return 1;
 }
 

@@ -6,6 +6,15 @@
 #include "harness/test.h"
 #include "oracle/oracle_bsdf.h"
 
+/* Steps *i on to the next of the distributions that the arguments ask for, and opens it; 0 where there is no more. */
+static inline int bsdf_next(size_t *i, oracle_ndf *ndf, const char *const names[], size_t count, int arguments,
+                            char **argument)
+{
+    while (*i < count && !oracle_wanted(arguments, argument, *i, names[*i]))
+        ++*i;
+    return *i < count && TEST(oracle_ndf_open(ndf, names[*i]));
+}
+
 static inline float bsdf_pick(const float *from, size_t count, unsigned long long *state)
 {
     return from[(size_t)(test_uniform_double(state) * (double)count)];

@@ -104,11 +104,9 @@ int main(int arguments, char **argument)
         sets += (size_t)is_tried(&e);
     }
     double level = statistics_sidak(1e-3, KIND_COUNT * sets * SETTING_COUNT);
-    for (size_t n = 0; n < KIND_COUNT; n++) {
-        oracle_ndf ndf;
+    oracle_ndf ndf;
+    for (size_t n = 0; bsdf_next(&n, &ndf, names, KIND_COUNT, arguments, argument); n++) {
         size_t count = n;
-        if (!oracle_wanted(arguments, argument, n, names[n]) || !TEST(oracle_ndf_open(&ndf, names[n])))
-            continue;
         for (size_t i = 0; i < ORACLE_EFFECT_SETS; i++) {
             vndf_effects effects = oracle_effects(i);
             for (size_t k = 0; k < SETTING_COUNT && is_tried(&effects); k++)

@@ -297,10 +297,9 @@ int main(int arguments, char **argument)
     static const char *const names[] = {
         "ggx",     "beckmann",          "student-t-1.8", "hazy", "epd-0.6", "sgd-nickel-g", "student-t-2.5-small",
         "gtr-1.5", "abc-two-layer-gold"};
-    for (size_t i = 0; i < test_amount(4, 4, sizeof names / sizeof *names); i++) {
-        oracle_ndf ndf;
-        if (!oracle_wanted(arguments, argument, i, names[i]) || !TEST(oracle_ndf_open(&ndf, names[i])))
-            continue;
+    oracle_ndf ndf;
+    for (size_t i = 0;
+         bsdf_next(&i, &ndf, names, test_amount(4, 4, sizeof names / sizeof *names), arguments, argument); i++) {
         test_subject(&ndf, i);
         oracle_ndf_close(&ndf);
     }

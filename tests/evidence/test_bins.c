@@ -56,9 +56,8 @@ static void test_view(const view_case *at)
     const vndf_vec3 wi = oracle_direction(at->theta, at->phi);
     if (!TEST(table != NULL))
         return;
-    const vndf_affine shape = {table, at->alpha_x, 0, 0, at->alpha_y, 0, 0};
     const vndf_view view = vndf_view_from(&surface, wi);
-    const bins_sampler of = bins_of_view(&view, &shape, wi);
+    const bins_sampler of = bins_of_view(&view, &surface, wi);
     double slope[BINS_RINGS + 1];
     bins_place(&of, 7, slope);
     /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
@@ -81,10 +80,9 @@ static void test_view(const view_case *at)
 static void test_ends(void)
 {
     const vndf_surface surface = {vndf_ggx(), 1, 1};
-    const vndf_affine shape = {vndf_ggx(), 1, 0, 0, 1, 0, 0};
     const vndf_vec3 wi = oracle_direction(30, 0);
     const vndf_view view = vndf_view_from(&surface, wi);
-    const bins_sampler of = bins_of_view(&view, &shape, wi);
+    const bins_sampler of = bins_of_view(&view, &surface, wi);
     double slope[BINS_RINGS + 1];
     bins_place(&of, 7, slope);
     const bins_frame *f = &of.frame;

@@ -21,15 +21,13 @@ static void test_distribution(const vndf_distribution *d, const char *name, size
     TEST(result.samples > 30000);
     for (int id = 0; id < STRESS_COUNT; id++) {
         const stress_finding *found = &result.found[id];
-        const stress_point *p = &found->at;
-        if (!(TEST(found->failed == 0) & TEST(found->checked > 0)))
-            fprintf(
-                stderr,
-                "  %s: %zu of %zu fail, worst %g at alpha %.9g,%.9g wi %.9g %.9g %.9g u %.9g %.9g wo %.9g %.9g "
-                "%.9g\n",
-                stress_properties[id].name, found->failed, found->checked, found->worst,
-                (double)p->surface.alpha_x, (double)p->surface.alpha_y, (double)p->wi.x, (double)p->wi.y,
-                (double)p->wi.z, (double)p->u1, (double)p->u2, (double)p->wo.x, (double)p->wo.y, (double)p->wo.z);
+        if (TEST(found->failed == 0) & TEST(found->checked > 0))
+            continue;
+        fprintf(stderr, "  %s: %zu of %zu fail, worst %g at", stress_properties[id].name, found->failed,
+                found->checked, found->worst);
+        for (int i = 0; i < STRESS_NUMBERS; i++)
+            fprintf(stderr, " %s %.9g", stress_numbers[i], (double)found->number[i]);
+        fputc('\n', stderr);
     }
 }
 
@@ -77,12 +75,12 @@ static void test_pathological(void)
 static void test_notes(void)
 {
     stress_result result = {0};
-    stress_point first = {.u1 = 1}, second = {.u1 = 2};
+    const float first[STRESS_NUMBERS] = {1}, second[STRESS_NUMBERS] = {2};
     const stress_finding *found = &result.found[STRESS_G1];
-    TEST(stress_note(&result, STRESS_G1, 1e-7, &first) && found->failed == 0);
-    TEST(!stress_note(&result, STRESS_G1, 1e-4, &second) && found->failed == 1);
-    TEST(stress_note(&result, STRESS_G1, 0, &first) && found->worst == 1e-4 && found->at.u1 == 2);
-    TEST(!stress_note(&result, STRESS_G1, NAN, &first) && found->worst == INFINITY);
+    TEST(stress_note(&result, STRESS_G1, 1e-7, first) && found->failed == 0);
+    TEST(!stress_note(&result, STRESS_G1, 1e-4, second) && found->failed == 1);
+    TEST(stress_note(&result, STRESS_G1, 0, first) && found->worst == 1e-4 && found->number[0] == 2);
+    TEST(!stress_note(&result, STRESS_G1, NAN, first) && found->worst == INFINITY);
 }
 
 int main(int arguments, char **argument)

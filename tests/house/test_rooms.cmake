@@ -17,9 +17,9 @@ set(order_src
 set(order_tools
     "cli:" "draw: cli" "bake: cli draw" "render: cli draw" "export: draw" "measured: cli render"
     "evidence/measure: cli" "evidence/methods: evidence" "evidence: cli draw evidence/measure"
-    "evidence/page: cli draw evidence evidence/measure" "judge: cli evidence/measure" "judge/examples:"
+    "judge: cli evidence/measure" "judge/examples:"
     "commands/parts: cli draw export"
-    "commands: cli draw bake evidence evidence/measure evidence/page render export measured judge commands/parts")
+    "commands: cli draw bake evidence evidence/measure render export measured judge commands/parts")
 set(run_time "^(core|math|table|kernel|sampler|bsdf)/")
 # What tools/ share with src/ beside include/, which knows nothing of distributions, their own top, and what the build
 # writes.

@@ -30,7 +30,8 @@ class Materials(unittest.TestCase):
             dict(fresnel="schlick", f0=(0.9, 0.5, 0.1, 0.3), normals="bounded"),
             dict(fresnel="schlick", f0=0.3, masking="separable", normals="all"),
             dict(reflection="retro", wavelengths=1, scattering="turquin"),
-            dict(fresnel="dielectric", lobes="both", transport="importance", scattering="kulla-conty"),
+            dict(fresnel="dielectric", lobes="both", transport="importance", scattering="turquin"),
+            dict(fresnel="schlick", f0=0.8, scattering="kulla-conty"),
         ):
             material = vndf.Material(vndf.Surface(rings(), 0.5, 0.3), **effects)
             value, pdf = material.eval_pdf(WI, wo)

@@ -102,15 +102,6 @@ static inline void seen_print(const seen *s, const char *name)
     }
 }
 
-/* Between unit normals whose slopes are over the roughness. */
-static inline double seen_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b)
-{
-    double n[3], m[3];
-    bins_over(f, a, n);
-    bins_over(f, b, m);
-    return hypot(hypot(n[0] - m[0], n[1] - m[1]), n[2] - m[2]);
-}
-
 /* Whether denormals are flushed to zero, and read as zero, from now on; returns 0 where no way is known. */
 static inline int set_flushing(int flushing)
 {

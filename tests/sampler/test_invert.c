@@ -21,7 +21,7 @@ static double led_by_steps(const seen *s, const bins_frame *f, float u1, float u
     double most = 0;
     for (int i = 0; i < 9; i++)
         most = fmax(most,
-                    seen_apart(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
+                    bins_apart(f, seen_draw(s, moved(u1, 4 * (i % 3 - 1)), moved(u2, 4 * (i / 3 - 1)), NULL), wm));
     return most;
 }
 
@@ -57,7 +57,7 @@ static int comes_back(const seen *s, const float u[4], float t, double *lost)
         vndf_invert(&s->view, wm, &v1, &v2);
     bins_frame f = bins_frame_from(&s->of.lobe[drawn].surface, s->wi);
     const vndf_vec3 back = seen_draw(s, v1, v2, NULL);
-    *lost = seen_apart(&f, wm, back);
+    *lost = bins_apart(&f, wm, back);
     if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
     return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, v1, v2, back);

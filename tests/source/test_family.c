@@ -52,7 +52,7 @@ static void test_all_finite(void)
     TEST(vndf_family_material((size_t)-1) == NULL);
 }
 
-/* The ratio to the value at 0 against the formula in its plain form, at slopes where that keeps its digits. */
+/* The ratio to the value at 1 against the formula in its plain form, at slopes where that keeps its digits. */
 static void test_formulas(void)
 {
     static const double slopes[] = {0.01, 0.1, 0.5, 1, 2, 5};
@@ -68,12 +68,14 @@ static void test_formulas(void)
         {"abc:50,1.7", "(1+50*(1-cos(atan(r))))^-1.7*cos(atan(r))^4"},
         {"gtr:1.5,0.2", "(0.04*cos(atan(r))^2+sin(atan(r))^2)^-1.5*cos(atan(r))^4"},
         {"sgd:0.2,0.7", "exp(-0.2-r^2/0.2)*(0.2+r^2/0.2)^-0.7"},
+        {"charlie:0.3", "sin(atan(r))^(1/0.3)*cos(atan(r))^4"},
+        {"charlie:1", "sin(atan(r))*cos(atan(r))^4"},
     };
     for (size_t k = 0; k < sizeof plain / sizeof *plain; k++) {
         vndf_source *source = family_of(plain[k][0]), *formula = slope_of(plain[k][1]);
         for (size_t i = 0; i < 6; i++) {
-            double ratio = vndf_source_p22(source, slopes[i]) / vndf_source_p22(source, 0);
-            if (!TEST_RELATIVE(ratio, vndf_source_p22(formula, slopes[i]) / vndf_source_p22(formula, 0), 1e-12))
+            double ratio = vndf_source_p22(source, slopes[i]) / vndf_source_p22(source, 1);
+            if (!TEST_RELATIVE(ratio, vndf_source_p22(formula, slopes[i]) / vndf_source_p22(formula, 1), 1e-12))
                 fprintf(stderr, "  %s at %g\n", plain[k][0], slopes[i]);
         }
         vndf_source_free(source);
@@ -114,6 +116,23 @@ static void test_masses(void)
     test_mass("epd:1000", 3e-6); /* all but a jump, which Simpson's rule does not like */
 }
 
+/* The sheen of Estevez & Kulla, which is 0 straight up, in tables as small as those of others. */
+static void test_sheen(void)
+{
+    static const char *const names[] = {"charlie:0.1", "charlie:0.3", "charlie:1"};
+    for (int i = 0; i < 6; i++) {
+        const vndf_build_options options = {.max_bytes = i % 2 ? 8192 : 2048};
+        vndf_certificate claim;
+        vndf_source *source = family_of(names[i / 2]);
+        vndf_distribution *table = vndf_build(source, &options, &claim, NULL);
+        if (!(TEST(table && vndf_source_p22(source, 0) == 0 && claim.hidden <= 1e-5f) &
+              TEST(claim.tv <= (i % 2 ? 1e-2f : 2e-2f) && claim.tv_above <= (i % 2 ? 4e-4f : 1.5e-3f))))
+            fprintf(stderr, "  %s in %zu bytes\n", names[i / 2], options.max_bytes);
+        vndf_free(table);
+        vndf_source_free(source);
+    }
+}
+
 /* The help names each family with its usage and its limits. */
 static void test_help(void)
 {
@@ -141,6 +160,7 @@ int main(void)
     test_all_finite();
     test_formulas();
     test_masses();
+    test_sheen();
     test_help();
     return test_done();
 }

@@ -7,14 +7,14 @@
  *                2016)
  *     prefilter  normals with weights, for environments that are looked up at N = V = R (Karis, "Real Shading in
  *                Unreal Engine 4", 2013)
- *
- * The files around them are written by files.c. */
+ */
 #ifndef TOOLS_BAKE_BAKE_H
 #define TOOLS_BAKE_BAKE_H
 
 #include <stddef.h>
 
 #include "cli/progress.h"
+#include "draw/page.h"
 #include "vndf_bsdf.h"
 
 /* How the roughness that a texture holds becomes alpha. */
@@ -112,5 +112,17 @@ typedef struct bake_cosine {
 
 /* The density of a direction. */
 double bake_cosine_density(const bake_cosine *c, const double wo[3]);
+
+/* ---- files (files.c) ---- */
+
+/* As --format has them; the picture is always written. */
+typedef enum bake_form { BAKE_NPY, BAKE_DDS, BAKE_C, BAKE_GLSL, BAKE_JS, BAKE_PICTURE } bake_form;
+
+/* A page about all tables, with their files in these forms, a bit each; `made_by` is the command. 0 after a
+ * complaint. */
+int bake_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by, const char *subject);
+
+/* The half float nearest to x, ties to even; what is too large is infinite. */
+unsigned bake_half(float x);
 
 #endif

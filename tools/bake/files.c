@@ -1,4 +1,6 @@
-#include "bake/files.h"
+/* What `vndf bake` writes for each table: numbers for numpy (.npy), textures of half floats for engines (.dds), arrays
+ * for C, GLSL and JavaScript, and a picture (.png); and a page that shows them all. */
+#include "bake/bake.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -143,7 +145,7 @@ static int write_png(FILE *file, const baked *b)
 
 /* ---- the page ------------------------------------------------------------------------------------ */
 
-int bake_file(html_page *page, const baked *b, bake_form form, const char *made_by)
+static int write_table(html_page *page, const baked *b, bake_form form, const char *made_by)
 {
     static const char *const ends[] = {"npy", "dds", "h", "glsl", "js", "png"};
     char name[PAGE_NAME_MAX];
@@ -162,22 +164,35 @@ int bake_file(html_page *page, const baked *b, bake_form form, const char *made_
     return 1;
 }
 
-void bake_section(html_page *page, const baked *b)
+int bake_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by, const char *subject)
 {
-    page_section(page, b->name, b->name, b->holds);
-    fputs("<ul>\n", page->html);
-    for (int i = 0; i < b->axes; i++) {
-        fprintf(page->html, "<li>axis %d, %zu places: ", i, b->count[i]);
-        svg_escape(page->html, b->axis[i]);
-        fputs("</li>\n", page->html);
+    char title[512];
+    snprintf(title, sizeof title, "Tables of %s", subject);
+    if (!page_begin(page, title))
+        return 0;
+    fputs("<p class=\"lead\">Made by <code>", page->html);
+    svg_escape(page->html, made_by);
+    fputs("</code></p>\n", page->html);
+    for (const baked *b = list->table; b < list->table + list->count; b++) {
+        page_section(page, b->name, b->name, b->holds);
+        fputs("<ul>\n", page->html);
+        for (int i = 0; i < b->axes; i++) {
+            fprintf(page->html, "<li>axis %d, %zu places: ", i, b->count[i]);
+            svg_escape(page->html, b->axis[i]);
+            fputs("</li>\n", page->html);
+        }
+        if (b->error)
+            fprintf(page->html, "<li>error: %.2g the largest, %.2g in the mean: %s</li>\n", b->worst, b->mean,
+                    b->error);
+        fprintf(page->html,
+                "</ul>\n<figure><img src=\"%s.png\" alt=\"%s as a picture\" style=\"image-rendering:pixelated;"
+                "max-width:100%%\">\n<figcaption>The last axis to the right, the one before it down. Channels are "
+                "red, green and blue.</figcaption></figure>\n",
+                b->name, b->name);
+        for (bake_form f = BAKE_NPY; f <= BAKE_PICTURE; f++)
+            if ((forms >> f & 1 || f == BAKE_PICTURE) && !write_table(page, b, f, made_by))
+                return 0;
     }
-    if (b->error)
-        fprintf(page->html, "<li>error: %.2g the largest, %.2g in the mean: %s</li>\n", b->worst, b->mean,
-                b->error);
-    fprintf(
-        page->html,
-        "</ul>\n<figure><img src=\"%s.png\" alt=\"%s as a picture\" style=\"image-rendering:pixelated;"
-        "max-width:100%%\">\n<figcaption>The last axis to the right, the one before it down. Channels are red, green "
-        "and blue.</figcaption></figure>\n",
-        b->name, b->name);
+    page_end(page);
+    return 1;
 }

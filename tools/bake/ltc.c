@@ -231,42 +231,12 @@ static void minimise(target *t, double p[NUMBERS], double step)
 
 /* ---- the tables ---- */
 
-static const char norm_holds[] =
-    "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E - density|";
-static const char error_says[] = "half the integral of |f cos/E - density| over all texels";
-
-/* Fits where the light comes from wi on a surface with these two alphas; gives the inverse. It begins with p, which
- * becomes what was found; where that is a bad place, once more with `again`, unless that is NULL. 0: no reflection. */
-static int fit(target *t, const bake_settings *s, const float alpha[2], const double wi[3], double step,
-               const double *again, double p[NUMBERS], bake_cosine *found)
-{
-    double m[3][3], other[NUMBERS];
-    if (!target_of(t, s, alpha, wi))
-        return 0;
-    if (t->numbers == 3) /* the cosine is symmetric */
-        p[3] = p[4] = 0;
-    minimise(t, p, step);
-    error_of(t, p);
-    const double wrong = t->wrong;
-    if (again && wrong >= 0.3) {
-        memcpy(other, again, sizeof other);
-        minimise(t, other, 0.4);
-        error_of(t, other);
-        if (t->wrong < wrong)
-            memcpy(p, other, sizeof other);
-        t->wrong = fmin(t->wrong, wrong);
-    }
-    matrix_of(t, p, m);
-    *found = inverse_of(m);
-    return 1;
-}
-
-static void note_wrong(baked *b, double wrong, size_t texels)
-{
-    b->error = error_says;
-    b->worst = fmax(b->worst, wrong);
-    b->mean += wrong / (double)texels;
-}
+/* A table: which of the twelve numbers of a texel its channels are, rows of the inverse over its middle number, behind
+ * these E of F = 1, its part by (1 - cos)^5, and the error. */
+typedef struct part {
+    const char *name, *holds;
+    int channels, number[4];
+} part;
 
 /* Place i of n on the axis of cosines, which is dense at grazing incidence. */
 static double cosine_at(size_t i, size_t n)
@@ -275,94 +245,95 @@ static double cosine_at(size_t i, size_t n)
     return fmax(1 - v * v, 2e-3);
 }
 
-/* Rougher first, from straight above to grazing: what is smooth is the easiest, and begins what follows. */
-int bake_ltc(const bake_settings *s, baked_list *list)
+/* Tables of n roughnesses, `ratios` of alpha_y over alpha_x, n cosines and as many azimuths as ratios. Rougher first,
+ * from straight above to grazing: what is smooth is the easiest, and begins what follows. The first direction of a
+ * surface begins the next one; the first of a cosine, along x, the next cosine. */
+static int fit_all(const bake_settings *s, baked_list *list, const part *parts, int tables,
+                   const char *const *axis, size_t n, size_t ratios)
 {
-    const char *const axis[] = {"cosine: 1 - (i/(n - 1))^2", "roughness: i/(n - 1)"};
-    const size_t n = s->size, count[] = {n, n};
     static target t;
-    baked *inverse =
-        baked_add(list, "ltc_inverse",
-                  "the inverse of M over its middle number: xx, zx, xz, zz, as mat3(xx,0,zx, 0,1,0, xz,0,zz)", 2,
-                  axis, count, 4);
-    baked *norm = inverse ? baked_add(list, "ltc_norm", norm_holds, 2, axis, count, 3) : NULL;
-    double row[NUMBERS] = {0};
-    if (!norm)
-        return 0;
-    for (size_t i = n; i-- > 0;) {
-        double p[NUMBERS];
-        const float alpha = bake_alpha(s->mapping, (double)i / (double)(n - 1)), both[2] = {alpha, alpha};
-        memcpy(p, row, sizeof p);
-        p[2] = 0;
-        for (size_t j = 0; j < n; j++) {
-            const double c = cosine_at(j, n), wi[3] = {sqrt(1 - c * c), 0, c};
-            bake_cosine found;
-            if (!fit(&t, s, both, wi, i == n - 1 && j == 0 ? 0.3 : 0.1, NULL, p, &found))
-                return 0;
-            if (j == 0)
-                memcpy(row, p, sizeof p);
-            const float k[4] = {(float)found.inverse[0][0], (float)found.inverse[2][0], (float)found.inverse[0][2],
-                                (float)found.inverse[2][2]};
-            const float e[3] = {(float)t.sum.all, (float)t.sum.grazing, (float)t.wrong};
-            memcpy(inverse->value + 4 * (j * n + i), k, sizeof k);
-            memcpy(norm->value + 3 * (j * n + i), e, sizeof e);
-            note_wrong(inverse, t.wrong, n * n);
-            note_wrong(norm, t.wrong, n * n);
-            if (progress_show((double)((n - 1 - i) * n + j) / (double)(n * n), "ltc", s->progress))
-                return 0;
+    const size_t surfaces = n * ratios, all = surfaces * n * ratios, count[] = {ratios > 1 ? surfaces : n, n, n};
+    double p[NUMBERS] = {0}, of_surface[NUMBERS] = {0}, along_x[NUMBERS] = {0}, other[NUMBERS], m[3][3];
+    baked *b = list->table + list->count;
+    for (int k = 0; k < tables; k++)
+        if (!baked_add(list, parts[k].name, parts[k].holds, ratios > 1 ? 3 : 2, axis, count, parts[k].channels))
+            return 0;
+    for (size_t done = 0; done < all; done++) {
+        const size_t phi = done % ratios, theta = done / ratios % n, surface = surfaces - 1 - done / (ratios * n);
+        const float alpha = bake_alpha(s->mapping, (double)(surface / ratios) / (double)(n - 1));
+        const float alphas[2] = {alpha, fmaxf(alpha * (float)(surface % ratios + 1) / (float)ratios, 1e-3f)};
+        const double c = cosine_at(theta, n), r = sqrt(1 - c * c);
+        const double turn = phi ? 1.5707963267949 * (double)phi / (double)(ratios - 1) : 0;
+        const double wi[3] = {r * cos(turn), r * sin(turn), c};
+        if (!target_of(&t, s, alphas, wi) || progress_show((double)done / (double)all, parts->name, s->progress))
+            return 0;
+        if (phi == 0)
+            memcpy(p, theta ? along_x : of_surface, sizeof p);
+        if (theta == 0)
+            p[2] = 0;
+        if (t.numbers == 3) /* the cosine is symmetric */
+            p[3] = p[4] = 0;
+        minimise(&t, p, done ? 0.1 : 0.3);
+        error_of(&t, p);
+        if (ratios > 1 && t.wrong >= 0.3) { /* a bad place: once more from the one along x, and farther */
+            const double wrong = t.wrong;
+            memcpy(other, along_x, sizeof other);
+            minimise(&t, other, 0.4);
+            error_of(&t, other);
+            if (t.wrong < wrong)
+                memcpy(p, other, sizeof p);
+            error_of(&t, p);
+        }
+        if (phi == 0)
+            memcpy(along_x, p, sizeof p);
+        if (phi == 0 && theta == 0)
+            memcpy(of_surface, p, sizeof p);
+        matrix_of(&t, p, m);
+        const bake_cosine found = inverse_of(m);
+        const double more[3] = {t.sum.all, t.sum.grazing, t.wrong};
+        const size_t at = ratios > 1 ? (surface * n + theta) * n + phi : theta * n + surface;
+        for (int k = 0; k < tables; k++) {
+            for (int i = 0; i < parts[k].channels; i++) {
+                const int row = parts[k].number[i] / 4, column = parts[k].number[i] % 4;
+                b[k].value[at * (size_t)parts[k].channels + (size_t)i] =
+                    (float)(column < 3 ? found.inverse[row][column] : more[row]);
+            }
+            b[k].error = "half the integral of |f cos/E - density| over all texels";
+            b[k].worst = fmax(b[k].worst, t.wrong);
+            b[k].mean += t.wrong / (double)all;
         }
     }
     return 1;
 }
 
-/* The first direction of a surface begins the next one; the first of a cosine, along x, what has that cosine and the
- * next one. */
+int bake_ltc(const bake_settings *s, baked_list *list)
+{
+    static const part parts[] = {
+        {"ltc_inverse",
+         "the inverse of M over its middle number: xx, zx, xz, zz, as mat3(xx,0,zx, 0,1,0, xz,0,zz)",
+         4,
+         {0, 8, 2, 10}},
+        {"ltc_norm",
+         "E of F = 1, its part by (1 - cos)^5, and the error: half the integral of |f cos/E - density|",
+         3,
+         {3, 7, 11}},
+    };
+    static const char *const axis[] = {"cosine: 1 - (i/(n - 1))^2", "roughness: i/(n - 1)"};
+    return fit_all(s, list, parts, 2, axis, s->size, 1);
+}
+
 int bake_anisotropic(const bake_settings *s, baked_list *list)
 {
-    static const char *const names[] = {"ltc_anisotropic_x", "ltc_anisotropic_y", "ltc_anisotropic_z"};
-    static const char *const holds[] = {
-        "row x of the inverse of M over its middle number, and E of F = 1",
-        "row y of it, and the part of E by (1 - cos)^5",
-        "row z of it, and the error: half the integral of |f cos/E - density|",
+    static const part parts[] = {
+        {"ltc_anisotropic_x", "row x of the inverse of M over its middle number, and E of F = 1", 4, {0, 1, 2, 3}},
+        {"ltc_anisotropic_y", "row y of it, and the part of E by (1 - cos)^5", 4, {4, 5, 6, 7}},
+        {"ltc_anisotropic_z",
+         "row z of it, and the error: half the integral of |f cos/E - density|",
+         4,
+         {8, 9, 10, 11}},
     };
-    const char *const axis[] = {"n i + j: roughness of alpha_x i/(n - 1), alpha_y/alpha_x (j + 1)/n",
-                                "cosine: 1 - (i/(n - 1))^2", "azimuth from x: pi/2 i/(n - 1)"};
-    const size_t n = s->size < BAKE_ANISOTROPIC ? s->size : BAKE_ANISOTROPIC, count[] = {n * n, n, n},
-                 all = n * n * n * n;
-    static target t;
-    baked *b[3];
-    double along_x[NUMBERS] = {0}, of_surface[NUMBERS] = {0};
-    for (int k = 0; k < 3; k++)
-        if (!(b[k] = baked_add(list, names[k], holds[k], 3, axis, count, 4)))
-            return 0;
-    for (size_t done = 0; done < all; done += n) {
-        double p[NUMBERS];
-        const size_t surface = n * n - 1 - done / (n * n), theta = done / n % n;
-        const float alpha = bake_alpha(s->mapping, (double)(surface / n) / (double)(n - 1)),
-                    both[2] = {alpha, fmaxf(alpha * (float)(surface % n + 1) / (float)n, 1e-3f)};
-        const double c = cosine_at(theta, n);
-        memcpy(p, theta ? along_x : of_surface, sizeof p);
-        for (size_t phi = 0; phi < n; phi++) {
-            const double turn = 1.5707963267949 * (double)phi / (double)(n - 1), r = sqrt(1 - c * c);
-            const double wi[3] = {r * cos(turn), r * sin(turn), c};
-            bake_cosine found;
-            if (!fit(&t, s, both, wi, 0.1, along_x, p, &found))
-                return 0;
-            if (phi == 0)
-                memcpy(along_x, p, sizeof p);
-            if (phi == 0 && theta == 0)
-                memcpy(of_surface, p, sizeof p);
-            const double more[3] = {t.sum.all, t.sum.grazing, t.wrong};
-            for (int k = 0; k < 3; k++) {
-                float *to = b[k]->value + 4 * ((surface * n + theta) * n + phi);
-                for (int m = 0; m < 3; m++)
-                    to[m] = (float)found.inverse[k][m];
-                to[3] = (float)more[k];
-                note_wrong(b[k], t.wrong, all);
-            }
-        }
-        if (progress_show((double)done / (double)all, "anisotropic ltc", s->progress))
-            return 0;
-    }
-    return 1;
+    static const char *const axis[] = {"n i + j: roughness of alpha_x i/(n - 1), alpha_y/alpha_x (j + 1)/n",
+                                       "cosine: 1 - (i/(n - 1))^2", "azimuth from x: pi/2 i/(n - 1)"};
+    const size_t n = s->size < BAKE_ANISOTROPIC ? s->size : BAKE_ANISOTROPIC;
+    return fit_all(s, list, parts, 3, axis, n, n);
 }

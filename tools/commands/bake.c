@@ -2,13 +2,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "bake/files.h"
+#include "bake/bake.h"
 #include "cli/figures.h"
 #include "cli/files.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
-#include "draw/svg.h"
 
 static const char name[] = "vndf bake";
 
@@ -65,26 +64,6 @@ static int make(const bake_settings *s, unsigned what, baked_list *list)
     return 1;
 }
 
-static int write_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by,
-                      const char *subject)
-{
-    char title[512];
-    snprintf(title, sizeof title, "Tables of %s", subject);
-    if (!page_begin(page, title))
-        return 0;
-    fputs("<p class=\"lead\">Made by <code>", page->html);
-    svg_escape(page->html, made_by);
-    fputs("</code></p>\n", page->html);
-    for (size_t i = 0; i < list->count; i++) {
-        bake_section(page, &list->table[i]);
-        for (bake_form f = BAKE_NPY; f <= BAKE_PICTURE; f++)
-            if ((forms >> f & 1 || f == BAKE_PICTURE) && !bake_file(page, &list->table[i], f, made_by))
-                return 0;
-    }
-    page_end(page);
-    return 1;
-}
-
 static int print(const arguments *given, const baked_list *list, const char *folder)
 {
     figures f = figures_begin(given);
@@ -127,7 +106,7 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
                                       : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
     if (status == STATUS_GOOD &&
-        !write_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
+        !bake_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
         status = STATUS_USE;
     status = page_close(&page, status);
     if (status == STATUS_GOOD)

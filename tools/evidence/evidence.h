@@ -7,8 +7,8 @@
  *     worth.c      error and variance of a method from one direction
  *     evidence.c   all of these in order, and time in turns, into the numbers of the rows
  *     row.c        the one list of columns, the printer
+ *     report.c     the page of `vndf report`
  *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
- *     page/        what `vndf report` writes
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
 #ifndef TOOLS_EVIDENCE_EVIDENCE_H
@@ -16,6 +16,7 @@
 
 #include "cli/figures.h"
 #include "cli/progress.h"
+#include "draw/page.h"
 #include "evidence/method.h"
 #include "vndf_build.h"
 
@@ -127,6 +128,28 @@ void evidence_free(evidence *of);
  * row. 0 if there was no memory. */
 int evidence_print(FILE *file, const evidence *all, figures_form form);
 
+/* ---- the page of `vndf report` ------------------------------------------------------------------- */
+
+enum { REPORT_SUBJECTS = 4 };
+
+typedef struct report {
+    subject subject[REPORT_SUBJECTS]; /* the first is the one at hand */
+    size_t chosen[REPORT_SUBJECTS];   /* the table to ship */
+    size_t count;
+    evidence *found;       /* for the one at hand */
+    evidence_column batch; /* by the best instructions of this machine, and their name */
+    const char *instructions;
+} report;
+
+/* Builds all tables and chooses. VNDF_OK, or the status and error that stopped it. */
+vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan, vndf_error *error);
+
+/* Whether a table keeps all limits of the advice. */
+int report_keeps(const vndf_distribution *table);
+
+/* The page with its data; 0 after a complaint. */
+int report_write(html_page *page, const report *r);
+
 /* ---- parts of it --------------------------------------------------------------------------------- */
 
 /* All rows, not yet measured; an error if a table or a material cannot be made or `only` fits nothing. */
@@ -134,7 +157,7 @@ vndf_status evidence_list(evidence *to);
 
 /* Whether the results of a method, or of its batch by a set of instructions, are right: unit normals above the surface
  * that face wi (where the method says so), densities positive and finite, the same bits as of single calls where that
- * is promised; of materials samples, values and densities that agree. BEST stands for single calls. */
+ * is promised; of materials samples that are sane. BEST stands for single calls. */
 int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed);
 
 /* What a few samples of a method from one direction show, roughness 1/2 at the scale of the reference. */
@@ -149,8 +172,8 @@ typedef struct findings {
 findings worth_of_normals(const method *m, const method_reference *reference, double theta, size_t replicates,
                           block *b);
 
-/* Fills mean, noise, lost, weight and variance from twice `blocks` blocks. 0: the two halves disagree. */
-int worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
-                      double found[COLUMNS]);
+/* Fills mean, noise, lost, weight and variance from `blocks` blocks. */
+void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
+                       double found[COLUMNS]);
 
 #endif

@@ -46,41 +46,13 @@ static int is_sane(const effect_case *of, const vndf_scattered *s)
     return s->lobe == VNDF_LOBE_NONE ? s->weight[0] == 0.0f : good;
 }
 
-/* Wider than what 99.99% of samples keep: the tests look for rare roundings. */
-static int is_near(double a, double b)
+/* Whether samples agree with values and densities is what tests/bsdf ask. */
+static int materials_good(const method *m, method_run *run, block *b)
 {
-    return fabs(a - b) <= 8e-4 * fabs(b) + 1e-30;
-}
-
-/* The density of a sample is the density of its direction, and its weight the value times cosine over density. */
-static int agrees(const effect_case *of, const vndf_scattered *drawn, const vndf_scattered *found)
-{
-    const double density = (double)drawn->density, per = fabs(effect_cosine(of, drawn->wo)) / density;
-    int good = is_near((double)found->density, density);
-    for (int i = 0; i < 3; i++)
-        good &= is_near((double)found->weight[i] * per, (double)drawn->weight[i]);
-    return good || drawn->lobe == VNDF_LOBE_NONE || drawn->lobe == VNDF_LOBE_STRAIGHT;
-}
-
-/* Samples, and values and densities in the directions of those that share a hit; values of random walks are random
- * numbers, which do not agree with weights one by one. */
-static int material_good(const method *m, block *b, block *drawn)
-{
-    const effect_case *of = m->state;
     int good = 1;
-    m->each(m, b);
+    run(m, b);
     for (size_t i = 0; i < BLOCK; i++)
-        good &= is_sane(of, &b->out[i]);
-    if (of->set->effects.scattering == VNDF_SCATTERING_MULTIPLE)
-        return good;
-    m->shared(m, b);
-    memcpy(drawn->out, b->out, sizeof b->out);
-    for (size_t i = 0; i < BLOCK; i++)
-        b->in[i].given = drawn->out[i].wo;
-    m->eval(m, b);
-    m->density(m, b);
-    for (size_t i = 0; i < BLOCK; i++)
-        good &= agrees(of, &drawn->out[i], &b->out[i]);
+        good &= is_sane(m->state, &b->out[i]);
     return good;
 }
 
@@ -104,27 +76,27 @@ static int same_bits(const method *m, const block *b, const block *single)
 
 int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed)
 {
-    const uint64_t rounds = m->kind == ROW_EFFECT ? 1 : 4;
-    block *other = malloc(sizeof *other);
-    int good = other != NULL;
-    for (uint64_t round = 0; round < rounds && good; round++) {
+    enum { ROUNDS = 4 };
+    block *single = malloc(sizeof *single);
+    int good = single != NULL;
+    for (uint64_t round = 0; round < ROUNDS && good; round++) {
         b->limit = set;
         block_fill(b, law, seed + round);
-        memcpy(other, b, sizeof *b);
+        memcpy(single, b, sizeof *b);
         if (m->kind != ROW_EFFECT)
             good = normals_good(m, set ? m->batch : m->each, b);
         else if (set)
             m->batch(m, b);
         else
-            good = material_good(m, b, other);
+            good = materials_good(m, m->each, b) && materials_good(m, m->shared, b);
         if (set && m->same_bits) {
-            m->each(m, other);
-            good = good && same_bits(m, b, other);
+            m->each(m, single);
+            good = good && same_bits(m, b, single);
         } else if (!set && m->shared && m->kind != ROW_EFFECT) {
             block_aim(b, b->in[0].wi, b->alpha[0]);
             good = good && normals_good(m, m->shared, b);
         }
     }
-    free(other);
+    free(single);
     return good;
 }

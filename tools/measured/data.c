@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/sort.h"
-
 int refuse(data_file *file, const char *format, ...)
 {
     int length = snprintf(file->refused, sizeof file->refused, "%.300s: ", file->name);

@@ -43,9 +43,27 @@ int profile_write(FILE *file, const profile *from, const char *title);
 
 /* ---- reflectances: rgl.c, merl.c ----------------------------------------------------------------- */
 
-/* D over theta of a .bsdf, the mean of its field `ndf` over azimuths, smoothed within its noise. A material whose D
- * strays from that mean by more than 0.05 of all normals is refused with the measure. */
+/* D over theta of a .bsdf, the mean of its field `ndf` over azimuths. A material whose D strays from that mean by more
+ * than 0.05 of all normals is refused with the measure. */
 int rgl_read(data_file *file, profile *rows);
+
+/* A field of such a file, see rgl.c: bytes or floats, the slowest dimension first. */
+typedef enum tensor_type { TENSOR_U8 = 1, TENSOR_F32 = 10 } tensor_type;
+typedef struct tensor {
+    const char *name;
+    tensor_type type;
+    int dimensions;
+    size_t shape[5];
+    const void *data;
+} tensor;
+size_t tensor_count(const tensor *of);
+
+/* The field of floats of this name and number of dimensions; its data are bytes of the file. Number i of them. */
+int tensor_find(data_file *file, const char *name, int dimensions, tensor *found);
+double tensor_at(const tensor *of, size_t i);
+
+/* Writes to an open file; 0 if that fails. */
+int tensor_write(FILE *file, const tensor *fields, size_t count);
 
 enum { RGL_CHANNELS = 16 };
 
@@ -58,7 +76,7 @@ typedef struct rgl_form {
     const char *description;
 } rgl_form;
 
-/* Writes single scattering of the distribution to an open file; 0 if there is no memory, or that fails. Some 3 MiB for
+/* Writes single scattering of the distribution to an open file; 0 if there is no memory, or that fails. Some 4 MB for
  * three channels. */
 int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form *form);
 
@@ -93,10 +111,6 @@ void slopes_add(slope_set *to, double x, double y, int part);
 /* Turns the slopes into u, notes what was found, and makes rows of P22 over |u|. Refused are fewer than SLOPES_LEAST
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
-
-/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given.
- */
-double slope_mass(const vndf_source *source, double from, double to);
 
 /* Heights over places (x step_x, y step_y), all in one unit; a row after the other. NaN: there is none. */
 typedef struct height_field {

@@ -34,12 +34,26 @@ bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi)
     return f;
 }
 
+bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi)
+{
+    const vndf_affine shape = {surface->distribution, surface->alpha_x, 0, 0, surface->alpha_y, 0, 0};
+    return bins_frame_from(&shape, wi);
+}
+
 void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3])
 {
     const double z = (double)wm.z, x = (double)wm.x + f->mean_x * z, y = (double)wm.y + f->mean_y * z;
     const double u = (f->yy * x - f->xy * y) / f->det, v = (f->xx * y - f->yx * x) / f->det;
     const double length = sqrt(u * u + v * v + z * z);
     n[0] = (f->x * u + f->y * v) / length, n[1] = (f->x * v - f->y * u) / length, n[2] = z / length;
+}
+
+double bins_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b)
+{
+    double n[3], m[3];
+    bins_over(f, a, n);
+    bins_over(f, b, m);
+    return hypot(hypot(n[0] - m[0], n[1] - m[1]), n[2] - m[2]);
 }
 
 /* The azimuth to which normals of slope R are seen. */
@@ -70,9 +84,9 @@ static float pdf_of_view(const void *view, vndf_vec3 wm)
     return vndf_pdf(view, wm);
 }
 
-bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi)
+bins_sampler bins_of_view(const vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    return (bins_sampler){bins_frame_from(shape, wi), draw_of_view, pdf_of_view, view};
+    return (bins_sampler){bins_frame_of(surface, wi), draw_of_view, pdf_of_view, view};
 }
 
 /* ---- bins ---------------------------------------------------------------------------------------- */
@@ -205,6 +219,6 @@ bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t
         result.mass += expected[i];
         expected[i] *= (double)samples;
     }
-    result.found = pearson_of(expected, observed, NULL, BINS_COUNT, 5);
+    result.found = pearson_of(expected, observed, BINS_COUNT);
     return result;
 }

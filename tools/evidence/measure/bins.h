@@ -20,11 +20,15 @@ typedef struct bins_frame {
     double s, c, x, y;                          /* the direction in it: (s, 0, c) */
 } bins_frame;
 
-/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi. */
+/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; and of two roughnesses. */
 bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi);
+bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi);
 
 /* The normal where its slopes are over the matrix, unit, turned to wi. */
 void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3]);
+
+/* How far two normals are apart where their slopes are over the matrix, as unit vectors. */
+double bins_apart(const bins_frame *f, vndf_vec3 a, vndf_vec3 b);
 
 /* What draws normals, and the density that they should have. */
 typedef struct bins_sampler {
@@ -35,7 +39,7 @@ typedef struct bins_sampler {
 } bins_sampler;
 
 /* Of a view of the library's; it has to outlive the sampler. */
-bins_sampler bins_of_view(const vndf_view *view, const vndf_affine *shape, vndf_vec3 wi);
+bins_sampler bins_of_view(const vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTORS };
 

@@ -1,16 +1,13 @@
-/* Probabilities that decide a test: regularised incomplete gamma, chi-square p-values, and the level that each of
- * several tests gets; and Pearson's chi-square: counts of samples in bins against what is expected there. The one
- * place that pools bins and decides; `vndf check` and all tests that bin use it. Values only, no input or output. */
+/* What decides a test: p-values of chi-square, the level that each of several tests gets, and Pearson's chi-square:
+ * counts of samples in bins against what is expected there. The one place that pools bins and decides; `vndf check` and
+ * all tests that bin use it. */
 #ifndef TOOLS_EVIDENCE_MEASURE_STATISTICS_H
 #define TOOLS_EVIDENCE_MEASURE_STATISTICS_H
 
 #include <stddef.h>
 
-/* Q(a, x) = Gamma(a, x)/Gamma(a), a > 0, x >= 0: relative error below 1e-11 for a from 1e-3 to
- * 1e4 where Q exceeds 1e-300. NaN for other arguments. */
-double statistics_gamma_q(double a, double x);
-
-/* The chance that chi-square with dof degrees of freedom exceeds the statistic. 1 if dof is 0. */
+/* The chance that chi-square with dof degrees of freedom exceeds the statistic, 1 if dof is 0: relative error below
+ * 1e-10 for 1e4 of them where it exceeds 1e-300. */
 double statistics_chi_square_p(double statistic, size_t dof);
 
 /* The level of each of n independent tests, so that all of them together err with probability `level`, which is
@@ -21,14 +18,10 @@ typedef struct pearson {
     double statistic; /* sum of (observed - expected)^2 / expected */
     double p;         /* the chance of a larger one if the samples follow what is expected; 0 without a class */
     size_t classes;   /* classes - 1 degrees of freedom */
-    size_t pooled;    /* bins that expect less than `least` */
 } pearson;
 
-/* The bins have to be all there is: both sums are the number of samples. A bin that expects `least` or more is a
- * class; the others are added up in their order until they expect as much, and what is left at the end joins the
- * last class. variance: by what a squared difference is divided, for expectations that are estimates; NULL: by
- * what is expected. */
-pearson pearson_of(const double *expected, const double *observed, const double *variance, size_t bins,
-                   double least);
+/* The bins have to be all there is: both sums are the number of samples. A bin that expects 5 or more is a class; the
+ * others are added up in their order until they expect as much, and what is left at the end joins the last class. */
+pearson pearson_of(const double *expected, const double *observed, size_t bins);
 
 #endif

@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "cli/random.h"
 #include "cli/subject.h"
@@ -19,13 +20,16 @@ const stress_property stress_properties[STRESS_COUNT] = {
     {"g2", "G2 outside [0, 1]; separable <= correlated <= least G1", 2e-6},
 };
 
-int stress_note(stress_result *result, stress_id id, double value, const stress_point *at)
+const char *const stress_numbers[STRESS_NUMBERS] = {"alpha_x", "alpha_y", "wi_x", "wi_y", "wi_z",
+                                                    "wo_x",    "wo_y",    "wo_z", "u1",   "u2"};
+
+int stress_note(stress_result *result, stress_id id, double value, const float at[STRESS_NUMBERS])
 {
     stress_finding *found = &result->found[id];
     int good = value <= stress_properties[id].limit; /* not for NaN */
     if (found->checked++ == 0 || !(value <= found->worst)) {
         found->worst = isnan(value) ? INFINITY : value;
-        found->at = *at;
+        memcpy(found->number, at, sizeof found->number);
     }
     found->failed += !good;
     return good;
@@ -33,17 +37,17 @@ int stress_note(stress_result *result, stress_id id, double value, const stress_
 
 /* ---- samples ------------------------------------------------------------------------------------- */
 
-static double length_of(vndf_vec3 w)
+static double dot_of(vndf_vec3 a, vndf_vec3 b)
 {
-    return sqrt((double)w.x * (double)w.x + (double)w.y * (double)w.y + (double)w.z * (double)w.z);
+    return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
 /* How far a normal is turned away from wi, in 2^-24. */
 static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
-    double x = (double)wi.x * (double)wm.x, y = (double)wi.y * (double)wm.y, z = (double)wi.z * (double)wm.z;
-    double size = fabs(x) + fabs(y) + fabs(z);
-    return size > 0 ? -(x + y + z) / size * 0x1p24 : 0;
+    const vndf_vec3 a = {fabsf(wi.x), fabsf(wi.y), fabsf(wi.z)}, b = {fabsf(wm.x), fabsf(wm.y), fabsf(wm.z)};
+    const double size = dot_of(a, b);
+    return size > 0 ? -dot_of(wi, wm) / size * 0x1p24 : 0;
 }
 
 static int is_density(float pdf)
@@ -51,19 +55,20 @@ static int is_density(float pdf)
     return pdf > 0 && pdf <= FLT_MAX;
 }
 
-static void measure_sample(const vndf_view *view, const stress_point *at, stress_result *result)
+static void measure_sample(const vndf_view *view, vndf_vec3 wi, const float at[STRESS_NUMBERS],
+                           stress_result *result)
 {
-    float pdf = -1, u1 = -1, u2 = -1;
-    vndf_vec3 wm = vndf_sample(view, at->u1, at->u2, &pdf);
-    int blind = at->wi.x == 0 && at->wi.y == 0 && at->wi.z < 0; /* from straight below no normal is visible */
+    float pdf = -1, v1 = -1, v2 = -1;
+    vndf_vec3 wm = vndf_sample(view, at[8], at[9], &pdf);
+    int blind = wi.x == 0 && wi.y == 0 && wi.z < 0; /* from straight below no normal is visible */
     int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_pdf(view, wm));
     result->samples++;
-    vndf_invert(view, wm, &u1, &u2);
-    stress_note(result, STRESS_UNIT, fabs(length_of(wm) - 1) * 0x1p23, at);
+    vndf_invert(view, wm, &v1, &v2);
+    stress_note(result, STRESS_UNIT, fabs(sqrt(dot_of(wm, wm)) - 1) * 0x1p23, at);
     stress_note(result, STRESS_ABOVE, -(double)wm.z, at);
-    stress_note(result, STRESS_FACING, blind ? 0 : turned_away(at->wi, wm), at);
+    stress_note(result, STRESS_FACING, blind ? 0 : turned_away(wi, wm), at);
     stress_note(result, STRESS_POSITIVE, !dense, at);
-    stress_note(result, STRESS_RETURNED, !(u1 >= 0 && u1 <= 1 && u2 >= 0 && u2 <= 1), at);
+    stress_note(result, STRESS_RETURNED, !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1), at);
 }
 
 /* ---- directions ---------------------------------------------------------------------------------- */
@@ -85,30 +90,29 @@ static double g1_error(vndf_vec3 wi, float g1, float lambda)
     return wi.z > 0 && lambda < 1e30f ? fabs((double)g1 * (1 + (double)lambda) - 1) : 0;
 }
 
-static double g2_error(const stress_point *at)
+static double g2_error(const vndf_surface *m, vndf_vec3 wi, vndf_vec3 wo)
 {
-    const vndf_surface *m = &at->surface;
-    double apart = (double)vndf_g2(m, at->wi, at->wo, VNDF_G2_SEPARABLE),
-           joint = (double)vndf_g2(m, at->wi, at->wo, VNDF_G2_HEIGHT_CORRELATED);
-    double least = fmin((double)vndf_g1(m, at->wi), (double)vndf_g1(m, at->wo));
+    double apart = (double)vndf_g2(m, wi, wo, VNDF_G2_SEPARABLE),
+           joint = (double)vndf_g2(m, wi, wo, VNDF_G2_HEIGHT_CORRELATED);
+    double least = fmin((double)vndf_g1(m, wi), (double)vndf_g1(m, wo));
     if (!(apart >= 0 && apart <= 1 && joint >= 0 && joint <= 1))
         return INFINITY;
     return least > 0 ? fmax(apart - joint, joint - least) / least : apart + joint;
 }
 
-static void measure_direction(const stress_point *at, stress_result *result)
+static void measure_direction(const vndf_surface *m, vndf_vec3 wi, vndf_vec3 wo, const float at[STRESS_NUMBERS],
+                              stress_result *result)
 {
-    const vndf_surface *m = &at->surface;
-    vndf_vec3 back = {-at->wi.x, -at->wi.y, -at->wi.z};
-    double cosine = (double)at->wi.z / length_of(at->wi), up = fmax(cosine, 0);
-    float a = vndf_projected_area(m, at->wi), b = vndf_projected_area(m, back);
-    float lambda = vndf_lambda(m, at->wi), mirrored = vndf_lambda(m, back);
+    vndf_vec3 back = {-wi.x, -wi.y, -wi.z};
+    double cosine = (double)wi.z / sqrt(dot_of(wi, wi)), up = fmax(cosine, 0);
+    float a = vndf_projected_area(m, wi), b = vndf_projected_area(m, back);
+    float lambda = vndf_lambda(m, wi), mirrored = vndf_lambda(m, back);
     double area = (double)a, largest = fmax(area, (double)b), miss = fabs(area - (double)b - cosine);
     stress_note(result, STRESS_AREA, a >= 0 && a <= FLT_MAX ? (up - area) / (up > 0 ? up : 1) : INFINITY, at);
     stress_note(result, STRESS_MIRRORED, largest > 0 ? miss / largest : fabs(cosine), at);
-    stress_note(result, STRESS_LAMBDA, lambda_error(at->wi, lambda, mirrored), at);
-    stress_note(result, STRESS_G1, g1_error(at->wi, vndf_g1(m, at->wi), lambda), at);
-    stress_note(result, STRESS_G2, g2_error(at), at);
+    stress_note(result, STRESS_LAMBDA, lambda_error(wi, lambda, mirrored), at);
+    stress_note(result, STRESS_G1, g1_error(wi, vndf_g1(m, wi), lambda), at);
+    stress_note(result, STRESS_G2, g2_error(m, wi, wo), at);
 }
 
 /* ---- the product --------------------------------------------------------------------------------- */
@@ -151,37 +155,33 @@ static float hard_float(random_stream *stream)
     return which < 2 ? u : which == 2 ? near : 1 - near;
 }
 
-/* All pairs of edges, and random numbers. */
-static void run_view(stress_point *at, random_stream *stream, stress_result *result)
-{
-    const size_t edged = COUNT(edges) * COUNT(edges);
-    const vndf_view view = vndf_view_from(&at->surface, at->wi);
-    result->views++;
-    for (size_t i = 0; i < edged + RANDOM; i++) {
-        at->u1 = i < edged ? edges[i / COUNT(edges)] : hard_float(stream);
-        at->u2 = i < edged ? edges[i % COUNT(edges)] : hard_float(stream);
-        measure_sample(&view, at, result);
-    }
-}
-
 stress_result stress_run(const vndf_distribution *distribution, size_t every, uint64_t seed)
 {
     const double scale = vndf_distribution_info(distribution).scale; /* 0: unknown */
+    const size_t edged = COUNT(edges) * COUNT(edges);
     stress_result result = {.views = 0};
     random_stream stream = random_from(seed);
     for (size_t i = 0; i < COUNT(roughnesses) * COUNT(roughnesses) * DIRECTIONS; i += every) {
         const float x = roughnesses[i / DIRECTIONS / COUNT(roughnesses)],
                     y = roughnesses[i / DIRECTIONS % COUNT(roughnesses)], low = fminf(x, y), high = fmaxf(x, y);
-        stress_point at = {.surface = {distribution, x, y}, .wi = direction(i % DIRECTIONS)};
         if (high > 1.0001e8f * low)
             continue;
         if (scale > 0 && ((double)low * scale < 1e-15 || (double)high * scale > 1e15)) {
             result.outside++;
             continue;
         }
-        at.wo = direction((size_t)(random_bits(&stream) % DIRECTIONS));
-        run_view(&at, &stream, &result);
-        measure_direction(&at, &result);
+        const vndf_surface surface = {distribution, x, y};
+        const vndf_vec3 wi = direction(i % DIRECTIONS),
+                        wo = direction((size_t)(random_bits(&stream) % DIRECTIONS));
+        const vndf_view view = vndf_view_from(&surface, wi);
+        float at[STRESS_NUMBERS] = {x, y, wi.x, wi.y, wi.z, wo.x, wo.y, wo.z, 0, 0};
+        result.views++;
+        for (size_t k = 0; k < edged + RANDOM; k++) { /* all pairs of edges, and random numbers */
+            at[8] = k < edged ? edges[k / COUNT(edges)] : hard_float(&stream);
+            at[9] = k < edged ? edges[k % COUNT(edges)] : hard_float(&stream);
+            measure_sample(&view, wi, at, &result);
+        }
+        measure_direction(&surface, wi, wo, at, &result);
     }
     return result;
 }

@@ -10,14 +10,13 @@
 
 #include "vndf.h"
 
+/* Of a sample; from STRESS_AREA on, of a direction. */
 typedef enum stress_id {
-    /* of a sample */
     STRESS_UNIT,
     STRESS_ABOVE,
     STRESS_FACING,
     STRESS_POSITIVE,
     STRESS_RETURNED,
-    /* of a direction */
     STRESS_AREA,
     STRESS_MIRRORED,
     STRESS_LAMBDA,
@@ -33,17 +32,14 @@ typedef struct stress_property {
 
 extern const stress_property stress_properties[STRESS_COUNT];
 
-/* One input, whole: nine digits of each number give it again. */
-typedef struct stress_point {
-    vndf_surface surface;
-    vndf_vec3 wi, wo; /* wo: of G2 */
-    float u1, u2;
-} stress_point;
+/* One input, whole: alpha, wi, wo of G2, u; nine digits of each number give it again. Their names. */
+enum { STRESS_NUMBERS = 10 };
+extern const char *const stress_numbers[STRESS_NUMBERS];
 
 typedef struct stress_finding {
     size_t checked, failed;
-    double worst;    /* infinite for NaN */
-    stress_point at; /* where the worst was */
+    double worst;                 /* infinite for NaN */
+    float number[STRESS_NUMBERS]; /* where the worst was */
 } stress_finding;
 
 typedef struct stress_result {
@@ -57,6 +53,6 @@ typedef struct stress_result {
 stress_result stress_run(const vndf_distribution *distribution, size_t every, uint64_t seed);
 
 /* Notes a number for a property; returns whether it is within the limit. */
-int stress_note(stress_result *result, stress_id id, double value, const stress_point *at);
+int stress_note(stress_result *result, stress_id id, double value, const float at[STRESS_NUMBERS]);
 
 #endif

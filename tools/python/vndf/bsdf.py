@@ -54,7 +54,8 @@ class Material:
     fresnel: "none", "schlick" (f0), "dielectric" (eta), "conductor" (eta and k).
     masking: "height-correlated", "separable", "v-cavities", "none".
     normals: "visible", "bounded", "all", "v-cavity".
-    scattering: "single", "multiple" (a random walk), "turquin", "kulla-conty" (these two take up to 2 seconds to make).
+    scattering: "single", "multiple" (a random walk), "turquin", "kulla-conty" (of reflection alone; these two take
+        up to 2 seconds to make).
     transport: "radiance", "importance". reflection: "specular", "retro".
     eta: index on the side of -z over that on the side of z; of a conductor the real part, one for each wavelength.
     k: imaginary part of a conductor's index. f0: reflectance at normal incidence. Each a number, or 1 to 4 of them.
@@ -125,18 +126,18 @@ class Material:
 
     def eval(self, wi: Any, wo: Any, seed: Any = 0) -> Floats:
         """f, without the cosine, shape (wavelengths, ...). `seed`, whole numbers, is for random walks."""
-        return self._look("bsdf_eval_n", wi, wo, seed, self.wavelengths, 0)
+        return self._look(wi, wo, seed, self.wavelengths, 0)
 
     def pdf(self, wi: Any, wo: Any) -> Floats:
         """Density per steradian with which :meth:`sample` draws wo, shape (...)."""
-        return self._look("bsdf_pdf_n", wi, wo, None, 0, 1)[0]  # type: ignore[no-any-return]
+        return self._look(wi, wo, None, 0, 1)[0]  # type: ignore[no-any-return]
 
     def eval_pdf(self, wi: Any, wo: Any, seed: Any = 0) -> tuple[Floats, Floats]:
         """Both at once."""
-        result = self._look("bsdf_eval_pdf_n", wi, wo, seed, self.wavelengths, 1)
+        result = self._look(wi, wo, seed, self.wavelengths, 1)
         return result[:-1], result[-1]
 
-    def _look(self, name: str, wi: Any, wo: Any, seed: Any, wavelengths: int, pdf: int) -> Floats:
+    def _look(self, wi: Any, wo: Any, seed: Any, wavelengths: int, pdf: int) -> Floats:
         """What C answers: a value for each wavelength, and the density after them where that is asked for."""
         given: dict[str, Any] = {"wi": components(wi, 3, "wi"), "wo": components(wo, 3, "wo")}
         if seed is not None:
@@ -144,9 +145,9 @@ class Material:
         batch, hits = self._open(**given)
         result = batch.result(wavelengths + pdf)
         at: list[Any] = addresses_of(result)
-        seeds = batch.addresses("seed") if seed is not None else []
-        to = [*([_pointers(at)] if wavelengths else []), *at[wavelengths:]]
-        getattr(library, name)(byref(hits), struct("vndf_normals")(*batch.addresses("wo")), *seeds, *to)
+        seeds = batch.addresses("seed")[0] if seed is not None else None
+        values, density = _pointers(at) if wavelengths else None, at[wavelengths] if pdf else None
+        library.bsdf_eval_pdf_n(byref(hits), struct("vndf_normals")(*batch.addresses("wo")), seeds, values, density)
         return result
 
     def _open(self, **given: Any) -> tuple[Batch, Any]:
