@@ -67,9 +67,10 @@ class _Lobe:
         """Of each law; of a family all but two are 0."""
         if self.family is None:
             return [1.0]
-        p = dr.clip(self.parameter.eval_1(si, active), *self.family.parameters[[0, -1]].tolist())
-        knots, is_reciprocal = self.family.axis
-        x, k = -1.0 / p if is_reciprocal else p, knots.tolist()
+        k = self.family.parameters.tolist()
+        x = dr.clip(self.parameter.eval_1(si, active), k[0], k[-1])
+        if self.family.info.reciprocal:  # neighbours are linear in 1/parameter
+            x, k = -1.0 / x, [-1.0 / knot for knot in k]
         up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
         down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
         return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
