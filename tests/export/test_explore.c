@@ -6,7 +6,6 @@
 #include "harness/run_program.h"
 
 #define TABLES VNDF_SOURCE_DIR "/tables/"
-#define PAGE "explore " TABLES "hazy.vndf a&b.vndf " TABLES "student-t-2.5.vndf -q "
 
 static const char *const parts[] = {" data-tv=\"0.00038\">hazy</option>", ">a&amp;b</option>",
                                     "const int VNDF_STUDENT_T_2_5 = ", "What an engine makes of it in one pass",
@@ -125,14 +124,11 @@ int main(void)
     size_t size;
     if (!run_begin(folder))
         return test_done();
-    TEST(run_copy(TABLES "student-t-2.5-small.vndf", "a&b.vndf"));
-    const char *page = test_long() ? PAGE "--engines 32 -o %s.html" : PAGE "--engines 4 -o %s.html";
-    for (int i = 0; i < 2; i++) {
-        char line[400];
-        snprintf(line, sizeof line, page, i ? "two" : "one");
-        TEST(run_line(&run_plain, line)->status == 0);
-    }
-    TEST(run_same("one.html", "two.html"));
+    run_line(0, "",
+             "cp " TABLES "student-t-2.5-small.vndf 'a&b.vndf'; for page in one two; do vndf explore " TABLES
+             "hazy.vndf 'a&b.vndf' " TABLES "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
+             "cmp one.html two.html && rm two.html 'a&b.vndf'",
+             test_long() ? 32 : 4);
     char *text = run_file("one.html", &size);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         TEST_HAS(text, parts[i]);
@@ -144,6 +140,6 @@ int main(void)
     look(text);
 #endif
     free(text);
-    TEST(remove("one.html") == 0 && remove("two.html") == 0 && remove("a&b.vndf") == 0);
+    TEST(remove("one.html") == 0);
     return run_end(folder);
 }

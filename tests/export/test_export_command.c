@@ -47,10 +47,8 @@ static void expect(const char *text, const char *parts, int there, const char *l
 static const char *exported(const char *words, const char *language)
 {
     static char *text;
-    char line[512], said[RUN_TEXT];
     size_t size;
-    snprintf(line, sizeof line, "export %s --language %s -o out", words, language);
-    run_said(said, NULL, line);
+    run_line(0, "", "vndf export %s --language %s -o out", words, language);
     free(text);
     text = run_file("out", &size);
     return TEST(text && remove("out") == 0) ? text : "";
@@ -62,8 +60,7 @@ int main(void)
     size_t count = sizeof files / sizeof *files, first, second, size;
     if (!run_begin(folder))
         return test_done();
-    TEST(run_line(&run_plain, "build --family student-t --parameter 2..4 --max-tv 0.05 -o tails.vndfs")->status ==
-         0);
+    run_line(0, "", "vndf build --family student-t --parameter 2..4 --max-tv 0.05 -o tails.vndfs");
     for (size_t i = 0; i < count; i++)
         for (const char *const *to = languages; *to; to++) {
             const char *text = exported(files[i].words, *to);
