@@ -23,7 +23,7 @@ set(order_tools
 set(run_time "^(core|math|table|kernel|sampler|bsdf)/")
 # What tools/ share with src/ beside include/, which knows nothing of distributions, their own top, and what the build
 # writes.
-set(shared core/replace_file.h core/checksum.h core/nearest.h command.h exported_kernel.h)
+set(shared core/cursor.h core/replace_file.h core/checksum.h core/nearest.h command.h exported_kernel.h)
 set(tools_ cli) # main.c and command.h
 # What is not in the C library, and where src/ may use it: a file that is replaced keeps its mode and links and is
 # flushed to the disk; lanes are the processor's own.

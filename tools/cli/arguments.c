@@ -35,8 +35,8 @@ const char *did_you_mean(const char *word, const char *const *candidates, size_t
 {
     static char text[64];
     const char *nearest = nearest_word(word, candidates, count);
-    snprintf(text, sizeof text, nearest ? "; did you mean '%s'?" : "", nearest);
-    return text;
+    snprintf(text, sizeof text, "; did you mean '%s'?", nearest ? nearest : "");
+    return nearest ? text : "";
 }
 
 const char *list_words(const char *const *candidates, const char *before)
