@@ -5,7 +5,7 @@
  * no GPU is: long_explore has four of them, and what engines make of them in one pass is near what samples say. */
 #include "harness/run_program.h"
 
-#define TABLES VNDF_SOURCE_DIR "/tables/"
+#define SHIPPED VNDF_SOURCE_DIR "/tables/"
 
 static const char *const parts[] = {" data-tv=\"0.00038\">hazy</option>", ">a&amp;b</option>",
                                     "const int VNDF_STUDENT_T_2_5 = ", "What an engine makes of it in one pass",
@@ -125,8 +125,8 @@ int main(void)
     if (!run_begin(folder))
         return test_done();
     run_line(0, "",
-             "cp " TABLES "student-t-2.5-small.vndf 'a&b.vndf'; for page in one two; do vndf explore " TABLES
-             "hazy.vndf 'a&b.vndf' " TABLES "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
+             "cp " SHIPPED "student-t-2.5-small.vndf 'a&b.vndf'; for page in one two; do vndf explore " SHIPPED
+             "hazy.vndf 'a&b.vndf' " SHIPPED "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
              "cmp one.html two.html && rm two.html 'a&b.vndf'",
              test_long() ? 32 : 4);
     char *text = run_file("one.html", &size);
