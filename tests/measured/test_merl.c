@@ -101,7 +101,7 @@ static void refused(size_t size, const char *reason)
 
 static void test_refusals(void)
 {
-    refused(11, "its head of three numbers of 4 bytes is not whole");
+    refused(11, "it begins with 0 0 0 in the place of 90 90 180");
     refused(12, "a MERL file of 90 x 90 x 180 has 34992012 bytes, and there are 12");
     refused(SIZE - 1, "and there are 34992011");
     for (int light = 0; light >= -1; light--) {

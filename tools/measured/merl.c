@@ -31,7 +31,8 @@ enum { STEP_D = 3, STEP_PHI = 30, PLACES = HALVES * (DIFFERENCES / STEP_D) * (HA
 
 static const double pi = 3.14159265358979323846;
 static const double unit_of[3] = {1 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
-static const double of_luminance[3] = {0.2126, 0.7152, 0.0722};
+static const double weight_of[][3] = {
+    {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.2126, 0.7152, 0.0722}}; /* by merl_channel */
 
 /* ---- D ------------------------------------------------------------------------------------------- */
 
@@ -85,17 +86,14 @@ static double area_at(const law *l, double theta)
     return l->area[at] + (place - at) * (l->area[at + 1] - l->area[at]);
 }
 
-/* The fixed point for f[] at the bins, from any D there, and its F0; negative where nothing is known: D is that of the
- * bin before. 0 if there is no light. */
+/* The fixed point for f[] at the bins, and its F0; negative where nothing is known: D is that of the bin before. 0 if
+ * there is no light. */
 static int iterate(law *l, const double *f, double *f0)
 {
     double before = 0;
-    if (!(normalise(l) > 0)) {
-        for (int i = 0; i < HALVES; i++)
-            l->ndf[i] = 1;
-        normalise(l);
-    }
-    *f0 = 0;
+    for (int i = 0; i < HALVES; i++)
+        l->ndf[i] = 1;
+    *f0 = normalise(l);
     for (int step = 0; step < STEPS && (step < 4 || fabs(*f0 - before) > 1e-10 * *f0); step++) {
         before = *f0;
         for (int i = 0; i < HALVES; i++) {
@@ -138,12 +136,12 @@ static double value_at(const search *s, int half, int difference, int azimuth)
     size_t at = ((size_t)half * DIFFERENCES + (size_t)difference) * (size_t)s->azimuths + (size_t)azimuth;
     double sum = 0;
     for (int i = 0; i < 3; i++) {
-        if (s->channel != MERL_LUMINANCE && s->channel != (merl_channel)i)
+        if (weight_of[s->channel][i] == 0)
             continue;
-        double value = little_number(s->numbers + 8 * (at + (size_t)i * plane), 8) * unit_of[i];
+        const double value = little_number(s->numbers + 8 * (at + (size_t)i * plane), 8) * unit_of[i];
         if (!(value >= 0) || !(value < 1e30))
             return -1;
-        sum += (s->channel == MERL_LUMINANCE ? of_luminance[i] : 1) * value;
+        sum += weight_of[s->channel][i] * value;
     }
     return sum;
 }
@@ -227,20 +225,17 @@ static double try_diffuse(search *s, double diffuse)
  * if that is as good. */
 static double find_diffuse(search *s)
 {
-    double most = INFINITY, best = 0, none = try_diffuse(s, 0), least = none;
+    double most = INFINITY, best = 0;
+    const double none = try_diffuse(s, 0);
+    double least = none;
     for (int i = 0; i < HALVES && s->law.theta[i] < 70 * pi / 180; i++)
         most = s->back[i] < 0 ? most : fmin(most, s->back[i]);
-    most = isfinite(most) ? most : 0;
-    for (double step = most / 8; step > 1e-4 * most; step /= 8) {
-        double middle = best;
-        for (int i = -8; i <= 8; i++) {
-            double diffuse = middle + i * step, residual = 1;
-            if (i != 0 && diffuse > 0 && diffuse <= most)
-                residual = try_diffuse(s, diffuse);
-            if (residual < least) {
-                least = residual;
-                best = diffuse;
-            }
+    for (double step = isfinite(most) ? most / 8 : 0; step > 1e-4 * most; step /= 8) {
+        const double from = fmax(best - 8 * step, step), to = fmin(best + 8.5 * step, most);
+        for (double diffuse = from; diffuse <= to; diffuse += step) {
+            const double residual = try_diffuse(s, diffuse);
+            best = residual < least ? diffuse : best;
+            least = fmin(residual, least);
         }
     }
     return none <= 1.01 * least + 1e-5 ? 0 : best;
@@ -249,10 +244,8 @@ static double find_diffuse(search *s)
 /* The number of azimuths, or 0 and the reason. */
 static int open_file(data_file *file)
 {
-    unsigned long side[3];
-    if (file->size < HEAD)
-        return refuse(file, "this is no MERL file: its head of three numbers of 4 bytes is not whole");
-    for (size_t i = 0; i < 3; i++)
+    unsigned long side[3] = {0};
+    for (size_t i = 0; i < 3 && file->size >= HEAD; i++)
         side[i] = (unsigned long)little_whole(file->bytes + 4 * i, 4);
     if (side[0] != HALVES || side[1] != DIFFERENCES || (side[2] != HALF_TURN && side[2] != 2 * HALF_TURN))
         return refuse(file, "this is no MERL file: it begins with %lu %lu %lu in the place of 90 90 180", side[0],
