@@ -62,6 +62,7 @@ static void test_ggx(double alpha)
     TEST_NEAR(case_number(&file, "\nf90 "), 1, 0.05);
     TEST(case_number(&file, "residual_reflectance ") < 0.005);
     TEST_RELATIVE(case_number(&file, "\nf0_red "), 0.9, 0.01);
+    TEST_RELATIVE(case_number(&file, "\nf0_green "), 0.6, 0.01);
     TEST_RELATIVE(case_number(&file, "\nf0_blue "), 0.3, 0.01);
 }
 
