@@ -72,7 +72,9 @@ int tensor_find(data_file *file, const char *name, int dimensions, tensor *found
             return refuse(file, "field '%s' has the type %d and %d dimensions; the type %d and %d are needed",
                           name, behind[2], many, TENSOR_F32, dimensions);
         const uint64_t begin = little_whole(behind + 3, 8);
-        uint64_t room = begin <= file->size ? (file->size - begin) / 4 : 0;
+        if (begin > file->size)
+            return refuse(file, "the numbers of field '%s' begin behind the end of the file", name);
+        uint64_t room = (file->size - begin) / 4;
         *found = (tensor){.name = name, .type = TENSOR_F32, .dimensions = dimensions, .data = b + begin};
         for (int d = 0; d < many; d++, room /= found->shape[d - 1] ? found->shape[d - 1] : 1)
             if ((found->shape[d] = (size_t)little_whole(sides + 8 * d, 8)) > room)
