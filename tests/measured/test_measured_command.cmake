@@ -80,7 +80,7 @@ run(0 build --height heights.txt --step 400,400 --max-bytes 2048 --profile curve
 number(rms rms_slope)
 number(before scale)
 expect("half the step: rms ${finer} after ${rms}" finer GREATER rms)
-foreach(key anisotropy p22_error_median p22_error_99 residual_bins residual_isotropy)
+foreach(key anisotropy p22_error_median p22_error_99 residual_isotropy)
     has(output "\n${key} ")
 endforeach()
 expect("no matrix" output MATCHES "\nmatrix [.0-9]+,[-.e0-9]+,[-.e0-9]+,[.0-9]+\n")

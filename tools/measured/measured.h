@@ -112,10 +112,6 @@ void slopes_add(slope_set *to, double x, double y, int part);
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
 
-/* The mass of slopes between two lengths, integral P22 2 pi r dr; `to` may be infinite. Of a source as it is given.
- */
-double slope_mass(const vndf_source *source, double from, double to);
-
 /* Heights over places (x step_x, y step_y), all in one unit; a row after the other. NaN: there is none. */
 typedef struct height_field {
     int width, height;
