@@ -1,10 +1,10 @@
-/* vndf_build_family: places knots along a parameter so that the distances between the family and the mixtures of
+/* vndf_build_family: chooses knots along a parameter so that the distances between the family and the mixtures of
  * neighbouring knots are about the same and the largest is small, then builds a table at each.
  *
- * P22 is tabulated at slopes that are even in log r, where sums converge fast: families are smooth there, and features
- * that are no wider than a slope step are refused or resolved when tables are built. The distance between two knots
- * grows as the square of the way between them: its root is shared out evenly, again and again, as de Boor shares out
- * knots of splines ("Good approximation by splines with variable knots", 1973).
+ * The family is tabulated once, on a fine grid of parameters, at slopes even in log r, where sums converge fast:
+ * families are smooth there, and features that are no wider than a slope step are refused or resolved when tables are
+ * built. Distances between points of the grid need no more. From each knot the next one is as far as a distance allows;
+ * for so many knots that distance is halved between what is enough and what is not.
  *
  * A family of sources along one number is a specification (vndf_source_family) with {p} in the place of the number; a
  * name alone, "student-t", is "student-t:{p}". */
@@ -13,29 +13,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "fit/guard.h"
+#include "fit/profile/profile.h"
+#include "source/source.h"
 #include "source/words.h"
 #include "table/family/family.h"
 
 static const char PLACE[] = "{p}";
 
-enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, SWEEPS = 12 };
-enum { SLOPES_TO_E = 16, SLOPES = SLOPES_TO_E * 94 };
-static const double SLOPE_LEAST = 1e-13; /* the largest is 7e27 */
+enum { KNOTS_MOST = VNDF_LIMIT_FAMILY_KNOTS, PROBES = VNDF_FAMILY_PROBES, MAP_KNOTS = 9, GRID = 1024 };
+enum { SLOPES_TO_E = 16, SLOPES = SLOPES_TO_E * 94 }; /* VNDF_SOURCE_MANY at a time */
+static const double SLOPE_LEAST = 1e-13;              /* the largest is 7e27 */
 static const double DISTANCE_DEFAULT = 1e-3;
 static const double MAP_GAIN = 0.75; /* 1/p has to make the largest distance smaller by this */
-static const double EVEN = 1.03;     /* largest over mean distance: good enough */
 static const double PLACED = 0.1;    /* of the progress */
 
-/* Knots, the distances between them, and the largest. */
-typedef struct spread {
-    double knot[KNOTS_MOST], distance[KNOTS_MOST], worst, grazing;
-} spread;
-
-/* P22 at some parameter: shares of the slopes, and of the normals that are visible at grazing incidence. */
-typedef struct shares {
-    double slope[SLOPES], grazing; /* grazing: the mean slope */
-} shares;
+/* P22 at a parameter: shares of the slopes, and the mean slope. */
+typedef struct point {
+    double p, mean, share[SLOPES];
+} point;
 
 typedef struct builder {
     vndf_guard guard;
@@ -43,10 +38,11 @@ typedef struct builder {
     vndf_family_options options;
     double low, high;
     int reciprocal; /* mixtures are linear in 1/p */
-    shares left, right, own;
-    size_t count;
-    spread spread, trial;
-    double begin, width; /* of the stage at hand, as parts of all the work */
+    double slope[SLOPES];
+    point grid[GRID + 1]; /* parameters ascend, as floats do, to that of `last` */
+    size_t last;
+    size_t count, knot[KNOTS_MOST + 1]; /* places in the grid */
+    double begin, width;                /* of the table at hand, as parts of all the work */
     char stage[48];
 } builder;
 
@@ -60,9 +56,9 @@ static int show(double done, const char *what, void *user)
                                : 0;
 }
 
-/* ---- distances ---- */
+/* ---- the grid ---- */
 
-/* With seven digits: what knots and probes are rounded to, so that a specification shows all of them. */
+/* With seven digits: what the grid is rounded to, so that a specification shows all of them. */
 static double number_of(double p)
 {
     char text[VNDF_NUMBER_TEXT];
@@ -94,179 +90,146 @@ static vndf_source *source_at(builder *b, double p)
     return source;
 }
 
-static double slope_at(size_t i)
-{
-    return SLOPE_LEAST * exp((double)i / SLOPES_TO_E);
-}
-
-static void tabulate(builder *b, double p, shares *to)
+static void tabulate(builder *b, double p, point *to)
 {
     vndf_source *source = source_at(b, p);
     double sum = 0, along = 0;
-    if (!source)
-        return;
-    for (size_t i = 0; i < SLOPES; i++) {
-        double r = slope_at(i), value = vndf_source_p22(source, r) * r * r;
-        to->slope[i] = value > 0 && value < HUGE_VAL ? value : 0;
-        sum += to->slope[i];
-        along += to->slope[i] * r;
+    for (size_t i = 0; i < SLOPES && source; i += VNDF_SOURCE_MANY)
+        source->p22(source, &b->slope[i], VNDF_SOURCE_MANY, &to->share[i]);
+    for (size_t i = 0; i < SLOPES && source; i++) {
+        double value = to->share[i] * b->slope[i] * b->slope[i];
+        to->share[i] = value > 0 && value < HUGE_VAL ? value : 0;
+        sum += to->share[i];
+        along += to->share[i] * b->slope[i];
     }
     for (size_t i = 0; sum > 0 && i < SLOPES; i++)
-        to->slope[i] /= sum;
-    to->grazing = sum > 0 ? along / sum : 1;
+        to->share[i] /= sum;
+    to->mean = sum > 0 ? along / sum : 1;
+    to->p = p;
     vndf_source_free(source);
 }
 
-/* Adds the distance at p between two knots, which are tabulated. */
-static void measure_at(builder *b, double low, double high, double p, double *slopes, double *grazing)
+/* Even in log p, or in p where that begins at 0 or below. */
+static void make_grid(builder *b)
 {
-    double sum = 0, along = 0, t = vndf_family_weight(low, high, p, b->reciprocal);
-    double mixed_grazing = (1 - t) * b->left.grazing + t * b->right.grazing;
-    tabulate(b, p, &b->own);
-    for (size_t i = 0; i < SLOPES; i++) {
-        double mixed = (1 - t) * b->left.slope[i] + t * b->right.slope[i], own = b->own.slope[i];
-        sum += fabs(mixed - own);
-        along += fabs(mixed / mixed_grazing - own / b->own.grazing) * slope_at(i);
+    for (size_t i = 0; i < SLOPES; i++)
+        b->slope[i] = SLOPE_LEAST * exp((double)i / SLOPES_TO_E);
+    tabulate(b, b->low, &b->grid[0]);
+    for (size_t i = 1; i < GRID && !vndf_guard_stopped(&b->guard); i++) {
+        double part = (double)i / GRID, p = number_of(b->low > 0 ? b->low * pow(b->high / b->low, part)
+                                                                 : b->low + part * (b->high - b->low));
+        if ((float)p > (float)b->grid[b->last].p && (float)p < (float)b->high)
+            tabulate(b, p, &b->grid[++b->last]);
+        vndf_guard_stage(&b->guard, PLACED * part, "placing knots");
     }
-    *slopes = fmax(*slopes, sum / 2);
-    *grazing = fmax(*grazing, along / 2);
-}
-
-/* At the probes between all knots. */
-static void measure(builder *b, spread *s)
-{
-    tabulate(b, s->knot[0], &b->right);
-    s->worst = s->grazing = 0;
-    for (size_t i = 0; i + 1 < b->count && !vndf_guard_stopped(&b->guard); i++) {
-        double low = s->knot[i], high = s->knot[i + 1];
-        b->left = b->right;
-        tabulate(b, high, &b->right);
-        s->distance[i] = 0;
-        for (int k = 1; k <= PROBES && !vndf_guard_stopped(&b->guard); k++) {
-            double part = (double)k / (PROBES + 1); /* the weight of the upper knot */
-            double p = b->reciprocal ? low * high / (high - part * (high - low)) : low + part * (high - low);
-            measure_at(b, low, high, p, &s->distance[i], &s->grazing);
-        }
-        vndf_guard_stage(&b->guard, b->begin, b->stage);
-        s->worst = fmax(s->worst, s->distance[i]);
-    }
+    if (!vndf_guard_stopped(&b->guard))
+        tabulate(b, b->high, &b->grid[++b->last]);
 }
 
 /* ---- knots ---- */
 
-/* Moves knots to where the sum of roots, spread evenly between the old ones, reaches its parts; along log p, or along p
- * where that begins at 0 or below. At first the old ones are both ends. 0 if floats do not tell the new ones apart. */
-static int share_out(const builder *b, const spread *old, spread *s)
+/* The distance between two points at the probes between them; that at grazing incidence, if it is larger. */
+static double distance_of(const builder *b, size_t from, size_t to, double *grazing)
 {
-    double whole = 0, before = 0;
-    size_t i = 0, n = b->count;
-    int ascends = 1;
-    for (size_t k = 0; k + 1 < n; k++)
-        whole += sqrt(old->distance[k]);
-    s->knot[0] = b->low;
-    s->knot[n - 1] = b->high;
-    for (size_t k = 1; k + 1 < n; k++) {
-        double target = whole * (double)k / (double)(n - 1);
-        while (i + 2 < n && before + sqrt(old->distance[i]) < target)
-            before += sqrt(old->distance[i++]);
-        double from = old->knot[i], to = old->knot[i + 1], root = sqrt(old->distance[i]);
-        double part = root > 0 ? fmin((target - before) / root, 1) : 0.5;
-        s->knot[k] = number_of(b->low > 0 ? from * pow(to / from, part) : from + (to - from) * part);
-    }
-    for (size_t k = 0; k + 1 < n; k++)
-        ascends &= (float)s->knot[k] < (float)s->knot[k + 1];
-    return ascends;
-}
-
-/* Places b->count knots for the least distance; 0 if the build must end. */
-static int spread_knots(builder *b)
-{
-    spread *s = &b->trial, old = {.knot = {b->low, b->high}, .distance = {1}};
-    b->spread.worst = HUGE_VAL;
-    for (int sweep = 0; sweep < SWEEPS && share_out(b, &old, s); sweep++) {
-        measure(b, s);
-        if (vndf_guard_stopped(&b->guard))
-            return 0;
-        double sum = 0;
-        for (size_t i = 0; i + 1 < b->count; i++)
-            sum += s->distance[i];
-        if (s->worst < b->spread.worst)
-            b->spread = *s;
-        if (s->worst * (double)(b->count - 1) <= EVEN * sum)
-            break;
-        old = *s;
-    }
-    if (b->spread.worst == HUGE_VAL)
-        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_ARGUMENT,
-                  "parameters from %.7g to %.7g are too close for %lu knots of seven digits", b->low, b->high,
-                  (unsigned long)b->count);
-    return !vndf_guard_stopped(&b->guard);
-}
-
-/* About as few knots as reach the distance, which falls as the square of their number: an estimate from below, then one
- * by one. */
-static void reach_distance(builder *b)
-{
-    double target = b->options.max_distance;
-    for (b->count = 2; spread_knots(b) && b->spread.worst > target;) {
-        double more = 1 + floor((double)(b->count - 1) * sqrt(b->spread.worst / target));
-        if (b->count == KNOTS_MOST) {
-            vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
-                      "a distance of %g between family and mixture cannot be met: %d knots reach %.3g", target,
-                      KNOTS_MOST, b->spread.worst);
-            return;
+    const point *left = &b->grid[from], *right = &b->grid[to];
+    double worst = 0;
+    for (size_t k = 1, at; k <= PROBES; k++) {
+        if ((at = from + (to - from) * k / (PROBES + 1)) == from)
+            continue;
+        const point *own = &b->grid[at];
+        double t = vndf_family_weight(left->p, right->p, own->p, b->reciprocal), sum = 0, along = 0,
+               mean = (1 - t) * left->mean + t * right->mean;
+        for (size_t n = 0; n < SLOPES; n++) {
+            double mixed = (1 - t) * left->share[n] + t * right->share[n];
+            sum += fabs(mixed - own->share[n]);
+            along += fabs(mixed / mean - own->share[n] / own->mean) * b->slope[n];
         }
-        b->count = (size_t)fmin(fmax(more, (double)b->count + 1), KNOTS_MOST);
+        worst = fmax(worst, sum / 2);
+        *grazing = fmax(*grazing, along / 2);
     }
+    return worst;
 }
 
-/* Chooses between mixtures that are linear in p and in 1/p, then places knots. */
+/* Knots for a distance, until there are more than `most`; returns whether there are not. */
+static int march(builder *b, double distance, size_t most)
+{
+    size_t from = 0, step = 1;
+    double unused = 0;
+    for (b->count = 1; from < b->last && b->count <= most; b->knot[b->count++] = from) {
+        size_t good = from + 1, bad = b->last + 1;
+        for (size_t to = from + step; good + 1 < bad; to = bad > b->last ? 2 * to - from : (good + bad) / 2) {
+            to = to > b->last ? b->last : to <= good ? good + 1 : to;
+            *(distance_of(b, from, to, &unused) <= distance ? &good : &bad) = to;
+        }
+        step = good - from;
+        from = good;
+    }
+    return from == b->last && b->count <= most;
+}
+
+/* Places so many knots for the least distance, which it returns. */
+static double spread_knots(builder *b, size_t count)
+{
+    const double close = 1.01, nothing = 1e-12;
+    double low = 0, unused = 0, high = distance_of(b, 0, b->last, &unused);
+    while (high > close * low && high > nothing && !vndf_guard_stopped(&b->guard)) {
+        double middle = low > 0 ? sqrt(low * high) : high / 4;
+        *(march(b, middle, count) ? &high : &low) = middle;
+        vndf_guard_stage(&b->guard, PLACED, "placing knots");
+    }
+    march(b, high, count);
+    while (b->count < count) { /* the grid may be too coarse for the last ones: in the middle of the widest gap */
+        size_t widest = 0;
+        for (size_t i = 0; i + 1 < b->count; i++)
+            widest = b->knot[i + 1] - b->knot[i] > b->knot[widest + 1] - b->knot[widest] ? i : widest;
+        memmove(&b->knot[widest + 2], &b->knot[widest + 1], (b->count++ - widest - 1) * sizeof *b->knot);
+        b->knot[widest + 1] = (b->knot[widest] + b->knot[widest + 2]) / 2;
+    }
+    return high;
+}
+
+/* Chooses between mixtures that are linear in p and in 1/p, then places as few knots as reach the distance, or as many
+ * as are wanted. */
 static void place(builder *b)
 {
-    double linear = 0;
-    b->width = PLACED;
-    snprintf(b->stage, sizeof b->stage, "placing knots");
-    vndf_guard_stage(&b->guard, b->begin, b->stage);
-    b->count = MAP_KNOTS;
-    for (int map = 0; map < 2 && b->low > 0 && !vndf_guard_stopped(&b->guard); map++) {
-        linear = b->spread.worst;
-        b->reciprocal = map;
-        spread_knots(b);
-    }
-    b->reciprocal = b->low > 0 && b->spread.worst < MAP_GAIN * linear;
-    b->count = b->options.knots;
+    double target = b->options.max_distance, distance[2] = {0, 0};
+    make_grid(b);
     if (vndf_guard_stopped(&b->guard))
         return;
-    if (b->count)
-        spread_knots(b);
+    for (b->reciprocal = 0; b->low > 0 && b->last >= MAP_KNOTS && b->reciprocal < 2; b->reciprocal++)
+        distance[b->reciprocal] = spread_knots(b, MAP_KNOTS);
+    b->reciprocal = distance[1] < MAP_GAIN * distance[0];
+    size_t knots = b->options.knots;
+    if (!knots && !march(b, target, KNOTS_MOST))
+        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
+                  "a distance of %g between family and mixture cannot be met: %d knots reach %.3g", target,
+                  KNOTS_MOST, spread_knots(b, KNOTS_MOST));
+    else if (knots > b->last + 1)
+        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_ARGUMENT,
+                  "parameters from %.7g to %.7g are too close for %lu knots of seven digits", b->low, b->high,
+                  (unsigned long)knots);
     else
-        reach_distance(b);
+        spread_knots(b, knots ? knots : b->count);
 }
 
 /* ---- tables ---- */
-
-/* Arguments of `vndf build`, to be freed. */
-static char *describe(builder *b)
-{
-    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
-    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
-             vndf_number_print(high, b->high));
-    return vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
-}
 
 static void fill(builder *b, vndf_family *family)
 {
     const vndf_build_options options = {
         .max_bytes = b->options.max_bytes, .moments = b->options.moments, .progress = show, .progress_user = b};
+    char tail[96], low[VNDF_NUMBER_TEXT], high[VNDF_NUMBER_TEXT];
+    snprintf(tail, sizeof tail, " --parameter %s..%s", vndf_number_print(low, b->low),
+             vndf_number_print(high, b->high));
     family->owns = 1;
     family->reciprocal = b->reciprocal;
-    family->grazing = (float)fmin(b->spread.grazing, 1);
-    family->source = describe(b);
+    family->source = vndf_text_pair("--family", b->pattern, tail, vndf_guard_why(&b->guard));
     family->tool = vndf_text_pair("vndf", VNDF_VERSION, "", vndf_guard_why(&b->guard));
     b->width = (1 - PLACED) / (double)b->count;
+    double grazing = 0;
     for (size_t i = 0; i < b->count; i++) {
         vndf_error inner = {VNDF_OK, ""};
-        double p = b->spread.knot[i];
+        double p = b->grid[b->knot[i]].p, distance = 0;
         b->begin = PLACED + b->width * (double)i;
         snprintf(b->stage, sizeof b->stage, "table %lu of %lu", (unsigned long)i + 1, (unsigned long)b->count);
         vndf_guard_stage(&b->guard, b->begin, b->stage);
@@ -274,7 +237,9 @@ static void fill(builder *b, vndf_family *family)
             return;
         vndf_source *source = source_at(b, p);
         family->parameter[i] = (float)p;
-        family->distance[i] = i + 1 < b->count ? (float)fmin(b->spread.distance[i], 1) : 0.0f;
+        if (i + 1 < b->count)
+            distance = distance_of(b, b->knot[i], b->knot[i + 1], &grazing);
+        family->distance[i] = (float)fmin(distance, 1);
         family->distribution[i] = source ? vndf_build(source, &options, NULL, &inner) : NULL;
         vndf_source_free(source);
         if (!family->distribution[i])
@@ -282,6 +247,7 @@ static void fill(builder *b, vndf_family *family)
     }
     if (vndf_guard_stopped(&b->guard))
         return;
+    family->grazing = (float)fmin(grazing, 1);
     family->bytes = vndf_family_size(family);
     if (family->bytes > VNDF_LIMIT_FAMILY_BYTES)
         vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,

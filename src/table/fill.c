@@ -115,37 +115,39 @@ static double fill_sums(vndf_distribution *t)
 }
 
 /* Columns of slopes and of sums beyond them, and their pivots. */
-static void fill_columns(vndf_distribution *table)
+static void fill_columns(vndf_distribution *t)
 {
-    int n = table->cells, size = vndf_column_size(n), pivots = vndf_pivot_count(n);
-    float *pivot = table->columns + VNDF_COLUMNS * size;
-    table->column = size;
-    table->pivots = pivots;
+    float *pivot = t->columns + VNDF_COLUMNS * t->column;
     for (int c = 0; c < VNDF_COLUMNS; c++) {
-        float *column = table->columns + c * size;
-        for (int i = 0; i < size; i++)
-            column[i] = i > n ? (c ? -1.0f : 3e38f)
-                              : vndf_table_row(table, c ? VNDF_TAIL : VNDF_KNOT, (size_t)i)[c ? c - 1 : 0];
-        for (int i = 0; i < pivots; i++) {
+        float *column = t->columns + c * t->column, beyond = c ? -1.0f : 3e38f;
+        int row = c ? VNDF_TAIL : VNDF_KNOT, place = c ? c - 1 : 0;
+        for (int i = 0; i < t->column; i++)
+            column[i] = i > t->cells ? beyond : vndf_table_row(t, row, (size_t)i)[place];
+        for (int i = 0; i < t->pivots; i++) {
             int knot = (i + 1) * VNDF_COLUMN_STEP;
-            pivot[c * pivots + i] = knot < size ? column[knot] : c ? -1.0f : 3e38f;
+            pivot[c * t->pivots + i] = knot < t->column ? column[knot] : beyond;
         }
     }
 }
 
-static void fill_first(vndf_distribution *table)
+/* By the rounded rho of each part, of which the last has all that are larger. */
+static void fill_first(vndf_distribution *t)
 {
     int knot = 0;
     for (int i = 0; i < VNDF_RHO_PARTS; i++) {
-        while (knot < table->cells && vndf_table_row(table, VNDF_KNOT, (size_t)knot + 1)[3] <= vndf_rounded_rho(i))
+        union {
+            int32_t bits;
+            float rho;
+        } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
+        while (knot < t->cells && vndf_table_row(t, VNDF_KNOT, (size_t)knot + 1)[3] <= middle.rho)
             knot++;
-        table->first[i] = (uint16_t)knot;
+        t->first[i] = (uint16_t)knot;
     }
 }
 
-static size_t column_floats(const vndf_distribution *table)
+static size_t column_floats(const vndf_distribution *t)
 {
-    return (size_t)VNDF_COLUMNS * (size_t)(vndf_column_size(table->cells) + vndf_pivot_count(table->cells));
+    return (size_t)VNDF_COLUMNS * (size_t)(t->column + t->pivots);
 }
 
 vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigned squarings)
@@ -156,6 +158,8 @@ vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigne
     t->cells = (int32_t)cells;
     t->moments = (int32_t)moments;
     t->squarings = (int32_t)squarings;
+    t->column = t->cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 1;
+    t->pivots = (t->cells / VNDF_COLUMN_STEP + 3) / 4 * 4;
     t->number_count = VNDF_HEAD + VNDF_STRIDE * ((size_t)cells + 1);
     t->numbers = calloc(t->number_count, sizeof(float));
     t->columns = malloc(column_floats(t) * sizeof(float));

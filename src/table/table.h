@@ -29,16 +29,6 @@ enum {
  * Eighth i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
 enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = (127 - 13) * 8 };
 
-/* The rounded rho of a part; the last has all that are larger. */
-VNDF_INLINE float vndf_rounded_rho(int i)
-{
-    union {
-        int32_t bits;
-        float rho;
-    } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
-    return middle.rho;
-}
-
 /* The rows of a knot, 0 to N. */
 enum {
     VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
@@ -56,17 +46,6 @@ enum {
  * eight. Padding fails every comparison of a search. */
 enum { VNDF_COLUMNS = 5, VNDF_COLUMN_STEP = 8 };
 
-/* Floats of a column: up to the end of the last block. Pivots of a column: a multiple of four. */
-VNDF_INLINE int vndf_column_size(int cells)
-{
-    return cells / VNDF_COLUMN_STEP * VNDF_COLUMN_STEP + VNDF_COLUMN_STEP + 1;
-}
-
-VNDF_INLINE int vndf_pivot_count(int cells)
-{
-    return (cells / VNDF_COLUMN_STEP + 3) / 4 * 4;
-}
-
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
 struct vndf_distribution {
@@ -77,7 +56,7 @@ struct vndf_distribution {
     float *numbers;
     size_t number_count;
     float *columns;                 /* slopes and sums beyond them once more, each in a column (above) */
-    int32_t column, pivots;         /* vndf_column_size, vndf_pivot_count */
+    int32_t column, pivots;         /* floats of one, up to the end of its last block; its pivots, four by four */
     uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of rho */
     double normalization;           /* the source was multiplied by it */
     double scale;                   /* canonical slope 1 is this slope of the source */

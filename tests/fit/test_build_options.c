@@ -1,6 +1,5 @@
-/* The builder keeps its options: the same input gives the same bytes, no table exceeds max_bytes and one that takes
- * exactly that many is made, max_tv is met or refused with what was reached, options out of range are refused, and
- * progress may stop a build. */
+/* The builder keeps its options: no table exceeds max_bytes and one that takes exactly that many is made, max_tv is met
+ * or refused with what was reached, options out of range are refused, and progress may stop a build. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
 
@@ -56,21 +55,6 @@ static void test_exact_size(void)
     TEST(bytes > 2900 && bytes_of(bytes) == bytes && bytes_of(bytes - 1) < bytes);
 }
 
-static void test_same_bytes(void)
-{
-    static unsigned char bytes[2][8192];
-    for (size_t i = 0; i < ORACLE_COUNT; i += test_long() ? 3 : 5) {
-        size_t size = 0;
-        for (int k = 0; k < 2; k++) {
-            vndf_distribution *table = oracle_build(oracle_get(i).name, 8192, NULL, NULL);
-            size = vndf_distribution_info(table).bytes;
-            TEST(vndf_save_memory(table, bytes[k], size, NULL) == VNDF_OK);
-            vndf_free(table);
-        }
-        TEST(size > 0 && memcmp(bytes[0], bytes[1], size) == 0);
-    }
-}
-
 static void test_refused(void)
 {
     static const struct {
@@ -119,7 +103,6 @@ int main(void)
 {
     test_sizes();
     test_exact_size();
-    test_same_bytes();
     test_refused();
     test_progress();
     return test_done();

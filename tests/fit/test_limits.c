@@ -1,7 +1,7 @@
 /* Every limit that the headers state is where they state it: what is at the limit is taken, what is one beyond is
  * refused with an error that names the limit. (Length and depth of expressions, lines and rows of a CSV, panels, sizes
  * of tables: test_expression, test_csv, test_build_refusals, test_build_options.) */
-#include "fit/guard.h"
+#include "fit/profile/profile.h"
 #include "harness/damage.h"
 #include "source/sources.h"
 

@@ -118,12 +118,11 @@ static void test_family(const vndf_family_form *form, double a, double b)
 
 int main(void)
 {
-    const vndf_family_form *form;
     for (size_t i = 0; i < sizeof formulas / sizeof *formulas; i++)
         test_formula(formulas[i], NULL, 0);
-    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL; i++) {
-        test_family(form, 1.7, 0.3);
-        test_family(form, 60, 2.5);
+    for (size_t i = 0; i < VNDF_FAMILY_FORMS; i++) {
+        test_family(&vndf_family_forms[i], 1.7, 0.3);
+        test_family(&vndf_family_forms[i], 60, 2.5);
     }
     return test_done();
 }

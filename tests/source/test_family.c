@@ -136,8 +136,8 @@ static void test_sheen(void)
 /* The help names each family with its usage and its limits. */
 static void test_help(void)
 {
-    const vndf_family_form *form;
-    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL; i++) {
+    for (size_t i = 0; i < VNDF_FAMILY_FORMS; i++) {
+        const vndf_family_form *form = &vndf_family_forms[i];
         char start[80], limit[80];
         snprintf(start, sizeof start, "%.*s ", (int)strcspn(form->usage, " "), form->usage); /* the first of two */
         const char *line = strstr(vndf_family_help(), start);

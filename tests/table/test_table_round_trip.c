@@ -1,10 +1,7 @@
-/* Saved and loaded, a table is the same: the same numbers, which all is drawn from, texts and certificate, and the same
- * bytes again. What cannot be saved or loaded gives its status and leaves nothing behind. vndf_numbers gives as many
- * numbers as it says, a head of 8 and five rows of four for each knot, and no more than there is room for. (What they
- * say: exported_*.) */
-#include <stdlib.h>
-
-#include "harness/test.h"
+/* Saved and loaded, a table is the same, numbers and file, to the byte; a file is the bytes that memory gets. What
+ * cannot be saved or loaded gives its status and leaves nothing behind. vndf_numbers gives as many numbers as it says,
+ * a head of 8 and five rows of four for each knot, and no more than there is room for. (What they say: exported_*.) */
+#include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
 
@@ -18,48 +15,38 @@ static int exists(const char *path)
     return file != NULL;
 }
 
-static void test_equal(const vndf_distribution *a, const vndf_distribution *b)
-{
-    static float numbers[2][ROOM];
-    static unsigned char bytes[2][ROOM];
-    vndf_info ia = vndf_distribution_info(a), ib = vndf_distribution_info(b);
-    size_t count = vndf_numbers(a, numbers[0], ROOM);
-    TEST(strcmp(ia.source, ib.source) == 0 && strcmp(ia.tool, ib.tool) == 0);
-    TEST(memcmp(&ia.certificate, &ib.certificate, sizeof ia.certificate) == 0);
-    TEST(ia.bytes == ib.bytes && ia.normalization == ib.normalization && ia.scale == ib.scale);
-    TEST(count <= ROOM && vndf_numbers(b, numbers[1], ROOM) == count);
-    TEST(memcmp(numbers[0], numbers[1], count * sizeof(float)) == 0);
-    TEST(vndf_save_memory(a, bytes[0], ia.bytes, NULL) == VNDF_OK);
-    TEST(vndf_save_memory(b, bytes[1], ib.bytes, NULL) == VNDF_OK && memcmp(bytes[0], bytes[1], ia.bytes) == 0);
-}
-
 static void test_numbers(const vndf_distribution *d)
 {
     static float all[ROOM], part[ROOM];
     size_t count = vndf_numbers(d, NULL, 0);
     if (!TEST(count == 8 + 5 * 4 * (vndf_distribution_info(d).cells + 1) && count < ROOM))
         return;
-    all[count] = part[count / 2] = 7;
+    all[count] = part[count - 1] = 7;
     TEST(vndf_numbers(d, all, count) == count && all[count] == 7);
-    TEST(vndf_numbers(d, part, count / 2) == count && part[count / 2] == 7);
-    TEST(memcmp(all, part, count / 2 * sizeof *all) == 0);
+    TEST(vndf_numbers(d, part, count - 1) == count && part[count - 1] == 7);
+    TEST(memcmp(all, part, (count - 1) * sizeof *all) == 0);
     TEST(vndf_numbers(NULL, part, 1) == 0 && vndf_numbers(vndf_ggx(), part, 1) == 0);
 }
 
 static void test_round_trip(size_t kind)
 {
+    static unsigned char bytes[3][ROOM];
+    static float numbers[2][ROOM];
     const char *path = "test_table_round_trip.vndf";
-    oracle o = oracle_get(kind);
     vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table = oracle_build(o.name, 4096, NULL, NULL);
+    vndf_distribution *table = oracle_build(oracle_get(kind).name, 4096, NULL, NULL);
+    size_t size = vndf_distribution_info(table).bytes;
     TEST(table && vndf_save(table, path, &error) == VNDF_OK);
     vndf_distribution *loaded = vndf_load(path, &error);
-    if (TEST(loaded != NULL))
-        test_equal(table, loaded);
+    TEST(loaded && vndf_distribution_info(loaded).bytes == size && read_bytes(path, bytes[0], ROOM) == size);
+    TEST(vndf_save_memory(table, bytes[1], size, NULL) == VNDF_OK && memcmp(bytes[1], bytes[0], size) == 0);
+    TEST(vndf_save_memory(loaded, bytes[2], size, NULL) == VNDF_OK && memcmp(bytes[2], bytes[0], size) == 0);
+    size_t count = vndf_numbers(table, numbers[0], ROOM);
+    TEST(vndf_numbers(loaded, numbers[1], ROOM) == count &&
+         memcmp(numbers[0], numbers[1], count * sizeof(float)) == 0);
     test_numbers(loaded);
     TEST(vndf_save(table, "no-such-folder/table.vndf", &error) == VNDF_ERROR_IO && error.status == VNDF_ERROR_IO);
     TEST_HAS(error.message, "no-such-folder");
-    TEST(!exists("no-such-folder/table.vndf"));
     TEST(vndf_save(table, "no-such-folder/table.vndf", NULL) == VNDF_ERROR_IO);
     TEST(vndf_save(table, NULL, &error) == VNDF_ERROR_ARGUMENT);
     vndf_free(table);
@@ -84,7 +71,7 @@ static void test_errors(void)
 
 int main(void)
 {
-    test_round_trip(ORACLE_GGX);
+    test_round_trip(ORACLE_STUDENT); /* of a heavy tail */
     test_round_trip(ORACLE_MEASURED);
     test_round_trip(ORACLE_RING);
     test_errors();

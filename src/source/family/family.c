@@ -57,14 +57,14 @@ static vndf_status unknown_family(vndf_span name, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT], known[160] = "", hint[48] = "";
     size_t used = 0, least = vndf_word_slip(name.size);
-    const vndf_family_form *form;
     if (name.size >= 3 && memcmp(name.text, "mix", 3) == 0)
         return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: a mix is %s, of families that are no mix",
                          name.column, mix_usage);
-    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL && used < sizeof known; i++) {
-        used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", form->name);
-        if (vndf_word_is_nearer(name.text, name.size, form->name, &least))
-            snprintf(hint, sizeof hint, "did you mean '%s'? ", form->name);
+    for (size_t i = 0; i < VNDF_FAMILY_FORMS; i++) {
+        const char *other = vndf_family_forms[i].name;
+        used += (size_t)snprintf(known + used, sizeof known - used, "%s, ", other);
+        if (vndf_word_is_nearer(name.text, name.size, other, &least))
+            snprintf(hint, sizeof hint, "did you mean '%s'? ", other);
     }
     return vndf_fail(error, VNDF_ERROR_SYNTAX, "column %zu: unknown family '%s'; %sknown are %smix", name.column,
                      vndf_excerpt(excerpt, name.text, name.size), hint, known);
@@ -100,9 +100,10 @@ static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
 {
     char excerpt[VNDF_EXCERPT];
     vndf_span rest = whole, name = vndf_cut(&rest, ':');
-    *l = (lobe){vndf_family_form_find(name.text, name.size), {0, 0}, 0, 1};
-    if (!l->form)
-        return unknown_family(name, error);
+    *l = (lobe){vndf_family_forms, {0, 0}, 0, 1};
+    while (!vndf_is_word(name.text, name.size, l->form->name))
+        if (++l->form == vndf_family_forms + VNDF_FAMILY_FORMS)
+            return unknown_family(name, error);
     int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
     if (!has_materials || rest.size == 0 || (rest.text[0] | 32) < 'a' || (rest.text[0] | 32) > 'z')
         return read_parameters(rest, l, error);

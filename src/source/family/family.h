@@ -26,9 +26,8 @@ typedef struct vndf_family_form {
     const char *mass;    /* 2 pi integral P22(r) r dr in a and b; NULL: by quadrature */
 } vndf_family_form;
 
-/* The form of this name, NULL if there is none; the i-th form, NULL past the last. */
-const vndf_family_form *vndf_family_form_find(const char *name, size_t size);
-const vndf_family_form *vndf_family_form_at(size_t index);
+enum { VNDF_FAMILY_FORMS = 10 };
+extern const vndf_family_form vndf_family_forms[VNDF_FAMILY_FORMS];
 
 /* The shipped measured materials. */
 typedef struct vndf_material_fit {

@@ -18,11 +18,10 @@
  * r^2/(q + sqrt q), q = 1 + r^2, without cancellation. hyper-cauchy is published with a factor for which its mass is 1.
  * charlie is 0 at r = 0. Its paper fits a Lambda of its own; ours is Smith's of D, as of all families. */
 #include "source/family/family.h"
-#include "source/words.h"
 #include "vndf_build.h"
 
 /* clang-format off */
-static const vndf_family_form forms[] = {
+const vndf_family_form vndf_family_forms[VNDF_FAMILY_FORMS] = {
     { "ggx", "ggx", 0, 0, { { NULL, 0, 0, 0, 0 } }, "",
       "1/(pi*(1+r*r)*(1+r*r))", "1" },
     { "beckmann", "beckmann", 0, 0, { { NULL, 0, 0, 0, 0 } }, "",
@@ -51,20 +50,6 @@ static const vndf_family_form forms[] = {
       "pow(r/sqrt(1+r*r),1/a)/((1+r*r)*(1+r*r))", "2*pi*a/(1+2*a)" },
 };
 /* clang-format on */
-
-const vndf_family_form *vndf_family_form_at(size_t index)
-{
-    return index < sizeof forms / sizeof forms[0] ? &forms[index] : NULL;
-}
-
-const vndf_family_form *vndf_family_form_find(const char *name, size_t size)
-{
-    const vndf_family_form *form;
-    for (size_t i = 0; (form = vndf_family_form_at(i)) != NULL; i++)
-        if (vndf_is_word(name, size, form->name))
-            return form;
-    return NULL;
-}
 
 /* The ranges are those above; a test compares them. */
 const char *vndf_family_help(void)

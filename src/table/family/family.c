@@ -26,7 +26,8 @@ void vndf_family_free(vndf_family *family)
     free(family);
 }
 
-const char *vndf_family_invalid(const vndf_family *family)
+/* Why the numbers are none of a family; NULL if they are. */
+static const char *invalid(const vndf_family *family)
 {
     const float *p = family->parameter, *distance = family->distance;
     if (family->reciprocal && !(p[0] > 0.0f))
@@ -62,7 +63,7 @@ vndf_family *vndf_family_of(const vndf_distribution *const *distributions, const
                NULL;
     memcpy(family->parameter, parameters, count * sizeof *parameters);
     memcpy((void *)family->distribution, (const void *)distributions, count * sizeof *distributions);
-    const char *why = vndf_family_invalid(family);
+    const char *why = invalid(family);
     if (!why)
         return family;
     vndf_fail(error, VNDF_ERROR_ARGUMENT, "not a family: %s", why);
@@ -141,27 +142,8 @@ size_t vndf_family_size(const vndf_family *family)
     return size;
 }
 
-/* ---- reading ---- */
-
-static vndf_status inconsistent(const char *why, vndf_error *error)
-{
-    return vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent family: %s", why);
-}
-
-static vndf_status read_table(vndf_reader *r, vndf_family *family, size_t index, vndf_error *error)
-{
-    vndf_error inner = {VNDF_OK, ""};
-    uint32_t size = vndf_read_u32(r);
-    const unsigned char *bytes = vndf_read_bytes(r, size);
-    if (!bytes)
-        return inconsistent("its tables do not fill the file", error);
-    family->distribution[index] = vndf_load_memory(bytes, size, &inner);
-    if (family->distribution[index])
-        return VNDF_OK;
-    return vndf_fail(error, inner.status, "table %lu: %s", (unsigned long)index + 1, inner.message);
-}
-
-static vndf_status read_family(vndf_reader *r, vndf_family *family, vndf_error *error)
+/* Reads all that stands behind the counts. NULL or what is wrong; *error is that of a table, or of memory. */
+static const char *read_family(vndf_reader *r, vndf_family *family, vndf_error *error)
 {
     family->grazing = vndf_read_f32(r);
     family->source = vndf_read_text(r);
@@ -170,17 +152,19 @@ static vndf_status read_family(vndf_reader *r, vndf_family *family, vndf_error *
         family->parameter[i] = vndf_read_f32(r);
     for (size_t i = 0; i + 1 < family->count; i++)
         family->distance[i] = vndf_read_f32(r);
-    if (r->failed)
-        return inconsistent("it ends early", error);
-    if (!family->source || !family->tool)
-        return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)r->size);
-    const char *why = vndf_family_invalid(family);
-    vndf_status status = why ? inconsistent(why, error) : VNDF_OK;
-    for (size_t i = 0; i < family->count && status == VNDF_OK; i++)
-        status = read_table(r, family, i, error);
-    if (status == VNDF_OK && r->at + 4 != r->size)
-        return inconsistent("its tables do not fill the file", error);
-    return status;
+    const char *why = r->failed ? "it ends early" : invalid(family);
+    if (!why && (!family->source || !family->tool))
+        vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)r->size);
+    for (size_t i = 0; i < family->count && !why && error->status == VNDF_OK; i++) {
+        vndf_error inner = {VNDF_OK, ""};
+        uint32_t size = vndf_read_u32(r);
+        const unsigned char *bytes = vndf_read_bytes(r, size);
+        why = bytes ? NULL : "its tables do not fill the file";
+        family->distribution[i] = bytes ? vndf_load_memory(bytes, size, &inner) : NULL;
+        if (bytes && !family->distribution[i])
+            vndf_fail(error, inner.status, "table %lu: %s", (unsigned long)i + 1, inner.message);
+    }
+    return why || r->at + 4 == r->size ? why : "its tables do not fill the file";
 }
 
 vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error *error)
@@ -196,11 +180,16 @@ vndf_family *vndf_family_load_memory(const void *bytes, size_t size, vndf_error 
     if (!family)
         return vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a family of %lu bytes", (unsigned long)size),
                NULL;
+    vndf_error inner = {VNDF_OK, ""};
     family->owns = 1;
     family->reciprocal = reciprocal != 0;
     family->bytes = size;
-    if (read_family(&r, family, error) == VNDF_OK)
+    const char *why = read_family(&r, family, &inner);
+    if (!why && inner.status == VNDF_OK)
         return family;
+    if (inner.status == VNDF_OK)
+        vndf_fail(&inner, VNDF_ERROR_TABLE, "not a consistent family: %s", why);
+    vndf_fail(error, inner.status, "%s", inner.message);
     vndf_family_free(family);
     return NULL;
 }

@@ -36,9 +36,6 @@ VNDF_INLINE double vndf_family_weight(double a, double b, double p, int reciproc
  * there is no memory. */
 vndf_family *vndf_family_allocate(size_t count);
 
-/* Why the numbers are none of a family; NULL if they are. */
-const char *vndf_family_invalid(const vndf_family *family);
-
 /* Writes the file of a family that owns its tables; its bytes. */
 void vndf_family_write(const vndf_family *family, vndf_writer *writer);
 size_t vndf_family_size(const vndf_family *family);

@@ -1,4 +1,5 @@
-#include "fit/guard.h"
+/* See profile.h. */
+#include "fit/profile/profile.h"
 
 static const double OPERATIONS_MOST = VNDF_LIMIT_BUILD_OPERATIONS;
 static const double GUARD_INTERVAL = 1 << 18;
