@@ -342,8 +342,8 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
     }
 }
 
-/* The first order is scattering by one event. Its chance to leave has a mean in closed form, since C1 = U^(1/a) there, a
- * = 1 + Lambda(wi): a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
+/* The first order is scattering by one event. Its chance to leave has a mean in closed form, since C1 = U^(1/a) there,
+ * a = 1 + Lambda(wi): a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
 static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
     vndf_vec3 wo = vndf_turned(given, b->own.side), up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
