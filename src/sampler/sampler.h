@@ -30,9 +30,9 @@ typedef struct vndf_drawn_normal {
 /* Visible normals: vndf_sample_weight; the density is vndf_pdf. */
 vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2);
 
-/* The other normals of vndf_bsdf.h; `weight` is (visible density)/density. The density of all normals is D cos(theta_m),
- * that of V-cavities D G1 max(0, wi.wm)/cos_i with G1 = min(1, 2 cos_m cos_i/(wi.wm)). Of valid views of surfaces without
- * a mean slope, wi.z > 0. */
+/* The other normals of vndf_bsdf.h; `weight` is (visible density)/density. All normals have the density D
+ * cos(theta_m), those of V-cavities D G1 max(0, wi.wm)/cos_i with G1 = min(1, 2 cos_m cos_i/(wi.wm)). Of valid views of
+ * surfaces without a mean slope, wi.z > 0. */
 vndf_drawn_normal vndf_sample_by(const vndf_view *view, vndf_normals_drawn law, float u1, float u2);
 float vndf_pdf_by(const vndf_view *view, vndf_normals_drawn law, vndf_vec3 wm);
 
