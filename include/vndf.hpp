@@ -16,7 +16,8 @@
 //             return std::puts(table.message()), 1;
 //         const vndf_surface metal = {*table, 0.3f, 0.1f};
 //         const vndf_view view = vndf_view_from(&metal, {0.6f, 0.0f, 0.8f});
-//         const auto [wm, pdf] = vndf::sample(view, 0.25f, 0.5f);
+//         float pdf;
+//         const vndf_vec3 wm = vndf_sample(&view, 0.25f, 0.5f, &pdf);
 //         std::printf("%.3f\n", pdf / vndf_pdf(&view, wm));
 //     }
 //
@@ -24,9 +25,8 @@
 //
 // Errors. What can fail returns a vndf::result: it converts to true or false, *result is the value, an empty owner
 // where it failed, message() says what went wrong, and value() throws a vndf::error. Nothing else throws but
-// std::bad_alloc, and the header compiles without exceptions and RTTI. What a callable throws does not cross C: the
-// build stops, its result holds the exception, and value() throws it again. Called by a function of C outside this
-// header, such a callable gives NaN.
+// std::bad_alloc, and the header compiles without exceptions and RTTI. What a callable throws does not cross C: it
+// counts as NaN, which no build accepts, and of a progress as a wish to stop.
 //
 // Owners move and do not copy; C takes an empty one as NULL, and a temporary one does not convert to a pointer, since
 // that would dangle. Plain structs hold pointers to what they were made from, which must outlive them, as in C: a
@@ -35,8 +35,6 @@
 #define VNDF_HPP
 
 #include <cstddef>
-#include <cstdio>
-#include <exception>
 #include <functional>
 #include <initializer_list>
 #include <limits>
@@ -75,20 +73,16 @@ class error : public std::runtime_error
 template <class T> class [[nodiscard]] result
 {
   public:
-    result(T value) : value_(std::move(value)) {}
-    result(const vndf_error &error, std::exception_ptr thrown = nullptr) : error_(error), thrown_(thrown) {}
+    result(T value, const vndf_error &error = {VNDF_OK, ""}) : error_(error), value_(std::move(value)) {}
     explicit operator bool() const noexcept { return error_.status == VNDF_OK; }
     vndf_status status() const noexcept { return error_.status; }
     const char *message() const noexcept { return error_.message; }
-    std::exception_ptr thrown() const noexcept { return thrown_; } // by a callable meanwhile, or null
     T &operator*() &noexcept { return value_; }
     const T &operator*() const &noexcept { return value_; }
     T &&operator*() &&noexcept { return std::move(value_); }
 #if VNDF_HPP_EXCEPTIONS
     const T &value() const &
     {
-        if (thrown_)
-            std::rethrow_exception(thrown_);
         if (error_.status != VNDF_OK)
             throw error(error_);
         return value_;
@@ -100,68 +94,13 @@ template <class T> class [[nodiscard]] result
 #endif
 
   private:
-    vndf_error error_ = {VNDF_OK, ""};
-    std::exception_ptr thrown_;
-    T value_{};
+    vndf_error error_;
+    T value_;
 };
 
 // The value of a call that has none.
 struct nothing {
 };
-
-namespace detail
-{
-
-// Where callables that C calls on this thread leave what they throw: the innermost call of this header.
-inline std::exception_ptr *&pending() noexcept
-{
-    static thread_local std::exception_ptr *innermost = nullptr;
-    return innermost;
-}
-
-// What call() returns; `otherwise` if it throws, or a callable before it has thrown.
-template <class R, class Call> R guard(R otherwise, const Call &call) noexcept
-{
-    if (pending() && *pending())
-        return otherwise;
-#if VNDF_HPP_EXCEPTIONS
-    try {
-        return call();
-    } catch (...) {
-        if (pending())
-            *pending() = std::current_exception();
-        return otherwise;
-    }
-#else
-    return call();
-#endif
-}
-
-// What call(&error) returns, unless it fails or a callable throws meanwhile.
-template <class T, class Call> result<T> made(const Call &call)
-{
-    vndf_error error = {VNDF_OK, ""};
-    std::exception_ptr thrown;
-    std::exception_ptr *const outer = std::exchange(pending(), &thrown);
-    T value(call(&error));
-    pending() = outer;
-    if (error.status == VNDF_OK && !thrown)
-        return result<T>(std::move(value));
-#if VNDF_HPP_EXCEPTIONS
-    if (thrown) {
-        error = {VNDF_ERROR_ARGUMENT, "a callable threw something that is no std::exception"};
-        try {
-            std::rethrow_exception(thrown);
-        } catch (const std::exception &known) {
-            std::snprintf(error.message, sizeof error.message, "a callable threw: %s", known.what());
-        } catch (...) {
-        }
-    }
-#endif
-    return {error, thrown};
-}
-
-} // namespace detail
 
 // ---- owners ---------------------------------------------------------------------------------------
 
@@ -199,12 +138,16 @@ using source = owner<vndf_source, vndf_source_free, std::unique_ptr<density>>;
 //     const auto resolved = vndf::done(vndf_material_resolve, &description, &material);
 template <class Owner, class Make, class... Arguments> result<Owner> own(Make *make, const Arguments &...arguments)
 {
-    return detail::made<Owner>([&](vndf_error *error) { return Owner(make(arguments..., error)); });
+    vndf_error error = {VNDF_OK, ""};
+    Owner made(make(arguments..., &error));
+    return {std::move(made), error};
 }
 
 template <class Call, class... Arguments> result<nothing> done(Call *call, const Arguments &...arguments)
 {
-    return detail::made<nothing>([&](vndf_error *error) { return call(arguments..., error), nothing(); });
+    vndf_error error = {VNDF_OK, ""};
+    call(arguments..., &error);
+    return {nothing(), error};
 }
 
 inline result<distribution> load(const std::string &path)
@@ -231,6 +174,20 @@ using progress = std::function<bool(double done, const char *what)>;
 namespace detail
 {
 
+// What call() returns, or `otherwise` if it throws.
+template <class R, class Call> R guard(R otherwise, const Call &call) noexcept
+{
+#if VNDF_HPP_EXCEPTIONS
+    try {
+        return call();
+    } catch (...) {
+        return otherwise;
+    }
+#else
+    return static_cast<void>(otherwise), call();
+#endif
+}
+
 inline double evaluate(double x, void *user) noexcept
 {
     const density &called = *static_cast<const density *>(user);
@@ -239,11 +196,10 @@ inline double evaluate(double x, void *user) noexcept
 
 template <class Make> result<source> of_callable(Make *make, density given, const std::string &name)
 {
+    vndf_error error = {VNDF_OK, ""};
     auto kept = std::make_unique<density>(std::move(given));
-    return made<source>([&](vndf_error *error) {
-        vndf_source *from = make(evaluate, kept.get(), name.c_str(), error);
-        return source(from, std::move(kept));
-    });
+    vndf_source *from = make(evaluate, kept.get(), name.c_str(), &error);
+    return {source(from, std::move(kept)), error};
 }
 
 // Options that tell `told`, which outlives the build.
@@ -283,33 +239,6 @@ inline result<family> build_family(const std::string &specification, double low,
 {
     const vndf_family_options all = detail::telling(options, told);
     return own<family>(vndf_build_family, specification.c_str(), low, high, &all);
-}
-
-// ---- samples --------------------------------------------------------------------------------------
-
-// For structured bindings: auto [wm, pdf] = vndf::sample(view, u1, u2).
-struct drawn {
-    vndf_vec3 wm;
-    float pdf;
-};
-
-struct weighted {
-    vndf_vec3 wm;
-    float pdf, weight;
-};
-
-inline drawn sample(const vndf_view &view, float u1, float u2) noexcept
-{
-    drawn d;
-    d.wm = vndf_sample(&view, u1, u2, &d.pdf);
-    return d;
-}
-
-inline weighted sample_weight(const vndf_view &view, float u1, float u2) noexcept
-{
-    weighted w;
-    w.wm = vndf_sample_weight(&view, u1, u2, &w.pdf, &w.weight);
-    return w;
 }
 
 } // namespace vndf

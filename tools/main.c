@@ -83,13 +83,11 @@ static const subcommand *find_command(const char *word)
         if (strcmp(names[count - 1], word) == 0)
             return *c;
     }
-    const char *hint = nearest_word(word, names, count);
-    if (hint)
-        complain("vndf", "there is no command '%s'; did you mean '%s'?", word, hint);
-    else if (strchr(word, '.'))
+    const char *hint = did_you_mean(word, names, count);
+    if (!*hint && strchr(word, '.'))
         complain("vndf", "there is no command '%s'; did you mean `vndf info %s`?", word, word);
     else
-        complain("vndf", "there is no command '%s'; `vndf --help` lists them", word);
+        complain("vndf", "there is no command '%s'%s", word, *hint ? hint : "; `vndf --help` lists them");
     return NULL;
 }
 
@@ -100,14 +98,11 @@ static void put_man(FILE *to, const char *text)
 {
     static const char special[] = "\\-'`^~";
     static const char *const as[] = {"\\e", "\\-", "\\(aq", "\\(ga", "\\(ha", "\\(ti"};
-    fputs(".nf\n\\&", to); /* a dot at the beginning of a line would be a request */
-    for (; *text; text++) {
+    fputs(".nf\n", to);
+    for (char before = '\n'; *text; before = *text++) {
         const char *found = strchr(special, *text);
-        if (found)
-            fputs(as[found - special], to);
-        else
-            fputc(*text, to);
-        fputs(*text == '\n' && text[1] ? "\\&" : "", to);
+        fputs(before == '\n' ? "\\&" : "", to); /* a dot at the beginning of a line would be a request */
+        fprintf(to, found ? "%s" : "%.1s", found ? as[found - special] : text);
     }
     fputs(".fi\n", to);
 }
@@ -135,50 +130,48 @@ static int asks(const char *word, const char *long_name, const char *short_name)
     return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
 }
 
-static int print(const char *text)
+/* Runs the command, or refuses the words. */
+static int run(const subcommand *c, const char *help, int argc, char **argv)
 {
-    return fputs(text, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+    static arguments given;
+    if (!arguments_read(&given, c->name, help, argc, argv))
+        return STATUS_USE;
+    if (given.positional.count < c->least)
+        return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
+    if (given.positional.count <= c->most)
+        return c->run(&given);
+    const char *word = given.positional.item[c->most];
+    return complain(c->name, "'%s' is not expected; %s%s%s", word,
+                    c->most ? "words that are no options are only " : "only options are", c->positional,
+                    strspn(word, "0123456789.") == strlen(word) ? "; lists have commas, as in 1,2" : "");
 }
 
 static int dispatch(int argc, char **argv)
 {
     static char help[HELP_MAX];
-    static arguments given;
     if (argc < 2)
         return complain("vndf", "a command is missing; `vndf --help` lists them");
-    if (asks(argv[1], "--version", "-V"))
-        return print("vndf " VNDF_VERSION "\n");
-    if (asks(argv[1], "--man", "--man")) {
-        write_man(stdout);
-        return STATUS_GOOD;
-    }
     int is_help = asks(argv[1], "--help", "-h") || asks(argv[1], "help", "help");
-    if (is_help && argc == 2) {
-        list_text(help);
-        return print(help);
-    }
     const int used = 2 + is_help;
-    const subcommand *c = find_command(argv[used - 1]);
-    if (!c)
+    const subcommand *c = NULL;
+    if (asks(argv[1], "--version", "-V"))
+        puts("vndf " VNDF_VERSION);
+    else if (asks(argv[1], "--man", "--man"))
+        write_man(stdout);
+    else if (is_help && argc == 2)
+        list_text(help);
+    else if (!(c = find_command(argv[used - 1])))
         return STATUS_USE;
-    help_text(c, help);
-    if (is_help && argc > used)
+    else if (is_help && argc > used)
         return complain("vndf help", "'%s' is one word too many", argv[used]);
-    for (int i = used; i < argc && strcmp(argv[i], "--") != 0; i++)
+    else
+        help_text(c, help);
+    for (int i = used; c && i < argc && strcmp(argv[i], "--") != 0; i++)
         is_help |= asks(argv[i], "--help", "-h");
-    if (is_help)
-        return print(help);
-    if (!arguments_read(&given, c->name, help, argc - used, argv + used))
-        return STATUS_USE;
-    if (given.positional.count < c->least)
-        return complain(c->name, "%s is missing; `%s --help` has an example", c->positional, c->name);
-    if (given.positional.count > c->most) {
-        const char *word = given.positional.item[c->most];
-        return complain(c->name, "'%s' is not expected; %s%s%s", word,
-                        c->most ? "words that are no options are only " : "only options are", c->positional,
-                        strspn(word, "0123456789.") == strlen(word) ? "; lists have commas, as in 1,2" : "");
-    }
-    return c->run(&given);
+    if (c && !is_help)
+        return run(c, help, argc - used, argv + used);
+    fputs(help, stdout);
+    return STATUS_GOOD;
 }
 
 int main(int argc, char **argv)

@@ -120,14 +120,8 @@ char *vndf_read_text(vndf_reader *r)
 
 /* ---- files ---- */
 
-unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_error *error)
+unsigned char *vndf_read_all(FILE *file, size_t most, size_t *size)
 {
-    FILE *file = path ? fopen(path, "rb") : NULL;
-    if (!file) {
-        vndf_fail(error, path ? VNDF_ERROR_IO : VNDF_ERROR_ARGUMENT, "%s: cannot be opened: %s",
-                  path ? path : "the path is NULL", path ? strerror(errno) : "a file name is needed");
-        return NULL;
-    }
     vndf_writer all = {NULL, 0, 0, 0};
     unsigned char part[16384];
     size_t got = 1;
@@ -136,19 +130,30 @@ unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_
         got = fread(part, 1, most + 1 - all.size < sizeof part ? most + 1 - all.size : sizeof part, file);
         vndf_write_bytes(&all, part, got);
     }
-    vndf_write_bytes(&all, "", 1); /* so that an empty file has bytes */
-    int reason = errno, failed = ferror(file);
-    fclose(file);
+    vndf_write_bytes(&all, "", 1);
     *size = all.size - 1;
-    if (!all.failed && !failed)
+    if (!all.failed && !ferror(file))
         return all.bytes;
-    if (!all.failed)
-        vndf_fail(error, VNDF_ERROR_IO, "%s: cannot be read: %s", path,
-                  reason ? strerror(reason) : "unknown reason");
-    else
-        vndf_fail(error, VNDF_ERROR_MEMORY, "%s: no memory to read it", path);
+    errno = all.failed ? ENOMEM : errno ? errno : EIO;
     free(all.bytes);
     return NULL;
+}
+
+unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_error *error)
+{
+    FILE *file = path ? fopen(path, "rb") : NULL;
+    if (!file) {
+        vndf_fail(error, path ? VNDF_ERROR_IO : VNDF_ERROR_ARGUMENT, "%s: cannot be opened: %s",
+                  path ? path : "the path is NULL", path ? strerror(errno) : "a file name is needed");
+        return NULL;
+    }
+    unsigned char *bytes = vndf_read_all(file, most, size);
+    const int reason = errno;
+    fclose(file);
+    if (!bytes)
+        vndf_fail(error, reason == ENOMEM ? VNDF_ERROR_MEMORY : VNDF_ERROR_IO, "%s: cannot be read: %s", path,
+                  reason == ENOMEM ? "there is no memory for it" : strerror(reason));
+    return bytes;
 }
 
 /* ---- our files ---- */

@@ -5,6 +5,7 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include "vndf.h"
 
@@ -37,8 +38,9 @@ void vndf_write_f32(vndf_writer *writer, float value);
 void vndf_write_f64(vndf_writer *writer, double value);
 void vndf_write_text(vndf_writer *writer, const char *text);
 
-/* The bytes of a file, to be freed; of one that has more than `most`, most + 1 of them, since a pipe may be endless.
- * NULL and an error that names the file. */
+/* The bytes of a file, with a 0 behind them, to be freed; of one that has more than `most`, most + 1 of them, since a
+ * pipe may be endless. NULL and errno, or an error that names the file. */
+unsigned char *vndf_read_all(FILE *file, size_t most, size_t *size);
 unsigned char *vndf_read_file(const char *path, size_t most, size_t *size, vndf_error *error);
 
 /* ---- our files ----

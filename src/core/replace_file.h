@@ -1,7 +1,6 @@
 /* A file that is replaced at once: what is written goes to a temporary beside it, which is renamed over it when it
  * is whole and on the disk. At the end of symbolic links it is the file that they lead to that is replaced, which keeps
- * its mode; a link that leads nowhere is replaced itself. For vndf_save, and for the outputs of the program: the one
- * header of src/ that tools/ include. */
+ * its mode; a link that leads nowhere is replaced itself. For vndf_save, and for the outputs of the program. */
 #ifndef VNDF_CORE_REPLACE_FILE_H
 #define VNDF_CORE_REPLACE_FILE_H
 

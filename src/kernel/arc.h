@@ -12,7 +12,7 @@
  *
  * The start follows Kepler's equation where one of its terms is alone: v^2/d^2 is a sum of theirs, with coefficients
  * fitted for the least largest error, within 8%. One step of Householder's of order three follows. |F(d)/T - u| is at
- * most 2e-5, where the eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_kepler.c). */
+ * most 2e-5, where the eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_invert.c). */
 #ifndef VNDF_KERNEL_ARC_H
 #define VNDF_KERNEL_ARC_H
 

@@ -12,16 +12,21 @@ typedef struct aim {
     real at, left;
 } aim;
 
+/* The weights of the law, before `first` too. */
+HERE weights table_weights(seen v, mask near)
+{
+    weights w = {pick(near, set(0.0f), v.w.w1), pick(near, v.c, v.w.w0), pick(near, set(0.0f), v.w.wq),
+                 pick(near, set(0.0f), v.w.w4)};
+    return w;
+}
+
 HERE aim table_aim(seen v, real u2, const int below)
 {
     real at = least(u2, set(0.99999994f)) * v.total;
     aim a = {v.w, at, v.total - at};
     if (!below) {
         mask near = less(at, v.near);
-        a.w.w1 = pick(near, set(0.0f), v.w.w1);
-        a.w.w0 = pick(near, v.c, v.w.w0);
-        a.w.wq = pick(near, set(0.0f), v.w.wq);
-        a.w.w4 = pick(near, set(0.0f), v.w.w4);
+        a.w = table_weights(v, near);
         a.left = pick(near, v.c - at, a.left);
     }
     return a;
@@ -147,10 +152,7 @@ HERE piece table_given_cell(table t, seen v, whole i, const int below)
 {
     if (below)
         return law_cell_below(t, v, i);
-    mask near = less(to_real(i), to_real(v.first));
-    weights w = {pick(near, set(0.0f), v.w.w1), pick(near, v.c, v.w.w0), pick(near, set(0.0f), v.w.wq),
-                 pick(near, set(0.0f), v.w.w4)};
-    return law_cell_above(t, v, w, i);
+    return law_cell_above(t, v, table_weights(v, less(to_real(i), to_real(v.first))), i);
 }
 
 HERE arc table_given_arc(seen v, given g, const int below)

@@ -26,7 +26,7 @@ VNDF_INLINE int vndf_weigh_lobes(int lobes, int stride, float *weight)
     return valid;
 }
 
-enum { VNDF_MIXTURES = 512 }; /* side by side, at most */
+enum { VNDF_MIXTURES = 256 }; /* side by side, at most */
 
 /* What areas make of such weights, for `count` mixtures: share[] holds areas first. Where no lobe sees an area that a
  * float can hold, the weights alone count. */

@@ -21,9 +21,6 @@ float vndf_view_drawn_area(const vndf_view *view);
 /* The projection of w on the mean plane: w.z without a mean slope. G1(w) = that over vndf_view_area. */
 float vndf_view_cosine(const vndf_view *view, vndf_vec3 w);
 
-/* Whether samples have exactly the visible normals' density (closed forms): their weight is 1. */
-int vndf_is_exact(const vndf_distribution *distribution);
-
 /* A drawn normal with its density and the quotient (visible density)/density. */
 typedef struct vndf_drawn_normal {
     vndf_vec3 wm;

@@ -226,7 +226,7 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     if (!seen_normal(view, wm, &n))
         return 0.0f;
     const vndf_state *s = vndf_state_of(view);
-    if (vndf_is_exact(view->distribution))
+    if (!vndf_is_table(view->distribution))
         return frame_density(s->f, density(view, n) / s->f.determinant);
     float area = most(unit_area(view->distribution, s), 1e-37f);
     return frame_density(s->f, unit_ndf(view->distribution, n) / s->f.determinant * (n.facing / area));
@@ -250,11 +250,6 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
 }
 
 /* ---- the distribution itself ---- */
-
-int vndf_is_exact(const vndf_distribution *distribution)
-{
-    return distribution->kind != VNDF_KIND_TABLE;
-}
 
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
 {
@@ -341,7 +336,7 @@ float vndf_view_own_area(const vndf_view *view)
 float vndf_view_drawn_area(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    if (!view->distribution || vndf_is_exact(view->distribution))
+    if (!view->distribution || !vndf_is_table(view->distribution))
         return vndf_view_own_area(view);
     return law_drawn_area(s->of.table.v, vndf_is_below(s)) * frame_reach(s->f) * s->f.size;
 }

@@ -25,6 +25,12 @@ enum {
     COLUMNS = 30
 };
 
+#define LIST(...)       \
+  (const char *const[]) \
+  {                     \
+    __VA_ARGS__, NULL   \
+  }
+
 /* Where a field of a line of CSV begins: commas between quotes are text. */
 static const char *field(const char *line, int column)
 {
@@ -42,10 +48,10 @@ static double number(const char *line, int column)
 
 /* The first line of the rows that these words print as CSV: they begin with `rows`, in this order, each has all fields,
  * a time, and is right. */
-static const char *rows_of(const char *const *words, const char *const *rows)
+static const char *rows_of(const char *words, const char *const *rows)
 {
     static char text[RUN_TEXT];
-    snprintf(text, sizeof text, "%s", run_expect(0, NULL, words)->text);
+    run_said(text, "vndf bench %s -o -", words);
     if (!TEST(strncmp(text, head, sizeof head - 1) == 0))
         return text;
     for (const char *at = text + sizeof head - 1; *at; at = strchr(at, '\n') + 1) {
@@ -65,22 +71,21 @@ static const char *rows_of(const char *const *words, const char *const *rows)
 static void test_normals(void)
 {
     const char *row = rows_of(
-        RUN_LIST("bench", "--seconds", "0.1", "--only", "ggx", "-o", "-"),
-        RUN_LIST("\"ggx\",\"spherical caps (2023)\",published,,,0,,,", "\"ggx\",\"all normals (2007)\",published,",
-                 "\"ggx\",\"closed form\",closed,,,0,,,", "\"ggx\",\"closed form: affine\",call,",
-                 "\"ggx\",\"closed form: mixture\",call,", "\"ggx\",\"closed form, exported C\",exported,"));
+        "--seconds 0.1 --only ggx",
+        LIST("\"ggx\",\"spherical caps (2023)\",published,,,0,,,", "\"ggx\",\"all normals (2007)\",published,",
+             "\"ggx\",\"closed form\",closed,,,0,,,", "\"ggx\",\"closed form: affine\",call,",
+             "\"ggx\",\"closed form: mixture\",call,", "\"ggx\",\"closed form, exported C\",exported,"));
     TEST(number(row, RATIO) == 1 && number(row, TV) < 1e-6 && number(row, BATCH) > 0);
-    row = rows_of(RUN_LIST("bench", "--seconds", "0.1", "--slope", "exp(-a*r)", "--set", "a=3", "--only",
-                           "8 KiB, 4 moments", "-o", "-"),
-                  RUN_LIST("\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments\",table,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: weight\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: pdf\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: invert\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: ndf\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: lambda\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: affine\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: mixture\",call,",
-                           "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments, exported C\",exported,"));
+    row = rows_of("--seconds 0.1 --slope 'exp(-a*r)' --set a=3 --only '8 KiB, 4 moments'",
+                  LIST("\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments\",table,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: weight\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: pdf\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: invert\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: ndf\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: lambda\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: affine\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: mixture\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments, exported C\",exported,"));
     TEST(number(row, MEMORY) > number(row, FILE_BYTES) && number(row, FILE_BYTES) > 7900);
     TEST(number(row, MOMENTS) == 4 && number(row, WEIGHT) > 1 && number(row, BATCH) > 0);
     TEST(number(row, BELOW) > number(row, TV) && number(row, TV) > 1e-5);
@@ -88,16 +93,15 @@ static void test_normals(void)
 
 static void test_effects(void)
 {
-    const char *row = rows_of(
-        RUN_LIST("bench", "--effects", "--seconds", "0.01", "--only", "masking", "--alpha", "0.3,0.2", "-o", "-"),
-        RUN_LIST("\"ggx\",\"separable masking\",effects,0.3,0.2,,,,", "\"ggx\",\"V-cavity masking\",",
-                 "\"ggx\",\"no masking\",", "\"beckmann\",\"separable", "\"beckmann\",\"V-cav",
-                 "\"beckmann\",\"no m", "\"student-t:2.5\",\"sep", "\"student-t:2.5\",\"V-",
-                 "\"student-t:2.5\",\"no"));
+    const char *row = rows_of("--effects --seconds 0.01 --only masking --alpha 0.3,0.2",
+                              LIST("\"ggx\",\"separable masking\",effects,0.3,0.2,,,,",
+                                   "\"ggx\",\"V-cavity masking\",", "\"ggx\",\"no masking\",",
+                                   "\"beckmann\",\"separable", "\"beckmann\",\"V-cav", "\"beckmann\",\"no m",
+                                   "\"student-t:2.5\",\"sep", "\"student-t:2.5\",\"V-", "\"student-t:2.5\",\"no"));
     TEST(number(row, ALPHA_Y) == 0.2 && number(row, BATCH) > 0);
     static char text[RUN_TEXT];
     int count = -1; /* the head */
-    run_said(text, NULL, "bench --effects --seconds 0.01 -o -");
+    run_said(text, "vndf bench --effects --seconds 0.01 -o -");
     for (const char *at = text; *at; at += strcspn(at, "\n") + 1, count++) {
         const int is_table = strncmp(at, "\"student", 8) == 0,
                   is_bounded = strncmp(field(at, 1), "\"bounded", 8) == 0;
@@ -116,7 +120,7 @@ static void test_effects(void)
 static void test_tables(void)
 {
     static char text[RUN_TEXT];
-    run_said(text, NULL, "bench --seconds 0.1 --only moments -o rows.md");
+    run_said(text, "vndf bench --seconds 0.1 --only moments -o rows.md");
     for (const char *at = text; *at; at += strcspn(at, "\n") + 1)
         TEST(strcspn(at, "\n") <= 100);
     TEST(strstr(text, "  table 2 KiB, 4 moments ") && !strstr(text, "caps (2023)") && !strstr(text, "eval"));
@@ -126,8 +130,8 @@ static void test_tables(void)
          strstr(markdown, " | ratio | TV | below | weight | Sobol' | eff 60 |") && !strstr(markdown, "| eval |"));
     free(markdown);
     TEST(remove("rows.md") == 0);
-    TEST(*run_said(text, NULL, "bench --only caps --seconds 0.1 -q") == '\0');
-    TEST_HAS(run_said(text, NULL, "bench --only caps --seconds 0.1 --json"),
+    TEST(*run_said(text, "vndf bench --only caps --seconds 0.1 -q") == '\0');
+    TEST_HAS(run_said(text, "vndf bench --only caps --seconds 0.1 --json"),
              "\"kind\": \"published\", \"alpha_x\": null, \"alpha_y\": null, \"memory\": 0, ");
 }
 

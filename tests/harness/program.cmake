@@ -1,7 +1,7 @@
-# What scripts that run the program share: run, has, expect, answers, split; `failures` counts, OUT is a fresh folder.
+# What scripts that run the program share: run, has, expect, answers, split. What fails is told, and the script goes on,
+# to end with a failure; OUT is a fresh folder.
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
-set(failures 0)
 
 # run(STATUS WORDS...): the program, run in OUT with the words of `command_words` first and ${input} as stdin, ends with
 # this status; what it printed is in `output` and `errors`.
@@ -14,8 +14,7 @@ macro(run expected)
     file(REMOVE ${OUT}/stdin.txt)
     set(input "")
     if(NOT status STREQUAL "${expected}")
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: vndf ${command_words} ${ARGN}\nstatus ${status}, expected ${expected}\n${output}${errors}")
+        message(SEND_ERROR "vndf ${command_words} ${ARGN}\nstatus ${status}, not ${expected}:\n${output}${errors}")
     endif()
 endmacro()
 
@@ -24,26 +23,22 @@ endmacro()
 macro(has has_variable has_text)
     string(FIND "${${has_variable}}" "${has_text}" place)
     if(place EQUAL -1)
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${has_variable} has no '${has_text}':\n${${has_variable}}")
+        message(SEND_ERROR "${has_variable} has no '${has_text}':\n${${has_variable}}")
     endif()
 endmacro()
 
 macro(expect what)
     if(NOT (${ARGN}))
-        math(EXPR failures "${failures} + 1")
-        message("FAILED: ${what}")
+        message(SEND_ERROR "FAILED: ${what}")
     endif()
 endmacro()
 
 # answers(STATUS TEXT WORDS...): the program, run in OUT, ends with this status and prints this text somewhere.
-function(answers status text)
-    execute_process(COMMAND ${VNDF} ${ARGN} RESULT_VARIABLE got OUTPUT_VARIABLE out ERROR_VARIABLE err
-        WORKING_DIRECTORY ${OUT})
-    string(FIND "${out}${err}" "${text}" at)
-    if(NOT got EQUAL ${status} OR at EQUAL -1)
-        message(SEND_ERROR "vndf ${ARGN}: status ${got}, expected ${status} and '${text}' in:\n${out}${err}")
-    endif()
+function(answers expected text)
+    set(command_words "")
+    run(${expected} ${ARGN})
+    set(printed "${output}${errors}")
+    has(printed "${text}")
 endfunction()
 
 # Lines of a text, with what would change how CMake splits it replaced.

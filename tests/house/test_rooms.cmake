@@ -17,13 +17,13 @@ set(order_src
 set(order_tools
     "cli:" "draw: cli" "bake: cli draw" "render: cli draw" "export: draw" "measured: cli render"
     "evidence/measure: cli" "evidence/methods: evidence" "evidence: cli draw evidence/measure"
-    "evidence/page: cli draw evidence evidence/measure" "judge: cli evidence/measure" "judge/examples:"
+    "judge: cli evidence/measure" "judge/examples:"
     "commands/parts: cli draw export"
-    "commands: cli draw bake evidence evidence/measure evidence/page render export measured judge commands/parts")
+    "commands: cli draw bake evidence evidence/measure render export measured judge commands/parts")
 set(run_time "^(core|math|table|kernel|sampler|bsdf)/")
 # What tools/ share with src/ beside include/, which knows nothing of distributions, their own top, and what the build
 # writes.
-set(shared core/replace_file.h core/checksum.h core/nearest.h command.h exported_kernel.h)
+set(shared core/cursor.h core/replace_file.h core/checksum.h core/nearest.h command.h exported_kernel.h)
 set(tools_ cli) # main.c and command.h
 # What is not in the C library, and where src/ may use it: a file that is replaced keeps its mode and links and is
 # flushed to the disk; lanes are the processor's own.

@@ -21,7 +21,7 @@ function(warn_not what sources)
     execute_process(COMMAND ${C_COMPILER} -std=c11 -O0 -fsyntax-only -Werror ${warnings} ${ARGN} -I${SOURCE}/include
             -I${SOURCE}/src -I${SOURCE}/tools -I${SOURCE}/tests -I${BUILD}/exported ${sources}
         RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
-    if(NOT status EQUAL 0 OR count LESS 50)
+    if(NOT status EQUAL 0 OR count LESS 30)
         message(SEND_ERROR "${what}, ${count} files by ${C_COMPILER}:\n${output}")
     endif()
 endfunction()

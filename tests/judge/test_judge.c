@@ -3,14 +3,11 @@
  * `python` as an argument: that example alone. */
 #include "harness/run_program.h"
 
-static char *judged(int status, const char *command, const char *const *more)
+/* `more` words follow. */
+static const char *judged(int status, const char *command, const char *more)
 {
-    const char *words[RUN_WORDS + 1] = {"judge", command, "--samples", "30000"};
-    for (int i = 0; more && more[i]; i++)
-        words[4 + i] = more[i];
-    static char text[RUN_TEXT];
-    strcpy(text, run_expect(status, NULL, words)->text);
-    return text;
+    setenv("JUDGED", command, 1);
+    return run_line(status, "", "vndf judge \"$JUDGED\" --samples 30000 %s", more)->text;
 }
 
 /* The sampler, with its answers through awk if there is a program for it. */
@@ -33,24 +30,24 @@ static double number_of(const char *text, const char *word, int i)
 
 static void test_right(void)
 {
-    const char *text = judged(0, sampler("0.3 0.1", NULL), RUN_LIST("--ndf", "ggx", "--alpha", "0.3,0.1"));
+    const char *text = judged(0, sampler("0.3 0.1", NULL), "--ndf ggx --alpha 0.3,0.1");
     TEST_HAS(text, "result good");
     for (int i = 0; i < 6; i++) {
         TEST_NEAR(number_of(text, "degrees mass ", i), 1, 1e-5);
         TEST_NEAR(number_of(text, " tv ", i), 0, 1e-5);
         TEST_NEAR(number_of(text, " scatter ", i), 0.2, 0.2);
     }
-    TEST_HAS(judged(0, sampler("0.02", NULL), NULL), "result good");
-    TEST_HAS(judged(0, sampler("1 0.05", NULL), NULL), "result good");
+    TEST_HAS(judged(0, sampler("0.02", NULL), ""), "result good");
+    TEST_HAS(judged(0, sampler("1 0.05", NULL), ""), "result good");
     /* Straight down x = R^2 has the densities (1 + x)^-2 and e^-x, which meet at 2.51286. */
-    text = judged(0, sampler("0.3", NULL), RUN_LIST("--ndf", "beckmann", "--alpha", "0.3"));
+    text = judged(0, sampler("0.3", NULL), "--ndf beckmann --alpha 0.3");
     TEST_NEAR(number_of(text, " tv ", 0), 0.2036, 1e-3);
     TEST_NEAR(number_of(text, " efficiency ", 0), 0.8, 1e-3); /* 1/integral e^-2x (1 + x)^2 */
     /* Numbers that are shuffled have lost their strata, and nothing else. */
     char command[1024];
     snprintf(command, sizeof command,
              "awk '$1 == \"s\" {$5 = $5*7919.123%%1; $6 = $6*6101.7%%1} {print}' | %s 0.3", VNDF_JUDGED);
-    text = judged(0, command, NULL);
+    text = judged(0, command, "");
     for (int i = 0; i < 6; i++)
         TEST_NEAR(number_of(text, " scatter ", i), 1, 0.3);
 }
@@ -78,18 +75,17 @@ static void test_wrong(void)
         {"{exit 3}", "ended with status 3"},
     };
     for (size_t i = 0; i < sizeof defects / sizeof *defects; i++) {
-        const char *text =
-            judged(1, sampler("0.3 0.1", defects[i][0]), RUN_LIST("--ndf", "ggx", "--alpha", "0.3,0.1"));
+        const char *text = judged(1, sampler("0.3 0.1", defects[i][0]), "--ndf ggx --alpha 0.3,0.1");
         if (!(TEST_HAS(text, defects[i][1]) & TEST_HAS(text, defects[i][2])))
             fprintf(stderr, "  %s\n%s", defects[i][0], text);
     }
     for (size_t i = 0; i < sizeof broken / sizeof *broken; i++)
-        if (!TEST_HAS(judged(2, sampler("0.3", broken[i][0]), NULL), broken[i][1]))
+        if (!TEST_HAS(judged(2, sampler("0.3", broken[i][0]), ""), broken[i][1]))
             fprintf(stderr, "  %s\n", broken[i][0]);
-    TEST_HAS(judged(2, "./no-such-sampler", NULL), "'./no-such-sampler' ended with status 127: there is no such");
-    TEST_HAS(judged(2, "yes nan", NULL), "'yes nan' writes without an end");
-    TEST_HAS(judged(2, sampler("0.3", NULL), RUN_LIST("--alpha", "0.3")), "--alpha is for --ndf");
-    TEST(strcmp(judged(1, sampler("0.3", "{$NF = 0; print}"), RUN_LIST("-q")), "") == 0);
+    TEST_HAS(judged(2, "./no-such-sampler", ""), "'./no-such-sampler' ended with status 127: there is no such");
+    TEST_HAS(judged(2, "yes nan", ""), "'yes nan' writes without an end");
+    TEST_HAS(judged(2, sampler("0.3", NULL), "--alpha 0.3"), "--alpha is for --ndf");
+    TEST(strcmp(judged(1, sampler("0.3", "{$NF = 0; print}"), "-q"), "") == 0);
 }
 
 int main(int argc, char **argv)
@@ -98,7 +94,7 @@ int main(int argc, char **argv)
     if (argc > 1 && system("python3 -c pass") != 0)
         puts("SKIPPED: no python3");
     else if (argc > 1)
-        TEST_HAS(judged(0, "python3 " VNDF_SOURCE_DIR "/tools/judge/examples/ggx_caps.py 0.3 0.1", NULL),
+        TEST_HAS(judged(0, "python3 " VNDF_SOURCE_DIR "/tools/judge/examples/ggx_caps.py 0.3 0.1", ""),
                  "result good");
     else {
         test_right();

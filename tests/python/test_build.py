@@ -1,6 +1,5 @@
 """A table built from Python is the table of `vndf build`; what goes wrong is an exception with the library's words."""
 import copy
-import ctypes
 import inspect
 import math
 import os
@@ -12,7 +11,6 @@ import unittest
 
 import numpy as np
 import vndf
-from vndf._library import library, struct
 
 SOURCE = os.environ["VNDF_SOURCE"]
 
@@ -68,34 +66,20 @@ class Built(unittest.TestCase):
         np.testing.assert_allclose(family.parameters[[0, 2]], [2, 4])
         self.assertIn("3 distributions from 2.0 to 4.0", repr(family))
 
-    def test_textures_of_a_family_are_its_mixtures(self):
-        """Each element of an array of parameters is the surface at that parameter, of surfaces and of materials; shares
-        are those of the C library (vndf_family_at), inside and beyond the ends."""
+    def test_a_family_is_a_mixture_of_neighbours(self):
+        """Linear between the knots in the parameter or in one over it, the end beyond the ends; by roughness in arrays."""
         family = vndf.Family.build("student-t", 2, 4, knots=4, max_bytes=2048)
-        parameters = np.array([1.0, 2.0, 2.1, 2.9, 3.7, 4.0, 9.0])
-        alpha = np.linspace(0.2, 0.6, 7)
-        rng = np.random.default_rng(1)
-        wi, wm, u = (0.6, 0.0, 0.8), np.array([[0.1], [0.2], [0.97]]), rng.random((3, 7))
-        wm = wm / np.linalg.norm(wm)
-        texture = family.at(parameters, alpha)
-        material = vndf.Material(texture)
-        drawn, scattered = texture.sample(wi, u[:2]), material.sample(wi, u)
-        known = {distribution._pointer: distribution for distribution in family.distributions}
-        for i, p in enumerate(parameters):
-            mixture, shape = struct("vndf_mixture")(), struct("vndf_affine")(None, alpha[i], 0, 0, alpha[i], 0, 0)
-            library.family_at(family._pointer, p, ctypes.byref(shape), ctypes.byref(mixture))
-            lobes = mixture.lobe[: mixture.count]
-            one = vndf.Mixture(*((vndf.Surface(known[l.surface.distribution], alpha[i]), l.weight) for l in lobes))
-            for name, arguments in (("pdf", (wi, wm)), ("visible", (wi, wm)), ("ndf", (wm,)), ("lambda_", (wi,))):
-                single = getattr(one, name)(*arguments)
-                np.testing.assert_allclose(getattr(texture, name)(*arguments)[..., i], np.ravel(single)[0], rtol=2e-6)
-            np.testing.assert_allclose(drawn.wm[:, i], one.sample(wi, u[:2, i]).wm, atol=1e-6)
-            single = vndf.Material(one)
-            np.testing.assert_allclose(scattered.wo[:, i], single.sample(wi, u[:, i]).wo, atol=2e-6)
-            np.testing.assert_allclose(material.eval(wi, (0, 0, 1))[:, i], single.eval(wi, (0, 0, 1)), rtol=2e-6)
-        np.testing.assert_allclose(texture.sample(wi, texture.invert(wi, wm)).wm, np.repeat(wm, 7, 1), atol=1e-4)
-        self.assertEqual(family.at(np.zeros(0)).g1(wi).shape, (0,))
+        wi, wm, alpha = (0.6, 0.0, 0.8), np.array([0.1, 0.3, 0.9]) / 0.91**0.5, np.linspace(0.2, 0.6, 7)
 
+        def axis(p):
+            return -1 / np.float64(p) if family.info.reciprocal else p
+
+        knots = [vndf.Surface(distribution, 0.4) for distribution in family.distributions]
+        for p in (1.0, 2.0, 2.1, 2.9, 3.7, 4.0, 9.0):
+            for name, arguments in (("ndf", (wm,)), ("projected_area", (wi,))):
+                of_knots = [getattr(knot, name)(*arguments) for knot in knots]
+                expected = np.interp(axis(p), axis(family.parameters), of_knots)
+                self.assertAlmostEqual(getattr(family.at(p, alpha), name)(*arguments)[3] / expected, 1, 5)
 
 class Refused(unittest.TestCase):
     def test_errors_have_the_words_and_the_kind(self):
@@ -173,7 +157,7 @@ class Refused(unittest.TestCase):
                 self.assertEqual(bytes(copied), bytes(stored))
         self.assertEqual(pickle.loads(pickle.dumps(vndf.ggx()))._pointer, vndf.ggx()._pointer)
         wm = (0.6, 0.0, 0.8)
-        for surface in (vndf.Surface(table, 0.3), built.at(2.5, 0.3), built.at([2.0, 3.3], 0.3)):
+        for surface in (vndf.Surface(table, 0.3), built.at(2.5, 0.3), built.at(3.3, [0.3, 0.4])):
             np.testing.assert_array_equal(pickle.loads(pickle.dumps(surface)).ndf(wm), surface.ndf(wm))
         gold = vndf.Material(vndf.Surface(table, 0.3), fresnel="conductor", eta=(0.2, 0.9, 1.1), k=2.0)
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(gold)).eval(wm, wm), gold.eval(wm, wm))

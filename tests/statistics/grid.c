@@ -66,5 +66,5 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
 
 pearson grid_test(const grid *g)
 {
-    return pearson_of(g->expected, g->observed, NULL, g->elsewhere + 1, 5);
+    return pearson_of(g->expected, g->observed, g->elsewhere + 1);
 }

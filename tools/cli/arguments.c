@@ -31,14 +31,23 @@ const char *nearest_word(const char *word, const char *const *candidates, size_t
     return nearest;
 }
 
-void list_words(const char *const *candidates, const char *before, char listed[LISTED_LENGTH])
+const char *did_you_mean(const char *word, const char *const *candidates, size_t count)
 {
+    static char text[64];
+    const char *nearest = nearest_word(word, candidates, count);
+    snprintf(text, sizeof text, "; did you mean '%s'?", nearest ? nearest : "");
+    return nearest ? text : "";
+}
+
+const char *list_words(const char *const *candidates, const char *before)
+{
+    static char listed[LISTED_LENGTH];
     size_t at = 0;
-    listed[0] = '\0';
     for (size_t i = 0; candidates[i] && at < LISTED_LENGTH; i++) {
         const char *between = i == 0 ? "" : candidates[i + 1] ? ", " : " or ";
         at += (size_t)snprintf(listed + at, LISTED_LENGTH - at, "%s%s%s", between, before, candidates[i]);
     }
+    return listed;
 }
 
 /* ---- the help as a table of options -------------------------------------------------------------- */
@@ -72,43 +81,37 @@ static void read_help(arguments *given, const char *help)
 /* NULL: the help has none of that name. */
 static const struct option *find_option(const arguments *given, const char *name, size_t length)
 {
-    for (const struct option *o = given->option; o < given->option + given->options; o++)
-        if (strlen(o->name) == length && memcmp(o->name, name, length) == 0)
-            return o;
+    for (size_t i = 0; i < given->options; i++)
+        if (strlen(given->option[i].name) == length && memcmp(given->option[i].name, name, length) == 0)
+            return &given->option[i];
     return NULL;
 }
 
-/* The words of a value, red|green or dfg,energy, go to which[], in the order of the value. How many: 0 after a
- * complaint, or where the value may be anything. */
-static size_t read_choices(const arguments *given, const struct option *o, const char *value, int which[WORDS_MAX])
+/* The words of a value, red|green or dfg,energy, are noted in o->which. 0 after a complaint. */
+static int read_choices(const arguments *given, struct option *o, const char *value)
 {
-    char text[LISTED_LENGTH], known[LISTED_LENGTH], word[40];
-    const char *choice[WORDS_MAX], *hint;
-    size_t choices = 0, count = 0, letters;
-    unsigned long long seen = 0;
+    char text[LISTED_LENGTH], word[40];
+    const char *choice[WORDS_MAX] = {NULL};
+    size_t choices = 0, letters;
     strcpy(text, o->value);
     for (char *at = strtok(text, "|,"); at && choices < WORDS_MAX - 1; at = strtok(NULL, "|,"))
         choice[choices++] = at;
-    choice[choices] = NULL;
     for (const char *at = value;; at += letters + 1) {
         size_t k = 0;
         letters = strchr(o->value, ',') ? strcspn(at, ",") : strlen(at);
         snprintf(word, sizeof word, "%.*s", (int)(letters < sizeof word ? letters : sizeof word - 1), at);
         while (k < choices && strcmp(word, choice[k]) != 0)
             k++;
-        if (k == choices) {
-            hint = nearest_word(word, choice, choices);
-            list_words(choice, "", known);
-            return complain(given->command, "%s '%s' is not %s%s%s%s", o->name, word, known,
-                            hint ? "; did you mean '" : "", hint ? hint : "", hint ? "'?" : ""),
+        for (size_t i = 0; i < o->chosen; i++)
+            if (o->which[i] == (int)k)
+                return complain(given->command, "%s '%s' has '%s' twice", o->name, value, word), 0;
+        if (k == choices)
+            return complain(given->command, "%s '%s' is not %s%s", o->name, word, list_words(choice, ""),
+                            did_you_mean(word, choice, choices)),
                    0;
-        }
-        if (seen >> k & 1)
-            return complain(given->command, "%s '%s' has '%s' twice", o->name, value, word), 0;
-        seen |= 1ull << k;
-        which[count++] = (int)k;
+        o->which[o->chosen++] = (int)k;
         if (!at[letters])
-            return count;
+            return 1;
     }
 }
 
@@ -156,10 +159,10 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL, *wrong = NULL;
     const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
     const size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    const struct option *o = find_option(given, word, length);
-    int which[WORDS_MAX];
-    if (!o)
+    const struct option *found = find_option(given, word, length);
+    if (!found)
         return refuse_option(given, word, length, equals ? equals + 1 : next);
+    struct option *o = &given->option[found - given->option];
     if (*o->value && equals)
         value = equals + 1;
     else if (*o->value && next && !find_option(given, next, strlen(next)))
@@ -174,11 +177,8 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
         wrong = "is given more often than this program reads";
     if (wrong)
         return complain(given->command, "%s %s", o->name, wrong), 0;
-    if (*o->value && !strpbrk(o->value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") && !read_choices(given, o, value, which))
-        return 0;
-    words *its = &given->option[o - given->option].given;
-    its->item[its->count++] = value;
-    return 1;
+    o->given.item[o->given.count++] = value;
+    return !*o->value || strpbrk(o->value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") || read_choices(given, o, value);
 }
 
 int arguments_read(arguments *given, const char *command, const char *help, int argc, char **argv)
@@ -231,13 +231,14 @@ const char *option_value(const arguments *given, const char *name)
 size_t option_choices(const arguments *given, const char *name, int which[WORDS_MAX])
 {
     const struct option *o = known_option(given, name);
-    return o->given.count ? read_choices(given, o, o->given.item[0], which) : 0;
+    memcpy(which, o->which, o->chosen * sizeof *which);
+    return o->chosen;
 }
 
 int option_choice(const arguments *given, const char *name, int otherwise)
 {
-    int which[WORDS_MAX];
-    return option_choices(given, name, which) ? which[0] : otherwise;
+    const struct option *o = known_option(given, name);
+    return o->chosen ? o->which[0] : otherwise;
 }
 
 const char *option_among(const arguments *given, const char *const *names)
@@ -250,17 +251,15 @@ const char *option_among(const arguments *given, const char *const *names)
 const char *option_alone(const arguments *given, const char *const *names)
 {
     const char *one = option_among(given, names), *other = NULL;
-    char known[LISTED_LENGTH];
-    for (const char *const *name = names; *name && one && !other; name++)
+    for (const char *const *name = names; *name && !other; name++)
         other = *name != one && option_value(given, *name) ? *name : NULL;
-    if (one && !other)
-        return one;
-    list_words(names, "", known);
     if (other)
-        complain(given->command, "%s and %s are given; only one is possible of %s", one, other, known);
-    else
-        complain(given->command, "exactly one is needed of %s; `%s --help` has an example", known, given->command);
-    return NULL;
+        complain(given->command, "%s and %s are given; only one is possible of %s", one, other,
+                 list_words(names, ""));
+    else if (!one)
+        complain(given->command, "exactly one is needed of %s; `%s --help` has an example", list_words(names, ""),
+                 given->command);
+    return other ? NULL : one;
 }
 
 void options_text(const arguments *given, const char *const *names, char *text, size_t size)

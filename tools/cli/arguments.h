@@ -33,6 +33,8 @@ typedef struct arguments {
         char name[24], value[LISTED_LENGTH]; /* as the help has them; "": a flag */
         int repeats, part_of;                /* part_of: the option that it goes with; -1: none */
         words given;                         /* its values; of a flag its name */
+        int which[WORDS_MAX];                /* its words, where it takes some of a list */
+        size_t chosen;
     } option[OPTIONS_MAX];
 } arguments;
 
@@ -70,11 +72,14 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
  * them; cut where `size` ends. */
 void options_text(const arguments *given, const char *const *names, char *text, size_t size);
 
-/* "csv, md or json", with `before` in front of each; the candidates end with NULL. */
-void list_words(const char *const *candidates, const char *before, char listed[LISTED_LENGTH]);
+/* "csv, md or json", with `before` in front of each; the candidates end with NULL. Until the next call. */
+const char *list_words(const char *const *candidates, const char *before);
 
 /* The candidate nearest to a misspelt word, or NULL if none is near. */
 const char *nearest_word(const char *word, const char *const *candidates, size_t count);
+
+/* The same as the end of a message, "; did you mean 'cos'?", or "". Until the next call. */
+const char *did_you_mean(const char *word, const char *const *candidates, size_t count);
 
 /* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it. */
 int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);

@@ -29,18 +29,16 @@ static void add(figures *f, figure_kind kind, const char *name, const char *text
     const size_t room = f->count < f->room ? f->room : 2 * f->room + 64, length = strlen(text) + 1;
     figure *at = room > f->room ? realloc(f->at, room * sizeof *at) : f->at;
     char *copy = malloc(length + strlen(name) + 1); /* the name stands behind the text */
-    if (at) {
-        f->at = at;
-        f->room = room;
-    }
-    if (!at || !copy) {
+    f->at = at ? at : f->at;
+    f->room = at ? room : f->room;
+    if (at && copy) {
+        strcpy(copy, text);
+        strcpy(copy + length, name);
+        at[f->count++] = (figure){f->list, copy + length, unit, NULL, copy, kind, f->row};
+    } else {
         f->failed = 1;
         free(copy);
-        return;
     }
-    memcpy(copy, text, length);
-    strcpy(copy + length, name);
-    at[f->count++] = (figure){f->list, copy + length, unit, NULL, copy, kind, f->row};
 }
 
 void figures_add(figures *f, figure_kind kind, const char *name, const char *text)
@@ -148,13 +146,12 @@ static size_t length_of(const char *text)
 /* With spaces before or behind it. */
 static void put_padded(FILE *file, const char *text, size_t width, int is_right)
 {
-    size_t length = length_of(text), spaces = width > length ? width - length : 0;
-    fprintf(file, "%*s%s%*s", is_right ? (int)spaces : 0, "", text, is_right ? 0 : (int)spaces, "");
+    const int spaces = (int)(width - length_of(text));
+    fprintf(file, "%*s%s%*s", is_right ? spaces : 0, "", text, is_right ? 0 : spaces, "");
 }
 
-static size_t width_of(const figures *f, size_t column, int has_heading)
+static size_t width_of(const figures *f, size_t column, size_t width)
 {
-    size_t width = has_heading ? length_of(f->at[column].name) : 0;
     for (size_t i = 0; i < f->rows; i++) {
         const size_t length = length_of(figures_shown(f, i, column));
         width = length > width ? length : width;
@@ -167,9 +164,7 @@ static size_t width_of(const figures *f, size_t column, int has_heading)
 static void print_text(FILE *file, const figures *f)
 {
     const size_t columns = figures_columns(f), first = columns > 1 && f->at[1].kind == FIGURE_TEXT ? 2 : 1;
-    size_t labels = 0;
-    for (size_t k = 0; k < first; k++)
-        labels = width_of(f, k, 0) > labels ? width_of(f, k, 0) : labels;
+    const size_t labels = width_of(f, first - 1, width_of(f, 0, 0));
     for (size_t i = 0; i < f->rows; i++) {
         const int begins = i == 0 || strcmp(figures_shown(f, i, 0), figures_shown(f, i - 1, 0)) != 0;
         for (int is_body = !begins; is_body < 2; is_body++) {
@@ -178,8 +173,8 @@ static void print_text(FILE *file, const figures *f)
             put_padded(file, label, labels + (is_body ? 0 : 2), 0);
             for (size_t k = first; k < columns; k++) {
                 fputs("  ", file);
-                put_padded(file, is_body ? figures_shown(f, i, k) : f->at[k].name, width_of(f, k, 1),
-                           f->at[k].kind == FIGURE_NUMBER);
+                put_padded(file, is_body ? figures_shown(f, i, k) : f->at[k].name,
+                           width_of(f, k, length_of(f->at[k].name)), f->at[k].kind == FIGURE_NUMBER);
             }
             fputc('\n', file);
         }
@@ -188,38 +183,28 @@ static void print_text(FILE *file, const figures *f)
 
 /* ---- files ------------------------------------------------------------------------------------- */
 
-static void print_markdown(FILE *file, const figures *f)
+/* A heading and the rows, as CSV or as Markdown. */
+static void print_grid(FILE *file, const figures *f, int is_csv)
 {
     const size_t columns = figures_columns(f);
-    for (size_t k = 0; k < columns; k++)
-        fprintf(file, k ? " %s |" : "| %s |", f->at[k].name);
-    fputs("\n|", file);
-    for (size_t k = 0; k < columns; k++)
-        fputs(f->at[k].kind == FIGURE_NUMBER ? "--:|" : "---|", file);
-    for (size_t i = 0; i < f->count; i++) {
-        fputs(i % columns ? " " : "\n| ", file);
-        for (const char *text = text_of(&f->at[i]); *text; text++) {
-            fputs(*text == '|' ? "\\" : "", file); /* a bar would end the cell, and a line the row */
-            fputc(*text == '\n' ? ' ' : *text, file);
+    for (size_t i = 0; i < columns + f->count; i++) {
+        const int is_heading = i < columns, is_last = i % columns + 1 == columns;
+        const figure *c = &f->at[is_heading ? i : i - columns];
+        const char *text = is_heading ? c->name : is_csv ? c->text : text_of(c);
+        const char *quote = is_csv && !is_heading && c->kind == FIGURE_TEXT ? "\"" : "";
+        fputs(is_csv ? quote : i % columns ? " " : "| ", file);
+        for (; *text; text++) {
+            fputs(is_csv         ? *text == '"' ? "\"" : ""
+                  : *text == '|' ? "\\"
+                                 : "",
+                  file); /* which would end the cell */
+            fputc(*text == '\n' && !is_csv ? ' ' : *text, file);
         }
-        fputs(" |", file);
+        fprintf(file, "%s%s", is_csv ? quote : " |", is_last ? "\n" : is_csv ? "," : "");
+        for (size_t k = 0; !is_csv && is_heading && is_last && k < columns; k++)
+            fprintf(file, "%s%s%s", k ? "" : "|", f->at[k].kind == FIGURE_NUMBER ? "--:|" : "---|",
+                    k + 1 == columns ? "\n" : "");
     }
-    fputc('\n', file);
-}
-
-static void print_csv(FILE *file, const figures *f)
-{
-    const size_t columns = figures_columns(f);
-    for (size_t k = 0; k < columns; k++)
-        fprintf(file, k ? ",%s" : "%s", f->at[k].name);
-    for (size_t i = 0; i < f->count; i++) {
-        const char *quote = f->at[i].kind == FIGURE_TEXT ? "\"" : "";
-        fprintf(file, "%s%s", i % columns ? "," : "\n", quote);
-        for (const char *text = f->at[i].text; *text; text++)
-            fprintf(file, *text == '"' ? "\"%c" : "%c", *text);
-        fputs(quote, file);
-    }
-    fputc('\n', file);
 }
 
 /* Between quotes; bytes that are no UTF-8 are the caller's. */
@@ -320,8 +305,9 @@ int figures_print(FILE *file, const figures *f, figures_form form)
     if (form == FIGURES_JSON) {
         put_records(file, f, 0, "\n", "\n");
         fputc('\n', file);
-    } else {
-        (form == FIGURES_CSV ? print_csv : form == FIGURES_MARKDOWN ? print_markdown : print_text)(file, f);
-    }
+    } else if (form == FIGURES_TEXT)
+        print_text(file, f);
+    else
+        print_grid(file, f, form == FIGURES_CSV);
     return 1;
 }

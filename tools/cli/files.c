@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 
 #include "cli/arguments.h"
+#include "core/cursor.h"
 
 /* ---- the list ------------------------------------------------------------------------------------ */
 
@@ -55,51 +56,21 @@ int files_same(const char *a, const char *b)
 
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-/* Grows by half as it reads: a pipe or a device does not tell its length beforehand. */
-static char *read_all(FILE *file, size_t most, size_t *size, char *reason, size_t reason_size)
-{
-    size_t room = 65536, count = 0;
-    char *bytes = malloc(room);
-    while (bytes) {
-        count += fread(bytes + count, 1, room - 1 - count, file);
-        if (count < room - 1 || count > most)
-            break;
-        room += room / 2;
-        char *larger = realloc(bytes, room);
-        if (!larger)
-            free(bytes);
-        bytes = larger;
-    }
-    *size = count;
-    if (!bytes)
-        snprintf(reason, reason_size, "there is no memory for it");
-    else if (ferror(file))
-        snprintf(reason, reason_size, "%s", errno ? strerror(errno) : "it cannot be read");
-    else if (count > most)
-        snprintf(reason, reason_size, "it has more than %zu bytes", most);
-    else {
-        bytes[count] = '\0';
-        return bytes;
-    }
-    free(bytes);
-    return NULL;
-}
-
 char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
 {
     static int stdin_is_taken; /* what is read once is gone */
     const int is_stdin = strcmp(path, "-") == 0;
     const char *role = is_stdin ? stdin_is_taken++ ? "read already" : NULL : files_note(path, 0);
-    errno = 0;
     FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
-    if (!file) {
-        snprintf(reason, reason_size, role ? "it is %s" : "%s", role ? role : strerror(errno));
-        return NULL;
-    }
-    char *bytes = read_all(file, most, size, reason, reason_size);
-    if (!is_stdin)
+    char *bytes = file ? (char *)vndf_read_all(file, most, size) : NULL;
+    snprintf(reason, reason_size, role ? "it is %s" : "%s", role ? role : strerror(errno));
+    if (file && !is_stdin)
         fclose(file);
-    return bytes;
+    if (!bytes || *size <= most)
+        return bytes;
+    snprintf(reason, reason_size, "it has more than %zu bytes", most);
+    free(bytes);
+    return NULL;
 }
 
 const char *input_name(const char *path)

@@ -133,12 +133,11 @@ int output_give_up(output_file *output, const char *why)
 int output_form(const char *command, const char *path, const char *const *forms)
 {
     const char *dot = strrchr(path, '.');
-    char known[LISTED_LENGTH];
     if (output_is_stdout(path))
         return 0;
     for (int i = 0; forms[i] && dot; i++)
         if (strcmp(dot + 1, forms[i]) == 0)
             return i;
-    list_words(forms, ".", known);
-    return complain(command, "-o '%s': the name must end in %s, or be - for stdout", path, known), -1;
+    return complain(command, "-o '%s': the name must end in %s, or be - for stdout", path, list_words(forms, ".")),
+           -1;
 }

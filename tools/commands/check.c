@@ -102,34 +102,24 @@ static void compare(checking *c, const char *what, float stored, float measured,
     judge(c, (double)measured <= floor + 1.2 * ((double)stored - floor) + 1e-7);
 }
 
-/* What the table was built from; NULL with the reason said if that cannot be had. */
-static vndf_source *original_source(checking *c, const char *csv, int *failed)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
-    *failed = !source && (csv || error.status != VNDF_ERROR_ARGUMENT);
-    if (*failed && !csv)
-        complain(name, "%s", error.message);
-    else if (!source && !csv)
-        figures_text(&c->to, "certificate_not_measured", error.message);
-    return source;
-}
-
 static int check_certificate(checking *c, const char *csv)
 {
-    vndf_certificate m, s = vndf_distribution_info(c->distribution).certificate;
+    const vndf_info info = vndf_distribution_info(c->distribution);
+    vndf_certificate m, s = info.certificate;
     vndf_error error = {VNDF_OK, ""};
-    int failed;
-    vndf_source *source = original_source(c, csv, &failed);
-    if (!source)
-        return failed ? STATUS_USE : STATUS_GOOD;
+    vndf_source *source = csv ? source_from_csv(name, csv) : vndf_source_of(c->distribution, &error);
+    if (!source && csv)
+        return STATUS_USE;
+    if (!source && error.status == VNDF_ERROR_ARGUMENT) {
+        figures_text(&c->to, "certificate_not_measured", error.message);
+        return STATUS_GOOD;
+    }
     part(c, "certificate", 0.2);
-    vndf_status status = vndf_certify(c->distribution, source, &m, &error);
-    if (status == VNDF_OK &&
-        strcmp(vndf_source_description(source), vndf_distribution_info(c->distribution).source) != 0)
+    if (source && vndf_certify(c->distribution, source, &m, &error) == VNDF_OK &&
+        strcmp(vndf_source_description(source), info.source) != 0)
         figures_text(&c->to, "certificate_measured_of", vndf_source_description(source));
     vndf_source_free(source);
-    if (status != VNDF_OK)
+    if (error.status != VNDF_OK)
         return complain(name, "%s", error.message);
     figures_list(&c->to, "certificate");
     compare(c, "tv", s.tv, m.tv, 0);
@@ -308,18 +298,16 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
     c.to = figures_begin(given);
     c.bar = progress_begin(name, option_value(given, "-q") != NULL);
-    int failed =
-        (chosen->owned && check_certificate(&c, csv) != STATUS_GOOD) || check_consistency(&c) != STATUS_GOOD;
-    if (!failed) {
+    const int is_done =
+        (!chosen->owned || check_certificate(&c, csv) == STATUS_GOOD) && check_consistency(&c) == STATUS_GOOD;
+    if (is_done) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
+        figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);
-    if (failed) {
-        figures_free(&c.to);
-        return STATUS_USE;
-    }
-    figures_text(&c.to, "result", c.good ? "good" : "FAILED");
+    if (!is_done)
+        return figures_free(&c.to), STATUS_USE;
     const int status = figures_end(&c.to);
     return status == STATUS_GOOD && !c.good ? STATUS_NO : status;
 }

@@ -5,74 +5,84 @@
 
 static const double text_height = 12, glyph_width = 6.5;
 
+enum { BOXES_MAX = 1024 };
+
+typedef struct box {
+    double left, top, right, bottom;
+} box;
+
+/* The inside of the frame, with the height of the band of zeros below; both axes; and what may not be written over. */
+typedef struct picture {
+    FILE *file;
+    const chart *c;
+    double left, top, width, height, band;
+    double low[2], high[2], step[2]; /* of x and y; step 0: logarithmic */
+    box taken[BOXES_MAX];
+    size_t count, marks; /* what comes after the marks and lines is labels */
+} picture;
+
 /* ---- axes ---------------------------------------------------------------------------------------- */
 
+static void fit(picture *p, int is_y)
+{
+    const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
+    double low = HUGE_VAL, high = 0;
+    for (const chart_series *s = p->c->series; s < p->c->series + p->c->count; s++)
+        for (size_t i = 0; i < s->count; i++) {
+            const double at = is_y ? s->point[i].y : s->point[i].x;
+            low = at > 0 && at < 1e37 ? fmin(low, at) : low;
+            high = at > 0 && at < 1e37 ? fmax(high, at) : high;
+        }
+    if (is_y)
+        low = fmax(low, high / 1e7);
+    const int is_known = low <= high;
+    const double first = is_known ? floor(log10(low) + 1e-3) : -1, last = is_known ? ceil(log10(high) - 1e-3) : 0;
+    p->step[is_y] = axis->step;
+    p->low[is_y] = axis->step > 0 ? 0 : pow(10, first);
+    p->high[is_y] = axis->step > 0 ? axis->high : pow(10, fmax(last, first + 1));
+}
+
 /* From 0 at the low end to 1 at the high end, beyond for what lies outside; NaN where a logarithm has none. */
-static double place_of(const chart_axis *axis, double value)
+static double place_of(const picture *p, int is_y, double value)
 {
-    if (axis->scale == CHART_LINEAR)
-        return (value - axis->low) / (axis->high - axis->low);
-    return value > 0 ? log(value / axis->low) / log(axis->high / axis->low) : (double)NAN;
+    if (p->step[is_y] > 0)
+        return value / p->high[is_y];
+    return value > 0 ? log(value / p->low[is_y]) / log(p->high[is_y] / p->low[is_y]) : (double)NAN;
 }
 
-void chart_fit(chart *c, double decades)
+/* A zero lies in the band, if the chart has one. */
+static double pixel(const picture *p, int is_y, double value)
 {
-    for (int is_y = 0; is_y < 2; is_y++) {
-        chart_axis *axis = is_y ? &c->y : &c->x;
-        double low = HUGE_VAL, high = 0;
-        for (const chart_series *s = c->series; s < c->series + c->count; s++)
-            for (size_t i = 0; i < s->count; i++) {
-                const double at = is_y ? s->point[i].y : s->point[i].x;
-                if (at > 0 && at < 1e37) {
-                    low = fmin(low, at);
-                    high = fmax(high, at);
-                }
-            }
-        if (axis->scale != CHART_LOG)
-            continue;
-        if (is_y)
-            low = fmax(low, high / pow(10, decades));
-        double first = floor(log10(low) + 1e-3), last = ceil(log10(high) - 1e-3);
-        if (!(low <= high)) /* nothing is known */
-            first = -1, last = 0;
-        axis->low = pow(10, first);
-        axis->high = pow(10, last > first ? last : first + 1);
-    }
+    if (!is_y)
+        return p->left + p->width * place_of(p, 0, value);
+    if (p->band > 0 && value == 0)
+        return p->top + p->height + p->band / 2;
+    return p->top + p->height * (1 - place_of(p, 1, value));
 }
-
-enum { TICKS_MAX = 256 };
-
-typedef struct tick {
-    double at;
-    int is_named;
-} tick;
 
 /* Linear axes have a tick every step. Logarithmic ones have decades, where there are many every second of them with
- * a name, and small ticks at 2 to 9 between; where fewer than three decades are shown, 2 and 5 have names too. */
-static size_t find_ticks(const chart_axis *axis, tick to[TICKS_MAX])
+ * a name, and small ticks at 2 to 9 between; where fewer than three decades are shown, 2 and 5 have names too. 0 where
+ * they end. */
+static int tick_at(const picture *p, int is_y, int index, double *at, int *is_named)
 {
-    size_t count = 0;
-    const int is_log = axis->scale == CHART_LOG;
-    const double many = is_log ? log10(axis->high / axis->low) : 0, step = is_log ? 1 : axis->step;
-    const double first = is_log ? floor(log10(axis->low)) : ceil(axis->low / step);
-    for (double i = first; count < TICKS_MAX - 9; i++)
-        for (int digit = 1; digit < (is_log ? 10 : 2); digit++) {
-            const double at = is_log ? digit * pow(10, i) : i * step, place = place_of(axis, at);
-            if (!(place < 1 + 1e-9))
-                return count;
-            if (place > -1e-9)
-                to[count++] = (tick){at, digit == 1 ? fmod(i, many > 9 ? 2 : 1) == 0
-                                                    : many < 2.5 && (digit == 2 || digit == 5)};
-        }
-    return count;
+    const int digit = 1 + index % 9;
+    const double decade = round(log10(p->low[is_y])) + index / 9, many = log10(p->high[is_y] / p->low[is_y]);
+    if (p->step[is_y] > 0) {
+        *at = index * p->step[is_y];
+        *is_named = 1;
+    } else {
+        *at = digit * pow(10, decade);
+        *is_named = digit == 1 ? fmod(decade, many > 9 ? 2 : 1) == 0 : many < 2.5 && (digit == 2 || digit == 5);
+    }
+    return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
 /* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
  * not. */
-static void name_number(const chart_axis *axis, char name[16], double value)
+static void name_number(const picture *p, int is_y, char name[16], double value)
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const int is_wide = axis->scale == CHART_LOG && (axis->low < 9e-4 || axis->high > 2e5);
+    const int is_wide = p->step[is_y] == 0 && (p->low[is_y] < 9e-4 || p->high[is_y] > 2e5);
     const int power = is_wide ? (int)floor(log10(value) + 1e-9) : 0, size = abs(power);
     if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
         snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
@@ -83,76 +93,52 @@ static void name_number(const chart_axis *axis, char name[16], double value)
 
 /* ---- the frame ----------------------------------------------------------------------------------- */
 
-typedef struct box {
-    double left, top, right, bottom;
-} box;
-
-enum { BOXES_MAX = 1024 };
-
-/* The inside of the frame, with the height of the band of zeros below; and what may not be written over. */
-typedef struct picture {
-    FILE *file;
-    const chart *c;
-    double left, top, width, height, band;
-    box taken[BOXES_MAX];
-    size_t count, marks; /* what comes after the marks and lines is labels */
-} picture;
-
-/* A zero lies in the band, if the chart has one. */
-static double pixel(const picture *p, int is_y, double value)
-{
-    if (!is_y)
-        return p->left + p->width * place_of(&p->c->x, value);
-    if (p->band > 0 && value == 0)
-        return p->top + p->height + p->band / 2;
-    return p->top + p->height * (1 - place_of(&p->c->y, value));
-}
-
 /* Lines across the frame, those without a name finer, and names. */
 static void draw_ticks(const picture *p, int is_y)
 {
-    const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
-    tick t[TICKS_MAX];
-    const size_t count = find_ticks(axis, t);
-    for (int is_named = 0; is_named < 2; is_named++) {
-        if (!is_named && axis->scale == CHART_LINEAR)
-            continue;
-        fprintf(p->file, "<path class=\"grid%s\" d=\"", is_named ? "" : " fine");
-        for (size_t i = 0; i < count; i++)
-            if (t[i].is_named == is_named)
-                fprintf(p->file, is_y ? "M%.1f %.1fh%.1f" : "M%.1f %.1fv%.1f",
-                        is_y ? p->left : pixel(p, 0, t[i].at), is_y ? pixel(p, 1, t[i].at) : p->top,
-                        is_y ? p->width : p->height + p->band);
-        fputs("\"/>\n", p->file);
-    }
-    fprintf(p->file, "<text class=\"tick quiet\" text-anchor=\"%s\">", is_y ? "end" : "middle");
-    for (size_t i = 0; i < count; i++)
-        if (t[i].is_named) {
+    enum { FINE, COARSE, NAMES };
+    static const char *const begin[] = {"<path class=\"grid fine\" d=\"", "<path class=\"grid\" d=\"",
+                                        "<text class=\"tick quiet\" text-anchor=\"middle\">"};
+    const double bottom = p->top + p->height + p->band;
+    double at;
+    int is_named;
+    for (int pass = FINE; pass <= NAMES; pass++) {
+        fputs(is_y && pass == NAMES ? "<text class=\"tick quiet\" text-anchor=\"end\">" : begin[pass], p->file);
+        for (int i = 0; tick_at(p, is_y, i, &at, &is_named); i++) {
+            const double v = pixel(p, is_y, at);
             char text[16];
-            name_number(axis, text, t[i].at);
-            fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : pixel(p, 0, t[i].at),
-                    is_y ? pixel(p, 1, t[i].at) + 4 : p->top + p->height + p->band + 16, text);
+            name_number(p, is_y, text, at);
+            if (is_named != (pass != FINE))
+                continue;
+            if (pass == NAMES)
+                fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : v,
+                        is_y ? v + 4 : bottom + 16, text);
+            else if (is_y)
+                fprintf(p->file, "M%.1f %.1fh%.1f", p->left, v, p->width);
+            else
+                fprintf(p->file, "M%.1f %.1fv%.1f", v, p->top, p->height + p->band);
         }
-    fputs("</text>\n", p->file);
+        fputs(pass == NAMES ? "</text>\n" : "\"/>\n", p->file);
+    }
 }
 
 static void draw_frame(const picture *p)
 {
-    FILE *file = p->file;
+    static const char rectangle[] =
+        "<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n";
     const double bottom = p->top + p->height + p->band;
     draw_ticks(p, 0);
     draw_ticks(p, 1);
-    svg_text(file, "ink", SVG_MIDDLE, p->left + p->width / 2, bottom + 38, p->c->x.label);
-    fprintf(file, "<g transform=\"translate(15 %.1f) rotate(-90)\">", p->top + p->height / 2);
-    svg_text(file, "ink", SVG_MIDDLE, 0, 0, p->c->y.label);
-    fprintf(file, "</g>\n<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p->left,
-            p->top, p->width, p->height);
+    svg_text(p->file, "ink", SVG_MIDDLE, p->left + p->width / 2, bottom + 38, p->c->x.label);
+    fprintf(p->file, "<g transform=\"translate(15 %.1f) rotate(-90)\">", p->top + p->height / 2);
+    svg_text(p->file, "ink", SVG_MIDDLE, 0, 0, p->c->y.label);
+    fputs("</g>\n", p->file);
+    fprintf(p->file, rectangle, p->left, p->top, p->width, p->height);
     if (p->band > 0) {
-        fprintf(file, "<rect class=\"axis\" x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\"/>\n", p->left,
-                p->top + p->height, p->width, p->band);
-        svg_text(file, "tick quiet", SVG_END, p->left - 6, bottom - p->band / 2 + 4, p->c->zero);
+        fprintf(p->file, rectangle, p->left, p->top + p->height, p->width, p->band);
+        svg_text(p->file, "tick quiet", SVG_END, p->left - 6, bottom - p->band / 2 + 4, p->c->zero);
     }
-    svg_text(file, "title ink", SVG_START, p->left, 18, p->c->title);
+    svg_text(p->file, "title ink", SVG_START, p->left, 18, p->c->title);
 }
 
 /* ---- series -------------------------------------------------------------------------------------- */
@@ -165,8 +151,8 @@ static void take(picture *p, double x, double y, double around)
 
 static int is_inside(const picture *p, const chart_point *at)
 {
-    double across = place_of(&p->c->x, at->x), up = place_of(&p->c->y, at->y);
-    return across > -1e-6 && across < 1 + 1e-6 && ((up > -1e-6 && up < 1 + 1e-6) || (p->band > 0 && at->y == 0));
+    const double across = place_of(p, 0, at->x), up = place_of(p, 1, at->y);
+    return fabs(across - 0.5) < 0.5 + 1e-6 && (fabs(up - 0.5) < 0.5 + 1e-6 || (p->band > 0 && at->y == 0));
 }
 
 static const char *const dashes[] = {"", "", " stroke-dasharray=\"7 4\"", " stroke-dasharray=\"2 3\""};
@@ -192,15 +178,19 @@ static void draw_line(picture *p, const chart_series *s)
     fputs("\"/>\n", p->file);
 }
 
+static void begin_marks(const picture *p, const chart_series *s)
+{
+    fprintf(p->file, "<path class=\"%s%u\" d=\"", s->mark == CHART_RING ? "mark hollow l" : "f", s->colour);
+}
+
 static void draw_marks(picture *p, const chart_series *s)
 {
-    const int is_ring = s->mark == CHART_RING;
-    fprintf(p->file, "<path class=\"%s%u\" d=\"", is_ring ? "mark hollow l" : "f", s->colour);
+    begin_marks(p, s);
     for (const chart_point *at = s->point; at < s->point + s->count; at++)
         if (is_inside(p, at)) {
             const double x = pixel(p, 0, at->x), y = pixel(p, 1, at->y);
             fprintf(p->file, "M%.1f %.1f%s", x, y, outlines[s->mark]);
-            take(p, x, y, is_ring ? 10 : 6);
+            take(p, x, y, s->mark == CHART_RING ? 10 : 6);
         }
     fputs("\"/>\n", p->file);
 }
@@ -220,10 +210,10 @@ static void draw_key(const picture *p)
     for (const chart_series *s = p->c->series; s < p->c->series + p->c->count; s++) {
         if (!s->name)
             continue;
-        if (s->mark)
-            fprintf(p->file, "<path class=\"%s%u\" d=\"M%.1f %.1f%s\"/>\n",
-                    s->mark == CHART_RING ? "mark hollow l" : "f", s->colour, x + 6, y, outlines[s->mark]);
-        else
+        if (s->mark) {
+            begin_marks(p, s);
+            fprintf(p->file, "M%.1f %.1f%s\"/>\n", x + 6, y, outlines[s->mark]);
+        } else
             fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n", s->line ? "" : " swatch",
                     s->colour, dashes[s->line], x - 2, y);
         svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, s->name);
@@ -248,22 +238,19 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
     const box bounds = {p->left + 2, p->top + 2, p->left + p->width - 2, p->top + p->height + p->band - 2};
     double width = text_width(text), area = width * text_height, least = HUGE_VAL, least_covered = 0, chosen = 0;
     box best = {0, 0, 0, 0};
-    for (int i = 0; i < 6; i++)
-        for (int k = 0; k < 12; k++) {
-            double turn = k * acos(-1.0) / 6, cx = x + cos(turn) * (distances[i] + width / 2);
-            double cy = y + sin(turn) * (distances[i] + text_height / 2), sum = 0;
-            box at = {cx - width / 2, cy - text_height / 2, cx + width / 2, cy + text_height / 2};
-            for (size_t n = 0; n < p->count; n++)
-                sum += (n < p->marks ? 1 : 20) * overlap(&at, &p->taken[n]);
-            sum += 20 * (area - overlap(&at, &bounds));
-            double cost = sum + 1.5 * distances[i] + (k % 6 == 0 ? 0 : 2);
-            if (cost < least) {
-                least = cost;
-                least_covered = sum;
-                best = at;
-                chosen = distances[i];
-            }
+    for (int i = 0; i < 6 * 12; i++) {
+        const double far = distances[i / 12], turn = i % 12 * acos(-1.0) / 6;
+        const double cx = x + cos(turn) * (far + width / 2), cy = y + sin(turn) * (far + text_height / 2);
+        const box at = {cx - width / 2, cy - text_height / 2, cx + width / 2, cy + text_height / 2};
+        double sum = 20 * (area - overlap(&at, &bounds));
+        for (size_t n = 0; n < p->count; n++)
+            sum += (n < p->marks ? 1 : 20) * overlap(&at, &p->taken[n]);
+        const double cost = sum + 1.5 * far + (i % 6 == 0 ? 0 : 2);
+        if (cost < least) {
+            least = cost, least_covered = sum;
+            best = at, chosen = far;
         }
+    }
     if (least_covered > area / 3 || p->count == BOXES_MAX)
         return;
     if (chosen > 14)
@@ -279,14 +266,12 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
 
 void chart_draw(FILE *file, const chart *c, int is_alone)
 {
-    const double band = c->zero ? c->band : 0, top = 50;
-    picture p = {.file = file,
-                 .c = c,
-                 .left = 66,
-                 .top = top,
-                 .width = c->box.width - 66 - 20,
-                 .height = c->box.height - top - 50 - band,
-                 .band = band};
+    const double left = 66, right = 20, top = 50, below = 50, band = c->zero ? 90 : 0;
+    picture p = {.file = file, .c = c, .left = left, .top = top, .band = band};
+    p.width = c->box.width - left - right;
+    p.height = c->box.height - top - below - band;
+    fit(&p, 0);
+    fit(&p, 1);
     svg_begin(file, c->box, c->title, is_alone);
     draw_frame(&p);
     draw_key(&p);

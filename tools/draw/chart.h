@@ -4,13 +4,11 @@
 
 #include "draw/svg.h"
 
-typedef enum chart_scale { CHART_LINEAR, CHART_LOG } chart_scale;
-
+/* Logarithmic, and fits all points that are positive and finite by whole decades, of y at most 7; or with a step
+ * between its ticks linear, from 0 to `high`. */
 typedef struct chart_axis {
-    chart_scale scale;
-    double low, high;  /* low > 0 on logarithmic scales */
-    double step;       /* between the ticks of a linear axis */
     const char *label; /* with its unit */
+    double step, high;
 } chart_axis;
 
 typedef enum chart_mark { CHART_NO_MARK, CHART_DOT, CHART_RING, CHART_SQUARE, CHART_TRIANGLE } chart_mark;
@@ -37,15 +35,11 @@ typedef struct chart {
     svg_box box;       /* of all */
     chart_axis x, y;
     const char *zero; /* NULL, or the name of a band below the frame for y = 0 on a logarithmic axis */
-    double band;      /* its height */
     const chart_series *series;
     size_t count;
 } chart;
 
 /* As an element, or as a file of its own. */
 void chart_draw(FILE *file, const chart *c, int is_alone);
-
-/* Fits logarithmic axes to all series but for what is unbounded, by whole decades: of y at most so many. */
-void chart_fit(chart *c, double decades);
 
 #endif

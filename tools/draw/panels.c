@@ -50,13 +50,12 @@ void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
         {is_round ? "D" : "D along x", 0, CHART_NO_MARK, CHART_SOLID, point[0], POINTS},
         {is_round ? "GGX of the same median slope" : "D along y", is_round ? 4 : 2, CHART_NO_MARK,
          is_round ? CHART_DASHED : CHART_SOLID, point[1], POINTS}};
-    chart c = {.title = "distribution of normals",
-               .box = box,
-               .x = {CHART_LINEAR, 0, widest, widest / 3, "angle of the normal θm (degrees)"},
-               .y = {CHART_LOG, 0, 0, 0, "D(θm) (per steradian)"},
-               .series = series,
-               .count = is_round && !has_ggx ? 1 : 2};
-    chart_fit(&c, 7);
+    const chart c = {.title = "distribution of normals",
+                     .box = box,
+                     .x = {"angle of the normal θm (degrees)", widest / 3, widest},
+                     .y = {.label = "D(θm) (per steradian)"},
+                     .series = series,
+                     .count = is_round && !has_ggx ? 1 : 2};
     chart_draw(file, &c, 0);
 }
 

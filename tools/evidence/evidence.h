@@ -7,8 +7,8 @@
  *     worth.c      error and variance of a method from one direction
  *     evidence.c   all of these in order, and time in turns, into the numbers of the rows
  *     row.c        the one list of columns, the printer
+ *     report.c     the page of `vndf report`
  *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
- *     page/        what `vndf report` writes
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
 #ifndef TOOLS_EVIDENCE_EVIDENCE_H
@@ -16,6 +16,7 @@
 
 #include "cli/figures.h"
 #include "cli/progress.h"
+#include "draw/page.h"
 #include "evidence/method.h"
 #include "vndf_build.h"
 
@@ -126,6 +127,28 @@ void evidence_free(evidence *of);
 /* Text and Markdown are for people, without the columns that no row has. CSV and JSON have every number of every
  * row. 0 if there was no memory. */
 int evidence_print(FILE *file, const evidence *all, figures_form form);
+
+/* ---- the page of `vndf report` ------------------------------------------------------------------- */
+
+enum { REPORT_SUBJECTS = 4 };
+
+typedef struct report {
+    subject subject[REPORT_SUBJECTS]; /* the first is the one at hand */
+    size_t chosen[REPORT_SUBJECTS];   /* the table to ship */
+    size_t count;
+    evidence *found;       /* for the one at hand */
+    evidence_column batch; /* by the best instructions of this machine, and their name */
+    const char *instructions;
+} report;
+
+/* Builds all tables and chooses. VNDF_OK, or the status and error that stopped it. */
+vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan, vndf_error *error);
+
+/* Whether a table keeps all limits of the advice. */
+int report_keeps(const vndf_distribution *table);
+
+/* The page with its data; 0 after a complaint. */
+int report_write(html_page *page, const report *r);
 
 /* ---- parts of it --------------------------------------------------------------------------------- */
 

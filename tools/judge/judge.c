@@ -221,10 +221,10 @@ static void compare_counts(judge_view *v, size_t samples)
         sector[1][its_sector] += v->observed[i];
         v->found[JUDGE_HOLES] += judge_is_hole(v, i);
     }
-    v->bins = pearson_of(v->expected, v->observed, NULL, JUDGE_BINS + 1, 5);
-    v->rings = pearson_of(ring[0], ring[1], NULL, JUDGE_RINGS + 1, 5);
-    v->sectors = pearson_of(sector[0], sector[1], NULL, JUDGE_SECTORS + 1, 5);
-    pearson spread = pearson_of(even, v->stratified, NULL, JUDGE_BINS + 1, 5);
+    v->bins = pearson_of(v->expected, v->observed, JUDGE_BINS + 1);
+    v->rings = pearson_of(ring[0], ring[1], JUDGE_RINGS + 1);
+    v->sectors = pearson_of(sector[0], sector[1], JUDGE_SECTORS + 1);
+    pearson spread = pearson_of(even, v->stratified, JUDGE_BINS + 1);
     v->scatter = spread.classes > 1 ? spread.statistic / (double)(spread.classes - 1) : 1;
     v->found[JUDGE_MASS] = worst(0, fabs(v->mass - 1) - v->mass_error);
     v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->mass) : 0;

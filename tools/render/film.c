@@ -3,12 +3,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <unistd.h>
-#ifdef VNDF_TOOLS_PTHREADS
-#  include <pthread.h>
-#endif
 
 #include "cli/progress.h"
 
@@ -24,9 +22,7 @@ typedef struct pass {
 typedef struct worker {
     pass *of;
     path_counts counts;
-#ifdef VNDF_TOOLS_PTHREADS
     pthread_t thread;
-#endif
 } worker;
 
 static void *render_rows(void *user)
@@ -55,19 +51,15 @@ void film_add(film *f, const path_plan *plan, uint64_t samples, unsigned threads
     pass p = {.film = f, .plan = plan, .samples = samples, .seed = seed};
     worker workers[THREADS_MAX] = {{.of = &p}};
     unsigned count = 1;
-#ifdef VNDF_TOOLS_PTHREADS
     for (; count < threads && count < THREADS_MAX; count++) {
         workers[count].of = &p;
         if (pthread_create(&workers[count].thread, NULL, render_rows, &workers[count]) != 0)
             break;
     }
-#endif
     render_rows(&workers[0]);
     for (unsigned i = 0; i < count; i++) {
-#ifdef VNDF_TOOLS_PTHREADS
         if (i > 0)
             pthread_join(workers[i].thread, NULL);
-#endif
         f->counts.rays += workers[i].counts.rays;
         f->counts.lost += workers[i].counts.lost;
     }

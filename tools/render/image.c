@@ -92,17 +92,13 @@ typedef struct image_head {
 static int read_words(const char *bytes, size_t size, image_head *head)
 {
     char text[HEAD_MAX + 1] = "";
-    const char *at = text;
+    int end = 0;
     memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
-    for (int i = 0; i < 4; i++) {
-        for (at += strspn(at, " \t\r\n"); *at == '#'; at += strspn(at, " \t\r\n"))
-            at += strcspn(at, "\n");
-        size_t letters = strcspn(at, " \t\r\n");
-        snprintf(head->word[i], sizeof head->word[i], "%.*s", (int)(letters < 32 ? letters : 31), at);
-        at += letters;
-    }
-    head->size = (size_t)(at - text) + (at[0] == '\r' && at[1] == '\n' ? 2 : 1);
-    return head->word[3][0] && *at;
+    for (char *at = text; (at = strchr(at, '#')) != NULL;)
+        memset(at, ' ', strcspn(at, "\n"));
+    sscanf(text, " %31s %31s %31s %31s%n", head->word[0], head->word[1], head->word[2], head->word[3], &end);
+    head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
+    return end && text[end];
 }
 
 /* A whole number from 1 to `most`, or 0. */

@@ -169,6 +169,7 @@ typedef struct reader {
     clause clause[CLAUSES_MAX]; /* of all its keys */
     size_t clauses;
     unsigned seen;                                                         /* a bit for each statement */
+    size_t material;                                                       /* of a shape */
     const char *images[SCENE_IMAGES_MAX], *materials[SCENE_MATERIALS_MAX]; /* their names */
     size_t pixels;                                                         /* of all images so far */
     struct made_table {
@@ -270,53 +271,47 @@ static int read_number(reader *r, const key *k, const word *at, double *number)
            refuse(r, at, "%s is %.9g, it must be a whole number", k->name, *number);
 }
 
-/* The clause whose keyword is word *at, which moves behind its values. */
-static int read_clause(reader *r, size_t *at)
+/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `at` on. A keyword ends what may
+ * be left out; values that have to be there are taken as they are, since a name may look like a keyword. */
+static int read_clauses(reader *r, size_t at, const char *of, const char *also)
 {
+    const word *const begin = &r->list[at - 1], *const end = &r->list[r->count];
     const char *names[CLAUSES_MAX];
     size_t chosen;
-    const word *w = &r->list[*at];
-    for (size_t i = 0; i < r->clauses; i++)
-        names[i] = r->clause[i].is->name;
-    if (w->is_quoted)
-        return refuse(r, w, "'%.64s' is no clause here, since it has quotes", w->text);
-    if (!read_choice(r, w, "clause here", names, r->clauses, &chosen))
-        return 0;
-    clause *c = &r->clause[chosen];
-    if (c->at)
-        return refuse(r, w, "'%s' stands in this statement twice", c->is->name);
-    c->at = w;
-    c->value = w + 1;
-    /* required values are taken as they are, since a name may look like a keyword */
-    for (++*at; *at < r->count && c->count < c->is->most; ++*at, c->count++) {
-        const word *value = &r->list[*at];
-        if (c->count >= c->is->least && !value->is_quoted && clause_of(r, value->text)->is)
-            break;
-        if (c->is->kind != WORDS && !read_number(r, c->is, value, &c->number[c->count]))
-            return 0;
-    }
-    return c->count >= c->is->least ||
-           refuse(r, c->at, "the statement ends before all of '%s %s' was there", c->is->name, c->is->takes);
-}
-
-/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `from` on. */
-static int read_clauses(reader *r, size_t from, const char *of, const char *also)
-{
     r->clauses = 0;
-    for (size_t i = 0; i < sizeof keys / sizeof *keys; i++)
-        if (strcmp(keys[i].of, of) == 0 || strcmp(keys[i].of, also) == 0)
-            r->clause[r->clauses++] = (clause){.is = &keys[i]};
-    for (size_t at = from; at < r->count;)
-        if (!read_clause(r, &at))
+    for (const key *k = keys; k < keys + sizeof keys / sizeof *keys; k++)
+        if (strcmp(k->of, of) == 0 || strcmp(k->of, also) == 0) {
+            names[r->clauses] = k->name;
+            r->clause[r->clauses++] = (clause){.is = k};
+        }
+    for (const word *w = begin + 1; w < end;) {
+        if (w->is_quoted)
+            return refuse(r, w, "'%.64s' is no clause here, since it has quotes", w->text);
+        if (!read_choice(r, w, "clause here", names, r->clauses, &chosen))
             return 0;
+        clause *c = &r->clause[chosen];
+        if (c->at)
+            return refuse(r, w, "'%s' stands in this statement twice", c->is->name);
+        c->at = w;
+        c->value = ++w;
+        for (; w < end && c->count < c->is->most; w++, c->count++) {
+            if (c->count >= c->is->least && !w->is_quoted && clause_of(r, w->text)->is)
+                break;
+            if (c->is->kind != WORDS && !read_number(r, c->is, w, &c->number[c->count]))
+                return 0;
+        }
+        if (c->count < c->is->least)
+            return refuse(r, c->at, "the statement ends before all of '%s %s' was there", c->is->name,
+                          c->is->takes);
+    }
     for (const clause *c = r->clause; c < r->clause + r->clauses; c++) {
         const key *k = c->is;
         const clause *other = k->other ? clause_of(r, k->other) : NULL;
         if (k->rule == NEEDED && !c->at)
-            return refuse(r, &r->list[from - 1], "'%s' needs '%s %s'", of, k->name, k->takes);
+            return refuse(r, begin, "'%s' needs '%s %s'", of, k->name, k->takes);
         if (k->rule == OR && !c->at == !other->at)
-            return refuse(r, &r->list[from - 1], "'%s' needs one of '%s %s' and '%s %s'", of, k->name, k->takes,
-                          k->other, other->is->takes);
+            return refuse(r, begin, "'%s' needs one of '%s %s' and '%s %s'", of, k->name, k->takes, k->other,
+                          other->is->takes);
         if (k->rule == BESIDE && c->at && !other->at)
             return refuse(r, c->at, "'%s' stands beside '%s' only", k->name, k->other);
     }
@@ -455,24 +450,21 @@ static int read_image(reader *r)
 
 enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
 
-static vndf_distribution *make_table(reader *r, size_t form, const word *of, vndf_error *error)
+static vndf_distribution *make_table(size_t form, const char *text, vndf_error *error)
 {
     if (form == TABLE) {
-        char path[PATH_BYTES];
-        const int is_path = path_of(r, of, path);
-        const char *role = is_path ? files_note(path, 0) : NULL;
-        if (role)
-            refuse_at(error, path, 0, 0, "this file is %s as well", role);
-        return is_path && !role ? vndf_load(path, error) : NULL;
+        (void)files_note(text, 0); /* which no output replaces then */
+        return vndf_load(text, error);
     }
-    vndf_source *source = form == FAMILY  ? vndf_source_family(of->text, error)
-                          : form == SLOPE ? vndf_source_slope_expression(of->text, NULL, 0, error)
-                                          : vndf_source_ndf_expression(of->text, NULL, 0, error);
+    vndf_source *source = form == FAMILY  ? vndf_source_family(text, error)
+                          : form == SLOPE ? vndf_source_slope_expression(text, NULL, 0, error)
+                                          : vndf_source_ndf_expression(text, NULL, 0, error);
     vndf_distribution *built = source ? vndf_build(source, NULL, NULL, error) : NULL;
     vndf_source_free(source);
     return built;
 }
 
+/* Materials with the same form and text share a table. */
 static int read_distribution(reader *r, const vndf_distribution **found)
 {
     static const char *const names[FORMS] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
@@ -482,6 +474,7 @@ static int read_distribution(reader *r, const vndf_distribution **found)
     const word *of = &c->value[1];
     scene *s = r->made;
     vndf_error error = {VNDF_OK, ""};
+    char path[PATH_BYTES];
     size_t form, i = 0;
     if (!read_choice(r, c->value, "distribution", names, FORMS, &form))
         return 0;
@@ -494,14 +487,15 @@ static int read_distribution(reader *r, const vndf_distribution **found)
         return clause_of(r, "alpha")->at ||
                refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
     }
-    /* materials with the same form and text share a table */
     while (i < s->table_count && (r->tables[i].form != form || strcmp(r->tables[i].text, of->text) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
         return refuse(r, of, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
-        if (!(s->tables[i] = make_table(r, form, of, &error))) /* else path_of has refused */
-            return error.message[0] ? refuse(r, of, "%s", error.message) : 0;
+        if (form == TABLE && !path_of(r, of, path))
+            return 0;
+        if (!(s->tables[i] = make_table(form, form == TABLE ? path : of->text, &error)))
+            return refuse(r, of, "%s", error.message);
         r->tables[s->table_count++] = (struct made_table){form, of->text};
     }
     *found = s->tables[i];
@@ -579,20 +573,21 @@ static int read_material(reader *r)
 
 /* ---- shapes ---- */
 
-static int add_shape(reader *r, shape made, int of)
+/* Of the material that the statement names. */
+static int add_shape(reader *r, shape made)
 {
-    made.material = of;
+    made.material = (int)r->material;
     return geometry_add(&r->made->geometry, &made) || refuse(r, &r->list[0], "there is no memory for this shape");
 }
 
-static int read_sphere(reader *r, int of)
+static int read_sphere(reader *r)
 {
-    return add_shape(r, (shape){.corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)}, of);
+    return add_shape(r, (shape){.corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)});
 }
 
 /* The text has few digits, so that edges that are meant to be at right angles may be a little off: the second one
  * is corrected. */
-static int read_rectangle(reader *r, int of)
+static int read_rectangle(reader *r)
 {
     const vec3 corner = vector_of(r, "corner"), u = vector_of(r, "edge-u"), v = vector_of(r, "edge-v");
     const double cosine = dot(u, v) / (length(u) * length(v));
@@ -603,54 +598,53 @@ static int read_rectangle(reader *r, int of)
         return refuse(r, clause_of(r, "edge-v")->at,
                       "the edges of a rectangle must be at right angles; these are at %.4g degrees",
                       acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
-    return add_shape(r, (shape){SHAPE_RECTANGLE, 0, corner, u, along(v, -dot(u, v) / dot(u, u), u), .radius = 0},
-                     of);
+    return add_shape(r, (shape){SHAPE_RECTANGLE, 0, corner, u, along(v, -dot(u, v) / dot(u, u), u), .radius = 0});
 }
 
-static int read_mesh(reader *r, int of)
+static int read_mesh(reader *r)
 {
     const word *file = clause_of(r, "file")->value;
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    if (r->made->materials[of].kind == MATERIAL_LIGHT)
+    if (r->made->materials[r->material].kind == MATERIAL_LIGHT)
         return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
     if (!path_of(r, file, path))
         return 0;
-    if (!obj_read(g, path, of, &error))
+    if (!obj_read(g, path, (int)r->material, &error))
         return refuse(r, file, "%s", error.message);
     geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
     return 1;
 }
 
-/* ---- all of it ---- */
+/* ---- statements ---- */
 
-/* Those before ONCE may be there once; those from there to NAMED have a name, and read their clauses themselves;
+/* Those before ONCE stand once in a scene; those before NAMED are not, and read the words behind their name themselves;
  * those after it are shapes, which have a material. */
 enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
 static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
                                               "material", "sphere", "rectangle",  "mesh"};
-static int (*const readers[NAMED])(reader *r) = {read_view,        read_view,  read_view,
-                                                 read_environment, read_image, read_material};
-static int (*const shape_readers[])(reader *r, int of) = {read_sphere, read_rectangle, read_mesh};
+static int (*const readers[STATEMENTS])(reader *r) = {read_view,        read_view,      read_view,
+                                                      read_environment, read_image,     read_material,
+                                                      read_sphere,      read_rectangle, read_mesh};
 
 static int read_statement(reader *r)
 {
     const word *w = &r->list[0];
-    size_t i, of;
+    size_t i;
     if (!read_choice(r, w, "statement", names, STATEMENTS, &i))
         return 0;
+    const int is_shape = i >= NAMED;
     if (i < ONCE && r->seen >> i & 1u)
         return refuse(r, w, "'%s' stands in this scene twice", w->text);
     r->seen |= 1u << i;
-    if ((i < ONCE || i >= NAMED) && !read_clauses(r, 1, names[i], i >= NAMED ? "body" : ""))
+    if ((i < ONCE || is_shape) && !read_clauses(r, 1, names[i], is_shape ? "body" : ""))
         return 0;
-    if (i < NAMED)
-        return readers[i](r);
-    return read_choice(r, clause_of(r, "material")->value, "material that is defined before this", r->materials,
-                       r->made->material_count, &of) &&
-           shape_readers[i - NAMED](r, (int)of);
+    if (is_shape && !read_choice(r, clause_of(r, "material")->value, "material that is defined before this",
+                                 r->materials, r->made->material_count, &r->material))
+        return 0;
+    return readers[i](r);
 }
 
 static int read_statements(reader *r)

@@ -1,26 +1,72 @@
-/* Batches: which instruction set they run on, and the arrays of each call. Lanes (lanes_block.c) take all surfaces;
- * single elements, inverses, what has no distribution, and all calls where the compiler has no lanes, go one by one. */
+/* Batches: the calls, and which instruction set they run on. Lanes (lanes_block.c) take all surfaces; single elements,
+ * inverses, lobes without a distribution, and all calls where the compiler has no lanes, go one by one. */
 #include <string.h>
 
 #include "sampler/batch/call.h"
+#include "sampler/sampler.h"
 #include "table/table.h"
+
+/* ---- one element after the other, by the calls for one ---- */
+
+static void run_one(const vndf_call *c, size_t i)
+{
+    vndf_affine s = vndf_call_surface(c, i);
+    const vndf_vec3 wi = vndf_call_vec3(c, VNDF_READ_WI_X, i), given = vndf_call_vec3(c, VNDF_READ_A, i);
+    const vndf_surface rough = {s.distribution, s.xx, s.yy};
+    const vndf_view view = c->diagonal ? vndf_view_from(&rough, wi) : vndf_affine_view_from(&s, wi);
+    vndf_vec3 wm;
+    float to[VNDF_WRITES] = {0.0f};
+    if (c->diagonal && !(s.xx > 0.0f && s.yy > 0.0f))
+        s.distribution = NULL; /* which is invalid */
+    switch (c->task) {
+    case VNDF_TASK_SAMPLE:
+        wm = c->write[4] ? vndf_sample_weight(&view, given.x, given.y, &to[3], &to[4])
+                         : vndf_sample(&view, given.x, given.y, &to[3]);
+        to[0] = wm.x, to[1] = wm.y, to[2] = wm.z;
+        break;
+    case VNDF_TASK_PDF: to[0] = vndf_pdf(&view, given); break;
+    case VNDF_TASK_VISIBLE: to[0] = vndf_visible(&view, given); break;
+    case VNDF_TASK_INVERT: vndf_invert(&view, given, &to[0], &to[1]); break;
+    case VNDF_TASK_NDF: to[0] = vndf_affine_ndf(&s, given); break;
+    case VNDF_TASK_LAMBDA: to[0] = vndf_affine_lambda(&s, wi); break;
+    case VNDF_TASK_G1: to[0] = vndf_affine_g1(&s, wi); break;
+    case VNDF_TASK_AREA: to[0] = vndf_affine_projected_area(&s, wi); break;
+    case VNDF_TASK_DRAWN_AREA: to[0] = view.distribution ? vndf_view_drawn_area(&view) : 0.0f; break;
+    }
+    to[1] = c->task == VNDF_TASK_AREA || c->task == VNDF_TASK_DRAWN_AREA ? view.distribution != NULL : to[1];
+    for (int w = 0; w < VNDF_WRITES; w++)
+        if (c->write[w])
+            c->write[w][i] = to[w];
+}
+
+static void prepare_nothing(const vndf_distribution *distribution, vndf_prepared *prepared)
+{
+    (void)distribution;
+    (void)prepared;
+}
+
+static void run_elements(const vndf_call *call)
+{
+    for (size_t i = 0; i < call->count; i++)
+        run_one(call, call->at ? (size_t)call->at[i] : i);
+}
+
+const vndf_lanes vndf_one_by_one = {prepare_nothing, run_elements};
 
 /* ---- instruction sets ---- */
 
-#if VNDF_HAS_WIDE_LANES
-
-static int has_avx512(void)
-{
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-}
-
 vndf_instructions vndf_instructions_used(vndf_instructions limit)
 {
-    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX512) && has_avx512())
+#if VNDF_HAS_WIDE_LANES
+    const int any = limit == VNDF_INSTRUCTIONS_BEST;
+    if ((any || limit >= VNDF_INSTRUCTIONS_AVX512) && __builtin_cpu_supports("avx512f") &&
+        __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") &&
+        __builtin_cpu_supports("avx512vl"))
         return VNDF_INSTRUCTIONS_AVX512;
-    if ((limit == VNDF_INSTRUCTIONS_BEST || limit >= VNDF_INSTRUCTIONS_AVX2) && __builtin_cpu_supports("avx2"))
+    if ((any || limit >= VNDF_INSTRUCTIONS_AVX2) && __builtin_cpu_supports("avx2"))
         return VNDF_INSTRUCTIONS_AVX2;
+#endif
+    (void)limit;
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
@@ -28,34 +74,19 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit)
 {
     const vndf_instructions used = vndf_instructions_used(limit);
-    if (count <= 1)
-        return &vndf_one_by_one;
-    if (used == VNDF_INSTRUCTIONS_AVX512 && !(table && count <= 256))
+    (void)used, (void)table;
+#if VNDF_HAS_WIDE_LANES
+    if (count > 1 && used == VNDF_INSTRUCTIONS_AVX512 && !(table && count <= 256))
         return &vndf_lanes_16;
-    return used >= VNDF_INSTRUCTIONS_AVX2 ? &vndf_lanes_8 : &vndf_lanes_4;
-}
-
-#else
-
-vndf_instructions vndf_instructions_used(vndf_instructions limit)
-{
-    (void)limit;
-    return VNDF_INSTRUCTIONS_PORTABLE;
-}
-
-const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit)
-{
-    (void)table;
-    (void)limit;
-#  if defined(__GNUC__)
+    if (count > 1 && used >= VNDF_INSTRUCTIONS_AVX2)
+        return &vndf_lanes_8;
+#endif
+#if defined(__GNUC__)
     if (count > 1)
         return &vndf_lanes_4;
-#  endif
-    (void)count;
+#endif
     return &vndf_one_by_one;
 }
-
-#endif
 
 /* ---- calls ---- */
 

@@ -68,7 +68,7 @@ extern const vndf_lanes vndf_lanes_4;
 extern const vndf_lanes vndf_lanes_8, vndf_lanes_16;
 #endif
 
-/* The same by the calls for one (elements.c): the distribution may be NULL. */
+/* The same by the calls for one: the distribution may be NULL. */
 extern const vndf_lanes vndf_one_by_one;
 
 /* The best lanes up to `limit` for so many elements; `table`: of a table that is prepared for this call alone. */

@@ -496,46 +496,54 @@ HERE void run_entered(const block *b, const vndf_call *call)
             call->write[w][b->first + (size_t)(b->at ? b->at[i] : i)] = b->write[w][i];
 }
 
-/* Elements above the horizon, those from which a table is seen from below, and those that are not valid; the first two
- * are the values of a block's `below`. */
+/* Elements above the horizon, those from which a table is seen from below, and those that are not valid. The first two
+ * are the values of a block's `below`; bits tell all of them apart. */
 enum { ABOVE, BELOW, INVALID, SORTS };
 
-/* The sort of each element; returns that of all, or SORTS. */
-HERE int sort_elements(const block *b, const int sided, int32_t *sorts)
+/* The sorts of a group; only a table has elements below. */
+HERE whole sorts_at(const block *b, int g, const int sided)
 {
-    const mask none = less(set(0.0f), set(0.0f));
-    mask some_below = none, some_above = none, all_valid = (mask)~none;
-    for (int g = 0; g < b->groups; g++) {
-        real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
-             height = input(b, VNDF_READ_WI_Z, g);
-        mask valid = affine_is_valid(map_at(b, g, b->plain));
-        if (b->plain)
-            valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
-        if (b->task != VNDF_TASK_NDF)
-            valid = both(valid, direction_is_valid(x, y, height));
+    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), height = input(b, VNDF_READ_WI_Z, g);
+    whole sort = set_whole(ABOVE);
+    mask valid = affine_is_valid(map_at(b, g, b->plain));
+    if (b->plain)
+        valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
+    if (b->task != VNDF_TASK_NDF)
+        valid = both(valid, direction_is_valid(x, y, height));
+    if (sided) {
         if (!b->plain)
             height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
-        if (!sided)
-            height = set(1.0f);
-        else if (any(either(at_most(size(height), set(1e-30f)), at_most(set(1e30f), size(height)))))
+        if (any(either(at_most(size(height), set(1e-30f)), at_most(set(1e30f), size(height)))))
             height = frame_at(b, g, b->plain).uz; /* which rounds: elsewhere it has the same sign */
-        mask below = less(height, set(0.0f));
-        whole sort = pick_whole(valid, pick_whole(below, set_whole(BELOW), set_whole(ABOVE)), set_whole(INVALID));
-        memcpy(sorts + g * LANES, &sort, sizeof sort);
-        all_valid = both(all_valid, valid);
-        some_below = either(some_below, below);
-        some_above = either(some_above, (mask)~below);
+        sort = pick_whole(less(height, set(0.0f)), set_whole(BELOW), sort);
     }
-    if (any((mask)~all_valid) || (any(some_below) && any(some_above)))
-        return SORTS;
-    return any(some_below) ? BELOW : ABOVE;
+    return pick_whole(valid, sort, set_whole(INVALID));
+}
+
+/* The sort of all elements, or SORTS. */
+HERE int sort_of(const block *b, const int sided)
+{
+    whole some = set_whole(0), every = set_whole(BELOW);
+    for (int g = 0; g < b->groups; g++) {
+        whole sort = sorts_at(b, g, sided);
+        some = some | sort;
+        every = every & sort;
+    }
+    if (!any(less_whole(set_whole(ABOVE), some)))
+        return ABOVE;
+    return any(less_whole(set_whole(BELOW), some)) || any(same(every, ABOVE)) ? SORTS : BELOW;
 }
 
 /* Puts the elements of each sort together, and runs them. */
-STEP void run_sorts(block b, const vndf_call *call, const int32_t *sorts, copies *c)
+STEP void run_sorts(block b, const vndf_call *call, const int sided, copies *c)
 {
     const block all = b;
     int list[BLOCK];
+    int32_t sorts[BLOCK];
+    for (int g = 0; g < b.groups; g++) {
+        whole sort = sorts_at(&b, g, sided);
+        memcpy(sorts + g * LANES, &sort, sizeof sort);
+    }
     b.at = list;
     for (int sort = ABOVE; sort < SORTS; sort++) {
         b.below = sort == BELOW;
@@ -586,15 +594,14 @@ static void run(const vndf_call *call)
             store(shared[r] + g * LANES, set(*call->read[r]));
     }
     for (size_t first = 0; first < call->count; first += BLOCK) {
-        int32_t sorts[BLOCK];
         b.first = call->at ? 0 : first;
         b.at = call->at ? call->at + first : NULL;
         b.count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
         enter(&b, call, &c);
-        const int sort = sort_elements(&b, sided, sorts);
+        const int sort = sided ? sort_of(&b, 1) : sort_of(&b, 0);
         b.below = sort == BELOW;
         if (sort == SORTS)
-            run_sorts(b, call, sorts, &c);
+            run_sorts(b, call, sided, &c);
         else
             run_entered(&b, call);
     }

@@ -219,6 +219,6 @@ bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t
         result.mass += expected[i];
         expected[i] *= (double)samples;
     }
-    result.found = pearson_of(expected, observed, NULL, BINS_COUNT, 5);
+    result.found = pearson_of(expected, observed, BINS_COUNT);
     return result;
 }

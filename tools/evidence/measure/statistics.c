@@ -25,43 +25,35 @@ double statistics_sidak(double level, size_t n)
 /* ---- Pearson ------------------------------------------------------------------------------------- */
 
 typedef struct class_sum {
-    double expected, observed, variance;
+    double expected, observed;
 } class_sum;
 
-static double deviation(class_sum sum)
+static double deviation(double expected, double observed)
 {
-    double difference = sum.observed - sum.expected;
-    return difference * difference / sum.variance;
-}
-
-static class_sum together(class_sum a, class_sum b)
-{
-    return (class_sum){a.expected + b.expected, a.observed + b.observed, a.variance + b.variance};
+    return (observed - expected) * (observed - expected) / expected;
 }
 
 /* Bins that expect little go together with their neighbours, so that a deviation in a tail is not drowned by the
  * rest of it. The newest class is kept open, since what is left at the end joins it. */
-pearson pearson_of(const double *expected, const double *observed, const double *variance, size_t bins,
-                   double least)
+pearson pearson_of(const double *expected, const double *observed, size_t bins)
 {
-    class_sum open = {0, 0, 0}, last = {0, 0, 0};
-    pearson found = {0, 0, 0, 0};
+    static const double LEAST = 5;
+    class_sum open = {0, 0}, last = {0, 0};
+    pearson found = {0, 0, 0};
     for (size_t i = 0; i < bins; i++) {
-        class_sum bin = {expected[i], observed[i], variance ? variance[i] : expected[i]};
-        if (!(bin.expected >= least)) {
-            found.pooled++;
-            open = together(open, bin);
-            if (!(open.expected >= least))
-                continue;
-            bin = open;
-            open = (class_sum){0, 0, 0};
-        }
-        found.statistic += found.classes++ ? deviation(last) : 0;
+        const int is_alone = expected[i] >= LEAST;
+        const class_sum bin = {expected[i] + (is_alone ? 0 : open.expected),
+                               observed[i] + (is_alone ? 0 : open.observed)};
+        open = is_alone ? open : bin;
+        if (!(bin.expected >= LEAST))
+            continue;
+        open = is_alone ? open : (class_sum){0, 0};
+        found.statistic += found.classes++ ? deviation(last.expected, last.observed) : 0;
         last = bin;
     }
     if (!found.classes)
         return found;
-    found.statistic += deviation(together(last, open));
+    found.statistic += deviation(last.expected + open.expected, last.observed + open.observed);
     found.p = statistics_chi_square_p(found.statistic, found.classes - 1);
     return found;
 }

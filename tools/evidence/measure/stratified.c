@@ -54,69 +54,54 @@ void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2)
 
 /* ---- light ---- */
 
-/* The small light stands where a mirror would see it, a little aside; its radius is that of the lobe. */
-static double light_from(stratified_light light, vndf_vec3 wi, double width, vndf_vec3 wo)
+/* The lobe of what is mirrored is twice the median slope wide, at most a quarter turn. The small light stands where a
+ * mirror would see it, a little aside; its radius is that of the lobe. */
+void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points, size_t scrambles, uint64_t seed,
+                       double error[STRATIFIED_LIGHTS])
 {
-    double x = wo.x + wi.x - 0.3 * width, y = wo.y + wi.y - 0.2 * width, z = wo.z - wi.z;
-    if (!(wo.z > 0))
-        return 0;
-    if (light == STRATIFIED_BROAD)
-        return 0.3 + 0.7 * wo.z * wo.z + 0.2 * wo.x;
-    return 1 / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
-}
-
-static double reflected(const vndf_view *view, vndf_vec3 wi, stratified_light light, double width, float u1,
-                        float u2)
-{
-    float weight;
-    vndf_vec3 wm = vndf_sample_weight(view, u1, u2, NULL, &weight);
-    float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
-    vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
-    return (double)weight * light_from(light, wi, width, wo);
-}
-
-/* Half the width of the lobe of what is mirrored: twice the median slope, at most a quarter turn. */
-static double width_of(const vndf_surface *surface)
-{
-    double scale = vndf_distribution_info(surface->distribution).scale;
-    return fmin(1, (scale > 0 ? scale : 1) * (double)surface->alpha_x);
-}
-
-double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_light light, size_t points,
-                        size_t scrambles, uint64_t seed)
-{
-    vndf_view view = vndf_view_from(surface, wi);
-    double sum = 0, squares = 0, n = (double)scrambles, width = width_of(surface);
+    const double scale = vndf_distribution_info(surface->distribution).scale, n = (double)scrambles;
+    const double width = fmin(1, (scale > 0 ? scale : 1) * (double)surface->alpha_x);
+    const vndf_view view = vndf_view_from(surface, wi);
+    double sum[STRATIFIED_LIGHTS] = {0}, squares[STRATIFIED_LIGHTS] = {0};
     for (size_t i = 0; i < scrambles; i++) {
-        double value = 0;
+        double value[STRATIFIED_LIGHTS] = {0};
         for (size_t j = 0; j < points; j++) {
-            float u1, u2;
+            float u1, u2, weight;
             stratified_point((uint32_t)j, hash((uint32_t)seed + (uint32_t)i * 0x9e3779b9u), &u1, &u2);
-            value += reflected(&view, wi, light, width, u1, u2) / (double)points;
+            const vndf_vec3 wm = vndf_sample_weight(&view, u1, u2, NULL, &weight);
+            const float twice = 2 * (wi.x * wm.x + wi.y * wm.y + wi.z * wm.z);
+            const vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+            const double x = wo.x + wi.x - 0.3 * width, y = wo.y + wi.y - 0.2 * width, z = wo.z - wi.z;
+            const double share = wo.z > 0 ? (double)weight / (double)points : 0;
+            value[STRATIFIED_BROAD] += share * (0.3 + 0.7 * wo.z * wo.z + 0.2 * wo.x);
+            value[STRATIFIED_SMALL] += share / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
         }
-        sum += value;
-        squares += value * value;
+        for (int k = 0; k < STRATIFIED_LIGHTS; k++) {
+            sum[k] += value[k];
+            squares[k] += value[k] * value[k];
+        }
     }
-    double mean = sum / n, variance = fmax(0, squares / n - mean * mean);
-    return mean > 1e-4 ? sqrt(variance) / mean : 0;
+    for (int k = 0; k < STRATIFIED_LIGHTS; k++) {
+        const double mean = sum[k] / n;
+        error[k] = mean > 1e-4 ? sqrt(fmax(0, squares[k] / n - mean * mean)) / mean : 0;
+    }
 }
-
-/* ---- beside caps ---- */
 
 double stratified_beside_caps(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed)
 {
-    static const double thetas[] = {5, 25, 45, 60, 75, 85};
-    enum { VIEWS = sizeof thetas / sizeof *thetas };
+    enum { VIEWS = 6 };
+    static const double thetas[VIEWS] = {5, 25, 45, 60, 75, 85};
     const double scale = vndf_distribution_info(distribution).scale;
     const float same = alpha * (float)(scale > 0 ? scale : 1);
     const vndf_surface ours = {distribution, alpha, alpha}, caps = {vndf_ggx(), same, same};
     double sum = 0;
-    for (int i = 0; i < VIEWS * STRATIFIED_LIGHTS; i++) {
-        const vndf_vec3 wi = direction_from(thetas[i / STRATIFIED_LIGHTS], 36.87);
-        const stratified_light light = (stratified_light)(i % STRATIFIED_LIGHTS);
-        double a = stratified_error(&ours, wi, light, 64, scrambles, seed);
-        double b = stratified_error(&caps, wi, light, 64, scrambles, seed + 1);
-        sum += a > 0 && b > 0 ? log(a / b) : 0;
+    for (int i = 0; i < VIEWS; i++) {
+        const vndf_vec3 wi = direction_from(thetas[i], 36.87);
+        double a[STRATIFIED_LIGHTS], b[STRATIFIED_LIGHTS];
+        stratified_errors(&ours, wi, 64, scrambles, seed, a);
+        stratified_errors(&caps, wi, 64, scrambles, seed + 1, b);
+        for (int k = 0; k < STRATIFIED_LIGHTS; k++)
+            sum += a[k] > 0 && b[k] > 0 ? log(a[k] / b[k]) : 0;
     }
     return exp(sum / (VIEWS * STRATIFIED_LIGHTS));
 }

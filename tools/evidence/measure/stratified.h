@@ -11,15 +11,15 @@
 #include "vndf.h"
 
 /* Lights: a sky that brightens upwards, and a disc that a glossy surface mirrors, with a soft edge. */
-typedef enum stratified_light { STRATIFIED_BROAD, STRATIFIED_SMALL, STRATIFIED_LIGHTS } stratified_light;
+enum { STRATIFIED_BROAD, STRATIFIED_SMALL, STRATIFIED_LIGHTS };
 
 /* The point `index` of a scrambled sequence, of 24 bits each. */
 void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2);
 
-/* The root mean square error over so many scrambled sequences of so many points, relative to the mean; 0 where
- * next to nothing is reflected there. */
-double stratified_error(const vndf_surface *surface, vndf_vec3 wi, stratified_light light, size_t points,
-                        size_t scrambles, uint64_t seed);
+/* The root mean square error of each light over so many scrambled sequences of so many points, relative to the mean; 0
+ * where next to nothing is reflected there. */
+void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points, size_t scrambles, uint64_t seed,
+                       double error[STRATIFIED_LIGHTS]);
 
 /* That error over that of GGX by caps, as rough in the median slope, for 64 points: the geometric mean over six
  * views and both lights. */

@@ -5,10 +5,10 @@ from ._library import Error, Status
 from .bsdf import LOBE_NONE, LOBE_REFLECTION, LOBE_STRAIGHT, LOBE_TRANSMISSION, Material, Scattered
 from .build import Source, build, family_help, materials
 from .distribution import Certificate, Distribution, Info, beckmann, from_bytes, ggx, load
-from .surface import Blend, Family, FamilyInfo, Mixture, MixtureSample, Sample, Surface, WeightedSample
+from .surface import Family, FamilyInfo, Mixture, MixtureSample, Sample, Surface, WeightedSample
 
 __all__ = [
-    "Blend", "Certificate", "Distribution", "Error", "Family", "FamilyInfo", "Info", "LOBE_NONE", "LOBE_REFLECTION",
+    "Certificate", "Distribution", "Error", "Family", "FamilyInfo", "Info", "LOBE_NONE", "LOBE_REFLECTION",
     "LOBE_STRAIGHT", "LOBE_TRANSMISSION", "Material", "Mixture", "MixtureSample", "Sample", "Scattered", "Source",
     "Status", "Surface", "WeightedSample", "__version__", "beckmann", "build", "family_help", "from_bytes", "ggx",
     "load", "materials",

@@ -12,63 +12,92 @@ from . import _kernel as kernel
 from .distribution import Distribution, load
 
 
-class View(NamedTuple):
-    """A surface seen from a direction above the horizon."""
+class Part(NamedTuple):
+    """A lobe seen from a direction above the horizon."""
 
+    law: Any
     frame: Any  # the kernel's
     seen: Any  # what the law makes of it
-    area: Any  # projected area along wi
-    drawn: Any  # the same of what is drawn, by which mixtures share
+    share: Any  # of all that is drawn
 
 
-class MicrofacetDistribution:
-    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible
-    normals are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or
-    "beckmann", or what law_of made of one."""
+class Microfacets:
+    """The normals of a surface, of one lobe or several. Each is a law, its roughness along two axes that are turned by an
+    angle, whose sine and cosine are `turn` (None: 0), and a weight; weights sum to 1."""
 
-    def __init__(self, distribution: Any, alpha_u: Any, alpha_v: Any = None) -> None:
-        self._law = law_of(distribution)
-        self._alphas = [mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)]
+    def __init__(self, lobes: list[tuple[Any, Any, Any, Any]], turn: Any = None) -> None:
+        self._lobes = []
+        for law, x, y, weight in lobes:
+            x, y = x * law.scale, y * law.scale
+            s, c = turn or (0.0, 1.0)
+            matrix = (x, 0.0, 0.0, y) if turn is None else (c * x, -s * y, s * x, c * y)
+            self._lobes.append((law, kernel.vndf_affine_map(*matrix, 0.0, 0.0, int(turn is None), x * y), weight))
 
-    def _frame(self, wi: Any) -> Any:
-        x, y = (alpha * self._law.scale for alpha in self._alphas)
-        shape = kernel.vndf_affine_map(x, 0.0, 0.0, y, 0.0, 0.0, 1, x * y)
-        return kernel.vndf_frame_of(shape, wi.x, wi.y, dr.maximum(wi.z, 0.0))
+    def view(self, wi: Any) -> tuple[list[Part], Any]:
+        """The lobes as wi, wi.z >= 0, sees them, and the projected area of all."""
+        parts, area, drawn = [], 0.0, 0.0
+        for law, shape, weight in self._lobes:
+            frame = kernel.vndf_frame_of(shape, wi.x, wi.y, dr.maximum(wi.z, 0.0))
+            seen, one, share = law.see(frame)
+            parts.append(Part(law, frame, seen, weight * frame.size * share))
+            area += weight * frame.size * one
+            drawn += parts[-1].share
+        return [p._replace(share=dr.select(drawn > 0.0, p.share / drawn, 0.0)) for p in parts], area
 
-    def view(self, wi: Any) -> View:
-        frame = self._frame(wi)
-        seen, area, drawn = self._law.see(frame)
-        return View(frame, seen, area * frame.size, drawn * frame.size)
+    def sample_from(self, parts: list[Part], u1: Any, u2: Any) -> tuple[Any, Any]:
+        """A visible normal, and the density of all lobes together."""
+        before, wm = 0.0, mi.Vector3f(0.0, 0.0, 1.0)
+        for i, part in enumerate(parts):
+            u, here = u1, True
+            if len(parts) > 1:
+                u = dr.clip((u1 - before) / dr.maximum(part.share, 1e-20), 0.0, 1.0)
+                here = (u1 >= before) & ((u1 < before + part.share) | (i + 1 == len(parts)))
+            drawn = kernel.vndf_frame_sampled(part.frame, part.law.draw(part, u, u2))
+            wm = dr.select(here, mi.Vector3f(drawn.x, drawn.y, drawn.z), wm)
+            before = before + part.share
+        return wm, drawn.pdf if len(parts) == 1 else self.pdf_from(parts, wm)
 
-    def sample_from(self, view: View, u1: Any, u2: Any) -> tuple[Any, Any]:
-        drawn = kernel.vndf_frame_sampled(view.frame, self._law.draw(view, u1, u2))
-        return mi.Vector3f(drawn.x, drawn.y, drawn.z), drawn.pdf
-
-    def pdf_from(self, view: View, wm: Any) -> Any:
-        n = kernel.vndf_frame_normal(view.frame, wm.x, wm.y, dr.maximum(wm.z, 0.0))
-        seen = (n.facing > 0.0) & (wm.z >= 0.0)
-        n.facing = dr.select(seen, n.facing, 1.0)
-        density = kernel.vndf_frame_density(view.frame, self._law.density(view, n) / view.frame.determinant)
-        return dr.select(seen, density, 0.0)
+    def pdf_from(self, parts: list[Part], wm: Any) -> Any:
+        density = 0.0
+        for part in parts:
+            n = kernel.vndf_frame_normal(part.frame, wm.x, wm.y, dr.maximum(wm.z, 0.0))
+            seen = (n.facing > 0.0) & (wm.z >= 0.0)
+            n.facing = dr.select(seen, n.facing, 1.0)
+            one = kernel.vndf_frame_density(part.frame, part.law.density(part, n) / part.frame.determinant)
+            density += dr.select(seen, part.share * one, 0.0)
+        return density
 
     def eval(self, m: Any) -> Any:
         """D(m)."""
-        frame = self._frame(mi.Vector3f(0.0, 0.0, 1.0))
-        n = kernel.vndf_frame_normal(frame, m.x, m.y, dr.maximum(m.z, 0.0))
-        return dr.select(m.z >= 0.0, self._law.p22(n) / frame.determinant, 0.0)
+        density = 0.0
+        for law, shape, weight in self._lobes:
+            frame = kernel.vndf_frame_of(shape, 0.0, 0.0, mi.Float(1.0))
+            n = kernel.vndf_frame_normal(frame, m.x, m.y, dr.maximum(m.z, 0.0))
+            density += weight * law.p22(n) / frame.determinant
+        return dr.select(m.z >= 0.0, density, 0.0)
+
+
+class MicrofacetDistribution(Microfacets):
+    """What mitsuba.MicrofacetDistribution is, with any distribution: the same methods, names and shapes. Visible
+    normals are sampled, so directions wi have wi.z >= 0. `distribution`: a vndf.Distribution, a table file, "ggx" or
+    "beckmann"."""
+
+    def __init__(self, distribution: Any, alpha_u: Any, alpha_v: Any = None) -> None:
+        alphas = mi.Float(alpha_u), mi.Float(alpha_u if alpha_v is None else alpha_v)
+        super().__init__([(law_of(distribution), *alphas, 1.0)])
 
     def pdf(self, wi: Any, m: Any) -> Any:
         """The density with which `sample` draws m."""
-        return self.pdf_from(self.view(wi), m)
+        return self.pdf_from(self.view(wi)[0], m)
 
     def sample(self, wi: Any, sample: Any) -> tuple[Any, Any]:
         """A visible normal and its density."""
-        return self.sample_from(self.view(wi), sample.x, sample.y)
+        return self.sample_from(self.view(wi)[0], sample.x, sample.y)
 
     def smith_g1(self, v: Any, m: Any) -> Any:
         """Smith's masking, 0 where v sees the back of m."""
         up = abs(v.z)
-        return dr.select(dr.dot(v, m) * v.z > 0.0, up / self.view(mi.Vector3f(v.x, v.y, up)).area, 0.0)
+        return dr.select(dr.dot(v, m) * v.z > 0.0, up / self.view(mi.Vector3f(v.x, v.y, up))[1], 0.0)
 
     def G(self, wi: Any, wo: Any, m: Any) -> Any:
         """The product of both ways, which Mitsuba's plugins use."""
@@ -80,9 +109,7 @@ class MicrofacetDistribution:
 
 
 def law_of(given: Any) -> Any:
-    """Of a distribution, "ggx", "beckmann", or a table file; itself of a law."""
-    if isinstance(given, (Closed, Table)):
-        return given
+    """Of a distribution, "ggx", "beckmann", or a table file."""
     if isinstance(given, str):
         return Closed(given) if given in ("ggx", "beckmann") else Table(load(given))
     return Closed(given.info.source.split()[-1]) if given.info.bytes == 0 else Table(given)
@@ -97,8 +124,8 @@ class Closed:
         calls = ("see", "area", "draw", "density", "p22")
         see, area, draw, density, p22 = (getattr(kernel, f"vndf_{name}_{call}") for call in calls)
         self.see = lambda f: (see(f.ux, f.uy, f.uz), *[area(f.ux, f.uy, f.uz)] * 2)
-        self.draw = lambda view, u1, u2: draw(view.seen, u1, u2)
-        self.density = lambda view, n: density(view.seen, n.x, n.y, n.z, n.facing)
+        self.draw = lambda part, u1, u2: draw(part.seen, u1, u2)
+        self.density = lambda part, n: density(part.seen, n.x, n.y, n.z, n.facing)
         self.p22 = lambda n: p22(n.x, n.y, n.z)
 
 
@@ -128,11 +155,11 @@ class Table:
         seen, reach = kernel.vndf_table_view_of(self, frame, 0), kernel.vndf_frame_reach(frame)
         return seen, kernel.vndf_law_area(self, seen.v, 0) * reach, kernel.vndf_law_drawn_area(seen.v, 0) * reach
 
-    def draw(self, view: View, u1: Any, u2: Any) -> Any:
-        return kernel.vndf_table_draw(self, view.seen, u1, u2, 0)
+    def draw(self, part: Part, u1: Any, u2: Any) -> Any:
+        return kernel.vndf_table_draw(self, part.seen, u1, u2, 0)
 
-    def density(self, view: View, n: Any) -> Any:
-        return kernel.vndf_table_pdf(self, view.seen, n, kernel.vndf_frame_reach(view.frame), 0)
+    def density(self, part: Part, n: Any) -> Any:
+        return kernel.vndf_table_pdf(self, part.seen, n, kernel.vndf_frame_reach(part.frame), 0)
 
     def p22(self, n: Any) -> Any:
         return kernel.vndf_table_p22(self, kernel.vndf_table_given(self, n.x, n.y, n.z))

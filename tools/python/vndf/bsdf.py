@@ -47,7 +47,7 @@ def _albedo(distribution: Distribution, eta: float) -> _Albedo:
 
 
 class Material:
-    """A rough material: a surface (:class:`Surface`, :class:`Mixture`, or :meth:`Family.at`), whose numbers may be
+    """A rough material: a surface (:class:`Surface` or :class:`Mixture`), whose numbers may be
     arrays where a texture brings one for each hit, its optics and its effects.
 
     lobes: "reflection", "transmission", "both".
@@ -166,11 +166,11 @@ class Material:
         count = groups["shape"].shape[1]
         if self._shape == "mixture":
             mixtures = np.zeros(count, np.dtype(struct("vndf_mixture")))
-            lobes = surface._lobes_of_hits(groups)
-            mixtures["count"] = len(lobes)
-            for i, (pointer, six, weight) in enumerate(lobes):
-                _put_affine(mixtures["lobe"][:, i]["surface"], pointer, six)
-                mixtures["lobe"][:, i]["weight"] = weight
+            mixtures["count"] = len(surface.lobes)
+            for i, lobe in enumerate(surface.lobes):
+                to = mixtures["lobe"][:, i]
+                _put_affine(to["surface"], lobe.distribution._pointer, groups["shape"][6 * i : 6 * i + 6])
+                to["weight"] = groups["weight"][i]
             (hits.mixture,) = batch.keep(mixtures[None])
         else:
             affine = np.zeros(count, np.dtype(struct("vndf_affine")))

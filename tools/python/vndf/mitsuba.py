@@ -35,31 +35,31 @@ from typing import Any, NamedTuple
 import drjit as dr
 import mitsuba as mi
 
-from ._drjit import MicrofacetDistribution, law_of
+from ._drjit import MicrofacetDistribution, Microfacets, law_of  # noqa: F401
 from ._library import constant
 from .surface import Family
 
 
 class _Lobe:
-    """One distribution or family, and the textures of its roughness, weight and parameter."""
+    """One distribution or family, and the textures of its roughness, weight and parameter, which `textures` gets."""
 
-    def __init__(self, props: Any, suffix: str) -> None:
+    def __init__(self, props: Any, suffix: str, textures: dict[str, Any]) -> None:
+        def texture(name: str, otherwise: float) -> Any:
+            return textures.setdefault(name + suffix, props.get_texture(name + suffix, otherwise))
+
         self.name = str(props["distribution" + suffix])
         path = str(mi.file_resolver().resolve(self.name))
-        both, along, across, weight, parameter = (
-            name + suffix for name in ("alpha", "alpha_u", "alpha_v", "weight", "parameter")
-        )
+        both, along, across = (name + suffix for name in ("alpha", "alpha_u", "alpha_v"))
         if both in props and (along in props or across in props):
             raise ValueError(f"{both} and {along} or {across}: one or the other")
         if (along in props) != (across in props):
             raise ValueError(f"{along} needs {across}, and the other way round")
-        self.alphas = {name: props.get_texture(name, 0.1) for name in ([along, across] if along in props else [both])}
-        self.weight = props.get_texture(weight, 1.0)
-        self.textures = {**self.alphas, weight: self.weight}
-        self.family = Family.load(path) if parameter in props else None
+        self.alphas = [texture(name, 0.1) for name in (("alpha_u", "alpha_v") if along in props else ("alpha",))]
+        self.weight = texture("weight", 1.0)
+        self.family = Family.load(path) if "parameter" + suffix in props else None
         if self.family:
             self.laws = [law_of(distribution) for distribution in self.family.distributions]
-            self.parameter = self.textures[parameter] = props.get_texture(parameter, 1.0)
+            self.parameter = texture("parameter", 1.0)
         else:
             self.laws = [law_of(self.name if self.name in ("ggx", "beckmann") else path)]
 
@@ -67,20 +67,20 @@ class _Lobe:
         """Of each law; of a family all but two are 0."""
         if self.family is None:
             return [1.0]
-        p = dr.clip(self.parameter.eval_1(si, active), *self.family.parameters[[0, -1]].tolist())
-        knots, is_reciprocal = self.family.axis
-        x, k = -1.0 / p if is_reciprocal else p, knots.tolist()
+        k = self.family.parameters.tolist()
+        x = dr.clip(self.parameter.eval_1(si, active), k[0], k[-1])
+        if self.family.info.reciprocal:  # neighbours are linear in 1/parameter
+            x, k = -1.0 / x, [-1.0 / knot for knot in k]
         up = [1.0, *((x - a) / (b - a) for a, b in zip(k, k[1:]))]
         down = [*((b - x) / (b - a) for a, b in zip(k, k[1:])), 1.0]
         return [dr.maximum(0.0, dr.minimum(u, d)) for u, d in zip(up, down)]
 
     def at(self, si: Any, active: Any) -> list[Any]:
-        """Of a hit each distribution and its weight."""
-        alphas = [dr.maximum(texture.eval_1(si, active), 1e-4) for texture in self.alphas.values()]
+        """Of a hit each law, its roughness and its weight."""
+        alphas = [dr.maximum(texture.eval_1(si, active), 1e-4) for texture in self.alphas]
         weight = dr.maximum(self.weight.eval_1(si, active), 0.0)
-        parts = [(MicrofacetDistribution(law, alphas[0], alphas[-1]), weight * share)
-                 for law, share in zip(self.laws, self._shares(si, active))]  # fmt: skip
-        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[1] > 0.0] or parts[:1]
+        parts = [(law, alphas[0], alphas[-1], weight * share) for law, share in zip(self.laws, self._shares(si, active))]
+        return parts if dr.is_jit_v(mi.Float) else [part for part in parts if part[3] > 0.0] or parts[:1]
 
 
 class _Microsurface:
@@ -91,68 +91,27 @@ class _Microsurface:
         for i, number in enumerate(numbers):
             if number != i + 2:
                 raise ValueError(f"distribution_{number} without distribution_{i + 2}: lobes have no gaps")
-        self.lobes = [_Lobe(props, suffix) for suffix in ("", *(f"_{number}" for number in numbers))]
-        self.textures = {name: texture for lobe in self.lobes for name, texture in lobe.textures.items()}
-        self.rotation = props.get_texture("rotation", 0.0) if "rotation" in props else None
-        if self.rotation is not None:
-            self.textures["rotation"] = self.rotation
+        self.textures: dict[str, Any] = {}
+        self.lobes = [_Lobe(props, suffix, self.textures) for suffix in ("", *(f"_{number}" for number in numbers))]
+        if "rotation" in props:
+            self.textures["rotation"] = props.get_texture("rotation", 0.0)
         masking = str(props.get("masking", "height-correlated"))
         if masking not in ("height-correlated", "separable"):
             raise ValueError(f'masking is "height-correlated" or "separable", not "{masking}"')
-        self.is_separable = masking == "separable"
+        self._separable = masking == "separable"
 
+    def at(self, si: Any, active: Any) -> Microfacets:
+        """Its normals at a hit, for directions of the local frame with z >= 0."""
+        parts = [part for lobe in self.lobes for part in lobe.at(si, active)]
+        total = sum(weight for *_, weight in parts)
+        rotation = self.textures.get("rotation")
+        return Microfacets(
+            [(*lobe, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0)) for *lobe, weight in parts],
+            None if rotation is None else dr.sincos(rotation.eval_1(si, active)),
+        )  # fmt: skip
 
-class _Hit:
-    """The microsurface at one hit. Directions are those of the local frame, with z >= 0."""
-
-    def __init__(self, surface: _Microsurface, si: Any, active: Any) -> None:
-        self._separable = surface.is_separable
-        parts = [part for lobe in surface.lobes for part in lobe.at(si, active)]
-        total = sum(weight for _, weight in parts)
-        self._lobes = [(normals, dr.select(total > 0.0, weight / dr.select(total > 0.0, total, 1.0), 0.0))
-                       for normals, weight in parts]  # fmt: skip
-        self._turn = None if surface.rotation is None else dr.sincos(surface.rotation.eval_1(si, active))
-
-    def turned(self, w: Any, sign: float = 1.0) -> Any:
-        """In the frame of the axes of roughness; with sign -1 back from there."""
-        if self._turn is None:
-            return w
-        sine, cosine = sign * self._turn[0], self._turn[1]
-        return mi.Vector3f(cosine * w.x + sine * w.y, cosine * w.y - sine * w.x, w.z)
-
-    def seen_from(self, w: Any) -> tuple[list[Any], Any]:
-        """Of each lobe its normals, its view and its share of what is drawn; the projected area of all."""
-        views = [(normals, normals.view(w), weight) for normals, weight in self._lobes]
-        drawn = sum(weight * view.drawn for _, view, weight in views)
-        seen = [(normals, view, dr.select(drawn > 0.0, weight * view.drawn / drawn, 0.0))
-                for normals, view, weight in views]  # fmt: skip
-        return seen, sum(weight * view.area for _, view, weight in views)
-
-    @staticmethod
-    def sample(seen: list[Any], u1: Any, u2: Any) -> tuple[Any, Any]:
-        """A visible normal, and the density of all lobes together."""
-        if len(seen) == 1:
-            return seen[0][0].sample_from(seen[0][1], u1, u2)
-        before: Any = 0.0
-        wm = mi.Vector3f(0.0, 0.0, 1.0)
-        for i, (normals, view, share) in enumerate(seen):
-            last = i + 1 == len(seen)
-            here = (u1 >= before) if last else (u1 >= before) & (u1 < before + share)
-            u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
-            wm = dr.select(here, normals.sample_from(view, u, u2)[0], wm)
-            before = before + share
-        return wm, _Hit.pdf(seen, wm)
-
-    @staticmethod
-    def pdf(seen: list[Any], wm: Any) -> Any:
-        return sum(share * normals.pdf_from(view, wm) for normals, view, share in seen)
-
-    def ndf(self, wm: Any) -> Any:
-        return sum(weight * normals.eval(wm) for normals, weight in self._lobes)
-
-    def g2(self, area_i: Any, cos_i: Any, area_o: Any, cos_o: Any, reflects: Any) -> Any:
-        """Masking and shadowing of directions with these projected areas and cosines, both > 0."""
-        one, other = area_i / cos_i, area_o / cos_o  # 1 + Lambda
+    def g2(self, one: Any, other: Any, reflects: Any) -> Any:
+        """Masking and shadowing of two directions, by their 1 + Lambda."""
         if self._separable:
             return 1.0 / (one * other)
         reflected = 1.0 / (one + other - 1.0)
@@ -218,10 +177,9 @@ def register() -> None:
         def sample(self, ctx: Any, si: Any, sample1: Any, sample2: Any, active: Any = True) -> tuple[Any, Any]:
             bs = dr.zeros(mi.BSDFSample3f)
             active = mi.Bool(active) & self._seen(si) & any(self._lobes(ctx))
-            hit = _Hit(self._surface, si, active)
-            wi = hit.turned(si.wi)
-            views, area = hit.seen_from(_up(wi))
-            wm, density = hit.sample(views, sample2.x, sample2.y)
+            hit, wi = self._surface.at(si, active), si.wi
+            views, area = hit.view(_up(wi))
+            wm, density = hit.sample_from(views, sample2.x, sample2.y)
             wm = dr.mulsign(wm, wi.z)  # on the side of wi
             facing = dr.dot(wi, wm)
             optics = self._optics(ctx, si, facing, active)
@@ -231,7 +189,7 @@ def register() -> None:
                 through = mi.refract(wi, mi.Normal3f(wm), optics.refracted, optics.eta_back)
                 wo = dr.select(reflects, wo, through)
             active = active & (reflects | (optics.fresnel < 1.0)) & (dr.select(reflects, wi.z, -wi.z) * wo.z > 0.0)
-            bs.wo = hit.turned(mi.Vector3f(wo), -1.0)
+            bs.wo = mi.Vector3f(wo)
             bs.eta = dr.select(reflects, 1.0, optics.eta)
             bs.sampled_component = dr.select(reflects, mi.UInt32(0), mi.UInt32(1))
             kinds = (mi.UInt32(+flag) for flag in (mi.BSDFFlags.GlossyReflection, mi.BSDFFlags.GlossyTransmission))
@@ -246,8 +204,8 @@ def register() -> None:
                    reflects: Any) -> tuple[Any, Any]:  # fmt: skip
             """f |cos_o|, and the density of wo per density of wm."""
             facing, leaving, eta = dr.dot(wi, wm), dr.dot(wo, wm), optics.eta
-            g2 = hit.g2(area, abs(wi.z), hit.seen_from(_up(wo))[1], abs(wo.z), reflects)
-            common = hit.ndf(_up(wm)) * g2 / abs(wi.z)
+            g2 = self._surface.g2(area / abs(wi.z), hit.view(_up(wo))[1] / abs(wo.z), reflects)
+            common = hit.eval(_up(wm)) * g2 / abs(wi.z)
             value, per_wm = optics.reflected * 0.25 * common, optics.chance * (0.25 / abs(leaving))
             if optics.transmitted is None:
                 return value, per_wm
@@ -262,9 +220,8 @@ def register() -> None:
             can_reflect, can_transmit = self._lobes(ctx)
             active = mi.Bool(active) & self._seen(si) & (wo.z != 0.0)
             active = active & dr.select(reflects, mi.Bool(can_reflect), mi.Bool(can_transmit))
-            hit = _Hit(self._surface, si, active)
-            wi, wo = hit.turned(si.wi), hit.turned(wo)
-            views, area = hit.seen_from(_up(wi))
+            hit, wi = self._surface.at(si, active), si.wi
+            views, area = hit.view(_up(wi))
             eta = self._eta_from(wi)
             wm = dr.fma(wo, dr.select(reflects, 1.0, eta), wi)
             # As in C, a facet whose z the rounding of wo exceeds faces wi and has that z.
@@ -275,7 +232,7 @@ def register() -> None:
             facing = dr.dot(wi, wm)
             active = active & (facing > 0.0) & (dr.select(reflects, 1.0, -1.0) * dr.dot(wo, wm) > 0.0)
             value, per_wm = self._shape(ctx, hit, wi, wo, wm, self._optics(ctx, si, facing, active), area, reflects)
-            return value & active, dr.select(active, hit.pdf(views, _up(wm)) * per_wm, 0.0)
+            return value & active, dr.select(active, hit.pdf_from(views, _up(wm)) * per_wm, 0.0)
 
         def eval(self, ctx: Any, si: Any, wo: Any, active: Any = True) -> Any:
             return self.eval_pdf(ctx, si, wo, active)[0]

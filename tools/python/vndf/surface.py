@@ -192,11 +192,6 @@ class Mixture(Rough):
             filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *six, weights[i])
         return filled
 
-    def _lobes_of_hits(self, groups: dict[str, Floats]) -> list[tuple[Any, Any, Any]]:
-        """Of each lobe its distribution, for all hits or for each; its matrix and mean slope; its weight."""
-        rows, weights = groups["shape"], groups["weight"]
-        return [(lobe.distribution._pointer, rows[6 * i : 6 * i + 6], weights[i]) for i, lobe in enumerate(self.lobes)]
-
     def sample(self, wi: Any, u: Any) -> MixtureSample:
         """As of one surface; u[0] chooses the lobe too, which is told."""
         result = self._draw("sample", 5, wi, u)
@@ -248,59 +243,13 @@ class Family(Stored):
         pointers = [library.family_distribution(self._pointer, i) for i in range(self.info.count)]
         return [Distribution._of(pointer, _owner=self) for pointer in pointers]
 
-    @functools.cached_property
-    def axis(self) -> tuple[Any, bool]:
-        """Knots where shares of neighbours are linear, ascending, and whether those are of 1/parameter."""
-        reciprocal = bool(self.info.reciprocal)
-        return (-1.0 / np.float64(self.parameters) if reciprocal else np.float64(self.parameters)), reciprocal
-
-    def places(self, parameter: Numbers) -> tuple[Any, Any]:
-        """Of each parameter the index of the distribution below it, and the share of the next one."""
-        knots, reciprocal = self.axis
-        p = np.clip(stacked(parameter), self.parameters[0], self.parameters[-1]).astype(np.float64)
-        x = -1.0 / p if reciprocal else p
-        index = np.clip(np.searchsorted(knots, x, side="right") - 1, 0, len(knots) - 2)
-        return index, (x - knots[index]) / (knots[index + 1] - knots[index])
-
-    def at(self, parameter: Numbers, *shape: Any, **stretched: Any) -> Blend:
-        """The family at a parameter or at an array of them, as a texture has, clamped to its range; stretched as a
-        :class:`Surface` is: ``family.at(p, alpha, alpha_y, rotation=0.3)``."""
-        return Blend(self, parameter, Surface(self.distributions[0], *shape, **stretched))
-
-
-class Blend(Rough):
-    """A family at parameters: each element is a mixture of two neighbours, the lobes 0 and 1. From :meth:`Family.at`.
-    There is one call of C for each pair of neighbours that elements lie between."""
-
-    def __init__(self, family: Family, parameter: Numbers, surface: Surface) -> None:
-        self.family = family
-        self._groups = {"shape": stacked([parameter, *surface._six])}
-        if np.ndim(parameter) == 0 and np.isnan(self._groups["shape"][0]).any():
+    def at(self, parameter: float, *shape: Any, **stretched: Any) -> Mixture:
+        """The family at a parameter, clamped to its range: a mixture of its neighbours, stretched as a :class:`Surface`
+        is: ``family.at(p, alpha, alpha_y, rotation=0.3)``."""
+        mixture = struct("vndf_mixture")()
+        library.family_at(self._pointer, float(parameter), byref(struct("vndf_affine")()), byref(mixture))
+        if not mixture.count:
             raise ValueError(f"a family has no distribution at {parameter!r}")
-
-    def _ask(self, name: str, rows: int, **given: Floats) -> Floats:
-        batch = Batch(**self._groups, **given)
-        flat = {group: batch.whole(group).reshape(len(array), -1) for group, array in batch.groups.items()}
-        parameter, *six = flat.pop("shape")
-        index, share = self.family.places(parameter)
-        result = batch.result(rows)
-        for i in np.unique(index):
-            here = np.flatnonzero(index == i)
-            *matrix, x, y = (row[here] for row in six)
-            pair = [Surface(distribution, matrix=np.reshape(matrix, (2, 2, -1)), mean=(x, y))
-                    for distribution in self.family.distributions[i : i + 2]]  # fmt: skip
-            mixture = Mixture(*zip(pair, (1 - share[here], share[here])))
-            part = mixture._ask(name, rows, **{group: array[:, here] for group, array in flat.items()})
-            result.reshape(rows, -1)[:, here] = part
-        return result
-
-    def _lobes_of_hits(self, groups: dict[str, Floats]) -> list[tuple[Any, Any, Any]]:
-        parameter, *six = groups["shape"]
-        index, share = self.family.places(parameter)
-        pointers = np.array([d._pointer for d in self.family.distributions], np.uintp)
-        return [(pointers[index], six, 1 - share), (pointers[index + 1], six, share)]
-
-    sample = Mixture.sample
-
-    def __repr__(self) -> str:
-        return f"<vndf.Blend of {self.family!r} at parameters of shape {self._groups['shape'].shape[1:]}>"
+        known = {distribution._pointer: distribution for distribution in self.distributions}
+        return Mixture(*((Surface(known[lobe.surface.distribution], *shape, **stretched), lobe.weight)
+                         for lobe in mixture.lobe[: mixture.count]))  # fmt: skip

@@ -1,14 +1,13 @@
 /* Which table to ship. Every table is exact with its weight: the certificate bounds it, and a coarse table costs noise.
  * So the advice is the smallest table whose certificate keeps the limits below, which are those that `vndf build` aims
  * at. No table keeps a limit that the finest breaks; there a table is good if it is within a quarter of the finest. */
-#include "evidence/page/report.h"
-
 #include <math.h>
 #include <string.h>
 
 #include "cli/subject.h"
 #include "draw/chart.h"
 #include "draw/panels.h"
+#include "evidence/evidence.h"
 
 /* No sample is brighter than chance would make it, and what tables are aimed at. */
 enum { LIMITS = 3 };
@@ -221,15 +220,13 @@ static int write_frontier(html_page *page, const report *r)
         add_row(&f, r, of);
     add_point(&f, advised, measured(r, table, COL_NS), tv, "advised");
     add_point(&f, advised, measured(r, table, r->batch), tv, "advised");
-    chart c = {.title = title,
-               .box = {0, 0, 1080, 640},
-               .x = {CHART_LOG, 0, 0, 0, "nanoseconds per sample (view, sample and density; one thread)"},
-               .y = {CHART_LOG, 0, 0, 0, "total variation, worst angle above the horizon"},
-               .zero = "exact",
-               .band = 90,
-               .series = f.series,
-               .count = f.count};
-    chart_fit(&c, 7);
+    const chart c = {.title = title,
+                     .box = {0, 0, 1080, 640},
+                     .x = {.label = "nanoseconds per sample (view, sample and density; one thread)"},
+                     .y = {.label = "total variation, worst angle above the horizon"},
+                     .zero = "exact",
+                     .series = f.series,
+                     .count = f.count};
     fputs("<figure class=\"scroll wide\" title=\"error against time\">\n", page->html);
     chart_draw(page->html, &c, 0);
     fputs("</figure>\n<p class=\"note\"><a href=\"frontier.svg\">frontier.svg</a></p>\n", page->html);
