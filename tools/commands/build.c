@@ -89,20 +89,19 @@ static int height_slopes(const arguments *given, data_file *file, slope_set *slo
     unsigned long long cutoff = 0;
     double step[2] = {1, 1};
     size_t steps = 1;
-    height_field field;
+    image field;
     if (!option_count(given, "--cutoff", 2, CUTOFF_MAX, &cutoff) ||
         (apart && !(steps = parse_numbers(name, "--step", apart, 1e-30, 1e30, 1, 2, step))) ||
         !heights_read(file, &field))
         return 0;
-    field.step_x = step[0];
-    field.step_y = step[steps - 1];
-    note(file, "heights %d x %d, %.6g x %.6g apart", field.width, field.height, field.step_x, field.step_y);
+    step[1] = step[steps - 1];
+    note(file, "heights %d x %d, %.6g x %.6g apart", field.width, field.height, step[0], step[1]);
     if (cutoff)
         note(file, "cutoff %llu", cutoff);
     const int good =
         (!cutoff || heights_smooth(&field, (int)cutoff) || refuse(file, "there is no memory for the cut-off")) &&
-        heights_slopes(&field, (int)cutoff / 2, slopes, file);
-    heights_free(&field);
+        heights_slopes(&field, step, (int)cutoff / 2, slopes, file);
+    image_free(&field);
     return good;
 }
 

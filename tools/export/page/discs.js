@@ -9,20 +9,15 @@ const RAMPS = {
   dark: [[28, 33, 39], [22, 52, 88], [28, 98, 142], [60, 154, 172], [142, 214, 180], [246, 251, 222]],
 };
 const MARKS = {
-  light: {ink: "#212529", halo: "rgba(255,255,255,.85)", ring: "rgba(73,80,87,.45)", rim: "rgba(73,80,87,.8)", edge: "#fff"},
-  dark: {ink: "#f1f3f5", halo: "rgba(16,19,23,.8)", ring: "rgba(173,181,189,.4)", rim: "rgba(173,181,189,.6)", edge: "#000"},
+  light: {ink: "#212529", halo: "rgba(255,255,255,.85)", ring: "rgba(73,80,87,.45)", rim: "rgba(73,80,87,.8)"},
+  dark: {ink: "#f1f3f5", halo: "rgba(16,19,23,.8)", ring: "rgba(173,181,189,.4)", rim: "rgba(173,181,189,.6)"},
 };
 const darkness = matchMedia("(prefers-color-scheme: dark)");
 const theme = () => darkness.matches ? "dark" : "light";
 
-function incidentNow() {
-  const angle = radians(settings.theta);
-  return [Math.sin(angle), 0, Math.cos(angle)];
-}
-
 // What many drawn normals say. Dots are some of them, as if at random: squares times the golden ratio.
 function measureSamples(surface) {
-  use(programs.samples, {...surface, incident: incidentNow(), size: [SAMPLES, SAMPLES]});
+  use(programs.samples, {...surface, size: [SAMPLES, SAMPLES]});
   fill(targets.samples);
   const [facing, density, angle, off] = readTarget(targets.samples, 0);
   const [kept, faults, x, y] = readTarget(targets.samples, 1);
@@ -34,7 +29,7 @@ function measureSamples(surface) {
 
 // What the density itself says.
 function measureDensity(surface) {
-  use(programs.integral, {...surface, incident: incidentNow(), size: [GRID, GRID]});
+  use(programs.integral, {...surface, size: [GRID, GRID]});
   fill(targets.grid);
   const [whole, facing, truth] = readTarget(targets.grid, 0).map(sum);
   return {whole, facing, truth};
@@ -57,7 +52,7 @@ function scaleOf(...says) {
 
 function drawDisc(canvas, surface, edge, scale, dots) {
   const size = pixelsOf(canvas), rim = Math.sin(radians(edge) / 2);
-  use(programs.heat, {...surface, incident: incidentNow(), size: [size, size], rim, ...scale,
+  use(programs.heat, {...surface, size: [size, size], rim, ...scale,
                       stops: RAMPS[theme()].flat().map((v) => v / 255)});
   fill({width: size, height: size});
   const context = copyTo(canvas, size);
@@ -67,7 +62,7 @@ function drawDisc(canvas, surface, edge, scale, dots) {
 
 function drawDots(context, dots, half, rim, pixel) {
   context.fillStyle = "#f76707";
-  context.strokeStyle = MARKS[theme()].edge;
+  context.strokeStyle = theme() === "dark" ? "#000" : "#fff";
   context.lineWidth = 0.7 * pixel;
   for (const [x, y] of dots) {
     const to = half / (rim * Math.sqrt(2 * (1 + Math.sqrt(Math.max(1 - x * x - y * y, 0)))));
@@ -116,11 +111,6 @@ function drawMarks(context, size, edge) {
 
 const digits = (x, n) => x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5 ? x.toExponential(1) : x.toFixed(n);
 
-function promiseOf(distribution) {
-  if (distribution < 0) return "none: closed form";
-  return `at most ${optionOf(distribution).dataset.tv}`;
-}
-
 function showFigures(list, distribution, samples, density) {
   const rows = [
     ["Mean of ωi·ωm, drawn", digits(samples.facing, 4), "over 16 384 drawn normals"],
@@ -130,7 +120,8 @@ function showFigures(list, distribution, samples, density) {
     ["Drawn density to pdf", samples.off < 1e-7 ? "same" : `±${samples.off.toExponential(0)}`,
      "the largest relative difference between the density that vndf_sample returns and vndf_pdf: rounding of floats"],
     ["Light kept by one bounce", `${(100 * samples.kept).toFixed(1)} %`, "the mean of G2/G1"],
-    ["Promised error", promiseOf(distribution), "total variation from the true visible normals, from the certificate"],
+    ["Promised error", distribution < 0 ? "none: closed form" : `at most ${optionOf(distribution).dataset.tv}`,
+     "total variation from the true visible normals, from the certificate"],
   ];
   list.replaceChildren(...rows.flatMap(([what, value, why]) => {
     const name = document.createElement("dt"), says = document.createElement("dd");

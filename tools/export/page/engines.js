@@ -34,11 +34,12 @@ function unpackTables() {
 
 // The light around the sphere, as engines keep it: a cube with mip levels.
 function drawCube(light) {
-  cube = cube || {texture: gl.createTexture(), buffer: gl.createFramebuffer(), width: CUBE, height: CUBE};
-  gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube.texture);
-  for (let face = 0; face < 6; face++)
-    gl.texImage2D(gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, gl.RGBA16F, CUBE, CUBE, 0, gl.RGBA, gl.HALF_FLOAT, null);
-  gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  if (!cube) {
+    cube = {texture: gl.createTexture(), buffer: gl.createFramebuffer(), width: CUBE, height: CUBE};
+    gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube.texture);
+    gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 1 + Math.log2(CUBE), gl.RGBA16F, CUBE, CUBE);
+    gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  }
   for (let face = 0; face < 6; face++) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, cube.buffer);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, cube.texture,

@@ -108,11 +108,6 @@ function makeTarget(width, height, count) {
   return target;
 }
 
-function freeTarget(target) {
-  target.textures.forEach((texture) => gl.deleteTexture(texture));
-  gl.deleteFramebuffer(target.buffer);
-}
-
 // Draws over a whole target; of `size` and without a buffer that is the canvas.
 function fill(target) {
   if (!target.buffer && gl.canvas.width !== target.width) gl.canvas.width = gl.canvas.height = target.width;

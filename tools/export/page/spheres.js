@@ -34,7 +34,10 @@ const makePicture = (id, program, tells) =>
 function fitPicture(picture) {
   const size = pixelsOf(picture.canvas);
   if (size === picture.size) return;
-  picture.targets.forEach(freeTarget);
+  for (const {textures, buffer} of picture.targets) {
+    gl.deleteTexture(textures[0]);
+    gl.deleteFramebuffer(buffer);
+  }
   picture.targets = [0, 1].map(() => makeTarget(size, size, 1));
   picture.size = size;
   picture.drawn = 0;
