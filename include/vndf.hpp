@@ -16,7 +16,8 @@
 //             return std::puts(table.message()), 1;
 //         const vndf_surface metal = {*table, 0.3f, 0.1f};
 //         const vndf_view view = vndf_view_from(&metal, {0.6f, 0.0f, 0.8f});
-//         const auto [wm, pdf] = vndf::sample(view, 0.25f, 0.5f);
+//         float pdf;
+//         const vndf_vec3 wm = vndf_sample(&view, 0.25f, 0.5f, &pdf);
 //         std::printf("%.3f\n", pdf / vndf_pdf(&view, wm));
 //     }
 //
@@ -238,33 +239,6 @@ inline result<family> build_family(const std::string &specification, double low,
 {
     const vndf_family_options all = detail::telling(options, told);
     return own<family>(vndf_build_family, specification.c_str(), low, high, &all);
-}
-
-// ---- samples --------------------------------------------------------------------------------------
-
-// For structured bindings: auto [wm, pdf] = vndf::sample(view, u1, u2).
-struct drawn {
-    vndf_vec3 wm;
-    float pdf;
-};
-
-struct weighted {
-    vndf_vec3 wm;
-    float pdf, weight;
-};
-
-inline drawn sample(const vndf_view &view, float u1, float u2) noexcept
-{
-    drawn d;
-    d.wm = vndf_sample(&view, u1, u2, &d.pdf);
-    return d;
-}
-
-inline weighted sample_weight(const vndf_view &view, float u1, float u2) noexcept
-{
-    weighted w;
-    w.wm = vndf_sample_weight(&view, u1, u2, &w.pdf, &w.weight);
-    return w;
 }
 
 } // namespace vndf

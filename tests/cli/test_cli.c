@@ -2,6 +2,10 @@
  * that failed leaves a file behind. It notices a hint that is lost and an option that is taken for another one. */
 #include "harness/run_program.h"
 
+#define TABLE(name) VNDF_SOURCE_DIR "/tables/" name ".vndf"
+#define SMALL TABLE("student-t-2.5-small")
+#define MANY SMALL " " TABLE("hazy") " " TABLE("student-t-2.5") " " TABLE("example")
+
 static const struct {
     const char *says, *words;
 } refusals[] = {
@@ -94,6 +98,31 @@ static const struct {
     {"column", "report --slope 'exp(-r' x"},
     {"--samples '10' is not in the range", "check ggx --samples 10"},
     {"a closed form was not made of a CSV", "check ggx --csv text.txt"},
+    {"did you mean 'cuda'?", "export " SMALL " --language cudaa -o x"},
+    {"--language is missing", "export " SMALL " -o x"},
+    {"FILE is missing", "export --language c -o x"},
+    {"-o OUT is missing", "export " SMALL " --language c"},
+    {"'ggx' is a closed form: every kernel has it", "export ggx --language c -o x"},
+    {"numbers cannot be embedded in GLSL", "export " MANY " --language glsl -o x"},
+    {"use --buffer FILE, or smaller tables: vndf build --max-bytes", "export " MANY " --language wgsl -o x"},
+    {"which is taken; rename the file", "export " SMALL " " SMALL " --language c -o x"},
+    {"--buffer and -o both name", "export " SMALL " --language c --buffer ./x -o x"},
+    {"--buffer '-': a file is needed", "export " SMALL " --language c --buffer - -o x"},
+    {"a family is a mixture of two tables; --lobes 2", "export two.vndfs --language c --lobes 1 -o x"},
+    {"--lobes '9' is not in the range", "export " SMALL " --language c --lobes 9 -o x"},
+    {"--prefix 'a-b': a lower-case letter", "export " SMALL " --language c --prefix a-b -o x"},
+    {"--prefix 'a__b'", "export " SMALL " --language c --prefix a__b -o x"},
+    {"--prefix 'a_'", "export " SMALL " --language c --prefix a_ -o x"},
+    {"--prefix '2d'", "export " SMALL " --language c --prefix 2d -o x"},
+    {"--prefix 'gl'", "export " SMALL " --language c --prefix gl -o x"},
+    {"did you mean 'sample'?", "export " SMALL " --language c --only smple,sample -o x"},
+    {"a BSDF needs --bsdf", "export " SMALL " --language c --only bsdf_eval -o x"},
+    {"did you mean 'both'?", "export " SMALL " --language c --bsdf bth -o x"},
+    {"is for --bsdf, which is not given", "export " SMALL " --language c --fresnel schlick -o x"},
+    {"VNDF_FRESNEL_NONE", "export " SMALL " --language c --bsdf both -o x"},
+    {"--prefix is for kernels, not for --rgl", "export ggx --rgl --prefix a -o x"},
+    {"-o PAGE.html is missing", "explore " SMALL},
+    {"--engines '3' is not in the range", "explore " SMALL " --engines 3 -o x"},
 };
 
 int main(void)
@@ -106,8 +135,7 @@ int main(void)
              "-q -o two.vndfs");
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
         run_line(2, refusals[i].says, "vndf %s", refusals[i].words);
-    run_line(2, "cannot read stdin: it is read already",
-             "vndf export - - --language c -o x.h <" VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf");
+    run_line(2, "cannot read stdin: it is read already", "vndf export - - --language c -o x.h <" SMALL);
     TEST(remove("text.txt") == 0 && remove("two.vndfs") == 0);
     return run_end(folder);
 }

@@ -133,19 +133,6 @@ void test_thrown_by_callables()
     }
 }
 
-void test_samples()
-{
-    const auto table = vndf::load(table_file);
-    const vndf_surface s = {*table, 0.3f, 0.1f};
-    const vndf_view view = vndf_view_from(&s, {0.6f, 0.0f, 0.8f});
-    float pdf, weight;
-    const vndf_vec3 n = vndf_sample_weight(&view, 0.1f, 0.2f, &pdf, &weight);
-    const auto [wm, density] = vndf::sample(view, 0.1f, 0.2f);
-    const auto w = vndf::sample_weight(view, 0.1f, 0.2f);
-    TEST(wm.x == n.x && wm.y == n.y && wm.z == n.z && density == pdf);
-    TEST(w.wm.x == n.x && w.pdf == pdf && w.weight == weight);
-}
-
 } // namespace
 
 int main()
@@ -155,6 +142,5 @@ int main()
     test_callable();
     test_errors();
     test_thrown_by_callables();
-    test_samples();
     return test_done();
 }

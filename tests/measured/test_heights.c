@@ -7,24 +7,26 @@
  * or tails from the wrong end, a scale in another's place, the wrong byte first. */
 #include "measured_case.h"
 
+static const double ones[2] = {1, 1};
+
 /* White noise without waves shorter than 16 samples, scaled to a slope along x of rms 0.2. */
-static height_field gaussian(int side)
+static image gaussian(int side)
 {
-    height_field made;
-    data_file file = {.name = "made"};
+    image made;
     unsigned long long state = 9;
     double square = 0;
     const size_t n = (size_t)side;
-    if (!TEST(heights_make(&made, side, side, &file)))
+    if (!TEST(image_make(&made, side, side)))
         exit(1);
     for (size_t i = 0; i < n * n; i++)
-        made.z[i] = (float)case_normal(&state);
+        made.rgb[3 * i] = (float)case_normal(&state);
     TEST(heights_smooth(&made, 16));
     for (size_t i = 0; i < n * n; i++)
         if (i % n > 0 && i % n < n - 1)
-            square += pow(((double)made.z[i + 1] - (double)made.z[i - 1]) / 2, 2) / (double)(n * (n - 2));
+            square +=
+                pow(((double)made.rgb[3 * i + 3] - (double)made.rgb[3 * i - 3]) / 2, 2) / (double)(n * (n - 2));
     for (size_t i = 0; i < n * n; i++)
-        made.z[i] = (float)((double)made.z[i] * 0.2 / sqrt(square));
+        made.rgb[3 * i] = (float)((double)made.rgb[3 * i] * 0.2 / sqrt(square));
     return made;
 }
 
@@ -71,9 +73,9 @@ static void test_gaussian(double step)
 {
     data_file file = {.name = "made"};
     slope_set slopes;
-    height_field field = gaussian((int)test_amount(400, 700, 700));
-    field.step_y = step;
-    profile rows = law_of(&slopes, &file, heights_slopes(&field, 16, &slopes, &file));
+    image field = gaussian((int)test_amount(400, 700, 700));
+    const double apart[2] = {1, step}, metres[2] = {1e-6, 1e-6};
+    profile rows = law_of(&slopes, &file, heights_slopes(&field, apart, 16, &slopes, &file));
     const double error = case_number(&file, "+- "), alpha = 0.2 * sqrt(2 / step);
     double xx = 0, xy = 0, yy = 0;
     const char *matrix = strstr(file.notes, "\nmatrix ");
@@ -92,12 +94,11 @@ static void test_gaussian(double step)
         TEST(matrix == NULL);
     profile_free(&rows);
     file = (data_file){.name = "made"};
-    field.step_x = field.step_y = 1e-6; /* heights in micrometres, steps in metres */
-    rows = law_of(&slopes, &file, heights_slopes(&field, 1, &slopes, &file));
+    rows = law_of(&slopes, &file, heights_slopes(&field, metres, 1, &slopes, &file));
     TEST_HAS(file.notes, "implausible median slope 2.");
     TEST_HAS(file.notes, "e+05: are heights and steps in the same unit?");
     profile_free(&rows);
-    heights_free(&field);
+    image_free(&field);
 }
 
 /* Slopes of alpha 0.3 by their quantile, moved; those of GGX, which have no mean square, with two cliffs. */
@@ -132,32 +133,31 @@ static void test_drawn(known_law of)
 static void test_cutoff(void)
 {
     for (double wave = 8; wave <= 32; wave *= 2) {
-        height_field field;
-        data_file file = {.name = "made"};
+        image field;
         double most = 0;
-        TEST(heights_make(&field, 512, 64, &file));
+        TEST(image_make(&field, 512, 64));
         for (int k = 0; k < 512 * 64; k++)
-            field.z[k] = (float)cos(2 * PI * (k % 512) / wave);
+            field.rgb[3 * k] = (float)cos(2 * PI * (k % 512) / wave);
         TEST(heights_smooth(&field, 16));
         for (int x = 128; x < 384; x++)
-            most = fmax(most, fabs((double)field.z[32 * 512 + x]));
+            most = fmax(most, fabs((double)field.rgb[3 * (32 * 512 + x)]));
         TEST_NEAR(most, pow(0.5, 256 / (wave * wave)), 0.003);
-        heights_free(&field);
+        image_free(&field);
     }
 }
 
 /* Places without a height take their neighbours' slopes with them, and nothing else. */
 static void test_gaps(void)
 {
-    height_field field = gaussian(200);
+    image field = gaussian(200);
     data_file file = {.name = "made"};
     slope_set slopes;
-    field.z[50 * 200 + 60] = field.z[50 * 200 + 61] = NAN;
-    TEST(heights_slopes(&field, 1, &slopes, &file) && slopes.count == 198 * 198 - 8);
+    *image_pixel(&field, 60, 50) = *image_pixel(&field, 61, 50) = NAN;
+    TEST(heights_slopes(&field, ones, 1, &slopes, &file) && slopes.count == 198 * 198 - 8);
     slopes_free(&slopes);
     TEST(heights_smooth(&field, 10));
-    TEST(isnan(field.z[50 * 200 + 60]) && isfinite(field.z[50 * 200 + 62]));
-    heights_free(&field);
+    TEST(isnan(*image_pixel(&field, 60, 50)) && isfinite(*image_pixel(&field, 62, 50)));
+    image_free(&field);
 }
 
 static void test_refusals(void)
@@ -174,19 +174,20 @@ static void test_refusals(void)
         {GAPS, 1, "0 slopes; at least 1000"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        height_field field = gaussian(100);
+        image field = gaussian(100);
         slope_set slopes;
         profile rows = {0};
         data_file file = case_file("", 0);
         for (int k = 0; k < 10000 && cases[i].kind != GAUSSIAN; k++)
-            field.z[k] = cases[i].kind == GAPS    ? NAN
-                         : cases[i].kind == PLANE ? (float)(k % 100)
-                                                  : (float)sin(k % 100 * 1.3);
-        int good = heights_slopes(&field, cases[i].margin, &slopes, &file) && slopes_law(&slopes, &file, &rows);
+            field.rgb[3 * k] = cases[i].kind == GAPS    ? NAN
+                               : cases[i].kind == PLANE ? (float)(k % 100)
+                                                        : (float)sin(k % 100 * 1.3);
+        int good =
+            heights_slopes(&field, ones, cases[i].margin, &slopes, &file) && slopes_law(&slopes, &file, &rows);
         TEST(rows.x == NULL);
         case_refused(good, &file, cases[i].reason);
         slopes_free(&slopes);
-        heights_free(&field);
+        image_free(&field);
     }
 }
 
@@ -210,14 +211,14 @@ static void test_kinds(void)
          1},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        height_field field;
+        image field;
         data_file file = case_file(cases[i].bytes, cases[i].size);
         if (!case_read(heights_read(&file, &field), &file))
             continue;
-        TEST(field.width == 3 && field.height == 3 && field.step_x == 1 && field.step_y == 1);
+        TEST(field.width == 3 && field.height == 3);
         for (int k = 0; k < 9; k++)
-            TEST(i == 0 && k == 4 ? isnan(field.z[k]) : field.z[k] == (float)(k * cases[i].scale));
-        heights_free(&field);
+            TEST(i == 0 && k == 4 ? isnan(field.rgb[3 * k]) : field.rgb[3 * k] == (float)(k * cases[i].scale));
+        image_free(&field);
         case_free(&file);
     }
 }
@@ -228,15 +229,16 @@ static void test_normals(void)
     enum { SIDE = 64 };
     static char text[SIDE * SIDE * 12 + 64];
     static const char *const said_of[3] = {"n/2 + 1/2, whole numbers", "n, floats", "n/2 + 1/2, floats"};
-    height_field field = gaussian(SIDE);
+    image field = gaussian(SIDE);
     for (int kind = 0; kind < 3; kind++) {
         size_t at = (size_t)sprintf(text, "%s\n%d %d\n%s\n", kind ? "PF" : "P6", SIDE, SIDE, kind ? "-1" : "255");
         for (int i = 0; i < SIDE * SIDE; i++) {
             const int x = i % SIDE, y = kind ? SIDE - 1 - i / SIDE : i / SIDE;
-            const float *z = field.z + y * SIDE + x;
+            const float *z = image_pixel(&field, x, y);
             double n[3] = {0, 0, 0}, length = 1;
             if (x > 0 && y > 0 && x < SIDE - 1 && y < SIDE - 1) {
-                n[0] = (double)z[-1] - (double)z[1], n[1] = (double)z[-SIDE] - (double)z[SIDE], n[2] = 2;
+                n[0] = (double)*(z - 3) - (double)z[3], n[1] = (double)*(z - 3 * SIDE) - (double)z[3 * SIDE],
+                n[2] = 2;
                 length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
             }
             for (int k = 0; k < 3; k++) {
@@ -252,7 +254,7 @@ static void test_normals(void)
         slope_set found, want;
         data_file file = case_file(text, at);
         double worst = 0;
-        case_read(normals_slopes(&file, &found) && heights_slopes(&field, 1, &want, &file), &file);
+        case_read(normals_slopes(&file, &found) && heights_slopes(&field, ones, 1, &want, &file), &file);
         TEST_HAS(file.notes, said_of[kind]);
         TEST(case_number(&file, "left_out ") == 4 * SIDE - 4 && found.count == want.count);
         for (size_t i = 0; i < want.count && found.count == want.count; i++)
@@ -263,7 +265,7 @@ static void test_normals(void)
         slopes_free(&want);
         case_free(&file);
     }
-    heights_free(&field);
+    image_free(&field);
 }
 
 /* As heights, or as a normal map. */
@@ -290,11 +292,11 @@ static void test_refused_files(void)
         {BYTES("P6\n1 2\n255\n\x7f\x7f\0\x7f\x7f\1"), 1, "2 of 2 pixels are no normals with z above 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        height_field field = {0};
+        image field = {0};
         slope_set slopes = {0};
         data_file file = case_file(cases[i].bytes, cases[i].size);
         int good = cases[i].is_map ? normals_slopes(&file, &slopes) : heights_read(&file, &field);
-        TEST(field.z == NULL && slopes.at == NULL);
+        TEST(field.rgb == NULL && slopes.at == NULL);
         case_refused(good, &file, cases[i].reason);
     }
 }

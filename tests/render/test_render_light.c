@@ -111,7 +111,14 @@ static void test_sky(void)
                    "image sky pattern studio width 24 height 14\nenvironment image sky turn 40\n" LAMP
                    "sphere centre 2 1.5 0 radius 0.05 material lamp\n");
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
+    unsigned long long state = 4;
     TEST(s->environment.sums != NULL);
+    for (int i = 0; i < 1000; i++) { /* the density of what is drawn is that of where it is */
+        const double u[3] = {0, test_uniform_double(&state), test_uniform_double(&state)};
+        light_sample l;
+        TEST(lights_draw(s, vec(1, 0, 0), u, &l) && !isfinite(l.distance));
+        TEST_RELATIVE(lights_density(s, vec(1, 0, 0), l.direction, NULL), l.density, 1e-9);
+    }
     for (int i = 0; i < WIDTH * HEIGHT * FINER * FINER; i++) {
         const double u = (i % (WIDTH * FINER) + 0.5) / (WIDTH * FINER),
                      longitude = 2 * PI * (u - 0.5 - 40.0 / 360);

@@ -1,7 +1,5 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
- * file that draws in WebGL2. tools/export/page/explorer.html is the frame. A line of it that is {{file}} stands for
- * that file, and {{choices}}, {{numbers}}, {{kernel}}, {{shaders}}, {{engines}} and {{baked}} for what differs from
- * page to page. A letter after a file's name is its $. */
+ * file that draws in WebGL2. Its frame is tools/export/page/explorer.html. */
 #define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,9 +18,9 @@
 /* What the page is made of. */
 typedef struct contents {
     export_document document;
-    float *baked; /* tables of `vndf bake` for each table, GGX and Beckmann, where they are wanted; owned */
+    size_t size;  /* of the tables of `vndf bake` for each table, GGX and Beckmann; 0: none are wanted */
+    float *baked; /* their numbers, one table after the other; owned */
     size_t baked_count;
-    char size[8]; /* of these tables */
 } contents;
 
 /* Numbers that the smallest float texture of WebGL2 holds: 1024 columns, 2048 rows. */
@@ -96,48 +94,34 @@ static int put_kernel(FILE *to, const export_document *document)
     return good;
 }
 
-static int put_file(FILE *to, const contents *of, const char *file, const char *letter);
-
-static void put_shaders(FILE *to, const contents *of)
+/* A file of the page, where `letter` stands for $, and {{part letter}} on a line for another file or for what differs
+ * from page to page. 0 if there is no memory. */
+static int put_file(FILE *to, const contents *of, const char *file, const char *letter)
 {
-    for (const embedded_text *text = page_texts; text->name; text++)
+    const embedded_text *text = page_texts;
+    int good = 1;
+    if (strcmp(file, "kernel") == 0)
+        return put_kernel(to, &of->document);
+    if (strcmp(file, "choices") == 0)
+        return put_choices(to, &of->document), 1;
+    if (strcmp(file, "numbers") == 0)
+        return put_numbers(to, of->document.numbers, of->document.count), 1;
+    if (strcmp(file, "baked") == 0)
+        return put_numbers(to, of->baked, of->baked_count), 1;
+    if (strcmp(file, "engines.html") == 0 && !of->size)
+        return 1;
+    for (; strcmp(file, "shaders") == 0 && text->name; text++)
         if (strstr(text->name, ".glsl")) {
             fprintf(to, "<script type=\"text/plain\" id=\"%s\">\n", text->name);
             put_file(to, of, text->name, "");
             fputs("</script>\n", to);
         }
-}
-
-/* What stands for {{name letter}}. */
-static int put_part(FILE *to, const contents *of, const char *part, const char *letter)
-{
-    if (strcmp(part, "kernel") == 0)
-        return put_kernel(to, &of->document);
-    if (strcmp(part, "choices") == 0)
-        put_choices(to, &of->document);
-    else if (strcmp(part, "numbers") == 0)
-        put_numbers(to, of->document.numbers, of->document.count);
-    else if (strcmp(part, "shaders") == 0)
-        put_shaders(to, of);
-    else if (strcmp(part, "baked") == 0)
-        put_numbers(to, of->baked, of->baked_count);
-    else if (strcmp(part, "engines") == 0)
-        return !of->baked || put_file(to, of, "engines.html", of->size);
-    else
-        return put_file(to, of, part, letter);
-    return 1;
-}
-
-static int put_file(FILE *to, const contents *of, const char *file, const char *letter)
-{
-    const embedded_text *text = page_texts;
     while (text->name && strcmp(text->name, file) != 0)
         text++;
-    for (const char *const *line = text->name ? text->lines : NULL; line && *line; line++) {
-        char inner[32], its_letter[16] = "";
-        if (sscanf(*line, "{{%31[^ }] %15[^}]", inner, its_letter) > 0) {
-            if (!put_part(to, of, inner, its_letter))
-                return 0;
+    for (const char *const *line = text->name ? text->lines : NULL; line && *line && good; line++) {
+        char part[32], its_letter[16] = "";
+        if (sscanf(*line, "{{%31[^ }] %15[^}]", part, its_letter) > 0) {
+            good = put_file(to, of, part, *its_letter == '$' ? letter : its_letter);
             continue;
         }
         for (const char *at = *line; *at; at++)
@@ -147,23 +131,22 @@ static int put_file(FILE *to, const contents *of, const char *file, const char *
                 fputc(*at, to);
         fputs("\n", to);
     }
-    return text->name != NULL;
+    return good;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-/* Tables of each table, GGX and Beckmann, one after the other; 0 after a complaint. */
-static int bake_all(const arguments *given, size_t size, contents *of)
+/* Bakes tables of each table, GGX and Beckmann; 0 if there is no memory or a signal waits. */
+static int bake_all(const arguments *given, contents *of)
 {
     const size_t tables = of->document.tables;
     progress p = progress_begin(name, option_value(given, "-q") != NULL);
     int good = 1;
-    output_hold_signals();
     for (size_t i = 0; i < tables + 2 && good; i++) {
         const bake_settings s = {.distribution = i < tables    ? of->document.table[i].distribution
                                                  : i == tables ? vndf_ggx()
                                                                : vndf_beckmann(),
-                                 .size = size,
+                                 .size = of->size,
                                  .progress = &p};
         baked_list list = {.count = 0};
         progress_step(&p, (double)(i + 1) / (double)(tables + 2));
@@ -181,29 +164,29 @@ static int bake_all(const arguments *given, size_t size, contents *of)
         baked_free(&list);
     }
     progress_end(&p);
-    if (!good)
-        complain(name, output_stopping() ? "interrupted" : "no memory for the tables");
-    output_release_signals();
     return good;
 }
 
 static int write_page(const arguments *given, contents *of)
 {
     unsigned long long size = 0;
+    char digits[24];
     output_file page;
     if (!option_value(given, "-o"))
         return complain(name, "-o PAGE.html is missing");
     if (!option_count(given, "--engines", 4, 64, &size) ||
         !named_tables_open(name, &given->positional, 0, &of->document))
         return STATUS_USE;
-    snprintf(of->size, sizeof of->size, "%llu", size);
     if (of->document.count > NUMBERS_MAX)
         return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", of->document.count,
                         NUMBERS_MAX);
-    if ((size && !bake_all(given, (size_t)size, of)) || !output_open(&page, name, option_value(given, "-o")))
+    if (!output_open(&page, name, option_value(given, "-o")))
         return STATUS_USE;
-    return put_file(page.file, of, "explorer.html", "") ? output_commit(&page)
-                                                        : output_give_up(&page, "no memory");
+    of->size = (size_t)size;
+    snprintf(digits, sizeof digits, "%llu", size);
+    if ((!size || bake_all(given, of)) && put_file(page.file, of, "explorer.html", digits))
+        return output_commit(&page);
+    return output_give_up(&page, output_stopping() ? "interrupted" : "no memory");
 }
 
 static int run(const arguments *given)

@@ -59,7 +59,7 @@ static const char *const help[] = {
     "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n",
     NULL};
 
-/* ---- words --------------------------------------------------------------------------------------- */
+/* ---- kernels ------------------------------------------------------------------------------------- */
 
 /* What makes no sense is what the library says makes none. */
 static int read_effects(const arguments *given, export_document *document)
@@ -84,37 +84,6 @@ static int read_effects(const arguments *given, export_document *document)
     return 1;
 }
 
-static int read_settings(const arguments *given, export_document *document, char only[LISTED_LENGTH * 2])
-{
-    const char *prefix = option_value(given, "--prefix"), *wanted = option_value(given, "--only");
-    unsigned long long lobes = 4;
-    if (!option_value(given, "--language"))
-        return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl"), 0;
-    document->to = language_named(option_value(given, "--language"));
-    if (!given->positional.count)
-        return complain(name, "FILE is missing"), 0;
-    if (!read_effects(given, document) || !option_count(given, "--lobes", 1, 8, &lobes))
-        return 0;
-    if (!document_prefix(document, prefix ? prefix : "vndf"))
-        return complain(
-                   name,
-                   "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none last; "
-                   "not gl",
-                   prefix, PREFIX_MAX - 1),
-               0;
-    document->lobes = (long)lobes;
-    document->embeds = option_value(given, "--buffer") == NULL;
-    if (wanted && strstr(wanted, "bsdf_") && !document->scatters)
-        return complain(name, "--only '%s': a BSDF needs --bsdf", wanted), 0;
-    document->only = wanted ? only : NULL;
-    only += sprintf(only, "vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine ");
-    for (const char *call = wanted; call && *call; call += strcspn(call, ","), call += *call == ',')
-        only += sprintf(only, "vndf_%.*s ", (int)strcspn(call, ","), call);
-    return 1;
-}
-
-/* ---- work ---------------------------------------------------------------------------------------- */
-
 /* What does not fit is refused with the size that does: files have some 2.3 bytes a number. */
 static int fits(const export_document *document)
 {
@@ -125,13 +94,12 @@ static int fits(const export_document *document)
                    0;
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
-    return complain(
-               name,
-               "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE, or smaller tables: vndf build "
-               "--max-bytes %zu",
-               document->count, as->title, as->why, as->most_embedded,
-               23 * (as->most_embedded / document->tables) / 10 / 64 * 64),
-           0;
+    complain(name,
+             "%zu numbers cannot be embedded in %s: %s, %zu; use --buffer FILE, or smaller tables: vndf build "
+             "--max-bytes %zu",
+             document->count, as->title, as->why, as->most_embedded,
+             23 * (as->most_embedded / document->tables) / 10 / 64 * 64);
+    return 0;
 }
 
 static int write_all(const arguments *given, const export_document *document)
@@ -211,6 +179,35 @@ static int export_rgl(const arguments *given)
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
+static int export_kernel(const arguments *given, export_document *document)
+{
+    const char *prefix = option_value(given, "--prefix"), *wanted = option_value(given, "--only");
+    char only[2 * LISTED_LENGTH] = "vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine", *end = only + strlen(only);
+    unsigned long long lobes = 4;
+    if (!option_value(given, "--language"))
+        return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl");
+    document->to = language_named(option_value(given, "--language"));
+    if (!given->positional.count)
+        return complain(name, "FILE is missing");
+    if (!read_effects(given, document) || !option_count(given, "--lobes", 1, 8, &lobes))
+        return STATUS_USE;
+    if (!document_prefix(document, prefix ? prefix : "vndf"))
+        return complain(name,
+                        "--prefix '%s': a lower-case letter, then up to %d letters, digits and single '_', none "
+                        "last; not gl",
+                        prefix, PREFIX_MAX - 1);
+    if (wanted && strstr(wanted, "bsdf_") && !document->scatters)
+        return complain(name, "--only '%s': a BSDF needs --bsdf", wanted);
+    for (const char *call = wanted; call && *call; call += strcspn(call, ","), call += *call == ',')
+        end += sprintf(end, " vndf_%.*s", (int)strcspn(call, ","), call);
+    document->only = wanted ? only : NULL;
+    document->lobes = (long)lobes;
+    document->embeds = option_value(given, "--buffer") == NULL;
+    if (!named_tables_open(name, &given->positional, 1, document) || !fits(document))
+        return STATUS_USE;
+    return write_all(given, document);
+}
+
 static int run(const arguments *given)
 {
     static const char *const of_kernels[] = {"--language", "--buffer", "--prefix", "--lobes",
@@ -218,17 +215,13 @@ static int run(const arguments *given)
     const int is_rgl = option_value(given, "--rgl") != NULL;
     const char *wrong = is_rgl ? option_among(given, of_kernels) : NULL;
     export_document document = {0};
-    char only[2 * LISTED_LENGTH] = "";
-    int status = STATUS_USE;
     if (wrong)
         return complain(name, "%s is for kernels, not for --rgl", wrong);
     if (!option_value(given, "-o"))
         return complain(name, "-o OUT is missing");
     if (is_rgl)
         return export_rgl(given);
-    if (read_settings(given, &document, only) && named_tables_open(name, &given->positional, 1, &document) &&
-        fits(&document))
-        status = write_all(given, &document);
+    const int status = export_kernel(given, &document);
     named_tables_close(&document);
     return status;
 }

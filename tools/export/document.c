@@ -34,21 +34,18 @@ static void name_table(exported_table *table)
     table->name[n - (n > 0 && table->name[n - 1] == '_')] = '\0';
 }
 
-/* Whether the kernel or a table before has a constant of that name. */
+/* Whether the kernel, or a table before, has a constant of that name. */
 static int is_taken(const export_document *document, const char *name)
 {
-    char constant[80];
+    static const char taken[] =
+        " GGX BECKMANN LOBES NUMBERS KERNEL FETCH FUNCTION KNOT LAW MORE TAIL LOW RHO_PARTS "
+        "RHO_FIRST ";
+    char spaced[80];
     for (size_t i = 0; i < document->tables; i++)
         if (strcmp(document->table[i].name, name) == 0)
             return 1;
-    snprintf(constant, sizeof constant, "VNDF_%s", name);
-    for (const embedded_text *file = kernel_text; file->name; file++)
-        for (const char *const *line = file->lines; *line; line++) {
-            const char *at = strstr(*line, constant);
-            if (at && !isalnum((unsigned char)at[strlen(constant)]) && at[strlen(constant)] != '_')
-                return 1;
-        }
-    return strcmp(name, "NUMBERS") == 0 || strcmp(name, "KERNEL") == 0;
+    snprintf(spaced, sizeof spaced, " %s ", name);
+    return strstr(taken, spaced) != NULL;
 }
 
 /* Room for more numbers, which begin at the old count; 0 if there is no memory. */
@@ -198,14 +195,16 @@ static int has_parts(const char *parts, const char *mark)
     return 1;
 }
 
-/* A line that ends in a mark is left out where the file has not what that names; so are the lines between a mark that
- * stands alone and the next one, "end". *in: whether lines are written. */
+/* Directives are left out, and a line that ends in a mark where the file has not what that names; so are the lines
+ * between a mark that stands alone and the next one, "end". *in: whether lines are written. */
 static void put_line(FILE *to, const char *parts, const char *line, int *in)
 {
     static const char only[] = "/* only ";
     int length = (int)strcspn(line, "\n");
     const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
     int has = mark && mark < line + length ? has_parts(parts, mark + sizeof only - 1) : -1;
+    if (*line == '#')
+        return;
     if (end && end < line + length) {
         *in = 1;
     } else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line)) {

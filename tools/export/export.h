@@ -94,7 +94,7 @@ void put_prefixed(const export_document *as, FILE *to, const char *from, size_t 
 /* Writes of the text what `wanted` names, between blanks, or what begins with such a name and a '_', and all that this
  * needs; 0 if there is no memory.
  *
- * It reads the part of C in which src/kernel is written. Of files there are comments, directives (which are left out),
+ * It reads the part of C in which src/kernel is written, without directives. Of files there are comments,
  * `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float n[1] = {...};` and `HERE type name(...) {...}`.
  * Of statements there are declarations of types of one word, assignments, to no parameter, if, else,
  * `for (int i = A; i < B; i++)` and return; structs are made as `n v = {a, b};` with every member. Where an if has

@@ -10,7 +10,7 @@ typedef struct word {
     word_kind kind;
     const char *text; /* not terminated */
     int length;
-    int gap;   /* characters between the last word and this one: blanks, comments, directives */
+    int gap;   /* characters between the last word and this one: blanks and comments */
     int other; /* of a bracket: the word that closes or opens it */
 } word;
 
@@ -51,31 +51,16 @@ void put_prefixed(const export_document *as, FILE *to, const char *from, size_t 
 
 /* ---- words and declarations --------------------------------------------------------------------- */
 
-static size_t gap_length(const char *from)
-{
-    const char *at = from;
-    for (;;) {
-        if (*at == ' ' || *at == '\n')
-            at++;
-        else if (strncmp(at, "/*", 2) == 0)
-            at = strstr(at, "*/") + 2;
-        else if (*at == '#')
-            do /* with its continuations */
-                at += 1 + strcspn(at + 1, "\n");
-            while (at[-1] == '\\');
-        else
-            return (size_t)(at - from);
-    }
-}
-
 /* What the C compiler took for a number is one: digits, letters, points, signs of exponents. */
 static word word_at(const char *from)
 {
     static const char pairs[] = "&& || == != <= >= << >> ++";
-    const size_t gap = gap_length(from);
-    const char *at = from + gap, *exponent = at[0] == '0' && at[1] == 'x' ? "p" : "e";
+    const char *at = from;
+    while (*at == ' ' || *at == '\n' || strncmp(at, "/*", 2) == 0)
+        at = *at == '/' ? strstr(at, "*/") + 2 : at + 1;
+    const char *exponent = at[0] == '0' && at[1] == 'x' ? "p" : "e";
     int n = *at != '\0';
-    word w = {n ? WORD_SIGN : WORD_END, at, 0, (int)gap, 0};
+    word w = {n ? WORD_SIGN : WORD_END, at, 0, (int)(at - from), 0};
     if (isdigit((unsigned char)*at)) {
         w.kind = WORD_NUMBER;
         while (isalnum((unsigned char)at[n]) || at[n] == '.' ||
@@ -210,16 +195,14 @@ static void put_line(const printer *t, int at)
     fprintf(t->file, "\n%*s", (int)strspn(line, " "), "");
 }
 
-/* Blanks and comments before a word, without directives; in Python, where a line ends a statement, a blank. */
+/* Blanks and comments before a word; in Python, where a line ends a statement, a blank. */
 static void put_gap(const printer *t, int at)
 {
-    const char *end = t->word[at].text, *from = end - t->word[at].gap;
+    const word *w = &t->word[at];
     if (t->indents)
-        put(t, from < end && *end != '}' ? " " : "");
-    for (const char *next; from < end && !t->indents; from = next) {
-        next = *from == '/' ? strstr(from, "*/") + 2 : *from == '#' ? from + strcspn(from, "\n") + 1 : from + 1;
-        put_prefixed(t->as, t->file, from, *from == '#' ? 0 : (size_t)(next - from));
-    }
+        put(t, w->gap > 0 && *w->text != '}' ? " " : "");
+    else
+        put_prefixed(t->as, t->file, w->text - w->gap, (size_t)w->gap);
 }
 
 /* Declarations, of these kinds, begin with the prefix; a variable or a member must not be a word of the language. */
@@ -525,7 +508,7 @@ static void want(printer *t, declaration *d)
     if (d->wanted)
         return;
     d->wanted = 1;
-    for (int i = d->kind == CONSTANT ? d->end : d->begin; i < d->end; i++) {
+    for (int i = d->begin; i < d->end && d->kind != CONSTANT; i++) {
         const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
         declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
         d->fetches |= word_is(&t->word[i], "fetch");

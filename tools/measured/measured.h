@@ -6,6 +6,7 @@
 
 #include "cli/arguments.h"
 #include "cli/files.h"
+#include "render/image.h"
 #include "vndf_build.h"
 
 /* A file, whose bytes are not trusted, with a 0 behind them. A reader returns 1, or 0 with the reason in `refused`: the
@@ -89,7 +90,7 @@ int merl_read(data_file *file, merl_channel channel, profile *rows);
 
 /* ---- the slopes of a surface: surface.c, slopes.c ------------------------------------------------ */
 
-enum { SLOPE_PARTS = 64, SLOPES_LEAST = 1000, SURFACE_SIDE_MAX = 16384, SURFACE_MAX = 1 << 24, CUTOFF_MAX = 256 };
+enum { SLOPE_PARTS = 64, SLOPES_LEAST = 1000, SURFACE_MAX = 1 << 24, CUTOFF_MAX = 256 };
 
 /* Slopes of points of a surface, and the part of it, 0 to SLOPE_PARTS - 1, where each lies. */
 typedef struct slope {
@@ -112,28 +113,17 @@ void slopes_add(slope_set *to, double x, double y, int part);
  * slopes, and such as are all alike or lie on a line. */
 int slopes_law(slope_set *slopes, data_file *file, profile *rows);
 
-/* Heights over places (x step_x, y step_y), all in one unit; a row after the other. NaN: there is none. */
-typedef struct height_field {
-    int width, height;
-    double step_x, step_y;
-    double quantum; /* the least difference that heights can have; 0 if they are floats */
-    float *z;       /* owned */
-} height_field;
-
-/* Room, and steps of 1. 0 and the reason if the sides are out of range or there is no memory. */
-int heights_make(height_field *made, int width, int height, data_file *file);
-void heights_free(height_field *freed);
-
-/* Reads PFM (its first channel), PGM of 8 or 16 bits (0 to 1), or numbers between blanks, a line for each row. */
-int heights_read(data_file *file, height_field *made);
+/* Reads heights, the first channel of an image: PFM, PGM of 8 or 16 bits (0 to 1), or numbers between blanks, a line
+ * for each row, NaN where there is none. */
+int heights_read(data_file *file, image *made);
 
 /* Takes away what is shorter than `cutoff` samples, 2 to CUTOFF_MAX: the Gaussian filter of ISO 16610-21, which
  * halves waves of that length. 0 if there is no memory. */
-int heights_smooth(height_field *changed, int cutoff);
+int heights_smooth(image *changed, int cutoff);
 
-/* Slopes by central differences; those whose neighbours are not there are left out, as are `margin` samples along the
- * rim. */
-int heights_slopes(const height_field *of, int margin, slope_set *made, data_file *file);
+/* Slopes by central differences of samples that are `step` apart along x and y, in the unit of the heights; those whose
+ * neighbours are not there are left out, as are `margin` samples along the rim. */
+int heights_slopes(const image *of, const double step[2], int margin, slope_set *made, data_file *file);
 
 /* Slopes of a normal map, a PPM (P6) or a colour PFM. A normal n has the slope (-n.x/n.z, -n.y/n.z). Numbers of 8 or
  * 16 bits are n/2 + 1/2, and so are those of a PFM without negative ones; a PFM with negative numbers holds n itself.

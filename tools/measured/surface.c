@@ -4,36 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "render/image.h"
-
-static int heights_fit(const height_field *made, data_file *file)
-{
-    const int width = made->width, height = made->height;
-    if (width < 3 || height < 3 || width > SURFACE_SIDE_MAX || height > SURFACE_SIDE_MAX)
-        return refuse(file, "%d x %d heights; both sides must be from 3 to %d", width, height, SURFACE_SIDE_MAX);
-    return (size_t)width * (size_t)height <= SURFACE_MAX ||
-           refuse(file, "%d x %d heights are more than %d", width, height, SURFACE_MAX);
-}
-
-int heights_make(height_field *made, int width, int height, data_file *file)
-{
-    *made = (height_field){width, height, 1, 1, 0, NULL};
-    if (!heights_fit(made, file))
-        return 0;
-    made->z = malloc((size_t)width * (size_t)height * sizeof *made->z);
-    return made->z != NULL || refuse(file, "there is no memory for %d x %d heights", width, height);
-}
-
-void heights_free(height_field *freed)
-{
-    free(freed->z);
-    *freed = (height_field){0};
-}
-
 /* ---- heights ------------------------------------------------------------------------------------- */
 
 /* Numbers between blanks, a line for each row; # begins a comment. */
-static int read_rows(data_file *file, height_field *made)
+static int read_rows(data_file *file, image *made)
 {
     const char *at = (const char *)file->bytes, *end = at + file->size;
     size_t count = 0, room = 0;
@@ -52,12 +26,12 @@ static int read_rows(data_file *file, height_field *made)
                     line, (int)fmin((double)strcspn(at, " \t\r\v\f\n#"), 40), at);
             if (count == room) {
                 room = 2 * room + 4096;
-                float *larger = room <= 2 * SURFACE_MAX ? realloc(made->z, room * sizeof *larger) : NULL;
+                float *larger = room <= 2 * SURFACE_MAX ? realloc(made->rgb, 3 * room * sizeof *larger) : NULL;
                 if (!larger)
                     return refuse(file, "line %zu: there is no memory for more than %zu heights", line, count);
-                made->z = larger;
+                made->rgb = larger;
             }
-            made->z[count++] = (float)z;
+            made->rgb[3 * count++] = (float)z;
             at = behind;
         }
         if (here && made->height++ && here != made->width)
@@ -66,8 +40,7 @@ static int read_rows(data_file *file, height_field *made)
         made->width = here ? here : made->width;
         at += strcspn(at, "\n");
     }
-    made->step_x = made->step_y = 1;
-    return heights_fit(made, file);
+    return 1;
 }
 
 static int read_image(data_file *file, image *made)
@@ -79,25 +52,18 @@ static int read_image(data_file *file, image *made)
     return good;
 }
 
-int heights_read(data_file *file, height_field *made)
+int heights_read(data_file *file, image *made)
 {
-    image from = {.rgb = NULL};
-    int good;
-    *made = (height_field){0};
-    if (file->size < 2 || file->bytes[0] != 'P')
-        good = read_rows(file, made);
-    else {
-        good = read_image(file, &from);
-        if (good && from.channels == 3 && from.quantum > 0)
-            good = refuse(file, "a PPM has colours; heights are a PGM, P5");
-        good = good && heights_make(made, from.width, from.height, file);
-        for (size_t i = 0; good && i < (size_t)from.width * (size_t)from.height; i++)
-            made->z[i] = fabsf(from.rgb[3 * i]) <= 1e30f ? from.rgb[3 * i] : NAN;
-        made->quantum = from.quantum;
-        image_free(&from);
-    }
+    *made = (image){0};
+    int good = file->size < 2 || file->bytes[0] != 'P' ? read_rows(file, made) : read_image(file, made);
+    const int w = made->width, h = made->height;
+    if (good && made->channels == 3 && made->quantum > 0)
+        good = refuse(file, "a PPM has colours; heights are a PGM, P5");
+    if (good && (w < 3 || h < 3 || w > IMAGE_SIDE_MAX || h > IMAGE_SIDE_MAX || w * h > SURFACE_MAX))
+        good = refuse(file, "%d x %d heights; both sides must be from 3 to %d, and %d heights are the most", w, h,
+                      IMAGE_SIDE_MAX, SURFACE_MAX);
     if (!good)
-        heights_free(made);
+        image_free(made);
     return good;
 }
 
@@ -171,26 +137,26 @@ static void smooth_line(float *line, size_t stride, int count, const double *ker
 }
 
 /* exp(-pi (x/(a cutoff))^2), a = sqrt(ln 2/pi): half is left of a wave as long as the cut-off. */
-int heights_smooth(height_field *changed, int cutoff)
+int heights_smooth(image *changed, int cutoff)
 {
     const double pi = 3.14159265358979323846, a2 = log(2) / pi;
-    const size_t width = (size_t)changed->width;
+    const size_t width = (size_t)changed->width, height = (size_t)changed->height;
     double kernel[CUTOFF_MAX + 1];
-    float *room = malloc((changed->width > changed->height ? width : (size_t)changed->height) * sizeof *room);
+    float *room = malloc((width > height ? width : height) * sizeof *room);
     if (!room)
         return 0;
     for (int i = 0; i <= cutoff; i++)
         kernel[i] = exp(-pi * i * i / (a2 * cutoff * cutoff));
-    for (int y = 0; y < changed->height; y++)
-        smooth_line(changed->z + (size_t)y * width, 1, changed->width, kernel, cutoff, room);
-    for (int x = 0; x < changed->width; x++)
-        smooth_line(changed->z + x, width, changed->height, kernel, cutoff, room);
+    for (size_t y = 0; y < height; y++)
+        smooth_line(changed->rgb + 3 * y * width, 3, changed->width, kernel, cutoff, room);
+    for (size_t x = 0; x < width; x++)
+        smooth_line(changed->rgb + 3 * x, 3 * width, changed->height, kernel, cutoff, room);
     free(room);
     changed->quantum = 0;
     return 1;
 }
 
-int heights_slopes(const height_field *of, int margin, slope_set *made, data_file *file)
+int heights_slopes(const image *of, const double step[2], int margin, slope_set *made, data_file *file)
 {
     const size_t width = (size_t)of->width;
     const int rim = margin > 0 ? margin : 1;
@@ -200,12 +166,12 @@ int heights_slopes(const height_field *of, int margin, slope_set *made, data_fil
                       of->height, rim);
     if (!slopes_make(made, width * (size_t)of->height, file))
         return 0;
-    made->quantum = of->quantum / 2 / fmax(of->step_x, of->step_y);
+    made->quantum = of->quantum / 2 / fmax(step[0], step[1]);
     for (int y = rim; y < of->height - rim; y++)
         for (int x = rim; x < of->width - rim; x++) {
-            const float *z = of->z + (size_t)y * width + (size_t)x;
-            const double sx = ((double)z[1] - (double)*(z - 1)) / (2 * of->step_x);
-            const double sy = ((double)z[width] - (double)*(z - width)) / (2 * of->step_y);
+            const float *z = image_pixel(of, x, y);
+            const double sx = ((double)z[3] - (double)*(z - 3)) / (2 * step[0]);
+            const double sy = ((double)z[3 * width] - (double)*(z - 3 * width)) / (2 * step[1]);
             if (fabs(sx) <= 1e30 && fabs(sy) <= 1e30) /* false for NaN */
                 slopes_add(made, sx, sy, part_of(of->width, of->height, x, y));
         }

@@ -14,11 +14,6 @@ import tempfile
 from setuptools import Distribution, setup
 from setuptools.command.build_py import build_py
 
-try:
-    from setuptools.command.bdist_wheel import bdist_wheel
-except ImportError:  # setuptools before 70
-    from wheel.bdist_wheel import bdist_wheel
-
 HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = pathlib.Path(os.environ.get("VNDF_SOURCE", HERE.parents[1]))
 NAME = {"win32": "vndf.dll", "darwin": "libvndf.dylib"}.get(sys.platform, "libvndf.so")
@@ -49,17 +44,12 @@ class BuildWithLibrary(build_py):
             shutil.copytree(SOURCE / "include", package / "include", ignore=headers, dirs_exist_ok=True)
 
 
-class PlatformWheel(bdist_wheel):
-    """Any Python 3, this platform alone."""
-
-    def get_tag(self):
-        return "py3", "none", super().get_tag()[2]
-
-
 class WithLibrary(Distribution):
+    """Of this platform alone."""
+
     def has_ext_modules(self) -> bool:
         return True
 
 
 version = re.search(r'VNDF_VERSION "(.*)"', (SOURCE / "include" / "vndf.h").read_text())[1]
-setup(version=version, distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary, "bdist_wheel": PlatformWheel})
+setup(version=version, distclass=WithLibrary, cmdclass={"build_py": BuildWithLibrary})

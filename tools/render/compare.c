@@ -31,17 +31,12 @@ void comparison_end(comparison *c)
     }
 }
 
-/* Small films take several samples in a pass, so that starting threads does not dominate the time. */
-static uint64_t pass_samples(const film *f)
-{
-    const uint64_t samples = PASS_PATHS / film_pixels(f);
-    return samples > 1 ? samples : 1;
-}
-
 int comparison_run(comparison *c)
 {
     const film *first = &c->way[0].film;
-    const uint64_t part = c->samples < TURNS ? 1 : c->samples / TURNS, most = pass_samples(first);
+    const uint64_t part = c->samples < TURNS ? 1 : c->samples / TURNS;
+    /* in a pass, so that starting threads does not dominate the time of small films */
+    const uint64_t most = PASS_PATHS > film_pixels(first) ? PASS_PATHS / film_pixels(first) : 1;
     for (uint64_t until = 0; until < c->samples;) {
         until = part < c->samples - until ? until + part : c->samples;
         for (size_t i = 0; i < c->count; i++) {

@@ -5,7 +5,7 @@ const POINTS = 256, DECADES = 6;
 function measureCurve(surface, last) {
   use(programs.curve, {...surface, size: [POINTS, 1], last: radians(last)});
   fill(targets.curve);
-  return readTarget(targets.curve, 0).filter((_, i) => i % 4 === 0);
+  return readTarget(targets.curve, 0)[0];
 }
 
 // All distributions of the menus: the two chosen in colour, over the others in grey.

@@ -9,43 +9,30 @@ const RAMPS = {
   dark: [[28, 33, 39], [22, 52, 88], [28, 98, 142], [60, 154, 172], [142, 214, 180], [246, 251, 222]],
 };
 const MARKS = {
-  light: {ink: "#212529", halo: "rgba(255,255,255,.85)", ring: "rgba(73,80,87,.45)", rim: "rgba(73,80,87,.8)", edge: 1},
-  dark: {ink: "#f1f3f5", halo: "rgba(16,19,23,.8)", ring: "rgba(173,181,189,.4)", rim: "rgba(173,181,189,.6)", edge: 0},
+  light: {ink: "#212529", halo: "rgba(255,255,255,.85)", ring: "rgba(73,80,87,.45)", rim: "rgba(73,80,87,.8)"},
+  dark: {ink: "#f1f3f5", halo: "rgba(16,19,23,.8)", ring: "rgba(173,181,189,.4)", rim: "rgba(173,181,189,.6)"},
 };
 const darkness = matchMedia("(prefers-color-scheme: dark)");
 const theme = () => darkness.matches ? "dark" : "light";
 
-function incidentNow() {
-  const angle = radians(settings.theta);
-  return [Math.sin(angle), 0, Math.cos(angle)];
-}
-
-// What many drawn normals say.
+// What many drawn normals say. Dots are some of them, as if at random: squares times the golden ratio.
 function measureSamples(surface) {
-  const angles = [], densities = [], says = {facing: 0, off: 0, kept: 0, faults: 0}, n = SAMPLES * SAMPLES;
-  use(programs.samples, {...surface, incident: incidentNow(), size: [SAMPLES, SAMPLES]});
+  use(programs.samples, {...surface, size: [SAMPLES, SAMPLES]});
   fill(targets.samples);
-  const drawn = readTarget(targets.samples, 0), light = readTarget(targets.samples, 1);
-  for (let i = 0; i < 4 * n; i += 4) {
-    says.facing += drawn[i] / n;
-    densities.push(drawn[i + 1]);
-    angles.push(drawn[i + 2]);
-    says.off = Math.max(says.off, drawn[i + 3]);
-    says.kept += light[i] / n;
-    says.faults += light[i + 2];
-  }
-  const quantile = (values, part) => values.sort((a, b) => a - b)[Math.floor(part * n)];
-  return {...says, angle: quantile(angles, 0.97) * 180 / Math.PI, high: quantile(densities, 0.98),
-          low: quantile(densities, 0.02)};
+  const [facing, density, angle, off] = readTarget(targets.samples, 0);
+  const [kept, faults, x, y] = readTarget(targets.samples, 1);
+  const quantile = (values, part) => values.sort()[Math.floor(part * values.length)];
+  const dots = Array.from({length: DOTS}, (_, i) => Math.imul(i * i, 0x9E3779B1) >>> 18).map((at) => [x[at], y[at]]);
+  return {facing: mean(facing), off: off.reduce((a, b) => Math.max(a, b)), kept: mean(kept), faults: sum(faults), dots,
+          angle: quantile(angle, 0.97) * 180 / Math.PI, high: quantile(density, 0.98), low: quantile(density, 0.02)};
 }
 
 // What the density itself says.
 function measureDensity(surface) {
-  use(programs.integral, {...surface, incident: incidentNow(), size: [GRID, GRID]});
+  use(programs.integral, {...surface, size: [GRID, GRID]});
   fill(targets.grid);
-  const parts = readTarget(targets.grid, 0), sums = [0, 0, 0, 0];
-  parts.forEach((part, i) => { sums[i % 4] += part; });
-  return {whole: sums[0], facing: sums[1], truth: sums[2]};
+  const [whole, facing, truth] = readTarget(targets.grid, 0).map(sum);
+  return {whole, facing, truth};
 }
 
 const edgeFor = (angle) => settings.whole ? 90 : EDGES.filter((edge) => edge >= angle).pop() || 90;
@@ -63,21 +50,28 @@ function scaleOf(...says) {
   return {top, decades};
 }
 
-function drawDisc(canvas, surface, edge, scale) {
+function drawDisc(canvas, surface, edge, scale, dots) {
   const size = pixelsOf(canvas), rim = Math.sin(radians(edge) / 2);
-  const tells = {...surface, incident: incidentNow(), size: [size, size], rim, ...scale, seed: 1,
-                 width: size / Math.max(canvas.clientWidth, 1) * 4, stops: RAMPS[theme()].flat().map((v) => v / 255),
-                 edge_colour: Array(3).fill(MARKS[theme()].edge)};
-  use(programs.heat, tells);
+  use(programs.heat, {...surface, size: [size, size], rim, ...scale,
+                      stops: RAMPS[theme()].flat().map((v) => v / 255)});
   fill({width: size, height: size});
-  if (settings.dots) {
-    gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
-    use(programs.dots, tells);
-    gl.drawArrays(gl.POINTS, 0, DOTS);
-    gl.disable(gl.BLEND);
+  const context = copyTo(canvas, size);
+  if (settings.dots) drawDots(context, dots, size / 2, rim, size / Math.max(canvas.clientWidth, 1));
+  drawMarks(context, size, edge);
+}
+
+function drawDots(context, dots, half, rim, pixel) {
+  context.fillStyle = "#f76707";
+  context.strokeStyle = theme() === "dark" ? "#000" : "#fff";
+  context.lineWidth = 0.7 * pixel;
+  for (const [x, y] of dots) {
+    const to = half / (rim * Math.sqrt(2 * (1 + Math.sqrt(Math.max(1 - x * x - y * y, 0)))));
+    if (Math.hypot(x, y) * to > half) continue;
+    context.beginPath();
+    context.arc(half + to * x, half - to * y, 1.65 * pixel, 0, 2 * Math.PI);
+    context.fill();
+    context.stroke();
   }
-  drawMarks(copyTo(canvas, size), size, edge);
 }
 
 // Rings at angles, and where the light comes from.
@@ -117,11 +111,6 @@ function drawMarks(context, size, edge) {
 
 const digits = (x, n) => x === 0 ? "0" : Math.abs(x) < 1e-3 || Math.abs(x) >= 1e5 ? x.toExponential(1) : x.toFixed(n);
 
-function promiseOf(distribution) {
-  if (distribution < 0) return "none: closed form";
-  return `at most ${optionOf(distribution).dataset.tv}`;
-}
-
 function showFigures(list, distribution, samples, density) {
   const rows = [
     ["Mean of ωi·ωm, drawn", digits(samples.facing, 4), "over 16 384 drawn normals"],
@@ -131,7 +120,8 @@ function showFigures(list, distribution, samples, density) {
     ["Drawn density to pdf", samples.off < 1e-7 ? "same" : `±${samples.off.toExponential(0)}`,
      "the largest relative difference between the density that vndf_sample returns and vndf_pdf: rounding of floats"],
     ["Light kept by one bounce", `${(100 * samples.kept).toFixed(1)} %`, "the mean of G2/G1"],
-    ["Promised error", promiseOf(distribution), "total variation from the true visible normals, from the certificate"],
+    ["Promised error", distribution < 0 ? "none: closed form" : `at most ${optionOf(distribution).dataset.tv}`,
+     "total variation from the true visible normals, from the certificate"],
   ];
   list.replaceChildren(...rows.flatMap(([what, value, why]) => {
     const name = document.createElement("dt"), says = document.createElement("dd");

@@ -34,11 +34,12 @@ function unpackTables() {
 
 // The light around the sphere, as engines keep it: a cube with mip levels.
 function drawCube(light) {
-  cube = cube || {texture: gl.createTexture(), buffer: gl.createFramebuffer(), width: CUBE, height: CUBE};
-  gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube.texture);
-  for (let face = 0; face < 6; face++)
-    gl.texImage2D(gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, 0, gl.RGBA16F, CUBE, CUBE, 0, gl.RGBA, gl.HALF_FLOAT, null);
-  gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  if (!cube) {
+    cube = {texture: gl.createTexture(), buffer: gl.createFramebuffer(), width: CUBE, height: CUBE};
+    gl.bindTexture(gl.TEXTURE_CUBE_MAP, cube.texture);
+    gl.texStorage2D(gl.TEXTURE_CUBE_MAP, 1 + Math.log2(CUBE), gl.RGBA16F, CUBE, CUBE);
+    gl.texParameteri(gl.TEXTURE_CUBE_MAP, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_LINEAR);
+  }
   for (let face = 0; face < 6; face++) {
     gl.bindFramebuffer(gl.FRAMEBUFFER, cube.buffer);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_CUBE_MAP_POSITIVE_X + face, cube.texture,
@@ -65,26 +66,13 @@ function drawEngines(samples) {
   }
 }
 
-function differenceOf(pictures) {
-  const [a, b] = pictures.map((picture) => readTarget(sumsOf(picture), 0));
-  let off = 0, squares = 0, sum = 0, count = 0;
-  for (let i = 0; i < a.length; i += 4) {
-    const x = luminance(a, i), y = luminance(b, i);
-    if (y === 0 && x === 0) continue;
-    off += (x - y) * (x - y);
-    squares += y * y;
-    sum += y;
-    count++;
-  }
-  return {mean: sum / count, error: Math.sqrt(off / squares)};
-}
-
 function showDifference(name, pictures) {
-  const {mean, error} = differenceOf(pictures), {size} = pictures[0];
+  const [pass, light] = pictures.map(lightsOf), lit = light.filter((y, i) => y !== 0 || pass[i] !== 0);
+  const error = Math.sqrt(sum(light.map((y, i) => (pass[i] - y) ** 2)) / sum(light.map((y) => y * y)));
   const [passes, samples] = pictures.map((picture, i) => [1 + i, sumsOf(picture).textures[0]]);
-  use(programs.difference, {passes, samples, mean, back: Array(3).fill(theme() === "dark" ? 0.1 : 1)});
-  fill({width: size, height: size});
-  copyTo(byId(`${name}-difference`), size);
+  use(programs.difference, {passes, samples, mean: mean(lit), back: Array(3).fill(theme() === "dark" ? 0.1 : 1)});
+  fill({width: pictures[0].size, height: pictures[0].size});
+  copyTo(byId(`${name}-difference`), pictures[0].size);
   byId(`${name}-says`).textContent = `One pass is off by ${(100 * error).toFixed(1)} %`;
   byId(`${name}-says`).title = "the root of the mean square of the difference, over that of the light";
   pictures.error = error;

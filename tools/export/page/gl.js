@@ -14,6 +14,10 @@ uniform sampler2D numbers;
 #define VNDF_FETCH(i) texelFetch(numbers, ivec2((i) & ${COLUMNS - 1}, (i) >> 10), 0).r
 `;
 
+// One triangle over the whole target.
+const SCREEN = `#version 300 es
+void main() { gl_Position = vec4(ivec2(gl_VertexID & 1, gl_VertexID >> 1) * 4 - 1, 0.0, 1.0); }`;
+
 class Trouble extends Error {}
 
 let gl; // of a canvas that is never shown: its pictures are copied to those of the page
@@ -52,14 +56,15 @@ function tableTexture() {
 }
 
 // A program of files of the page; those that sample have the kernel before them.
-function makeProgram(vertex, fragment) {
+function makeProgram(files) {
   const program = gl.createProgram();
   const complete = (good, log) => {
     if (!good && !gl.isContextLost()) throw new Trouble("This browser refuses a shader of the page: " + log);
   };
-  for (const [kind, names] of [[gl.VERTEX_SHADER, vertex], [gl.FRAGMENT_SHADER, fragment]]) {
+  const fragment = HEAD + files.map(textOf).join("\n");
+  for (const [kind, text] of [[gl.VERTEX_SHADER, SCREEN], [gl.FRAGMENT_SHADER, fragment]]) {
     const shader = gl.createShader(kind);
-    gl.shaderSource(shader, HEAD + names.map(textOf).join("\n"));
+    gl.shaderSource(shader, text);
     gl.compileShader(shader);
     complete(gl.getShaderParameter(shader, gl.COMPILE_STATUS), gl.getShaderInfoLog(shader));
     gl.attachShader(program, shader);
@@ -103,11 +108,6 @@ function makeTarget(width, height, count) {
   return target;
 }
 
-function freeTarget(target) {
-  target.textures.forEach((texture) => gl.deleteTexture(texture));
-  gl.deleteFramebuffer(target.buffer);
-}
-
 // Draws over a whole target; of `size` and without a buffer that is the canvas.
 function fill(target) {
   if (!target.buffer && gl.canvas.width !== target.width) gl.canvas.width = gl.canvas.height = target.width;
@@ -116,13 +116,19 @@ function fill(target) {
   gl.drawArrays(gl.TRIANGLES, 0, 3);
 }
 
+// The four numbers of all pixels: an array of each.
 function readTarget(target, which) {
-  const values = new Float32Array(4 * target.width * target.height);
+  const count = target.width * target.height, values = new Float32Array(4 * count);
   gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
   gl.readBuffer(gl.COLOR_ATTACHMENT0 + which);
   gl.readPixels(0, 0, target.width, target.height, gl.RGBA, gl.FLOAT, values);
-  return values;
+  const planes = [0, 1, 2, 3].map(() => new Float32Array(count));
+  for (let i = 0; i < values.length; i++) planes[i & 3][i >> 2] = values[i];
+  return planes;
 }
+
+const sum = (values) => values.reduce((all, value) => all + value, 0);
+const mean = (values) => sum(values) / values.length;
 
 function copyTo(canvas, size) {
   if (canvas.width !== size) canvas.width = canvas.height = size;

@@ -11,17 +11,11 @@ const pixelsOf = (canvas) =>
 
 function makePage() {
   openGl();
-  const screen = ["screen.vert.glsl"], sampling = ["kernel", "surface.glsl"], lit = [...sampling, "light.glsl"];
-  programs = {show: makeProgram(screen, ["show.glsl"]),
-              sphere: makeProgram(screen, [...lit, "sphere.glsl", "pixels.glsl"]),
-              dots: makeProgram([...sampling, "dots.vert.glsl"], ["dots.glsl"])};
-  for (const name of ["heat", "samples", "integral", "curve"])
-    programs[name] = makeProgram(screen, [...sampling, `${name}.glsl`]);
-  if (scenes.length > 0) {
-    programs.engines = makeProgram(screen, [...lit, "engines.glsl", "pixels.glsl"]);
-    programs.cube = makeProgram(screen, [...lit, "cube.glsl"]);
-    programs.difference = makeProgram(screen, ["difference.glsl"]);
-  }
+  const sampling = ["kernel", "surface.glsl"], lit = [...sampling, "light.glsl"], drawn = [...lit, "pixels.glsl"];
+  const before = {show: [], heat: sampling, samples: sampling, integral: sampling, curve: sampling, sphere: drawn,
+                  ...scenes.length > 0 ? {engines: drawn, cube: lit, difference: []} : {}};
+  programs = {};
+  for (const [name, files] of Object.entries(before)) programs[name] = makeProgram([...files, `${name}.glsl`]);
   targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1),
              curve: makeTarget(POINTS, 1, 1)};
   tables = tableTexture();
@@ -45,7 +39,8 @@ function drawStill() {
   }
   const edge = edgeFor(Math.max(says.a.samples.angle, says.b.samples.angle));
   const scale = scaleOf(says.a.samples, says.b.samples);
-  for (const {name} of spheres) drawDisc(byId(`disc-${name}`), surfaceOf(settings[name]), edge, scale);
+  for (const {name} of spheres)
+    drawDisc(byId(`disc-${name}`), surfaceOf(settings[name]), edge, scale, says[name].samples.dots);
   showScale(scale, edge);
   drawCurves(byId("curves"), Math.min(90, 3 * edge));
   stale = false;
@@ -64,10 +59,8 @@ function drawSpheres() {
 function tell() {
   const all = {drawn: spheres[0].drawn, error: gl.getError()};
   for (const sphere of spheres) {
-    const {samples, density} = says[sphere.name], {mean, spread, faults} = lightOf(sphere);
-    const told = {whole: density.whole, true_whole: density.truth, facing: samples.facing,
-                  facing_to_density: samples.facing / density.facing, faults: samples.faults, off: samples.off,
-                  kept: samples.kept, light: mean, spread, light_faults: faults};
+    const {samples: {facing, faults, off, kept}, density} = says[sphere.name];
+    const told = {...density, facing_to_density: facing / density.facing, faults, off, kept, ...lightOf(sphere)};
     for (const [what, value] of Object.entries(told)) all[`${sphere.name}_${what}`] = value;
   }
   for (const {name, pictures} of scenes) all[`${name}_error`] = pictures.error;

@@ -7,6 +7,9 @@ uniform vec3 eye, target, up;
 uniform float wide_angle;
 out vec4 sum;
 
+// At a point whose light goes to the eye, by three pairs of uniform numbers.
+vec3 shaded(vec3 at, vec3 normal, vec3 to_eye, vec2 u_normal, vec2 u_lamp, vec2 u_base);
+
 vec3 seen(vec3 d, vec2 u_normal, vec2 u_lamp, vec2 u_base) {
     if (is_floor) {
         float down = d.z < 0.0 ? -eye.z / d.z : 0.0;

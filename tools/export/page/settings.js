@@ -80,9 +80,10 @@ function listen(changed) {
     });
 }
 
-// What every shader is told of the surface.
+// What every shader is told of the surface and the incident direction.
 function surfaceOf(distribution) {
+  const angle = radians(settings.theta);
   const scale = settings.median ? 1 / Number(optionOf(distribution).dataset.median) : 1;
   return {numbers: [0, tables], distribution, alpha: settings.alpha.map((alpha) => scale * alpha),
-          turn: radians(settings.turn)};
+          turn: radians(settings.turn), incident: [Math.sin(angle), 0, Math.cos(angle)]};
 }

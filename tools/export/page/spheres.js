@@ -34,7 +34,10 @@ const makePicture = (id, program, tells) =>
 function fitPicture(picture) {
   const size = pixelsOf(picture.canvas);
   if (size === picture.size) return;
-  picture.targets.forEach(freeTarget);
+  for (const {textures, buffer} of picture.targets) {
+    gl.deleteTexture(textures[0]);
+    gl.deleteFramebuffer(buffer);
+  }
   picture.targets = [0, 1].map(() => makeTarget(size, size, 1));
   picture.size = size;
   picture.drawn = 0;
@@ -59,18 +62,14 @@ function refinePicture(picture, surface, samples) {
 
 const sumsOf = ({targets, drawn}) => targets[drawn % 2];
 
-const luminance = (sums, i) => (0.2126 * sums[i] + 0.7152 * sums[i + 1] + 0.0722 * sums[i + 2]) / sums[i + 3];
+function lightsOf(picture) {
+  const [r, g, b, count] = readTarget(sumsOf(picture), 0);
+  return r.map((_, i) => (0.2126 * r[i] + 0.7152 * g[i] + 0.0722 * b[i]) / count[i]);
+}
 
 // Mean and spread of the picture's light, and how many of its pixels are no light.
 function lightOf(sphere) {
-  const sums = readTarget(sumsOf(sphere), 0);
-  let count = 0, sum = 0, squares = 0, faults = 0;
-  for (let i = 0; i < sums.length; i += 4, count++) {
-    const y = Math.min(luminance(sums, i), 4);
-    faults += !(y >= 0);
-    sum += y;
-    squares += y * y;
-  }
-  const mean = sum / count;
-  return {mean, spread: Math.sqrt(Math.max(squares / count - mean * mean, 0)), faults};
+  const lights = lightsOf(sphere).map((y) => Math.min(y, 4)), light = mean(lights);
+  return {light, spread: Math.sqrt(mean(lights.map((y) => (y - light) ** 2))),
+          light_faults: lights.filter((y) => !(y >= 0)).length};
 }

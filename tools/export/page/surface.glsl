@@ -29,10 +29,6 @@ vec3 random_at(uvec3 v) {
 }
 
 // A normal on a disc of radius 1, seen from above; equal areas are equal solid angles.
-vec2 disc_from_normal(vec3 wm) {
-    return wm.xy / (rim * sqrt(2.0 * (1.0 + wm.z)));
-}
-
 vec3 normal_from_disc(vec2 p) {
     float s2 = dot(p, p) * rim * rim;
     return vec3(p * rim * 2.0 * sqrt(max(1.0 - s2, 0.0)), max(1.0 - 2.0 * s2, 0.0));

@@ -1,0 +1,148 @@
+/* `vndf explore` writes one page that asks the network for nothing and is the same each time, whatever its tables are
+ * called; and in a headless Chromium, which compiles its shaders, what it draws and measures is right: the density
+ * integrates to 1, drawn normals have the mean that it says, none is turned away, the spheres have light on them.
+ * Without WebGL2 it says so, and a keyboard moves its sliders. Chromium takes a quarter of a minute for a setting where
+ * no GPU is: long_explore has four of them, and what engines make of them in one pass is near what samples say. */
+#include "harness/run_program.h"
+
+#define SHIPPED VNDF_SOURCE_DIR "/tables/"
+
+static const char *const parts[] = {" data-tv=\"0.00038\">hazy</option>", ">a&amp;b</option>",
+                                    "const int VNDF_STUDENT_T_2_5 = ", "What an engine makes of it in one pass",
+                                    "vndf_sampled vndf_sample(vndf_view view, float w1, float w2) {"},
+                         /* What is left of a frame, or may ask the network. */
+    *const none[] = {"{{",    "a&b",     "http:",   "https:",  "src=",  "url(h",    "url(/",
+                     "url('", "@import", "import(", "XMLHttp", "<link", "WebSocket"};
+
+/* Two of them have an albedo by quadrature for both surfaces; those of 48 samples a pixel are not too grainy. */
+static const char *const settings[] = {
+    "a=hazy&b=ggx&alpha=0.3&theta=60&frames=2",
+    "a=student-t-2.5&b=beckmann&alpha=0.05,0.4&turn=30&theta=80&median=1&light=studio&material=glass&frames=2",
+    "a=student-t-2.5&b=beckmann&alpha=0.3&theta=0&light=lamp&material=red&frames=1",
+    "a=hazy&b=ggx&alpha=0.3&light=sky&frames=48"};
+
+/* What a page measures, of the surfaces a and b where there is %c. */
+static const struct {
+    const char *name;
+    double low, high;
+    const char *of; /* part of the settings that it is for */
+} measures[] = {
+    {"drawn", 1, 48, ""},
+    {"error", 0, 0, ""},
+    {"%c_whole", 0.99, 1.01, ""},
+    {"%c_truth", 0.99, 1.01, ""},
+    {"%c_facing_to_density", 0.999, 1.001, ""},
+    {"%c_faults", 0, 0, ""},
+    {"%c_off", 0, 1e-4, ""},
+    {"%c_kept", 0.5, 1, ""},
+    {"%c_light", 0.005, 2, ""},
+    {"%c_spread", 0.02, 2, ""},
+    {"%c_light_faults", 0, 0, ""},
+    {"a_kept", 0.9841, 0.9881, "b=ggx"},
+    {"b_kept", 0.8196, 0.8236, "b=ggx"},
+    {"area_error", 0.001, 1, ""},
+    {"sky_error", 0.001, 1, ""},
+    {"area_error", 0.001, 0.08, "frames=48"},
+    {"sky_error", 0.001, 0.08, "frames=48"},
+};
+
+#ifdef __SANITIZE_ADDRESS__
+enum { DRAWS = 0 }; /* that would be the same without sanitizers */
+#else
+enum { DRAWS = 1 };
+#endif
+
+/* What Chromium makes of a page, with its scripts run; "" where there is none. To be freed. */
+static char *browse(const char *options, const char *page)
+{
+    char command[1000];
+    size_t size;
+    snprintf(
+        command, sizeof command,
+        "for c in chromium chromium-browser google-chrome; do command -v $c >/dev/null && exec timeout 250 $c "
+        "--headless --no-sandbox --hide-scrollbars --user-data-dir=profile --virtual-time-budget=1000 "
+        "--window-size=520,700 %s --dump-dom \"file://$PWD/%s\" 2>/dev/null; done >dom",
+        options, page);
+    TEST(system(command) >= 0);
+    char *dom = run_file("dom", &size);
+    TEST(dom && remove("dom") == 0);
+    return dom;
+}
+
+static void judge(const char *dom, const char *setting)
+{
+    char name[40], key[60];
+    for (size_t i = 0; i < 2 * (sizeof measures / sizeof *measures); i++) {
+        const double low = measures[i / 2].low, high = measures[i / 2].high;
+        snprintf(name, sizeof name, measures[i / 2].name, "ab"[i % 2]);
+        snprintf(key, sizeof key, "&quot;%s&quot;:", name);
+        const char *at = strstr(dom, key);
+        const double value = at ? strtod(at + strlen(key), NULL) : -1;
+        if (strstr(setting, measures[i / 2].of) && !TEST(value >= low && value <= high))
+            fprintf(stderr, "  %s: %s is %g, not from %g to %g\n", setting, name, value, low, high);
+    }
+}
+
+/* Each step of the keyboard moves a slider of roughness by one step, from end to end: a setting that is rounded and
+ * written back must not take the step back. */
+static int put_steps(char *text)
+{
+    char *body = strstr(text, "</body>");
+    FILE *file = fopen("steps.html", "w");
+    return body && file &&
+           fprintf(file,
+                   "%.*s<script>listen(() => {});\n"
+                   "const slider = byId('alpha-x'); let stuck = 0; slider.value = 0;\n"
+                   "for (let i = 1; i <= 200; i++) {\n"
+                   "slider.stepUp(); slider.dispatchEvent(new Event('input'));\n"
+                   "stuck += Math.abs(Number(slider.value) - i / 200) > 1e-6; }\n"
+                   "document.body.dataset.stuck = `${stuck} of 200, alpha ${settings.alpha[0]}`;</script>%s",
+                   (int)(body - text), text, body) > 0 &&
+           fclose(file) == 0;
+}
+
+/* What a browser makes of the page; without one the test is skipped. */
+static void look(char *text)
+{
+    TEST(put_steps(text));
+    char *dom = browse("--disable-3d-apis", "steps.html");
+    const int runs = strstr(dom, "</html>") != NULL;
+    if (runs) {
+        TEST_HAS(dom, "This browser has no WebGL2");
+        TEST_HAS(dom, "data-stuck=\"0 of 200, alpha 1\"");
+    } else {
+        puts("SKIPPED: no Chromium here to draw the page with");
+    }
+    free(dom);
+    for (size_t i = 0; i < (test_long() ? 4 : 1) && runs; i++) {
+        char page[200];
+        snprintf(page, sizeof page, "one.html#%s", settings[i]);
+        dom = browse("--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader", page);
+        judge(dom, settings[i]);
+        free(dom);
+    }
+    TEST(system("rm -rf profile steps.html") == 0);
+}
+
+int main(void)
+{
+    char folder[] = "explore.XXXXXX";
+    size_t size;
+    if (!run_begin(folder))
+        return test_done();
+    run_line(0, "",
+             "cp " SHIPPED "student-t-2.5-small.vndf 'a&b.vndf'; for page in one two; do vndf explore " SHIPPED
+             "hazy.vndf 'a&b.vndf' " SHIPPED "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
+             "cmp one.html two.html && rm two.html 'a&b.vndf'",
+             test_long() ? 32 : 4);
+    char *text = run_file("one.html", &size);
+    for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
+        TEST_HAS(text, parts[i]);
+    for (size_t i = 0; i < sizeof none / sizeof *none; i++)
+        TEST(!strstr(text, none[i]));
+    if (DRAWS)
+        look(text);
+    free(text);
+    TEST(remove("one.html") == 0);
+    return run_end(folder);
+}
