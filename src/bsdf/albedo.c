@@ -166,26 +166,20 @@ static void fill(vndf_albedo *albedo, const vndf_material *lobe, int lobes)
 
 vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta, vndf_error *error)
 {
-    if (!distribution) {
+    const vndf_info info = vndf_distribution_info(distribution);
+    const size_t letters = strlen(info.source) + 1;
+    vndf_albedo *albedo = NULL;
+    if (!distribution)
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "no distribution: NULL was given");
-        return NULL;
-    }
-    if (!(eta == 0.0f || (eta >= 0.01f && eta <= 100.0f && fabsf(eta - 1.0f) >= 1e-3f))) {
+    else if (!(eta == 0.0f || (eta >= 0.01f && eta <= 100.0f && fabsf(eta - 1.0f) >= 1e-3f)))
         vndf_fail(error, VNDF_ERROR_ARGUMENT,
                   "eta %g; 0 is a mirror, else it is from 0.01 to 100 and farther than 0.001 from 1", (double)eta);
-        return NULL;
-    }
-    vndf_info info = vndf_distribution_info(distribution);
-    if (!(info.scale >= 1e-6 && info.scale <= 1e6)) {
+    else if (!(info.scale >= 1e-6 && info.scale <= 1e6))
         vndf_fail(error, VNDF_ERROR_ARGUMENT, "the median slope is %g; from 1e-6 to 1e6 are possible", info.scale);
-        return NULL;
-    }
-    size_t letters = strlen(info.source) + 1;
-    vndf_albedo *albedo = malloc(sizeof *albedo + letters);
-    if (!albedo) {
+    else if (!(albedo = malloc(sizeof *albedo + letters)))
         vndf_fail(error, VNDF_ERROR_MEMORY, "no memory for a table of albedos");
+    if (!albedo)
         return NULL;
-    }
     *albedo = (vndf_albedo){.eta = eta, .scale = (float)info.scale, .from = eta > 0.0f ? 0.03f : 0.0f};
     memcpy(albedo->source, info.source, letters);
     vndf_description is = {.distribution = distribution, .alpha_x = 1.0f, .alpha_y = 1.0f, .wavelengths = 1};

@@ -101,33 +101,23 @@ VNDF_INLINE double masked(const vndf_bsdf *b, const event *e, int reflects)
 VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
     const struct vndf_hit_view *view = &b->own.view;
+    const vndf_normals_drawn law = b->material->is.effects.normals;
     vndf_drawn_normal n;
-    if (view->kind == VNDF_HIT_MIXTURE) {
-        n.wm = vndf_mixture_sample(&view->of.mixture, u1, u2, &n.density, NULL);
-        n.weight = n.density > 0.0f ? vndf_mixture_visible(&view->of.mixture, n.wm) / n.density : 0.0f;
-        return n;
-    }
-    switch (b->material->is.effects.normals) {
-    case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_sample_bounded(&view->of.one, u1, u2);
-    case VNDF_NORMALS_ALL: return vndf_sample_all(&view->of.one, u1, u2);
-    case VNDF_NORMALS_V_CAVITY: return vndf_sample_v_cavity(&view->of.one, u1, u2);
-    }
-    return vndf_sample_visible(&view->of.one, u1, u2);
+    if (view->kind != VNDF_HIT_MIXTURE)
+        return law == VNDF_NORMALS_VISIBLE ? vndf_sample_visible(&view->of.one, u1, u2)
+                                           : vndf_sample_by(&view->of.one, law, u1, u2);
+    n.wm = vndf_mixture_sample(&view->of.mixture, u1, u2, &n.density, NULL);
+    n.weight = n.density > 0.0f ? vndf_mixture_visible(&view->of.mixture, n.wm) / n.density : 0.0f;
+    return n;
 }
 
 VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
 {
     const struct vndf_hit_view *view = &b->own.view;
+    const vndf_normals_drawn law = b->material->is.effects.normals;
     if (view->kind == VNDF_HIT_MIXTURE)
         return vndf_mixture_pdf(&view->of.mixture, wm);
-    switch (b->material->is.effects.normals) {
-    case VNDF_NORMALS_VISIBLE: break;
-    case VNDF_NORMALS_BOUNDED: return vndf_pdf_bounded(&view->of.one, wm);
-    case VNDF_NORMALS_ALL: return vndf_pdf_all(&view->of.one, wm);
-    case VNDF_NORMALS_V_CAVITY: return vndf_pdf_v_cavity(&view->of.one, wm);
-    }
-    return vndf_pdf(&view->of.one, wm);
+    return law == VNDF_NORMALS_VISIBLE ? vndf_pdf(&view->of.one, wm) : vndf_pdf_by(&view->of.one, law, wm);
 }
 
 /* ---- samples ---- */

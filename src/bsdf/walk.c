@@ -49,18 +49,6 @@ static uint64_t hash(uint64_t x)
     return x ^ (x >> 31);
 }
 
-/* A seed from three uniform numbers, by all their bits. */
-static uint64_t seed_of(const float u[3])
-{
-    uint64_t seed = 0;
-    for (int i = 0; i < 3; i++) {
-        uint32_t bits;
-        memcpy(&bits, &u[i], sizeof bits);
-        seed = hash(seed + bits + STEP);
-    }
-    return seed;
-}
-
 static uint64_t next_bits(uint64_t *random)
 {
     return hash(*random += STEP);
@@ -121,9 +109,9 @@ VNDF_INLINE double reflectances(const vndf_bsdf *b, double cosine, double eta, d
     return vndf_mean_of(b->material, f);
 }
 
-/* Scatters at the normal that u1 and u2 draw, into the lobe that u3 says; returns the way back along the new ray, in
- * the frame of the side it is on, whose length does not drift over many events. */
-VNDF_INLINE vndf_vec3 bounce(const vndf_bsdf *b, ray *r, float u1, float u2, double u3)
+/* Scatters at the normal that u1 and u2 draw, into the lobe that u3 says; *back is the way back along the new ray, in
+ * the frame of the side it is on, whose length does not drift over many events. 0 where nothing is carried on. */
+VNDF_INLINE int bounce(const vndf_bsdf *b, ray *r, float u1, float u2, double u3, vndf_vec3 *back)
 {
     float weight;
     direction v = vndf_direction(r->from);
@@ -146,7 +134,8 @@ VNDF_INLINE vndf_vec3 bounce(const vndf_bsdf *b, ray *r, float u1, float u2, dou
         r->depth = other_depth(r->depth);
     }
     double per = -1.0 / sqrt(dot_of(e.up, e.up));
-    return vndf_vec3_of((float)(e.up.x * per), (float)(e.up.y * per), (float)(e.up.z * per));
+    *back = vndf_vec3_of((float)(e.up.x * per), (float)(e.up.y * per), (float)(e.up.z * per));
+    return vndf_mean_of(b->material, r->weight) > 0.0;
 }
 
 /* Two uniform numbers for the normal of an event, 24 bits each, as a renderer gives them; returns a third for its
@@ -157,12 +146,6 @@ static double next_numbers(const vndf_bsdf *b, ray *r, float u[2])
     u[0] = (float)(bits >> 40) * 0x1p-24f;
     u[1] = (float)((bits >> 16) & 0xFFFFFFu) * 0x1p-24f;
     return transmits(b) ? next_uniform(&r->random) : 0.0;
-}
-
-/* Nothing is carried on. */
-static int is_dark(const vndf_bsdf *b, const ray *r)
-{
-    return !(vndf_mean_of(b->material, r->weight) > 0.0);
 }
 
 /* ---- to a given direction ---- */
@@ -241,39 +224,42 @@ static float density_towards(const vndf_bsdf *b, vndf_vec3 wo)
 /* ---- samples ---- */
 
 /* A walk that leaves towards -back. On the other side all of space is turned about. */
-static void leave(const vndf_bsdf *b, const ray *r, vndf_vec3 back, vndf_scattered *s)
+static int leave(const vndf_bsdf *b, const ray *r, vndf_vec3 back, vndf_scattered *s)
 {
     vndf_vec3 wo = vndf_turned(back, r->turned ? 1.0f : -1.0f);
-    s->wo = vndf_turned(wo, b->own.side);
-    s->density = vndf_positive(density_towards(b, wo));
-    s->lobe = r->turned ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION;
-    s->wm = vndf_vec3_of(0.0f, 0.0f, 0.0f);
+    *s = (vndf_scattered){.wo = vndf_turned(wo, b->own.side),
+                          .density = vndf_positive(density_towards(b, wo)),
+                          .lobe = r->turned ? VNDF_LOBE_TRANSMISSION : VNDF_LOBE_REFLECTION};
     for (int i = 0; i < b->material->is.wavelengths; i++)
         s->weight[i] = vndf_density_from(r->weight[i] * (r->turned ? b->own.carried : 1.0));
+    return 1;
 }
 
-/* The first normal is drawn with u[0] and u[1], its lobe with u[2]; all other numbers are a hash of the three. */
+/* The first normal is drawn with u[0] and u[1], its lobe with u[2]; all other numbers are a hash of their bits. */
 static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 {
-    ray r = entering(&b->own.view.of.one, b->own.wi, b->own.eta, seed_of(u));
+    uint64_t seed = 0;
     float pair[2] = {u[0], u[1]};
     double lobe = (double)vndf_clamp_unit(u[2]);
     if (is_unbent(b)) {
-        s->wo = vndf_turned(b->own.wi, -b->own.side);
-        s->density = 1.0f;
-        s->lobe = VNDF_LOBE_STRAIGHT;
-        for (int i = 0; i < b->material->is.wavelengths; i++)
-            s->weight[i] = 1.0f;
+        *s = (vndf_scattered){.wo = vndf_turned(b->own.wi, -b->own.side),
+                              .weight = {1.0f, 1.0f, 1.0f, 1.0f},
+                              .density = 1.0f,
+                              .lobe = VNDF_LOBE_STRAIGHT};
         return 1;
     }
+    for (int i = 0; i < 3; i++) {
+        uint32_t bits;
+        memcpy(&bits, &u[i], sizeof bits);
+        seed = hash(seed + bits + STEP);
+    }
+    ray r = entering(&b->own.view.of.one, b->own.wi, b->own.eta, seed);
     for (unsigned order = 1; order <= b->material->is.order_limit; order++) {
-        vndf_vec3 back = bounce(b, &r, pair[0], pair[1], lobe);
-        if (is_dark(b, &r))
+        vndf_vec3 back;
+        if (!bounce(b, &r, pair[0], pair[1], lobe, &back))
             return 0;
-        if (!travel(b, &r, back)) {
-            leave(b, &r, back, s);
-            return 1;
-        }
+        if (!travel(b, &r, back))
+            return leave(b, &r, back, s);
         lobe = next_numbers(b, &r, pair);
     }
     return 0;
@@ -303,29 +289,10 @@ typedef struct end {
     int beyond; /* not on the side where walks from here begin to the other end */
 } end;
 
-static end end_at(const vndf_view *view, vndf_vec3 up, double eta, int beyond)
-{
-    end e = {eta, *view, up, (double)vndf_view_area(view, vndf_turned(up, -1.0f)) / (double)up.z, beyond};
-    return e;
-}
-
 /* The chance to leave towards an end, C1^Lambda, on either side. */
 static double leaving_from(double depth, int across, const end *to)
 {
     return vndf_exp(-(across ? other_depth(depth) : depth) * to->lambda);
-}
-
-/* The first order. The chance to leave has a mean in closed form, since C1 = U^(1/a) at the first event, a = 1 +
- * Lambda(wi): a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
-static void add_single(const vndf_bsdf *b, const end *from, const end *to, double *value)
-{
-    scattered s;
-    if (!scatter(b, &from->view, from->up, from->eta, to->up, to->beyond, &s))
-        return;
-    double a = 1.0 + from->lambda;
-    double leaving = to->beyond ? a * beta_of(a, 1.0 + to->lambda) : a / (a + to->lambda);
-    for (int i = 0; i < b->material->is.wavelengths; i++)
-        value[i] += s.value[i] * leaving;
 }
 
 /* One event and the way to the next; 0 if it leaves or nothing is left. *along is the way it took. */
@@ -333,9 +300,10 @@ static int step(const vndf_bsdf *b, ray *r, vndf_vec3 *along)
 {
     float u[2];
     double lobe = next_numbers(b, r, u);
-    vndf_vec3 back = bounce(b, r, u[0], u[1], lobe);
+    vndf_vec3 back;
+    int carries = bounce(b, r, u[0], u[1], lobe, &back);
     *along = vndf_turned(back, -1.0f);
-    return !is_dark(b, r) && travel(b, r, back);
+    return carries && travel(b, r, back);
 }
 
 /* Connects an event to the other end; `begin` is E at the beginning. */
@@ -374,23 +342,32 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
     }
 }
 
+/* The first order is scattering by one event. Its chance to leave has a mean in closed form, since C1 = U^(1/a) there,
+ * a = 1 + Lambda(wi): a/(a + Lambda(wo)), and on the other side a Beta(a, 1 + Lambda(wo)). */
 static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
     vndf_vec3 wo = vndf_turned(given, b->own.side), up = vndf_turned(wo, wo.z > 0.0f ? 1.0f : -1.0f);
-    int beyond = wo.z < 0.0f;
+    const int beyond = wo.z < 0.0f;
     if (is_unbent(b) || !(wo.z > 0.0f || (beyond && transmits(b))))
         return 0;
     if (pdf)
         *pdf = density_towards(b, wo);
     if (!value)
         return 1;
-    double f[VNDF_WAVELENGTHS] = {0.0}, cosine = (double)up.z, index = beyond ? b->own.eta * b->own.eta : 1.0;
-    vndf_view seen = vndf_affine_view_from(&b->own.surface, up);
-    end far = end_at(&seen, up, beyond ? 1.0 / b->own.eta : b->own.eta, beyond);
-    end near = end_at(&b->own.view.of.one, b->own.wi, b->own.eta, beyond);
-    add_single(b, &near, &far, f);
+    end near = {b->own.eta, b->own.view.of.one, b->own.wi, 0.0, beyond};
+    end far = {beyond ? 1.0 / b->own.eta : b->own.eta, vndf_affine_view_from(&b->own.surface, up), up, 0.0,
+               beyond};
+    for (end *e = &near; e; e = e == &near ? &far : NULL)
+        e->lambda = (double)vndf_view_area(&e->view, vndf_turned(e->up, -1.0f)) / (double)e->up.z;
+    scattered once = {{0.0}, 0.0};
+    double f[VNDF_WAVELENGTHS], a = 1.0 + near.lambda, cosine = (double)up.z;
+    double leaving = beyond ? a * beta_of(a, 1.0 + far.lambda) : a / (a + far.lambda);
+    if (!scatter(b, &near.view, near.up, near.eta, up, beyond, &once))
+        leaving = 0.0;
+    for (int i = 0; i < VNDF_WAVELENGTHS; i++)
+        f[i] = once.value[i] * leaving;
     add_walk(b, &near, &far, seed, 1.0, f);
-    add_walk(b, &far, &near, ~seed, index * cosine / (double)b->own.wi.z, f);
+    add_walk(b, &far, &near, ~seed, (beyond ? b->own.eta * b->own.eta : 1.0) * cosine / (double)b->own.wi.z, f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         value[i] = vndf_density_from(f[i] * (beyond ? b->own.carried : 1.0) / cosine);
     return 1;

@@ -1,7 +1,5 @@
 /* Normals that are drawn otherwise than by what wi sees alone: all of them, those of V-cavities, and visible ones that
- * reflect wi to above the horizon. Surfaces without a mean slope. */
-#include <float.h>
-
+ * reflect wi to above the horizon. Surfaces without a mean slope, from above. */
 #include "sampler/sampler.h"
 #include "sampler/state.h"
 
@@ -12,80 +10,25 @@ static double facing_of(const vndf_view *view, vndf_vec3 wm)
     return ((double)wi.x * wm.x + (double)wi.y * wm.y) + (double)wi.z * wm.z;
 }
 
-/* The visible density over another one. */
-static float quotient(const vndf_view *view, vndf_vec3 wm, float density)
+/* With the visible density over the drawn one. */
+static vndf_drawn_normal with_weight(const vndf_view *view, vndf_vec3 wm, float density)
 {
     float facing = most((float)facing_of(view, wm), 0.0f), area = most(vndf_view_own_area(view), 1e-37f);
-    return density > 0.0f ? vndf_view_ndf(view, wm) / density * (facing / area) : 0.0f;
+    const vndf_drawn_normal n = {wm, density,
+                                 density > 0.0f ? vndf_view_ndf(view, wm) / density * (facing / area) : 0.0f};
+    return n;
 }
 
-static vndf_drawn_normal no_normal(void)
-{
-    const vndf_drawn_normal none = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f};
-    return none;
-}
-
-/* The drawn normal on the surface, without a look at wi. */
+/* A drawn normal on the surface, as the frame places it. */
 static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, drawn n)
 {
     sampled_normal s = frame_sampled(*f, n);
-    vndf_drawn_normal d = {{s.x, s.y, s.z}, s.pdf, 0.0f};
-    d.weight = quotient(view, d.wm, d.density);
-    return d;
-}
-
-/* ---- all normals: what is seen straight from above ---- */
-
-static frame straight_frame(const vndf_view *view)
-{
-    return frame_of(vndf_state_of(view)->f.m, 0.0f, 0.0f, 1.0f);
-}
-
-static any_slope slope_at(const vndf_view *view, const frame *straight, float u2)
-{
-    const vndf_distribution *d = view->distribution;
-    if (d->kind == VNDF_KIND_TABLE)
-        return table_slope(table_of(d), table_view_of(table_of(d), *straight, 0), u2);
-    return d->kind == VNDF_KIND_GGX ? ggx_slope(u2) : beckmann_slope(u2);
-}
-
-vndf_drawn_normal vndf_sample_all(const vndf_view *view, float u1, float u2)
-{
-    if (!view->distribution)
-        return no_normal();
-    frame straight = straight_frame(view);
-    any_slope r = slope_at(view, &straight, vndf_clamp_unit(u2));
-    return on_surface(view, &straight, all_normals_draw(r, vndf_clamp_unit(u1)));
-}
-
-float vndf_pdf_all(const vndf_view *view, vndf_vec3 wm)
-{
-    return vndf_view_ndf(view, wm) * wm.z;
-}
-
-/* ---- V-cavities ---- */
-
-vndf_drawn_normal vndf_sample_v_cavity(const vndf_view *view, float u1, float u2)
-{
-    if (!view->distribution)
-        return no_normal();
-    const frame *f = &vndf_state_of(view)->f;
-    frame straight = straight_frame(view);
-    any_slope r = slope_at(view, &straight, vndf_clamp_unit(u2));
-    return on_surface(view, f, v_cavity_draw(r, f->ux, f->uy, f->uz, vndf_clamp_unit(u1)));
-}
-
-float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm)
-{
-    if (!view->distribution)
-        return 0.0f;
-    float level = view->wi.x * wm.x + view->wi.y * wm.y, up = view->wi.z * wm.z;
-    return vndf_pdf_all(view, wm) * v_cavity_share(level, up);
+    return with_weight(view, (vndf_vec3){s.x, s.y, s.z}, s.pdf);
 }
 
 /* ---- bounded normals ---- */
 
-/* Whether it is that of a table with the same roughness along and across, whose bounds follow; `can_bound`. */
+/* Whether it is that of a table with the same roughness along and across, whose bounds follow. */
 static int has_bounds(const vndf_view *view, table_bounds *b)
 {
     const vndf_state *s = vndf_state_of(view);
@@ -108,9 +51,18 @@ static number_box box_of(const vndf_view *view)
                                                      : beckmann_box(s->of.beckmann, ellipse_of(s->f.m));
 }
 
-static int can_bound(const vndf_view *view)
+static float pdf_bounded(const vndf_view *view, vndf_vec3 wm)
 {
-    return view->distribution && view->wi.z > 0.0f && vndf_state_of(view)->f.uz > 0.0f;
+    const vndf_state *s = vndf_state_of(view);
+    if (!(wm.z >= 0.0f) || !(2.0 * facing_of(view, wm) * wm.z > view->wi.z))
+        return 0.0f;
+    number_box box = box_of(view);
+    float kept = box.span1 * box.span2; /* of the visible normals like this one */
+    table_bounds b;
+    if (has_bounds(view, &b))
+        kept = table_bounded_inside(table_of(view->distribution), s->of.table, b,
+                                    frame_normal(s->f, wm.x, wm.y, wm.z));
+    return frame_density(s->f, vndf_pdf(view, wm) / kept);
 }
 
 /* At the edges of the square rounding may take wo to below the horizon: then wm is that of a wo just above it, and has
@@ -123,19 +75,13 @@ static vndf_drawn_normal raised(const vndf_view *view, vndf_drawn_normal n)
     float x = 2.0f * (float)facing * n.wm.x, y = 2.0f * (float)facing * n.wm.y, z = view->wi.z + 1e-6f;
     float per = 1.0f / root(x * x + y * y + z * z);
     n.wm = (vndf_vec3){x * per, y * per, z * per};
-    n.density = vndf_pdf_bounded(view, n.wm);
-    n.weight = quotient(view, n.wm, n.density);
-    return n;
+    return with_weight(view, n.wm, pdf_bounded(view, n.wm));
 }
 
-vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
+static vndf_drawn_normal sample_bounded(const vndf_view *view, float u1, float u2)
 {
-    if (!can_bound(view))
-        return no_normal();
     const vndf_state *s = vndf_state_of(view);
     table_bounds bounds;
-    u1 = vndf_clamp_unit(u1);
-    u2 = vndf_clamp_unit(u2);
     if (has_bounds(view, &bounds)) {
         drawn n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
         return raised(view, on_surface(view, &s->f, n));
@@ -147,16 +93,33 @@ vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2)
     return d;
 }
 
-float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm)
+/* ---- by law ---- */
+
+/* All normals are what is seen straight from above; those of V-cavities are made of them. */
+vndf_drawn_normal vndf_sample_by(const vndf_view *view, vndf_normals_drawn law, float u1, float u2)
 {
-    if (!can_bound(view) || !(wm.z >= 0.0f) || !(2.0 * facing_of(view, wm) * wm.z > view->wi.z))
-        return 0.0f;
-    const vndf_state *s = vndf_state_of(view);
-    number_box box = box_of(view);
-    float kept = box.span1 * box.span2; /* of the visible normals like this one */
-    table_bounds b;
-    if (has_bounds(view, &b))
-        kept = table_bounded_inside(table_of(view->distribution), s->of.table, b,
-                                    frame_normal(s->f, wm.x, wm.y, wm.z));
-    return frame_density(s->f, vndf_pdf(view, wm) / kept);
+    const vndf_distribution *d = view->distribution;
+    const frame *f = &vndf_state_of(view)->f;
+    u1 = vndf_clamp_unit(u1);
+    u2 = vndf_clamp_unit(u2);
+    if (law == VNDF_NORMALS_BOUNDED && f->uz > 0.0f)
+        return sample_bounded(view, u1, u2);
+    frame straight = frame_of(f->m, 0.0f, 0.0f, 1.0f);
+    any_slope r = d->kind == VNDF_KIND_GGX ? ggx_slope(u2)
+                  : d->kind == VNDF_KIND_BECKMANN
+                      ? beckmann_slope(u2)
+                      : table_slope(table_of(d), table_view_of(table_of(d), straight, 0), u2);
+    if (law == VNDF_NORMALS_V_CAVITY)
+        return on_surface(view, f, v_cavity_draw(r, f->ux, f->uy, f->uz, u1));
+    return on_surface(view, &straight, all_normals_draw(r, u1));
+}
+
+float vndf_pdf_by(const vndf_view *view, vndf_normals_drawn law, vndf_vec3 wm)
+{
+    const float all = vndf_view_ndf(view, wm) * wm.z;
+    if (law == VNDF_NORMALS_BOUNDED && vndf_state_of(view)->f.uz > 0.0f)
+        return pdf_bounded(view, wm);
+    if (law == VNDF_NORMALS_V_CAVITY)
+        return all * v_cavity_share(view->wi.x * wm.x + view->wi.y * wm.y, view->wi.z * wm.z);
+    return all;
 }

@@ -3,7 +3,7 @@
 #ifndef VNDF_SAMPLER_SAMPLER_H
 #define VNDF_SAMPLER_SAMPLER_H
 
-#include "vndf.h"
+#include "vndf_bsdf.h"
 
 /* vndf_affine_view_from in place: a view that is copied after it was written costs the time of the stores. `plain`: the
  * surface has roughness alone, and gets the bits of vndf_view_from. */
@@ -30,18 +30,11 @@ typedef struct vndf_drawn_normal {
 /* Visible normals: vndf_sample_weight; the density is vndf_pdf. */
 vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2);
 
-/* Visible normals that reflect wi to above the horizon (wi.z > 0); no sample is lost. Surfaces without a mean slope. */
-vndf_drawn_normal vndf_sample_bounded(const vndf_view *view, float u1, float u2);
-float vndf_pdf_bounded(const vndf_view *view, vndf_vec3 wm);
-
-/* All normals, density D cos(theta_m); `weight` is (visible density)/density. Surfaces without a mean slope. */
-vndf_drawn_normal vndf_sample_all(const vndf_view *view, float u1, float u2);
-float vndf_pdf_all(const vndf_view *view, vndf_vec3 wm);
-
-/* Visible normals of V-cavities: density D G1 max(0, wi.wm)/cos_i, G1 = min(1, 2 cos_m cos_i/(wi.wm)); wi.z >= 0.
- * `weight` is D (wi.wm)/A(wi) over the density. Surfaces without a mean slope. */
-vndf_drawn_normal vndf_sample_v_cavity(const vndf_view *view, float u1, float u2);
-float vndf_pdf_v_cavity(const vndf_view *view, vndf_vec3 wm);
+/* The other normals of vndf_bsdf.h; `weight` is (visible density)/density. All normals have the density D
+ * cos(theta_m), those of V-cavities D G1 max(0, wi.wm)/cos_i with G1 = min(1, 2 cos_m cos_i/(wi.wm)). Of valid views of
+ * surfaces without a mean slope, wi.z > 0. */
+vndf_drawn_normal vndf_sample_by(const vndf_view *view, vndf_normals_drawn law, float u1, float u2);
+float vndf_pdf_by(const vndf_view *view, vndf_normals_drawn law, vndf_vec3 wm);
 
 /* G2 from both G1. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model);

@@ -2,6 +2,8 @@
  * forms of file; the seed and the number are those asked for; a diagonal matrix prints the bytes of its roughness. It
  * notices an option that is not used, numbers that are exchanged, and a family that is taken at another parameter. */
 #include "harness/run_program.h"
+
+#include "cli/files.h"
 #include "vndf.h"
 
 static char text[RUN_TEXT], other[RUN_TEXT];
@@ -14,19 +16,12 @@ static char *samples(char into[RUN_TEXT], const char *words)
     return run_said(into, "vndf sample %s -n 100 -o -", words);
 }
 
-static void test_same(const char *a, const char *b)
-{
-    if (!TEST(strlen(a) > 100 && strcmp(a, b) == 0))
-        fprintf(stderr, "%.200s\n---\n%.200s\n", a, b);
-}
-
 /* What is seen from theta and phi, degrees. */
 static void test_densities(const char *words, const vndf_mixture *surface, double theta, double phi)
 {
     static const char header[] = "wm.x,wm.y,wm.z,pdf\n";
-    const double degree = PI / 180;
-    const vndf_vec3 wi = {(float)(sin(theta * degree) * cos(phi * degree)),
-                          (float)(sin(theta * degree) * sin(phi * degree)), (float)cos(theta * degree)};
+    const double t = theta * PI / 180, p = phi * PI / 180;
+    const vndf_vec3 wi = {(float)(sin(t) * cos(p)), (float)(sin(t) * sin(p)), (float)cos(t)};
     const vndf_mixture_view view = vndf_mixture_view_from(surface, wi);
     double x, y, z, pdf;
     int count = 0, length = 0;
@@ -63,23 +58,20 @@ static void test_surfaces(void)
 static void test_files(void)
 {
     size_t size;
-    float first[4];
+    float first[4], raw[4] = {0};
     run_said(text, "vndf sample table" ROUGH " -n 1e2 --seed=1 -o a.csv");
     run_said(text, "vndf sample table" ROUGH " -n 100 -o a.f32");
     TEST(strcmp(samples(text, "table" ROUGH), run_said(other, "cat a.csv")) == 0);
     TEST(strcmp(text, samples(other, "table" ROUGH " --seed 2")) != 0);
     TEST(sscanf(strchr(text, '\n'), "%f,%f,%f,%f", &first[0], &first[1], &first[2], &first[3]) == 4);
-    unsigned char *raw = (unsigned char *)run_file("a.f32", &size);
-    for (int i = 0; TEST(raw && size == 1600) && i < 4; i++) {
-        unsigned bits, found = 0;
-        memcpy(&bits, &first[i], sizeof bits);
-        for (int k = 0; k < 4; k++)
-            found |= (unsigned)raw[4 * i + k] << 8 * k;
-        TEST(found == bits);
-    }
-    free(raw);
-    test_same(samples(text, "ggx" ROUGH), samples(other, "ggx --theta 60 --phi 30 --matrix 0.1,0,0,0.3"));
-    test_same(samples(text, "table" ROUGH), samples(other, "table --theta 60 --phi 30 --matrix 0.1,0,0,0.3"));
+    char *bytes = run_file("a.f32", &size);
+    for (size_t i = 0; TEST(bytes && size == 1600) && i < 4; i++)
+        raw[i] = (float)little_number((const unsigned char *)bytes + 4 * i, 4);
+    TEST(memcmp(raw, first, sizeof raw) == 0);
+    free(bytes);
+    TEST(strcmp(text, samples(other, "table --theta 60 --phi 30 --matrix 0.1,0,0,0.3")) == 0);
+    samples(text, "ggx" ROUGH);
+    TEST(strlen(text) > 100 && strcmp(text, samples(other, "ggx --theta 60 --phi 30 --matrix 0.1,0,0,0.3")) == 0);
 }
 
 int main(void)

@@ -195,6 +195,7 @@ static void test_any(void)
     if (TEST(fine && small)) {
         method_reference reference = method_reference_of(fine, "fine");
         test_unbiased(method_all_normals(&reference), &reference);
+        test_unbiased(method_warp(&reference), &reference);
         test_error(&reference, small);
     }
     vndf_free(fine);

@@ -46,6 +46,12 @@ static const struct {
     {"sky_error", 0.001, 0.08, "frames=48"},
 };
 
+#ifdef __SANITIZE_ADDRESS__
+enum { DRAWS = 0 }; /* that would be the same without sanitizers */
+#else
+enum { DRAWS = 1 };
+#endif
+
 /* What Chromium makes of a page, with its scripts run; "" where there is none. To be freed. */
 static char *browse(const char *options, const char *page)
 {
@@ -134,11 +140,8 @@ int main(void)
         TEST_HAS(text, parts[i]);
     for (size_t i = 0; i < sizeof none / sizeof *none; i++)
         TEST(!strstr(text, none[i]));
-#ifdef __SANITIZE_ADDRESS__
-    puts("the page is not drawn: that would be the same without sanitizers");
-#else
-    look(text);
-#endif
+    if (DRAWS)
+        look(text);
     free(text);
     TEST(remove("one.html") == 0);
     return run_end(folder);

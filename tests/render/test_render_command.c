@@ -3,9 +3,7 @@
  * number of threads; another seed gives another. Notices options that are not read, sums in the order of
  * arrival, a picture that is half written, text mixed into JSON, and a comparison that alarms about one sample a
  * pixel. */
-#if defined(__unix__) || defined(__APPLE__)
-#  define _XOPEN_SOURCE 700
-#  include "harness/run_program.h"
+#include "harness/run_program.h"
 
 static void test_refusals(void)
 {
@@ -59,12 +57,3 @@ int main(void)
     TEST(system("rm *.scene *.pfm *.png") == 0);
     return run_end(folder);
 }
-#else
-#  include <stdio.h>
-
-int main(void)
-{
-    puts("SKIPPED: there are no processes as POSIX has them");
-    return 0;
-}
-#endif

@@ -6,23 +6,12 @@
 #include "source/sources.h"
 #include "source/words.h"
 
-/* The formula with those of these parameters that it names. */
-static vndf_source *formula(const char *text, vndf_error *error)
-{
-    static const vndf_parameter all[] = {{"a", 0.3}, {"gamma", 2.5}, {"b_1", -2}};
-    static const char *const places[] = {"a*", "gamma)", "b_1"};
-    vndf_parameter used[3];
-    size_t count = 0;
-    for (size_t i = 0; text && i < 3; i++)
-        if (strstr(text, places[i]))
-            used[count++] = all[i];
-    return vndf_source_slope_expression(text, used, count, error);
-}
-
+/* Of a formula, or of words of `vndf build`. */
 static double value_of(const char *text, double r)
 {
     vndf_error error = {VNDF_OK, ""};
-    vndf_source *source = made(formula(text, &error), &error, text);
+    int words = strncmp(text, "--slope ", 8) == 0;
+    vndf_source *source = words ? made(vndf_source_from_description(text, &error), &error, text) : slope_of(text);
     double value = vndf_source_p22(source, r);
     vndf_source_free(source);
     return value;
@@ -49,10 +38,10 @@ static void test_values(void)
         {"--+-1", -1},
         {".5 + 1. + 1e-1+1E+1", 11.6},
         {"pi", PI},
-        {"a*b_1", -0.6},
+        {"--slope a*b_1 --set a=0.3 --set b_1=-2", -0.6},
         {"\t r \n", r},
-        {"gamma(gamma)", tgamma(2.5)},
-        {"exp(-a*r)", exp(-0.3 * r)},
+        {"--slope gamma(gamma) --set gamma=2.5", tgamma(2.5)},
+        {"--slope exp(-a*r) --set a=0.3", exp(-0.3 * r)},
         {"log(r)+sqrt(r)", log(r) + sqrt(r)},
         {"log1p(1e-20*r)", 1e-20 * r},
         {"sin(r)*cos(r)*tan(r)", sin(r) * cos(r) * tan(r)},
@@ -137,7 +126,7 @@ static const char *repeated(size_t count, const char *piece, size_t closed)
 static void refuse(const char *text, const char *message)
 {
     vndf_error error = {VNDF_OK, ""};
-    refused(formula(text, &error), &error, VNDF_ERROR_SYNTAX, message);
+    refused(vndf_source_slope_expression(text, NULL, 0, &error), &error, VNDF_ERROR_SYNTAX, message);
 }
 
 static void test_limits(void)

@@ -118,38 +118,33 @@ static int read_choices(const arguments *given, struct option *o, const char *va
 /* ---- reading ------------------------------------------------------------------------------------- */
 
 /* The option that an unknown one may be: "-a" is --alpha, "--lang" --language, "--thta" --theta, "--bytes" --max-bytes,
- * "--output" -o. */
-static const char *nearest_option(const arguments *given, const char *word, size_t length)
-{
-    const char *names[OPTIONS_MAX], *short_one = NULL, letter = word[strspn(word, "-")];
-    char name[32];
-    const int is_letter = word[1] == letter ? length == 2 : length == 3;
-    for (size_t i = 0; i < given->options; i++) {
-        names[i] = given->option[i].name;
-        if (is_letter ? names[i][1] == '-' && names[i][2] == letter : strncmp(names[i], word, length) == 0)
-            return names[i];
-        short_one = names[i][1] == letter && !names[i][2] ? names[i] : short_one;
-    }
-    snprintf(name, sizeof name, "%.*s", (int)length, word);
-    const char *near = is_letter ? NULL : nearest_word(name, names, given->options);
-    for (size_t i = 0; i < given->options && length > 4 && !near; i++)
-        near = strstr(names[i], name + strspn(name, "-")) ? names[i] : NULL;
-    return near ? near : short_one;
-}
-
-/* `value` is what it was given, or the word behind it, or NULL; 0. */
+ * "--output" -o; "-a 3" is --set a=3. `value` is what it was given, or the word behind it, or NULL; 0. */
 static int refuse_option(const arguments *given, const char *word, size_t length, const char *value)
 {
-    const char *hint = nearest_option(given, word, length), letter = word[strspn(word, "-")];
-    const int shown = (int)length;
-    if (isalpha((unsigned char)letter) && length <= 3 && value && isdigit((unsigned char)*value) &&
+    const char *names[OPTIONS_MAX], *hint = NULL, *short_one = NULL, *bare = word + strspn(word, "-");
+    const int letters = (int)length - (int)(bare - word);
+    char name[32];
+    for (size_t i = 0; i < given->options; i++) {
+        const char *its = names[i] = given->option[i].name;
+        if (!hint && (letters == 1 ? its[1] == '-' && its[2] == *bare : strncmp(its, word, length) == 0))
+            hint = its;
+        short_one = its[1] == *bare && !its[2] ? its : short_one;
+    }
+    snprintf(name, sizeof name, "%.*s", (int)length, word);
+    if (!hint && letters > 1)
+        hint = nearest_word(name, names, given->options);
+    for (size_t i = 0; i < given->options && length > 4 && !hint; i++)
+        hint = strstr(names[i], name + strspn(name, "-")) ? names[i] : NULL;
+    hint = hint ? hint : short_one;
+    if (letters == 1 && isalpha((unsigned char)*bare) && value && isdigit((unsigned char)*value) &&
         find_option(given, "--set", 5))
-        complain(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", shown, word, letter,
-                 value);
+        complain(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", (int)length, word,
+                 *bare, value);
     else if (hint)
-        complain(given->command, "there is no option '%.*s'; did you mean '%s'?", shown, word, hint);
+        complain(given->command, "there is no option '%.*s'; did you mean '%s'?", (int)length, word, hint);
     else
-        complain(given->command, "there is no option '%.*s'; `%s --help` lists them", shown, word, given->command);
+        complain(given->command, "there is no option '%.*s'; `%s --help` lists them", (int)length, word,
+                 given->command);
     return 0;
 }
 

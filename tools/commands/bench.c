@@ -17,7 +17,7 @@ static const char *const help[] = {
     "\n"
     "Times view, sample and density of every method, one by one and in batches, and measures their error, largest\n"
     "weight and efficiency: closed forms of GGX and Beckmann beside what is published; for the distribution that is\n"
-    "named, tables of 2, 4 and 8 KiB with 2, 3 and 4 moments, one of 32 KiB, and all normals, the published way.\n"
+    "named, tables of 2, 4 and 8 KiB with 2, 3 and 4 moments, one of 32 KiB, and the published ways for any D.\n"
     "All take turns in one process, with random directions over the hemisphere and random roughness, data in cache;\n"
     "results are verified before they count.\n"
     "\n"

@@ -81,7 +81,7 @@ static int print_list(void)
 
 /* ---- files of measurements ----------------------------------------------------------------------- */
 
-enum { MEASURED_BYTES = 1 << 28, NOTES = sizeof((data_file *)0)->notes };
+enum { MEASURED_BYTES = 1 << 28 };
 
 static int height_slopes(const arguments *given, data_file *file, slope_set *slopes)
 {
@@ -90,19 +90,17 @@ static int height_slopes(const arguments *given, data_file *file, slope_set *slo
     double step[2] = {1, 1};
     size_t steps = 1;
     image field;
-    if (!option_count(given, "--cutoff", 2, CUTOFF_MAX, &cutoff))
-        return 0;
-    if (apart)
-        steps = parse_numbers(name, "--step", apart, 1e-30, 1e30, 1, 2, step);
-    if (!steps || !heights_read(file, &field))
+    if (!option_count(given, "--cutoff", 2, CUTOFF_MAX, &cutoff) ||
+        (apart && !(steps = parse_numbers(name, "--step", apart, 1e-30, 1e30, 1, 2, step))) ||
+        !heights_read(file, &field))
         return 0;
     step[1] = step[steps - 1];
     note(file, "heights %d x %d, %.6g x %.6g apart", field.width, field.height, step[0], step[1]);
     if (cutoff)
         note(file, "cutoff %llu", cutoff);
-    int good =
-        !cutoff || heights_smooth(&field, (int)cutoff) || refuse(file, "there is no memory for the cut-off");
-    good = good && heights_slopes(&field, step, (int)cutoff / 2, slopes, file);
+    const int good =
+        (!cutoff || heights_smooth(&field, (int)cutoff) || refuse(file, "there is no memory for the cut-off")) &&
+        heights_slopes(&field, step, (int)cutoff / 2, slopes, file);
     image_free(&field);
     return good;
 }
@@ -140,31 +138,30 @@ static int finish_measured(const arguments *given, const data_file *file, const 
         return 1;
     if (!output_open(&output, name, profile_path))
         return 0;
-    if (profile_write(output.file, rows, vndf_source_description(source)))
-        return output_commit(&output) == STATUS_GOOD;
-    return output_give_up(&output, "no place on the disk"), 0;
+    return (profile_write(output.file, rows, vndf_source_description(source))
+                ? output_commit(&output)
+                : output_give_up(&output, "no place on the disk")) == STATUS_GOOD;
 }
 
-/* What was found on the way goes to found[], as lines of a key and a value. NULL after a complaint. */
-static vndf_source *measured_source(const arguments *given, char found[NOTES])
+/* What was found on the way is in the notes of the file. NULL after a complaint. */
+static vndf_source *measured_source(const arguments *given, data_file *file)
 {
-    data_file file = {.name = option_value(given, option_among(given, measured))};
     profile rows = {0};
     vndf_source *source = NULL;
-    char *bytes = input_read(name, file.name, MEASURED_BYTES, &file.size);
-    file.bytes = (const unsigned char *)bytes;
-    if (bytes && read_rows(given, &file, &rows))
-        source = profile_source(&rows, &file);
-    if (!source && file.refused[0])
-        complain(name, "%s", file.refused);
-    const char *implausible = source ? strstr(file.notes, "implausible ") : NULL;
+    file->name = option_value(given, option_among(given, measured));
+    char *bytes = input_read(name, file->name, MEASURED_BYTES, &file->size);
+    file->bytes = (const unsigned char *)bytes;
+    if (bytes && read_rows(given, file, &rows))
+        source = profile_source(&rows, file);
+    if (!source && file->refused[0])
+        complain(name, "%s", file->refused);
+    const char *implausible = source ? strstr(file->notes, "implausible ") : NULL;
     if (implausible)
-        complain(name, "%s: %.*s", file.name, (int)strcspn(implausible, "\n"), implausible);
-    if (source && !finish_measured(given, &file, &rows, source)) {
+        complain(name, "%s: %.*s", file->name, (int)strcspn(implausible, "\n"), implausible);
+    if (source && !finish_measured(given, file, &rows, source)) {
         vndf_source_free(source);
         source = NULL;
     }
-    memcpy(found, file.notes, NOTES);
     profile_free(&rows);
     free(bytes);
     return source;
@@ -280,27 +277,23 @@ static int check_words(const arguments *given)
 
 static int run(const arguments *given)
 {
-    char found[NOTES] = "";
-    const char *path = option_value(given, "-o");
+    const int is_family = option_value(given, "--parameter") != NULL;
+    data_file file = {.notes = ""};
     chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
     output_file output;
+    int status = STATUS_USE;
     if (option_value(given, "--list"))
         return print_list();
     if (!check_words(given))
         return STATUS_USE;
-    if (option_among(given, measured))
-        source = measured_source(given, found);
-    else if (!option_value(given, "--parameter"))
-        source = source_from_words(given, NULL);
-    if (!source && !option_value(given, "--parameter"))
-        return STATUS_USE;
-    int status = STATUS_USE;
-    if (output_open(&output, name,
-                    path)) /* before the work, so that a place that cannot be written is told first */
+    if (!is_family)
+        source = option_among(given, measured) ? measured_source(given, &file) : source_from_words(given, NULL);
+    /* Opened before the work, so that a place that cannot be written is told first. */
+    if ((source || is_family) && output_open(&output, name, option_value(given, "-o")))
         status = build(given, source, &made) ? save(&made, &output) : output_give_up(&output, NULL);
     if (status == STATUS_GOOD)
-        status = tell(given, &made, found);
+        status = tell(given, &made, file.notes);
     distribution_close(&made);
     vndf_source_free(source);
     return status;

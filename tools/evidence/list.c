@@ -105,6 +105,7 @@ static void list_normals(evidence *to)
         add_calls(to, at_hand, to->plan->at_hand->table[i], table_sizes[i].name, METHOD_SAMPLE,
                   i == SIZE_DEFAULT ? METHOD_EXPORTED : METHOD_SAMPLE);
     add(to, at_hand, method_all_normals(at_hand));
+    add(to, at_hand, method_warp(at_hand));
     for (evidence_row *r = to->row; r < to->row + to->count; r++) {
         r->beside = caps;
         r->normals = find(to, "all normals (2007)", r->of);

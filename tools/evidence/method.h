@@ -130,6 +130,7 @@ void method_release(method *m);
 method method_ggx_caps(void);
 void method_caps_batch(const method *m, block *b);
 method method_all_normals(const method_reference *reference);
+method method_warp(const method_reference *reference);
 
 /* Ours. */
 method method_ours(const vndf_distribution *d, const char *name, method_call call);

@@ -41,15 +41,15 @@ static double pixel_light(const image *map, int x, int y)
     return sum;
 }
 
+/* The cosines at the top of a row of pixels, and by how much they fall across it. */
 static double row_top(const image *map, size_t y)
 {
     return cos(PI * (double)y / map->height);
 }
 
-/* The part of the sphere that a pixel fills. */
-static double pixel_part(const image *map, size_t y)
+static double row_fall(const image *map, size_t y)
 {
-    return (row_top(map, y) - row_top(map, y + 1)) / (2.0 * map->width);
+    return row_top(map, y) - row_top(map, y + 1);
 }
 
 /* 0 if there is no memory. An image is drawn if the mean square of its light is `even` times the square of its mean:
@@ -62,7 +62,7 @@ static int sum_up(environment *e)
     e->sums = malloc(count * sizeof *e->sums);
     for (size_t i = 0; i < count && e->sums; i++) {
         const double here = pixel_light(e->map, (int)(i % width), (int)(i / width));
-        const double part = pixel_part(e->map, i / width);
+        const double part = row_fall(e->map, i / width) / (2.0 * e->map->width); /* of the sphere */
         e->sums[i] = sum += here * part;
         square += here * here * part;
     }
@@ -76,10 +76,11 @@ static int sum_up(environment *e)
     return is_made;
 }
 
-static double pixel_density(const environment *e, size_t i)
+/* In pixel i, whose row has this fall. */
+static double pixel_density(const environment *e, size_t i, double fall)
 {
     const double chance = e->sums[i] - (i ? e->sums[i - 1] : 0);
-    return chance / (4 * PI * pixel_part(e->map, i / (size_t)e->map->width));
+    return e->part * chance * e->map->width / (2 * PI * fall);
 }
 
 /* The pixel of the first sum above u, which gives the place across it, too. */
@@ -95,12 +96,13 @@ static int draw_environment(const environment *e, double u, double v, light_samp
             low = middle + 1;
     }
     const double before = low ? e->sums[low - 1] : 0, across = (u - before) / (e->sums[low] - before);
-    const double top = row_top(e->map, low / width), height = top + v * (row_top(e->map, low / width + 1) - top);
+    const double top = row_top(e->map, low / width), fall = top - row_top(e->map, low / width + 1);
+    const double height = top - v * fall;
     const double longitude = 2 * PI * (((double)(low % width) + across) / e->map->width - 0.5 - e->turn);
     const double sine = sqrt(fmax(1 - height * height, 0));
     sample->direction = vec(sine * sin(longitude), height, -sine * cos(longitude));
     sample->distance = HUGE_VAL;
-    sample->density = e->part * pixel_density(e, low);
+    sample->density = pixel_density(e, low, fall);
     environment_radiance(e, sample->direction, sample->radiance);
     return sample->density > 0;
 }
@@ -201,5 +203,5 @@ double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h)
     place_in_image(e, direction, &u, &v);
     const int x = (int)fmin(u * e->map->width, e->map->width - 1);
     const int y = (int)fmin(v * e->map->height, e->map->height - 1);
-    return e->part * pixel_density(e, (size_t)y * (size_t)e->map->width + (size_t)x);
+    return pixel_density(e, (size_t)y * (size_t)e->map->width + (size_t)x, row_fall(e->map, (size_t)y));
 }

@@ -32,6 +32,12 @@ static vndf_jet unsmooth(vndf_interval value, vndf_jet x)
     return x.constant ? constant(value) : (vndf_jet){0, {value, all, all, all}};
 }
 
+/* Whether 0 lies in the value, ends included. */
+static int vanishes(vndf_jet x)
+{
+    return x.at[0].low.m <= 0 && x.at[0].high.m >= 0;
+}
+
 /* ---- arithmetic ---- */
 
 static vndf_jet negative(vndf_jet x)
@@ -84,7 +90,7 @@ static vndf_jet product(vndf_jet x, vndf_jet y)
 static vndf_jet quotient(vndf_jet x, vndf_jet y)
 {
     vndf_jet z = {0, {vndf_interval_quotient(x.at[0], y.at[0])}};
-    if (vndf_interval_vanishes(y.at[0]))
+    if (vanishes(y))
         return unsmooth(z.at[0], x.constant ? y : x);
     if (y.constant)
         return multiple(x, vndf_interval_quotient(vndf_interval_from(1, 1), y.at[0]));
@@ -171,7 +177,7 @@ static vndf_jet power_by_products(vndf_jet x, int n)
 static vndf_jet power(vndf_jet x, double p)
 {
     enum { PRODUCTS = 1 << 20 };
-    if (!vndf_interval_vanishes(x.at[0]) && (x.at[0].low.m > 0 || p == floor(p)))
+    if (!vanishes(x) && (x.at[0].low.m > 0 || p == floor(p)))
         return power_off_zero(x, p);
     if (p == floor(p) && p >= 0 && p < PRODUCTS)
         return power_by_products(x, (int)p);

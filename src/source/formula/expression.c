@@ -38,8 +38,7 @@ static double combined(const vndf_instruction *at, double x, double y)
     case '*': return x * y;
     case '/': return x / y;
     case '^': return y == 2.0 ? x * x : pow(x, y); /* squares are common, and powers slow */
-    case VNDF_NEGATE: return -x;
-    default: return at->change ? vndf_functions[at->function].two(x, y) : vndf_functions[at->function].one(x);
+    default: return vndf_functions[at->function].two(x, y);
     }
 }
 
@@ -48,12 +47,21 @@ void vndf_expression_run(const vndf_expression *expression, vndf_points *variabl
     vndf_points stack[VNDF_EXPRESSION_STACK], *top = stack; /* behind the last operand */
     for (const vndf_instruction *at = expression->program; at < expression->program + expression->count; at++) {
         top += at->change;
-        double *x = top[-1], *y = at->change < 0 ? *top : x;
+        double *x = top[-1];
         if (at->operation == VNDF_PUSH_VARIABLE)
             memcpy(x, variables[at->variable], count * sizeof *x);
+        else if (at->operation == VNDF_PUSH_NUMBER)
+            for (size_t i = 0; i < count; i++)
+                x[i] = at->number;
+        else if (at->operation == VNDF_NEGATE)
+            for (size_t i = 0; i < count; i++)
+                x[i] = -x[i];
+        else if (at->change == 0)
+            for (size_t i = 0; i < count; i++)
+                x[i] = vndf_functions[at->function].one(x[i]);
         else
             for (size_t i = 0; i < count; i++)
-                x[i] = at->change > 0 ? at->number : combined(at, x[i], y[i]);
+                x[i] = combined(at, x[i], (*top)[i]);
     }
     memcpy(values, stack[0], count * sizeof *values);
 }

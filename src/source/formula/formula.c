@@ -3,7 +3,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "core/error.h"
 #include "source/formula/expression.h"
@@ -23,21 +22,6 @@ typedef struct formula_source {
     vndf_lobe lobe[VNDF_LOBES];
     size_t count;
 } formula_source;
-
-/* ---- the two kinds of formula ---- */
-
-static const char *const names_of_p22[] = {"r"}, *const names_of_ndf[VNDF_VARIABLES] = {"c", "theta", "t"};
-
-static void set_variables(vndf_formula_of of, const double *r, size_t count, vndf_points *variables)
-{
-    if (of == VNDF_FORMULA_OF_P22)
-        memcpy(variables[0], r, count * sizeof *r);
-    for (size_t i = 0; i < count && of == VNDF_FORMULA_OF_NDF; i++) {
-        variables[0][i] = 1 / hypot(1, r[i]);
-        variables[1][i] = atan(r[i]);
-        variables[2][i] = r[i];
-    }
-}
 
 /* ---- values and bounds ---- */
 
@@ -63,13 +47,17 @@ static void p22(const vndf_source *self, const double *r, size_t count, double *
     const formula_source *source = (const formula_source *)self;
     for (size_t k = 0; k < source->count; k++) {
         const vndf_lobe *l = &source->lobe[k];
-        vndf_points variables[VNDF_VARIABLES], unit, value;
-        for (size_t i = 0; i < count; i++)
-            unit[i] = r[i] / l->scale;
-        set_variables(source->of, unit, count, variables);
+        int is_ndf = source->of == VNDF_FORMULA_OF_NDF;
+        vndf_points variables[VNDF_VARIABLES], value;
+        for (size_t i = 0; i < count; i++) {
+            double unit = r[i] / l->scale;
+            variables[0][i] = is_ndf ? 1 / hypot(1, unit) : unit;
+            variables[1][i] = is_ndf ? atan(unit) : 0;
+            variables[2][i] = unit;
+        }
         vndf_expression_run(&l->formula, variables, count, value);
         for (size_t i = 0; i < count; i++) {
-            double c2 = source->of == VNDF_FORMULA_OF_NDF ? variables[0][i] * variables[0][i] : 1;
+            double c2 = is_ndf ? variables[0][i] * variables[0][i] : 1;
             values[i] = (k ? values[i] : 0) + l->factor * (value[i] * c2 * c2);
         }
     }
@@ -93,16 +81,6 @@ static void destroy(vndf_source *self)
 
 /* ---- making ---- */
 
-static double operations_of(const vndf_expression *expression)
-{
-    double sum = OPERATIONS;
-    for (size_t i = 0; i < expression->count; i++) {
-        const vndf_instruction *at = &expression->program[i];
-        sum += at->operation == VNDF_CALL || at->operation == '^' ? CALL_OPERATIONS : 1;
-    }
-    return sum;
-}
-
 vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, size_t count, char *description,
                                  vndf_error *error)
 {
@@ -112,7 +90,11 @@ vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, siz
         .p22 = p22, .destroy = destroy, .description = description, .rebuildable = 1, .reach = reach};
     for (size_t i = 0; i < count; i++) {
         made.lobe[i] = lobes[i];
-        made.base.operations += operations_of(&lobes[i].formula);
+        made.base.operations += OPERATIONS;
+        for (size_t k = 0; k < lobes[i].formula.count; k++) {
+            char operation = lobes[i].formula.program[k].operation;
+            made.base.operations += operation == VNDF_CALL || operation == '^' ? CALL_OPERATIONS : 1;
+        }
     }
     if (source && description) {
         *source = made;
@@ -128,6 +110,7 @@ vndf_source *vndf_formula_source(vndf_formula_of of, const vndf_lobe *lobes, siz
 static vndf_source *read_formula(vndf_formula_of of, const char *text, const vndf_parameter *parameters,
                                  size_t count, vndf_error *error)
 {
+    static const char *const names_of_p22[] = {"r"}, *const names_of_ndf[VNDF_VARIABLES] = {"c", "theta", "t"};
     int is_ndf = of == VNDF_FORMULA_OF_NDF;
     vndf_names names = {is_ndf ? names_of_ndf : names_of_p22, is_ndf ? VNDF_VARIABLES : 1, parameters, count};
     vndf_writer words = {NULL, 0, 0, 0};

@@ -29,12 +29,6 @@ vndf_interval vndf_interval_of_library(double low, double high); /* of what the 
 double vndf_interval_low(vndf_interval a);
 double vndf_interval_high(vndf_interval a);
 
-/* Whether 0 lies in it, ends included. */
-static inline int vndf_interval_vanishes(vndf_interval a)
-{
-    return a.low.m <= 0 && a.high.m >= 0;
-}
-
 vndf_interval vndf_interval_negative(vndf_interval a);
 vndf_interval vndf_interval_size(vndf_interval a); /* the absolute value */
 vndf_interval vndf_interval_sum(vndf_interval a, vndf_interval b);
