@@ -47,7 +47,13 @@ static double try_knots(builder *b, unsigned knots)
 {
     vndf_guard *guard = b->profile->guard;
     vndf_free(b->table);
+    b->table = NULL;
     vndf_knots_place(&b->knots, knots);
+    if (b->knots.count < 3)
+        vndf_fail(vndf_guard_why(guard), VNDF_ERROR_DISTRIBUTION, "a table has at least two cells, this one %d",
+                  (int)b->knots.count - 1);
+    if (vndf_guard_stopped(guard))
+        return 0;
     vndf_distribution *t = b->table = vndf_draft_from(&b->knots, b->moments);
     const char *why = NULL;
     int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL));

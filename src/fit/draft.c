@@ -98,8 +98,7 @@ static void put_shares(vndf_distribution *t, const vndf_strips *s, const double 
     }
     for (unsigned i = 0; i <= cells; i++) {
         float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
-        double rho = i ? cell[i].r : 0.1 * (cells ? cell[1].r : 1), drawn = 0, factor = 1,
-               area = below[i] * (1 + rho);
+        double rho = i ? cell[i].r : 0.1 * cell[1].r, drawn = 0, factor = 1, area = below[i] * (1 + rho);
         put_best(room, look(s, i, cells, rho, grazing, room), &b0, &b1);
         for (unsigned k = i; i > 0 && k <= cells; k++)
             drawn += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;

@@ -49,8 +49,7 @@ static const char *knot_invalid(const vndf_distribution *t, size_t i)
 static const char *numbers_invalid(const vndf_distribution *t)
 {
     const float *knot = vndf_table_row(t, VNDF_KNOT, 0);
-    if (t->cells < 1 || knot[0] != 0.0f || !(knot[VNDF_STRIDE] > 1e-12f) ||
-        !(knot[VNDF_STRIDE * t->cells] < 1e14f))
+    if (knot[0] != 0.0f || !(knot[VNDF_STRIDE] > 1e-12f) || !(knot[VNDF_STRIDE * t->cells] < 1e14f))
         return "the knots do not run from 0 to below 1e14";
     if (!(t->scale > 1e-18 && t->scale < 1e18) || !(t->normalization > 0.0) || !isfinite(t->normalization))
         return "the scale or normalization is out of range";

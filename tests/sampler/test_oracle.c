@@ -1,5 +1,5 @@
-/* Densities, D, areas, Lambda and G1 are what the numbers of the file define, by the oracle, which reads its bytes, in
- * double, and the weight of a sample is the true density there over the one drawn: within 1e-5, below the horizon
+/* Densities, D, areas, Lambda, G1 and G2 are what the numbers of the file define, by the oracle, which reads its bytes,
+ * in double, and the weight of a sample is the true density there over the one drawn: within 1e-5, below the horizon
  * 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart, matrices of condition
  * up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror - the values at
  * inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
@@ -9,7 +9,7 @@ typedef enum family { ROUGH, APART, SHEARED, LEANING, MIXED, FAMILIES } family;
 static const char *const family_names[FAMILIES] = {"roughness", "alphas apart", "matrix", "mean slope", "mixture"};
 
 /* After the quantities of seen.h; -1 where there is no sample, or it has no weight. */
-enum { WEIGHT = QUANTITIES, ASKED };
+enum { WEIGHT = QUANTITIES, G2, ASKED }; /* G2: of wi and wo at the same place */
 
 /* A point, and what the oracle knows of its lobes. */
 typedef struct point {
@@ -84,6 +84,12 @@ static double ask(const point *p, int q)
 {
     if (q == WEIGHT)
         return (double)p->weight;
+    if (q == G2 && p->s.kind == SEEN_SURFACE)
+        return (double)vndf_g2(&p->s.surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
+    if (q == G2 && p->s.kind == SEEN_AFFINE)
+        return (double)vndf_affine_g2(&p->s.of.lobe[0].surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
+    if (q == G2)
+        return (double)vndf_mixture_g2(&p->s.of, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
     return (double)seen_quantity(&p->s, (quantity)q, q < AREA ? vec3_of(p->wm) : p->s.wi);
 }
 
@@ -109,6 +115,7 @@ static double truth(const point *p, int q)
     case NDF: return sum;
     case LAMBDA: return area / cosine - 1;
     case G1: return cosine > 0 ? cosine / area : 0;
+    case G2: return cosine > 0 ? cosine / (2 * area - cosine) : 0;
     default: return sum / area;
     }
 }
@@ -167,8 +174,10 @@ static void test_family(const subject *of, const oracle *slopes, family f, size_
               TEST(worst[q] < (of->shape.rough ? HUGE_VAL : 1e-2))) ||
             test_long()) {
             fprintf(stderr, "  %s, %s, %s: %lu of %lu beyond 1e-5, most %.3g\n", of->name, family_names[f],
-                    q == WEIGHT ? "weight" : quantity_names[q], (unsigned long)missed[q],
-                    (unsigned long)checked[q], worst[q]);
+                    q == WEIGHT ? "weight"
+                    : q == G2   ? "g2"
+                                : quantity_names[q],
+                    (unsigned long)missed[q], (unsigned long)checked[q], worst[q]);
             if (worst[q] > 1e-5)
                 seen_print(&at[q].s, "worst"),
                     fprintf(stderr, "    wm %.9g %.9g %.9g: got %.9g, want %.9g\n", at[q].wm[0], at[q].wm[1],

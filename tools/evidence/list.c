@@ -52,7 +52,7 @@ const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan
 
 /* ---- rows ---------------------------------------------------------------------------------------- */
 
-/* Takes the method. */
+/* Adds a row for the method, which it owns then. */
 static evidence_row *add(evidence *to, const method_reference *of, method m)
 {
     if (!m.each || to->count == ROWS_MAX) {

@@ -154,7 +154,7 @@ typedef struct frontier {
     size_t count;
 } frontier;
 
-/* To the series of that look; what has no time or error is not drawn. */
+/* Adds a point to the series of that look, unless it has no time or error. */
 static void add_point(frontier *f, chart_series look, double x, double y, const char *label)
 {
     size_t i = 0;

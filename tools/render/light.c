@@ -76,7 +76,7 @@ static int sum_up(environment *e)
     return is_made;
 }
 
-/* In pixel i, whose row has this fall. */
+/* The density per steradian of directions in pixel i, across whose row the cosine falls by `fall`. */
 static double pixel_density(const environment *e, size_t i, double fall)
 {
     const double chance = e->sums[i] - (i ? e->sums[i - 1] : 0);

@@ -573,7 +573,7 @@ static int read_material(reader *r)
 
 /* ---- shapes ---- */
 
-/* Of the material that the statement names. */
+/* Adds a shape of the material that the statement names. */
 static int add_shape(reader *r, shape made)
 {
     made.material = (int)r->material;

@@ -23,8 +23,8 @@ typedef struct warp {
     float scale, density[SLICES][SIDE][SIDE], conditional[SLICES][SIDE][SIDE], marginal[SLICES][SIDE];
 } warp;
 
-/* Of row p, but for a factor. On the horizon D may be infinite though integrable: a density there is at most twice
- * the one half a cell inside. */
+/* The density at (p, q), but for a factor. On the horizon D may be infinite though integrable: a density there is at
+ * most twice the one half a cell inside. */
 static double density_at(const vndf_view *view, double p, double q)
 {
     const double theta = p * p * acos(0), phi = (2 * q - 1) * acos(-1);
@@ -76,7 +76,7 @@ static inline float mixed(const mix *x, size_t i)
     return sum;
 }
 
-/* At v between rows i and i + 1, and at t between two slices. */
+/* A row at v between i and i + 1, mixed at t between two slices. */
 static inline mix four_rows(const float table[][SIDE][SIDE], float t, size_t i, float v)
 {
     return (mix){{table[0][i], table[0][i + 1], table[1][i], table[1][i + 1]},
