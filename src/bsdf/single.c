@@ -182,7 +182,7 @@ VNDF_INLINE int look(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int re
     if (!is_white(m) && (value || m->is.effects.lobes == VNDF_LOBES_BOTH))
         vndf_reflectances(m, (seen_cosine){e.facing, e.rest}, b->own.eta, f);
     if (value) {
-        double ndf = (double)vndf_hit_ndf(&b->own.view, wm), g = masked(b, &e, reflects);
+        double g = masked(b, &e, reflects), ndf = (double)vndf_hit_ndf(&b->own.view, wm);
         colour(m, f, reflects, (double)b->own.tilt * ndf * e.facing * e.jacobian * g, 1.0, value);
     }
     if (pdf)

@@ -116,9 +116,9 @@ vndf_drawn_normal vndf_sample_by(const vndf_view *view, vndf_normals_drawn law, 
 
 float vndf_pdf_by(const vndf_view *view, vndf_normals_drawn law, vndf_vec3 wm)
 {
-    const float all = vndf_view_ndf(view, wm) * wm.z;
     if (law == VNDF_NORMALS_BOUNDED && vndf_state_of(view)->f.uz > 0.0f)
         return pdf_bounded(view, wm);
+    const float all = vndf_view_ndf(view, wm) * wm.z;
     if (law == VNDF_NORMALS_V_CAVITY)
         return all * v_cavity_share(view->wi.x * wm.x + view->wi.y * wm.y, view->wi.z * wm.z);
     return all;

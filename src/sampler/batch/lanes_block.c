@@ -30,16 +30,14 @@ enum { BLOCK = 128, GROUPS = BLOCK / LANES };
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
-/* Up to BLOCK elements of a call: those `at`, or the first, of its arrays from `first` on; where their inputs lie,
- * readable to the last lane, and where results go; below: a table is seen from below the horizon. */
+/* Up to BLOCK elements of a call: where their inputs lie, readable to the last lane, and where results go; below: a
+ * table is seen from below the horizon. */
 typedef struct block {
     vndf_task task;
     vndf_kind kind;
     float unit;
     table t;
-    size_t first;
-    const int *at;
-    int count, groups, plain, below; /* plain: of all its surfaces (kernel/surface.h) */
+    int groups, plain, below; /* plain: of all its surfaces (kernel/surface.h) */
     const float *read[VNDF_READS];
     float *write[VNDF_WRITES];
 } block;
@@ -89,81 +87,108 @@ HERE frame frame_at(const block *b, int g, const int plain)
 
 /* ---- searches ---- */
 
-/* What is searched: the knots of slopes, whose squares have these two parts, or, where `square` is NULL, cells of
- * samples. */
-typedef struct search {
-    const real *square, *under;
-    const seen *v;
-    const aim *a;
-    int below;
-} search;
+/* The knot of entry `at` of a step of searches. */
+HERE whole knot_of(table t, whole at, int level)
+{
+    return (at + at + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
+}
 
-/* One step for group g. From `level` 0 on r.i is an entry of that step's columns, which the next follows; else it is a
- * knot, and that `stride` farther is compared. */
-HERE reached step(table t, search s, int g, reached r, const int level, int stride)
+/* One step: entries that follow `at`. */
+HERE whole step_slope(table t, real square, real under, whole at, int level)
+{
+    return follow(at, at_most(look_level(t, AT_KNOT, at, level) * under, square));
+}
+
+/* The cells of slopes whose squares have these two parts. */
+HERE void find_slopes(table t, int groups, const real *square, const real *under, whole *i)
+{
+    for (int g = 0; g < groups; g++) {
+        whole at = set_whole(1);
+        LANES_UNROLLED
+        for (int level = 0; level < FIRST_LEVELS; level++)
+            at = step_slope(t, square[g], under[g], at, level);
+        i[g] = at;
+    }
+    LANES_UNROLLED
+    for (int level = FIRST_LEVELS; level < LEVELS; level++)
+        for (int g = 0; level < t.levels && g < groups; g++)
+            i[g] = step_slope(t, square[g], under[g], i[g], level);
+    for (int g = 0; g < groups; g++)
+        i[g] = (i[g] - set_whole(1 << t.levels)) * set_whole(t.stride);
+    for (int step = t.stride / 2; step > 0; step /= 2)
+        for (int g = 0; g < groups; g++) {
+            whole next = least_whole(i[g] + step, set_whole(t.cells));
+            real r = look(t, VNDF_KNOT, next).a;
+            i[g] = pick_whole(at_most((r * r) * under[g], square[g]), next, i[g]);
+        }
+}
+
+/* law_sum, whose fourth term is 0 for fewer moments. */
+HERE real sum_beyond(table t, weights w, quad tail)
+{
+    real far = w.wq * tail.c;
+    if (t.moments > 3)
+        far = far + w.w4 * tail.d;
+    return (w.w1 * tail.a + w.w0 * tail.b) + far;
+}
+
+/* One step of a search for the cell of a sample. */
+HERE reached step_cell(table t, seen v, aim a, reached r, int level, const int below)
 {
     const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
-    whole next = r.i + stride, there = least_whole(next, set_whole(t.cells));
     quad tail = zero, low = zero;
-    real beyond = zero.a, knot;
+    real beyond;
     mask passes;
-    if (level >= 0)
-        next = (r.i + r.i + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
-    if (s.square) {
-        knot = level < 0 ? look(t, VNDF_KNOT, there).a : zero.a;
-        knot = level < 0 ? knot * knot : look_level(t, AT_KNOT, r.i, level);
-        passes = at_most(knot * s.under[g], s.square[g]);
-    } else if (s.below) {
-        if (level < 0)
-            beyond = law_beyond(t, s.v[g], there);
-        else {
-            tail.c = look_level(t, AT_TQ, r.i, level);
-            knot = look_level(t, AT_R, r.i, level);
-            low.a = look_level(t, AT_N1, r.i, level);
-            low.b = look_level(t, AT_N2, r.i, level);
-            beyond = law_sum_below(s.v[g].w, knot, most(knot - s.v[g].rho, set(0.0f)), tail, low);
-        }
-        passes = law_passes(t, s.v[g], next, beyond, s.a[g].left);
+    tail.c = look_level(t, AT_TQ, r.i, level);
+    if (below) {
+        real knot = look_level(t, AT_R, r.i, level);
+        low.a = look_level(t, AT_N1, r.i, level);
+        low.b = look_level(t, AT_N2, r.i, level);
+        beyond = law_sum_below(v.w, knot, most(knot - v.rho, set(0.0f)), tail, low);
+        passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
     } else {
-        if (level < 0)
-            tail = look(t, VNDF_TAIL, there);
-        else {
-            tail.a = look_level(t, AT_T1, r.i, level);
-            tail.b = look_level(t, AT_T0, r.i, level);
-            tail.c = look_level(t, AT_TQ, r.i, level);
-            tail.d = t.moments > 3 ? look_level(t, AT_T4, r.i, level) : zero.a;
-        }
-        weights w = s.a[g].w;
-        real far = w.wq * tail.c; /* law_sum, whose fourth term is 0 for fewer moments */
+        tail.a = look_level(t, AT_T1, r.i, level);
+        tail.b = look_level(t, AT_T0, r.i, level);
         if (t.moments > 3)
-            far = far + w.w4 * tail.d;
-        beyond = (w.w1 * tail.a + w.w0 * tail.b) + far;
-        passes = at_most(s.a[g].left, beyond);
+            tail.d = look_level(t, AT_T4, r.i, level);
+        beyond = sum_beyond(t, a.w, tail);
+        passes = at_most(a.left, beyond);
     }
-    r.i = level < 0 ? pick_whole(passes, there, r.i) : follow(r.i, passes);
-    if (!s.square)
-        r.beyond = pick(passes, beyond, r.beyond);
+    r.i = follow(r.i, passes);
+    r.beyond = pick(passes, beyond, r.beyond);
     return r;
 }
 
-HERE void find(table t, int groups, const search s, reached *r)
+/* The same by rows: r.i is a knot. */
+HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int below)
+{
+    whole next = r.i + step, there = least_whole(next, set_whole(t.cells));
+    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, look(t, VNDF_TAIL, there));
+    mask passes = below ? law_passes(t, v, next, beyond, a.left) : at_most(a.left, beyond);
+    r.i = pick_whole(passes, there, r.i);
+    r.beyond = pick(passes, beyond, r.beyond);
+    return r;
+}
+
+/* Cells of samples. */
+HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
 {
     for (int g = 0; g < groups; g++) {
         reached at = {set_whole(1), set(0.0f)};
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
-            at = step(t, s, g, at, level, 0);
+            at = step_cell(t, v[g], a[g], at, level, below);
         r[g] = at;
     }
     LANES_UNROLLED
     for (int level = FIRST_LEVELS; level < LEVELS; level++)
         for (int g = 0; level < t.levels && g < groups; g++)
-            r[g] = step(t, s, g, r[g], level, 0);
+            r[g] = step_cell(t, v[g], a[g], r[g], level, below);
     for (int g = 0; g < groups; g++)
         r[g].i = (r[g].i - set_whole(1 << t.levels)) * set_whole(t.stride);
-    for (int stride = t.stride / 2; stride > 0; stride /= 2)
+    for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
-            r[g] = step(t, s, g, r[g], -1, stride);
+            r[g] = step_rows(t, v[g], a[g], r[g], step, below);
 }
 
 /* ---- tables ---- */
@@ -171,16 +196,16 @@ HERE void find(table t, int groups, const search s, reached *r)
 /* How a table sees directions. */
 HERE void see(table t, int groups, const table_direction *w, seen *v, const int below)
 {
-    reached at[GROUPS];
+    whole cell[GROUPS];
     real square[GROUPS], under[GROUPS];
     for (int g = 0; below && g < groups; g++) {
         square[g] = w[g].square;
         under[g] = w[g].under;
     }
     if (below)
-        find(t, groups, (search){.square = square, .under = under}, at);
+        find_slopes(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
-        v[g] = below ? law_see_below(t, w[g].s, w[g].c, w[g].rho, at[g].i)
+        v[g] = below ? law_see_below(t, w[g].s, w[g].c, w[g].rho, cell[g])
                      : law_see_above(t, w[g].s, w[g].c, w[g].rho);
 }
 
@@ -188,29 +213,29 @@ HERE void see(table t, int groups, const table_direction *w, seen *v, const int 
 HERE void find_areas(table t, int groups, const seen *v, real *area, const int below)
 {
     real square[GROUPS], under[GROUPS];
-    reached at[GROUPS];
+    whole cell[GROUPS];
     for (int g = 0; g < groups; g++) {
         square[g] = v[g].rho * v[g].rho;
         under[g] = set(1.0f);
     }
-    find(t, groups, (search){.square = square, .under = under}, at);
+    find_slopes(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
-        area[g] = law_area_in(t, v[g], at[g].i, below);
+        area[g] = law_area_in(t, v[g], cell[g], below);
 }
 
 /* The given normals, with their cells. */
-HERE void place_given(table t, int groups, const unit_normal *n, given *to)
+HERE void place_given(table t, int groups, const unit_normal *n, given *at)
 {
     real square[GROUPS], under[GROUPS];
-    reached at[GROUPS];
+    whole cell[GROUPS];
     for (int g = 0; g < groups; g++) {
-        to[g] = table_given_slope(n[g].x, n[g].y, n[g].z);
-        square[g] = to[g].square;
-        under[g] = to[g].under;
+        at[g] = table_given_slope(n[g].x, n[g].y, n[g].z);
+        square[g] = at[g].square;
+        under[g] = at[g].under;
     }
-    find(t, groups, (search){.square = square, .under = under}, at);
+    find_slopes(t, groups, square, under, cell);
     for (int g = 0; g < groups; g++)
-        to[g].cell = at[g].i;
+        at[g].cell = cell[g];
 }
 
 /* Normals in the frames of their directions, with K, and their weights. */
@@ -228,7 +253,7 @@ HERE void draw_side(const block *b, table_direction *w, drawn *n, real *weight, 
     see(t, groups, w, v, below);
     for (int g = 0; g < groups; g++)
         a[g] = table_aim(v[g], unit_input(b, VNDF_READ_B, g), below);
-    find(t, groups, (search){.v = v, .a = a, .below = below}, r);
+    find_cells(t, groups, v, a, r, below);
     for (int g = 0; g < groups; g++)
         f[g] = table_cell(t, v[g], a[g], r[g], below);
     for (int g = 0; g < groups; g++)
@@ -464,102 +489,136 @@ STEP void run_block(const block *b)
 
 /* ---- blocks ---- */
 
+/* Some elements of a call: `at`, or the first, of its arrays from `first` on. */
+typedef struct elements {
+    size_t first;
+    const int *at;
+    int count;
+} elements;
+
 typedef struct copies {
     row read[VNDF_READS], write[VNDF_WRITES];
 } copies;
 
 /* Reads and writes in place, or copies that go on, with the last element, to the last lane. */
-HERE void enter(block *b, const vndf_call *call, copies *c)
+HERE void enter(block *b, const vndf_call *call, const elements *e, copies *c)
 {
-    b->groups = (b->count + LANES - 1) / LANES;
-    const int in_place = !b->at && b->count == b->groups * LANES;
+    b->groups = (e->count + LANES - 1) / LANES;
+    const int in_place = !e->at && e->count == b->groups * LANES;
     for (int r = 0; r < VNDF_READS; r++) {
         if (!call->read[r] || call->shared >> r & 1)
             continue; /* which is the same for all blocks */
-        const float *from = call->read[r] + b->first;
+        const float *from = call->read[r] + e->first;
         b->read[r] = in_place ? from : c->read[r];
-        for (int i = 0; !in_place && i < b->count; i++)
-            c->read[r][i] = from[b->at ? b->at[i] : i];
-        for (int i = b->count; i < b->groups * LANES; i++)
-            c->read[r][i] = c->read[r][b->count - 1];
+        for (int i = 0; !in_place && i < e->count; i++)
+            c->read[r][i] = from[e->at ? e->at[i] : i];
+        for (int i = e->count; i < b->groups * LANES; i++)
+            c->read[r][i] = c->read[r][e->count - 1];
     }
     for (int w = 0; w < VNDF_WRITES; w++)
-        b->write[w] = !call->write[w] ? NULL : in_place ? call->write[w] + b->first : c->write[w];
+        b->write[w] = !call->write[w] ? NULL : in_place ? call->write[w] + e->first : c->write[w];
 }
 
 /* Runs a block that was entered, and puts back what it copied. */
-HERE void run_entered(const block *b, const vndf_call *call)
+HERE void run_entered(const block *b, const vndf_call *call, const elements *e)
 {
     run_block(b);
     for (int w = 0; w < VNDF_WRITES; w++)
-        for (int i = 0; b->write[w] && b->write[w] != call->write[w] + b->first && i < b->count; i++)
-            call->write[w][b->first + (size_t)(b->at ? b->at[i] : i)] = b->write[w][i];
+        for (int i = 0; b->write[w] && b->write[w] != call->write[w] + e->first && i < e->count; i++)
+            call->write[w][e->first + (size_t)(e->at ? e->at[i] : i)] = b->write[w][i];
 }
 
-/* Elements above the horizon, those from which a table is seen from below, and those that are not valid. The first two
- * are the values of a block's `below`; bits tell all of them apart. */
-enum { ABOVE, BELOW, INVALID, SORTS };
-
-/* The sorts of a group; only a table has elements below. */
-HERE whole sorts_at(const block *b, int g, const int sided)
+/* Which elements of a group are valid. */
+HERE mask valid_at(const block *b, int g)
 {
-    real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), height = input(b, VNDF_READ_WI_Z, g);
-    whole sort = set_whole(ABOVE);
     mask valid = affine_is_valid(map_at(b, g, b->plain));
     if (b->plain)
         valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
     if (b->task != VNDF_TASK_NDF)
-        valid = both(valid, direction_is_valid(x, y, height));
-    if (sided) {
-        if (!b->plain)
-            height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
-        if (any(either(at_most(size(height), set(1e-30f)), at_most(set(1e30f), size(height)))))
-            height = frame_at(b, g, b->plain).uz; /* which rounds: elsewhere it has the same sign */
-        sort = pick_whole(less(height, set(0.0f)), set_whole(BELOW), sort);
-    }
-    return pick_whole(valid, sort, set_whole(INVALID));
+        valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+                                               input(b, VNDF_READ_WI_Z, g)));
+    return valid;
 }
 
-/* The sort of all elements, or SORTS. */
-HERE int sort_of(const block *b, const int sided)
+/* Elements above the horizon, those from which a table is seen from below, and those that are not valid; the first two
+ * are the values of a block's `below`. */
+enum { ABOVE, BELOW, INVALID, SORTS };
+
+/* Whether all elements are valid and plainly of one side, which b->below becomes: what frames make of the height hangs
+ * on no rounding. */
+HERE int is_one_sort(block *b, const int sided)
 {
-    whole some = set_whole(0), every = set_whole(BELOW);
+    const mask none = less(set(0.0f), set(0.0f));
+    mask good = (mask)~none, below = none, above = none;
     for (int g = 0; g < b->groups; g++) {
-        whole sort = sorts_at(b, g, sided);
-        some = some | sort;
-        every = every & sort;
+        real height = input(b, VNDF_READ_WI_Z, g);
+        if (!b->plain)
+            height = height - (input(b, VNDF_READ_WI_X, g) * input(b, VNDF_READ_MEAN_X, g) +
+                               input(b, VNDF_READ_WI_Y, g) * input(b, VNDF_READ_MEAN_Y, g));
+        good = both(good, valid_at(b, g));
+        if (sided)
+            good = both(good, both(less(set(1e-30f), size(height)), less(size(height), set(1e30f))));
+        below = either(below, less(height, set(0.0f)));
+        above = either(above, less(set(0.0f), height));
     }
-    if (!any(less_whole(set_whole(ABOVE), some)))
-        return ABOVE;
-    return any(less_whole(set_whole(BELOW), some)) || any(same(every, ABOVE)) ? SORTS : BELOW;
+    b->below = sided && any(below);
+    return !any((mask)~good) && !(sided && any(below) && any(above));
 }
 
-/* Puts the elements of each sort together, and runs them. */
-STEP void run_sorts(block b, const vndf_call *call, const int sided, copies *c)
+/* The sort of each element. */
+HERE void sort_elements(const block *b, const int sided, int32_t *sorts)
 {
-    const block all = b;
-    int list[BLOCK];
-    int32_t sorts[BLOCK];
-    for (int g = 0; g < b.groups; g++) {
-        whole sort = sorts_at(&b, g, sided);
+    for (int g = 0; g < b->groups; g++) {
+        mask below = less(frame_at(b, g, b->plain).uz, set(0.0f));
+        whole side = pick_whole(below, set_whole(sided ? BELOW : ABOVE), set_whole(ABOVE));
+        whole sort = pick_whole(valid_at(b, g), side, set_whole(INVALID));
         memcpy(sorts + g * LANES, &sort, sizeof sort);
     }
-    b.at = list;
-    for (int sort = ABOVE; sort < SORTS; sort++) {
-        b.below = sort == BELOW;
-        b.count = 0;
-        for (int i = 0; i < all.count; i++)
-            if (sorts[i] == sort)
-                list[b.count++] = all.at ? all.at[i] : i;
-        if (sort != INVALID && b.count > 0) {
-            enter(&b, call, c);
-            run_entered(&b, call);
+}
+
+/* Gives all elements but those of one sort the unit matrix and a direction on that side, in copies. */
+HERE void replace_others(block *b, const int32_t *sorts, int kept, copies *c)
+{
+    const float other[VNDF_READ_A] = {
+        1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, kept == BELOW ? -1.0f : 1.0f};
+    for (int r = 0; r < VNDF_READ_A; r++) {
+        for (int g = 0; g < b->groups; g++) {
+            whole sort;
+            memcpy(&sort, sorts + g * LANES, sizeof sort);
+            store(c->read[r] + g * LANES, pick(same(sort, kept), input(b, r, g), set(other[r])));
         }
+        b->read[r] = c->read[r];
     }
-    for (int i = 0; i < b.count; i++)
+}
+
+/* Runs both sides, each put together; the larger one with all elements in place where that is nearly all of them. */
+STEP void run_sorts(const block *of, const vndf_call *call, elements e, const int sided, copies *c)
+{
+    block b = *of, rest = *of;
+    copies own;
+    int32_t sorts[BLOCK];
+    int list[SORTS][BLOCK], count[SORTS] = {0};
+    sort_elements(&b, sided, sorts);
+    for (int i = 0; i < e.count; i++)
+        list[sorts[i]][count[sorts[i]]++] = e.at ? e.at[i] : i;
+    b.below = count[BELOW] > count[ABOVE];
+    rest.below = !b.below;
+    elements larger = {e.first, list[b.below], count[b.below]},
+             smaller = {e.first, list[rest.below], count[rest.below]};
+    enter(&rest, call, &smaller, &own);
+    if (4 * smaller.count < e.count) {
+        replace_others(&b, sorts, b.below, c);
+        larger = e;
+    } else
+        enter(&b, call, &larger, c);
+    run_entered(&b, call, &larger);
+    if (smaller.count > 0)
+        run_entered(&rest, call, &smaller);
+    for (int i = 0; i < count[INVALID]; i++)
         for (int w = 0; w < VNDF_WRITES; w++)
             if (call->write[w])
-                call->write[w][b.first + (size_t)list[i]] = call->task == VNDF_TASK_SAMPLE && w == 2 ? 1.0f : 0.0f;
+                call->write[w][e.first + (size_t)list[INVALID][i]] =
+                    call->task == VNDF_TASK_SAMPLE && w == 2 ? 1.0f : 0.0f;
 }
 
 /* ---- calls ---- */
@@ -594,16 +653,13 @@ static void run(const vndf_call *call)
             store(shared[r] + g * LANES, set(*call->read[r]));
     }
     for (size_t first = 0; first < call->count; first += BLOCK) {
-        b.first = call->at ? 0 : first;
-        b.at = call->at ? call->at + first : NULL;
-        b.count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
-        enter(&b, call, &c);
-        const int sort = sided ? sort_of(&b, 1) : sort_of(&b, 0);
-        b.below = sort == BELOW;
-        if (sort == SORTS)
-            run_sorts(b, call, sided, &c);
+        const int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
+        const elements e = {call->at ? 0 : first, call->at ? call->at + first : NULL, count};
+        enter(&b, call, &e, &c);
+        if (is_one_sort(&b, sided))
+            run_entered(&b, call, &e);
         else
-            run_entered(&b, call);
+            run_sorts(&b, call, e, sided, &c);
     }
 }
 
