@@ -32,7 +32,9 @@ typedef struct survey {
     const vndf_profile *profile;
     vndf_strips strips;
     direction *at;         /* of each edge */
-    double *xi, *kernel;   /* of each edge in its cell; of each point, k rho f dR as it is seen from below */
+    double *xi, *lean;     /* in its cell, of each edge and of the middle of its strip; of f in each strip (lean_of) */
+    double *ends; /* of each strip: densities at its ends, in the unit of its points */
+    double *kernel, *tilt; /* as it is seen from below: k rho f dR of each point, and lean of each strip */
     double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
 } survey;
 
@@ -48,12 +50,30 @@ static double largest_weight(const survey *s, double least)
     return least;
 }
 
+/* By how much the upper half of a strip, by x, holds more than half of it: by the cubic through the densities at its
+ * points, where `mass` is what they stand for, and at its ends, in the same unit. */
+static double lean_of(double mass0, double mass1, double end0, double end1)
+{
+    double lean = 0.0625 * (end1 - end0) + 0.32475952641916447 * (mass1 - mass0), most = (mass0 + mass1) / 2;
+    return fmin(fmax(lean, -most), most);
+}
+
 /* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
 static vndf_drawn drawn_in(table t, seen v, int i, int below)
 {
     const weights near = {0, v.c, 0, 0};
     piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
+}
+
+/* Takes what is seen and drawn in a part of the slopes; returns the difference. */
+static double part(survey *s, double seen, double drawn, double *weight)
+{
+    if (seen > LEFT_OUT && seen > *weight * drawn)
+        *weight = drawn > 0 ? seen / drawn : HUGE_VAL;
+    else if (seen > *weight * drawn)
+        s->rarely[drawn * 0x1p31 > seen ? (int)(PER_OCTAVE * log2(seen / drawn)) : RATIOS - 1] += seen;
+    return fabs(seen - drawn);
 }
 
 /* Compares what is drawn with what is seen, strip by strip. */
@@ -67,15 +87,14 @@ static void compare(survey *s, seen v, int below, size_t edge, double area_seen,
         int partial = below && i == first;
         double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
         for (size_t n = partial ? edge : strip[i]; n < strip[i + 1]; n++) {
-            double next = vndf_drawn_before(&cell, n + 1 < strip[i + 1] ? (s->xi[n + 1] - xi) * stretch : 1);
-            double is = (next - before) / area_drawn;
-            double right = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f);
+            double end = n + 1 < strip[i + 1] ? (s->xi[2 * n + 2] - xi) * stretch : 1;
+            double next = vndf_drawn_before(&cell, end), all = (next - before) / area_drawn, upper = all / 2,
+                   seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f),
+                   lean = per * (s->tilt[n] + add * s->lean[n]);
+            if (s->xi[2 * n + 1] > 0)
+                upper = (next - vndf_drawn_before(&cell, (s->xi[2 * n + 1] - xi) * stretch)) / area_drawn;
             before = next;
-            miss += fabs(right - is);
-            if (right > LEFT_OUT && right > weight * is)
-                weight = is > 0 ? right / is : HUGE_VAL;
-            else if (right > weight * is)
-                s->rarely[is * 0x1p31 > right ? (int)(PER_OCTAVE * log2(right / is)) : RATIOS - 1] += right;
+            miss += part(s, seen / 2 - lean, all - upper, &weight) + part(s, seen / 2 + lean, upper, &weight);
         }
     }
     figure[TV] = fmin(miss / 2, 1);
@@ -107,17 +126,21 @@ static void look_from(survey *s, size_t edge)
 {
     const vndf_strips *strips = &s->strips;
     double rho = strips->at[edge].edge;
-    direction *at = &s->at[edge];
-    if (at->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
+    direction *to = &s->at[edge];
+    if (to->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
         !vndf_guard_spend(s->profile->guard, 6 * (double)strips->count))
         return;
-    *at = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
-    for (size_t i = 0; i < 2 * strips->count; i++) {
-        double r = strips->at[i / 2].r[i % 2];
-        s->kernel[i] = r > rho ? strips->at[i / 2].mass[i % 2] * vndf_profile_kernel(r, rho) : 0;
+    *to = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
+    double end = 0, upper;
+    for (size_t i = 0; i < strips->count; i++, end = upper) {
+        const vndf_strip *at = &strips->at[i];
+        for (int k = 0; k < 2; k++)
+            s->kernel[2 * i + k] = at->r[k] > rho ? at->mass[k] * vndf_profile_kernel(at->r[k], rho) : 0;
+        upper = at[1].edge > rho && at[1].edge < HUGE_VAL ? vndf_profile_kernel(at[1].edge, rho) : 0;
+        s->tilt[i] = s->xi[2 * i + 1] > 0 ? lean_of(s->kernel[2 * i], s->kernel[2 * i + 1], end * s->ends[2 * i], upper * s->ends[2 * i + 1]) : 0;
     }
-    look_at_side(s, edge, 0, at->side[0]);
-    look_at_side(s, edge, 1, at->side[1]);
+    look_at_side(s, edge, 0, to->side[0]);
+    look_at_side(s, edge, 1, to->side[1]);
 }
 
 /* ---- all directions ---- */
@@ -150,6 +173,8 @@ static void look_around(survey *s)
         if (i > 0)
             look_from(s, from + 2 * strips / 3);
     }
+    if (getenv("ALL")) for (size_t i = 0; i < s->strips.count; i++) { look_from(s, i);
+        if (s->at[i].known) { double angle = atan2(1, s->strips.at[i].edge * s->profile->scale) * 180 / PI; printf("D %g rho %.8g f %.3g above %.3g %.3g %.3g below %.3g %.3g %.3g\n", 180-angle, s->strips.at[i].edge, s->strips.at[i].f, s->at[i].side[0][0], s->at[i].side[0][1], s->at[i].side[0][2], s->at[i].side[1][0], s->at[i].side[1][1], s->at[i].side[1][2]); } }
     for (int figure = TV; figure <= AREA_ERROR; figure++)
         for (int side = 0; side < 2; side++)
             look_near_worst(s, side, figure, 4);
@@ -187,8 +212,11 @@ static double ndf_error(const survey *s)
         double before = 0;
         for (size_t n = first[i]; n < first[i + 1]; n++) {
             const vndf_strip *strip = &s->strips.at[n];
-            double next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? s->xi[n + 1] : 1);
-            double error = fabs((next - before) / (tail ? strip->along : strip->f) - 1);
+            double next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? s->xi[2 * n + 2] : 1), is = next - before;
+            double right = tail ? strip->along : strip->f, upper = 0, lean = s->lean[n] * right / strip->f;
+            if (s->xi[2 * n + 1] > 0)
+                upper = is - vndf_drawn_before(&cell, s->xi[2 * n + 1]) + before;
+            double error = upper > 0 ? fmax(fabs(upper / (right / 2 + lean) - 1), fabs((is - upper) / (right / 2 - lean) - 1)) : fabs(is / right - 1);
             before = next;
             sum += strip->f;
             if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
@@ -209,15 +237,27 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);
-    s.xi = malloc((n + 1) * sizeof *s.xi);
+    s.xi = calloc(2 * n + 2, sizeof *s.xi);
+    s.lean = calloc(n + 1, sizeof *s.lean);
+    s.ends = calloc(2 * n + 2, sizeof *s.ends);
+    s.tilt = malloc((n + 1) * sizeof *s.tilt);
     s.kernel = malloc((2 * n + 1) * sizeof *s.kernel);
-    good = good && s.at && s.xi && s.kernel;
+    good = good && s.at && s.xi && s.kernel && s.lean && s.ends && s.tilt;
     if (good) {
         for (unsigned i = 0; i <= cells; i++) {
             vndf_cell cell =
                 vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)d->squarings);
-            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++)
-                s.xi[k] = vndf_cell_place(&cell, s.strips.at[k].edge);
+            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++) {
+                const vndf_strip *at = &s.strips.at[k];
+                s.xi[2 * k] = vndf_cell_place(&cell, at->edge);
+                if (at->gathered || !(at[1].edge < HUGE_VAL))
+                    continue;
+                double x0 = at->edge / (1 + at->edge), x1 = at[1].edge / (1 + at[1].edge), width = x1 - x0;
+                s.xi[2 * k + 1] = vndf_cell_place(&cell, (x0 + x1) / (2 - x0 - x1));
+                s.ends[2 * k] = PI * at->p0 * at->edge * width * (1 + at->edge) * (1 + at->edge);
+                s.ends[2 * k + 1] = PI * at->p1 * at[1].edge * width * (1 + at[1].edge) * (1 + at[1].edge);
+                s.lean[k] = lean_of(at->mass[0], at->mass[1], s.ends[2 * k], s.ends[2 * k + 1]);
+            }
         }
         look_around(&s);
         *c = (vndf_certificate){.max_weight = 1};
@@ -239,5 +279,8 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     free(s.at);
     free(s.xi);
     free(s.kernel);
+    free(s.lean);
+    free(s.ends);
+    free(s.tilt);
     return good;
 }

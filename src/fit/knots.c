@@ -225,14 +225,24 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
     k->count = k->count > count ? count : k->count;
 }
 
+/* P22 beside an edge: at the end of a strip, or the mean of one that is gathered. */
+static double p22_beside(const vndf_strip *strip, double at_end)
+{
+    return strip->gathered ? strip->f / (2 * PI * strip->edge * (strip[1].edge - strip->edge)) : at_end;
+}
+
+/* The float on the side of fewer normals where P22 jumps: the others stay in one cell. */
 float vndf_knots_slope(const vndf_knots *k, unsigned i)
 {
-    size_t edge = k->at[i];
-    double r = k->strips.at[edge].edge;
-    float knot = (float)r;
-    if (k->strips.at[edge].gathered)
-        return (double)knot > r ? nextafterf(knot, 0.0f) : knot;
-    return edge > 0 && k->strips.at[edge - 1].gathered && (double)knot < r ? nextafterf(knot, HUGE_VALF) : knot;
+    const double jump = 1 + 1e-4;
+    const vndf_strip *beyond = &k->strips.at[k->at[i]];
+    float knot = (float)beyond->edge;
+    if (k->at[i] == 0)
+        return knot;
+    double inner = p22_beside(beyond - 1, beyond[-1].p1), outer = p22_beside(beyond, beyond->p0);
+    if (inner > jump * outer && (double)knot < beyond->edge)
+        return nextafterf(knot, HUGE_VALF);
+    return outer > jump * inner && (double)knot > beyond->edge ? nextafterf(knot, 0.0f) : knot;
 }
 
 const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)

@@ -7,6 +7,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double SAME = 1.3e-7;   /* of a slope: a knot may be the end of a panel, rounded */
+static const double ENDS=1e-2;
 static const double INSIDE = 1.5e-7; /* of a slope: a float beyond an edge, where P22 may jump beside it */
 
 /* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered
@@ -183,11 +184,13 @@ static void add_piece(maker *m, size_t i, double from, double to, double edge, d
     }
     double begin = end_before(m, from), width = to - begin;
     size_t first = m->to->count;
-    for (double left = width / closer; parts < 0 && left > 2 * VNDF_GRAIN * to; left /= closer)
-        add_strip(m, to - left);
-    double count = ceil(fmin(parts, 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
-    for (double k = 1; k < count; k++)
+    double count = ceil(fmin(fmax(parts, 4), 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
+    int ends = p[1].s < ENDS * p->s && !getenv("NOENDS");
+    for (double k = 1; parts > 0 && k < count; k++)
         add_strip(m, begin * exp(k * step));
+    double last = parts < 0 ? width : to - begin * exp((count - 1) * step);
+    for (double left = last / closer; (parts < 0 || ends) && left > (parts<0?2 * VNDF_GRAIN * to:1e-5*to); left /= closer)
+        add_strip(m, to - left);
     add_strip(m, edge);
     if (whole && begin == from && edge == to)
         scale(m->to, first, 2 * PI * p->m0);
