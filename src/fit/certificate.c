@@ -19,7 +19,7 @@ static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p20;
 enum { CELLS_MOST = 64, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
-enum { TV, WEIGHT, AREA_ERROR, CONSISTENCY, FIGURES };
+enum { TV, WEIGHT, CONSISTENCY, FIGURES };
 
 /* Directions are those with rho at an edge. */
 typedef struct direction {
@@ -114,10 +114,8 @@ static void look_at_side(survey *s, size_t edge, int below, double *figure)
         return;
     for (int i = t.cells; i >= (below ? cell : 0); i--)
         all += drawn_in(t, v, i, below).mass;
-    double area = (beyond + (below ? 0 : PI * rho)) * sine / PI, knot = look(t, VNDF_KNOT, cell).a;
+    double area = (beyond + (below ? 0 : PI * rho)) * sine / PI;
     figure[CONSISTENCY] = fabs((double)(float)v.total / all - 1);
-    if (cell == t.cells || look(t, VNDF_KNOT, cell + 1).a - knot > VNDF_GRAIN * rho)
-        figure[AREA_ERROR] = fabs(law_area_in(t, v, cell, below) / area - 1);
     compare(s, v, below, edge, area, all, figure);
 }
 
@@ -130,7 +128,7 @@ static void look_from(survey *s, size_t edge)
     if (to->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
         !vndf_guard_spend(s->profile->guard, 6 * (double)strips->count))
         return;
-    *to = (direction){{{0, 1, 0, 0}, {0, 1, 0, 0}}, 1};
+    *to = (direction){{{0, 1, 0}, {0, 1, 0}}, 1};
     double end = 0, upper;
     for (size_t i = 0; i < strips->count; i++, end = upper) {
         const vndf_strip *at = &strips->at[i];
@@ -145,24 +143,31 @@ static void look_from(survey *s, size_t edge)
 
 /* ---- all directions ---- */
 
-/* Looks from the edges beside the one with the largest figure, the nearer the later. */
-static void look_near_worst(survey *s, int side, int figure, size_t apart)
+/* Climbs from the edge with the largest figure to a neighbour with a larger one, the nearer the later. */
+static void climb(survey *s, int side, int figure)
 {
+    enum { FURTHEST = 16 };
     size_t best = 0, edges = s->strips.count;
-    for (; apart > 0; apart /= 2) {
-        for (size_t i = 0; i < edges; i++)
-            best = s->at[i].known && s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
-        look_from(s, best > apart ? best - apart : 0);
-        look_from(s, best + apart < edges ? best + apart : edges - 1);
+    for (size_t i = 0; i < edges; i++)
+        best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
+    for (size_t apart = FURTHEST; apart > 0;) {
+        size_t from = best, beside[2] = {best > apart ? best - apart : 0, best + apart < edges ? best + apart : edges - 1};
+        for (int k = 0; k < 2; k++) {
+            look_from(s, beside[k]);
+            best = s->at[beside[k]].side[side][figure] > s->at[best].side[side][figure] ? beside[k] : best;
+        }
+        apart = best == from ? apart / 2 : apart;
     }
 }
 
-/* Some angles of incidence at alpha 1; of every so many cells the left knot and two places; and the neighbourhood of
- * what is worst. */
+/* Some angles of incidence at alpha 1; of every so many cells the left knot and two places; wherever less and less is
+ * seen from below; and the neighbourhood of what is worst. */
 static void look_around(survey *s)
 {
     static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
+    const double less = 8;
     const vndf_strip *at = s->strips.at;
+    double f = 0, along = 0, last = 0;
     for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
         look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count,
                                       1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
@@ -173,11 +178,19 @@ static void look_around(survey *s)
         if (i > 0)
             look_from(s, from + 2 * strips / 3);
     }
-    if (getenv("ALL")) for (size_t i = 0; i < s->strips.count; i++) { look_from(s, i);
-        if (s->at[i].known) { double angle = atan2(1, s->strips.at[i].edge * s->profile->scale) * 180 / PI; printf("D %g rho %.8g f %.3g above %.3g %.3g %.3g below %.3g %.3g %.3g\n", 180-angle, s->strips.at[i].edge, s->strips.at[i].f, s->at[i].side[0][0], s->at[i].side[0][1], s->at[i].side[0][2], s->at[i].side[1][0], s->at[i].side[1][1], s->at[i].side[1][2]); } }
-    for (int figure = TV; figure <= AREA_ERROR; figure++)
+    for (size_t i = s->strips.count; i-- > 0;) {
+        f += at[i].f;
+        along += at[i].along;
+        if (along - f * at[i].edge > less * last) {
+            look_from(s, i);
+            last = along - f * at[i].edge;
+        }
+    }
+    if (getenv("ALL")) for (size_t i = 0; i < s->strips.count; i++) look_from(s, i);
+    for (int figure = TV; figure <= WEIGHT; figure++)
         for (int side = 0; side < 2; side++)
-            look_near_worst(s, side, figure, 4);
+            climb(s, side, figure);
+    if (getenv("LOOKS")) { int n = 0; for (size_t i = 0; i < s->strips.count; i++) n += s->at[i].known; printf("looks %d of %zu\n", n, s->strips.count); }
 }
 
 /* Takes what is worst so far. */
@@ -193,8 +206,52 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
         c->tv_above_theta = (float)theta;
     }
     c->max_weight = fmaxf(c->max_weight, (float)f[WEIGHT]);
-    c->area_error = fmaxf(c->area_error, (float)f[AREA_ERROR]);
     c->consistency = fmaxf(c->consistency, (float)f[CONSISTENCY]);
+}
+
+/* ---- areas ---- */
+
+/* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. */
+static double area_error_at(const survey *s, int cell, double rho)
+{
+    table t = s->table;
+    double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below;
+    double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / (below + cosine) - 1);
+    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1)
+        error = fmax(error, fabs(law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1) / below - 1));
+    return error;
+}
+
+/* By places in all cells, then about the worst. */
+static double area_error(const survey *s)
+{
+    enum { PLACES = 3, HALVINGS = 3 };
+    double worst = 0, worst_x = 0, step = 0;
+    for (int i = 0; i <= s->table.cells; i++) {
+        quad k = look(s->table, VNDF_KNOT, i);
+        double x0 = k.a * k.b, width = i < s->table.cells ? k.c : k.b, rho = 0;
+        for (int n = 1; n <= PLACES && rho <= RHO_MOST; n++) {
+            double x = x0 + width * n / (PLACES + 1), error;
+            rho = x / (1 - x);
+            if (rho < RHO_LEAST || rho > RHO_MOST || width < VNDF_GRAIN * x * (1 - x) )
+                continue;
+            error = area_error_at(s, i, rho);
+            if (error > worst) {
+                worst = error;
+                worst_x = x;
+                step = width / (PLACES + 1);
+            }
+        }
+    }
+    for (int n = 0; n < 2 * HALVINGS; n++) {
+        step = n % 2 ? -step : -step / 2;
+        double x = worst_x + step, rho = x / (1 - x), error = x > 0 && x < 1 ? area_error_at(s, find_knot(s->table, rho * rho, 1), rho) : 0;
+        if (error > worst) {
+            worst = error;
+            worst_x = x;
+        }
+    }
+    return worst;
 }
 
 /* ---- D, and its ends ---- */
@@ -234,7 +291,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
         knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
-    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
+    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells / 2);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);
     s.xi = calloc(2 * n + 2, sizeof *s.xi);
@@ -252,10 +309,10 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
                 s.xi[2 * k] = vndf_cell_place(&cell, at->edge);
                 if (at->gathered || !(at[1].edge < HUGE_VAL))
                     continue;
-                double x0 = at->edge / (1 + at->edge), x1 = at[1].edge / (1 + at[1].edge), width = x1 - x0;
-                s.xi[2 * k + 1] = vndf_cell_place(&cell, (x0 + x1) / (2 - x0 - x1));
-                s.ends[2 * k] = PI * at->p0 * at->edge * width * (1 + at->edge) * (1 + at->edge);
-                s.ends[2 * k + 1] = PI * at->p1 * at[1].edge * width * (1 + at[1].edge) * (1 + at[1].edge);
+                double z0 = 1 / (1 + at->edge), z1 = 1 / (1 + at[1].edge), width = PI * (z0 - z1);
+                s.xi[2 * k + 1] = vndf_cell_place(&cell, 2 / (z0 + z1) - 1);
+                s.ends[2 * k] = width * at->p0 * at->edge / (z0 * z0);
+                s.ends[2 * k + 1] = width * at->p1 * at[1].edge / (z1 * z1);
                 s.lean[k] = lean_of(at->mass[0], at->mass[1], s.ends[2 * k], s.ends[2 * k + 1]);
             }
         }
@@ -264,6 +321,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
         for (size_t i = 0; i < 2 * n; i++)
             if (s.at[i / 2].known)
                 take(c, s.at[i / 2].side[i % 2], s.strips.at[i / 2].edge, i % 2, profile->scale);
+        c->area_error = (float)area_error(&s);
         c->ndf_error = (float)ndf_error(&s);
         /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
         double first = profile->panel[0].r, end = profile->panel[profile->count].r;

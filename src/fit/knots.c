@@ -256,27 +256,30 @@ const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 
 /* ---- jumps ---- */
 
-enum { JUMPS_MAX = 16 };
+enum { JUMPS_MAX = 64, STOPS_MAX = 16 };
 
-/* A jump or a pole made panels narrow; a knot there has the side with more normals in one cell. Returns how many there
- * are, after a 0. */
+/* A knot at a jump or a pole has the side with more normals in one cell: slopes where P22 leaps from one side of a
+ * panel's edge to the other, after a 0. Returns how many there are. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-10,
-                 apart = 0x1p-21; /* of a slope, as the next two: just beyond it, and away from it */
-    const double beside = 1e-9, widely = 1e-4;
+    const double narrow = 1e-9, /* of a slope: half a panel at a pole, */
+        apart = 0x1p-21;         /* and knots */
+    const double least = 1e-9, beside = 2e-7, widely = 1e-4; /* of a slope: just beyond it, and away from it */
     const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
     const vndf_panel *p = profile->panel;
     size_t n = 1;
     jump[0] = 0;
     for (size_t i = 1; i < profile->count && n <= JUMPS_MAX; i++) {
-        double r = p[i].r, at[4] = {r * (1 - beside), r * (1 + beside), r * (1 - widely), r * (1 + widely)},
-               p22[4];
-        if (fmin(p[i + 1].r - r, r - p[i - 1].r) >= narrow * r || r < KNOT_LEAST || r > KNOT_MOST)
+        double r = p[i].r, in = (r - p[i - 1].r) / 2, out = (p[i + 1].r - r) / 2, p22[4];
+        double at[4] = {r - fmin(fmax(in, least * r), beside * r), r + fmin(fmax(out, least * r), beside * r),
+                        r * (1 - widely), r * (1 + widely)};
+        if (r < KNOT_LEAST || r > KNOT_MOST)
             continue;
         vndf_profile_p22_many(profile, at, 4, p22);
-        double most = fmax(p22[0], p22[1]), around = fmax(p22[2], p22[3]);
-        int jumps = fabs(p22[0] - p22[1]) > jump_least * most || most > pole_least * around, up = p22[0] > p22[1];
+        double most = fmax(p22[0], p22[1]), around = fmax(p22[2], p22[3]), leap = fabs(p22[0] - p22[1]);
+        int jumps = (leap > jump_least * most && leap > fabs(p22[2] - p22[3]) / 2) ||
+                    (most > pole_least * around && fmin(in, out) < narrow * r),
+            up = p22[0] > p22[1];
         float knot = (float)r;
         knot = up && knot < r ? nextafterf(knot, HUGE_VALF) : !up && knot > r ? nextafterf(knot, 0.0f) : knot;
         if (jumps && most * r * r > worth && most < needle * around && knot > jump[n - 1] * (1 + apart))
@@ -314,7 +317,7 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
         while (next > 0 && (double)jump[next] > r)
             next--;
         k->rim[i] =
-            (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2, .stop = next > 0 && (double)jump[next] == r};
+            (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2, .stop = next > 0 && jumps <= STOPS_MAX && (double)jump[next] == r};
         if (k->last == 0 && r <= KNOT_MOST && m0 > M0_LEAST)
             k->last = k->strips.at[i + 1].edge <= KNOT_MOST ? i + 1 : i;
         k->last = k->last == 0 && k->rim[i].stop ? i : k->last;

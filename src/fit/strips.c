@@ -7,8 +7,10 @@
 
 static const double PI = 3.14159265358979323846;
 static const double SAME = 1.3e-7;   /* of a slope: a knot may be the end of a panel, rounded */
-static const double ENDS=1e-2;
-static const double INSIDE = 1.5e-7; /* of a slope: a float beyond an edge, where P22 may jump beside it */
+static const double WORTH = 1e-7;    /* of the mass: a panel with more has at least as many strips: ten points of it */
+static const double PARTS_LEAST = 4; /* may show more than one wave */
+static const double CLOSER = 1.5;    /* times nearer to an end is the next strip there */
+static const double INSIDE = 4e-7; /* of a slope: some floats beyond an edge, where P22 may jump beside it */
 
 /* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered
  * to one strip. */
@@ -106,10 +108,12 @@ static void gather(maker *m, const vndf_panel *panel, double from, double to)
     }
 }
 
-/* Ends what is gathered before a slope, or a little after it, so that floats tell both ends apart; returns where. */
+/* Ends what is gathered before a slope, at a knot that is the same as a float, or a little after it, so that floats tell
+ * both ends apart; returns where. */
 static double end_before(maker *m, double slope)
 {
     double least = fmin(edge_of(m) * (1 + VNDF_GRAIN / 2), m->knot);
+    least = slope * (1 + SAME) > m->knot ? m->knot : least;
     if (!m->little && m->pieces > 0 && slope < least) {
         gather(m, NULL, slope, least);
         slope = least;
@@ -168,11 +172,33 @@ static double need_of(const vndf_profile *profile, size_t i)
     return change * cbrt(fmax(fmax(f, along / profile->f1), below * along / beyond));
 }
 
+/* Ends a panel. Where a support ends with it, next to nothing of what is seen from below from its last strip lies
+ * beyond: that strip is cut closer and closer to the end. */
+static void end_panel(maker *m, const vndf_panel *p, double to)
+{
+    const double few = 1.0 / 16, enough = 1.0 / 4, worth = 1e-13, nearest = 1e-5;
+    vndf_strips *s = m->to;
+    double from = edge_of(m), left = to - from;
+    add_strip(m, to);
+    const vndf_strip *last = &s->at[s->count - 1];
+    double beyond = p[1].s, f = p[1].t0 + last->f / (2 * PI), along = (last->along - from * last->f) / (2 * PI),
+           seen = beyond + p[1].t0 * left + along;
+    if (!(last->edge == from && beyond < few * seen && seen > worth * m->profile->f1))
+        return;
+    s->count--;
+    while ((left /= CLOSER) > nearest * to && beyond < enough * seen) {
+        add_strip(m, to - left);
+        last = &s->at[s->count - 1];
+        f -= last->f / (2 * PI);
+        seen -= (last->along - last->edge * last->f) / (2 * PI) + f * (last[1].edge - last->edge);
+    }
+    add_strip(m, to);
+}
+
 /* Adds what lies in a panel from one slope to another, `parts` strips to `edge` if it does not have to be gathered; in
  * a gap they are the narrower the nearer to what is seen from there. */
 static void add_piece(maker *m, size_t i, double from, double to, double edge, double parts)
 {
-    const double closer = 1.5;
     const vndf_panel *p = &m->profile->panel[i];
     int whole = from == p->r && to == p[1].r, slim = to - from < VNDF_GRAIN / 2 * to, little = parts == 0;
     if (slim || little) {
@@ -184,14 +210,16 @@ static void add_piece(maker *m, size_t i, double from, double to, double edge, d
     }
     double begin = end_before(m, from), width = to - begin;
     size_t first = m->to->count;
-    double count = ceil(fmin(fmax(parts, 4), 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
-    int ends = p[1].s < ENDS * p->s && !getenv("NOENDS");
-    for (double k = 1; parts > 0 && k < count; k++)
+    double few = p->m0 > WORTH * m->profile->f0 ? PARTS_LEAST : 1;
+    double count = ceil(fmin(fmax(parts, few), 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
+    for (double k = 1; k < count; k++)
         add_strip(m, begin * exp(k * step));
-    double last = parts < 0 ? width : to - begin * exp((count - 1) * step);
-    for (double left = last / closer; (parts < 0 || ends) && left > (parts<0?2 * VNDF_GRAIN * to:1e-5*to); left /= closer)
+    for (double left = width / CLOSER; parts < 0 && left > 2 * VNDF_GRAIN * to; left /= CLOSER)
         add_strip(m, to - left);
-    add_strip(m, edge);
+    if (to == p[1].r)
+        end_panel(m, p, edge);
+    else
+        add_strip(m, edge);
     if (whole && begin == from && edge == to)
         scale(m->to, first, 2 * PI * p->m0);
 }
