@@ -15,7 +15,8 @@
 
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
-static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p20;
+static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30;
+static const double Z_LEAST = 1e-26; /* that law_length draws */
 enum { CELLS_MOST = 64, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
@@ -33,6 +34,7 @@ typedef struct survey {
     vndf_strips strips;
     direction *at;         /* of each edge */
     double *xi, *lean;     /* in its cell, of each edge and of the middle of its strip; of f in each strip (lean_of) */
+    double furthest; /* slope beyond which all is drawn at one: xi in the last cell is no more than there */
     double *ends; /* of each strip: densities at its ends, in the unit of its points */
     double *kernel, *tilt; /* as it is seen from below: k rho f dR of each point, and lean of each strip */
     double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
@@ -80,24 +82,30 @@ static double part(survey *s, double seen, double drawn, double *weight)
 static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
 {
     const size_t *strip = s->strips.first;
-    double miss = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
+    double miss = 0, lost = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
     memset(s->rarely, 0, sizeof s->rarely);
     for (int first = below ? v.first : 0, i = first; i <= s->table.cells; i++) {
         vndf_drawn cell = drawn_in(s->table, v, i, below);
         int partial = below && i == first;
         double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
+        double furthest = i < s->table.cells ? 1 : (s->furthest - xi) * stretch;
         for (size_t n = partial ? edge : strip[i]; n < strip[i + 1]; n++) {
             double end = n + 1 < strip[i + 1] ? (s->xi[2 * n + 2] - xi) * stretch : 1;
-            double next = vndf_drawn_before(&cell, end), all = (next - before) / area_drawn, upper = all / 2,
+            double next = vndf_drawn_before(&cell, fmin(end, furthest)), all = (next - before) / area_drawn, upper = all / 2,
                    seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f),
                    lean = per * (s->tilt[n] + add * s->lean[n]);
             if (s->xi[2 * n + 1] > 0)
                 upper = (next - vndf_drawn_before(&cell, (s->xi[2 * n + 1] - xi) * stretch)) / area_drawn;
+            if (next == before && end > furthest)
+                miss += seen;
+            else
+                miss += part(s, seen / 2 - lean, all - upper, &weight) + part(s, seen / 2 + lean, upper, &weight);
             before = next;
-            miss += part(s, seen / 2 - lean, all - upper, &weight) + part(s, seen / 2 + lean, upper, &weight);
         }
+        lost = (cell.mass - before) / area_drawn;
     }
-    figure[TV] = fmin(miss / 2, 1);
+    figure[TV] = fmin((miss + lost) / 2, 1);
+    figure[CONSISTENCY] += lost;
     figure[WEIGHT] = largest_weight(s, weight);
 }
 
@@ -164,13 +172,12 @@ static void climb(survey *s, int side, int figure)
  * seen from below; and the neighbourhood of what is worst. */
 static void look_around(survey *s)
 {
-    static const double degrees[] = {0.001, 10, 30, 50, 60, 70, 80, 85, 89, 89.9, 89.999};
+    enum { OCTAVES = 12 };
     const double less = 8;
     const vndf_strip *at = s->strips.at;
     double f = 0, along = 0, last = 0;
-    for (size_t i = 0; i < sizeof degrees / sizeof *degrees; i++)
-        look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count,
-                                      1 / (tan(degrees[i] * PI / 180) * s->profile->scale)));
+    for (int i = -OCTAVES; i <= OCTAVES; i++)
+        look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count, exp2(i)));
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
         size_t from = s->strips.first[i], strips = s->strips.first[i + 1] - from;
         look_from(s, from);
@@ -215,6 +222,8 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 static double area_error_at(const survey *s, int cell, double rho)
 {
     table t = s->table;
+    if (!(rho >= RHO_LEAST && rho <= RHO_MOST))
+        return 0;
     double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below;
     double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / (below + cosine) - 1);
     if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1)
@@ -226,29 +235,26 @@ static double area_error_at(const survey *s, int cell, double rho)
 static double area_error(const survey *s)
 {
     enum { PLACES = 3, HALVINGS = 3 };
-    double worst = 0, worst_x = 0, step = 0;
+    double worst = 0, where = 1, step = 0; /* 1/(1 + rho) */
     for (int i = 0; i <= s->table.cells; i++) {
         quad k = look(s->table, VNDF_KNOT, i);
-        double x0 = k.a * k.b, width = i < s->table.cells ? k.c : k.b, rho = 0;
-        for (int n = 1; n <= PLACES && rho <= RHO_MOST; n++) {
-            double x = x0 + width * n / (PLACES + 1), error;
-            rho = x / (1 - x);
-            if (rho < RHO_LEAST || rho > RHO_MOST || width < VNDF_GRAIN * x * (1 - x) )
-                continue;
-            error = area_error_at(s, i, rho);
+        double width = (i < s->table.cells ? k.c : k.b) / (PLACES + 1);
+        for (int n = 1; n <= PLACES; n++) {
+            double z = k.b - n * width, rho = 1 / z - 1;
+            double error = width > VNDF_GRAIN * z * (1 - z) ? area_error_at(s, i, rho) : 0;
             if (error > worst) {
                 worst = error;
-                worst_x = x;
-                step = width / (PLACES + 1);
+                where = z;
+                step = width;
             }
         }
     }
     for (int n = 0; n < 2 * HALVINGS; n++) {
         step = n % 2 ? -step : -step / 2;
-        double x = worst_x + step, rho = x / (1 - x), error = x > 0 && x < 1 ? area_error_at(s, find_knot(s->table, rho * rho, 1), rho) : 0;
+        double z = where + step, rho = 1 / z - 1, error = area_error_at(s, find_knot(s->table, rho * rho, 1), rho);
         if (error > worst) {
             worst = error;
-            worst_x = x;
+            where = z;
         }
     }
     return worst;
@@ -316,6 +322,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
                 s.lean[k] = lean_of(at->mass[0], at->mass[1], s.ends[2 * k], s.ends[2 * k + 1]);
             }
         }
+        s.furthest = d->squarings > 0 ? 1 - pow(Z_LEAST * (1 + (double)knot[cells]), 1.0 / (1 << d->squarings)) : 1;
         look_around(&s);
         *c = (vndf_certificate){.max_weight = 1};
         for (size_t i = 0; i < 2 * n; i++)

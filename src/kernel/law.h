@@ -337,7 +337,7 @@ HERE slope_length law_length(table t, seen v, piece at, place in, const int belo
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
             power = power * power;
-        r.z = pick(at.last, at.z0 * most(power, set(1e-26f)) * under, r.z);
+        r.z = pick(at.last, most(at.z0 * power, set(1e-26f)) * under, r.z); /* no slope beyond 1e26 */
         r.x = pick(at.last, under - r.z, r.x);
         r.edge = pick(at.last, v.s * under - r.z, r.edge);
     }
