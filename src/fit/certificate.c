@@ -1,6 +1,6 @@
 /* How good a table is. Given the slope length R all azimuths are drawn as they are seen, so the total variation is
  * that of the laws of R: the drawn one, by the text of the run time in double (kernel/law.h), against
- * f(R) k(R/rho) |c|/(pi A) of the profile, strip by strip. */
+ * f(R) k(R/rho) |c|/(pi A) of the profile, in halves of strips, which are as narrow as D varies. */
 #include <stdlib.h>
 
 #include "fit/draft.h"
@@ -15,8 +15,8 @@
 
 static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
-static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30;
-static const double Z_LEAST = 1e-26; /* that law_length draws */
+static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30; /* claims end there */
+static const double Z_LEAST = 1e-26;                        /* law_length draws no less */
 enum { CELLS_MOST = 64, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
@@ -28,19 +28,74 @@ typedef struct direction {
     int known;
 } direction;
 
+/* A strip in which laws are compared, by halves. */
+typedef struct halves {
+    double xi, middle;   /* places in the cell: of its edge, and of its middle by x; 0 if it has no halves */
+    double end[2], lean; /* f at its ends, in the unit of its points; of f (lean_of) */
+    double seen, tilt;   /* from below, from the direction at hand: integral of k rho f, and its lean */
+} halves;
+
 typedef struct survey {
     table table;
     const vndf_profile *profile;
     vndf_strips strips;
-    direction *at;         /* of each edge */
-    double *xi, *lean;     /* in its cell, of each edge and of the middle of its strip; of f in each strip (lean_of) */
-    double furthest; /* slope beyond which all is drawn at one: xi in the last cell is no more than there */
-    double *ends; /* of each strip: densities at its ends, in the unit of its points */
-    double *kernel, *tilt; /* as it is seen from below: k rho f dR of each point, and lean of each strip */
+    halves *in;            /* each strip, */
+    direction *at;         /* and its edge */
+    double furthest;       /* xi in the last cell beyond which all is drawn at one slope */
     double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
 } survey;
 
+/* ---- strips ---- */
+
+/* By how much the upper half of a strip, by x, holds more than half of it: by the cubic through the densities at its
+ * two points, which stand for half of it each, and at its ends, in the same unit. */
+static double lean_of(double point0, double point1, double end0, double end1)
+{
+    const double of_ends = 0.0625, of_points = 0.32475952641916447; /* 3 sqrt(3)/16 */
+    double lean = of_ends * (end1 - end0) + of_points * (point1 - point0), most = (point0 + point1) / 2;
+    return fmin(fmax(lean, -most), most);
+}
+
+static void halve(survey *s, const float *knot)
+{
+    int cells = s->table.cells, squarings = s->table.squarings;
+    for (int i = 0; i <= cells; i++) {
+        vndf_cell cell = vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)squarings);
+        for (size_t n = s->strips.first[i]; n < s->strips.first[i + 1]; n++) {
+            const vndf_strip *at = &s->strips.at[n];
+            double to = at[1].edge, z0 = 1 / (1 + at->edge), z1 = 1 / (1 + to), per = PI * (z0 - z1);
+            halves *in = &s->in[n];
+            in->xi = vndf_cell_place(&cell, at->edge);
+            if (at->gathered || !(to < HUGE_VAL))
+                continue;
+            in->middle = vndf_cell_place(&cell, 2 / (z0 + z1) - 1);
+            in->end[0] = per * at->p0 * at->edge / (z0 * z0);
+            in->end[1] = per * at->p1 * to / (z1 * z1);
+            in->lean = lean_of(at->mass[0], at->mass[1], in->end[0], in->end[1]);
+        }
+    }
+    s->furthest = squarings > 0 ? 1 - pow(Z_LEAST * (1 + (double)knot[cells]), exp2(-squarings)) : 1;
+}
+
 /* ---- one direction ---- */
+
+/* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
+static vndf_drawn drawn_in(table t, seen v, int i, int below)
+{
+    const weights near = {0, v.c, 0, 0};
+    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
+    return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
+}
+
+/* What is seen and what is drawn of some slopes: returns the difference, and notes the ratio. */
+static double miss_of(survey *s, double right, double is, double *weight)
+{
+    if (right > LEFT_OUT && right > *weight * is)
+        *weight = is > 0 ? right / is : HUGE_VAL;
+    else if (right > *weight * is)
+        s->rarely[is * 0x1p31 > right ? (int)(PER_OCTAVE * log2(right / is)) : RATIOS - 1] += right;
+    return fabs(right - is);
+}
 
 /* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
 static double largest_weight(const survey *s, double least)
@@ -52,33 +107,7 @@ static double largest_weight(const survey *s, double least)
     return least;
 }
 
-/* By how much the upper half of a strip, by x, holds more than half of it: by the cubic through the densities at its
- * points, where `mass` is what they stand for, and at its ends, in the same unit. */
-static double lean_of(double mass0, double mass1, double end0, double end1)
-{
-    double lean = 0.0625 * (end1 - end0) + 0.32475952641916447 * (mass1 - mass0), most = (mass0 + mass1) / 2;
-    return fmin(fmax(lean, -most), most);
-}
-
-/* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
-static vndf_drawn drawn_in(table t, seen v, int i, int below)
-{
-    const weights near = {0, v.c, 0, 0};
-    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
-    return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
-}
-
-/* Takes what is seen and drawn in a part of the slopes; returns the difference. */
-static double part(survey *s, double seen, double drawn, double *weight)
-{
-    if (seen > LEFT_OUT && seen > *weight * drawn)
-        *weight = drawn > 0 ? seen / drawn : HUGE_VAL;
-    else if (seen > *weight * drawn)
-        s->rarely[drawn * 0x1p31 > seen ? (int)(PER_OCTAVE * log2(seen / drawn)) : RATIOS - 1] += seen;
-    return fabs(seen - drawn);
-}
-
-/* Compares what is drawn with what is seen, strip by strip. */
+/* Compares what is drawn with what is seen, half a strip after the other. What is lost lies beyond all slopes. */
 static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
 {
     const size_t *strip = s->strips.first;
@@ -90,23 +119,25 @@ static void compare(survey *s, seen v, int below, size_t edge, double area_seen,
         double xi = partial ? 1 - v.near : 0, stretch = 1 / (1 - xi), before = 0;
         double furthest = i < s->table.cells ? 1 : (s->furthest - xi) * stretch;
         for (size_t n = partial ? edge : strip[i]; n < strip[i + 1]; n++) {
-            double end = n + 1 < strip[i + 1] ? (s->xi[2 * n + 2] - xi) * stretch : 1;
-            double next = vndf_drawn_before(&cell, fmin(end, furthest)), all = (next - before) / area_drawn, upper = all / 2,
-                   seen = per * (s->kernel[2 * n] + s->kernel[2 * n + 1] + add * s->strips.at[n].f),
-                   lean = per * (s->tilt[n] + add * s->lean[n]);
-            if (s->xi[2 * n + 1] > 0)
-                upper = (next - vndf_drawn_before(&cell, (s->xi[2 * n + 1] - xi) * stretch)) / area_drawn;
-            if (next == before && end > furthest)
-                miss += seen;
-            else
-                miss += part(s, seen / 2 - lean, all - upper, &weight) + part(s, seen / 2 + lean, upper, &weight);
+            const halves *in = &s->in[n];
+            double end = n + 1 < strip[i + 1] ? (in[1].xi - xi) * stretch : 1;
+            double next = vndf_drawn_before(&cell, fmin(end, furthest)), is = (next - before) / area_drawn;
+            double right = per * (in->seen + add * s->strips.at[n].f), lean = per * (in->tilt + add * in->lean);
+            if (end > furthest)
+                miss += fabs(right - is);
+            else if (in->middle > 0) {
+                double middle = vndf_drawn_before(&cell, (in->middle - xi) * stretch);
+                miss += miss_of(s, right / 2 - lean, (middle - before) / area_drawn, &weight) +
+                        miss_of(s, right / 2 + lean, (next - middle) / area_drawn, &weight);
+            } else
+                miss += miss_of(s, right, is, &weight);
             before = next;
         }
         lost = (cell.mass - before) / area_drawn;
     }
     figure[TV] = fmin((miss + lost) / 2, 1);
-    figure[CONSISTENCY] += lost;
     figure[WEIGHT] = largest_weight(s, weight);
+    figure[CONSISTENCY] += lost;
 }
 
 /* One side. */
@@ -116,8 +147,8 @@ static void look_at_side(survey *s, size_t edge, int below, double *figure)
     double rho = s->strips.at[edge].edge, sine = 1 / (1 + rho), beyond = 0, all = 0;
     int cell = find_knot(t, rho * rho, 1);
     seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
-    for (size_t i = 2 * edge; i < 2 * s->strips.count; i++)
-        beyond += s->kernel[i];
+    for (size_t i = edge; i < s->strips.count; i++)
+        beyond += s->in[i].seen;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
         return;
     for (int i = t.cells; i >= (below ? cell : 0); i--)
@@ -130,23 +161,25 @@ static void look_at_side(survey *s, size_t edge, int below, double *figure)
 /* Looks from rho at an edge, above and below the horizon. */
 static void look_from(survey *s, size_t edge)
 {
-    const vndf_strips *strips = &s->strips;
-    double rho = strips->at[edge].edge;
-    direction *to = &s->at[edge];
-    if (to->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
-        !vndf_guard_spend(s->profile->guard, 6 * (double)strips->count))
+    const vndf_strip *at = s->strips.at;
+    double rho = at[edge].edge, inner = 0, outer;
+    direction *found = &s->at[edge];
+    if (found->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
+        !vndf_guard_spend(s->profile->guard, 6 * (double)s->strips.count))
         return;
-    *to = (direction){{{0, 1, 0}, {0, 1, 0}}, 1};
-    double end = 0, upper;
-    for (size_t i = 0; i < strips->count; i++, end = upper) {
-        const vndf_strip *at = &strips->at[i];
-        for (int k = 0; k < 2; k++)
-            s->kernel[2 * i + k] = at->r[k] > rho ? at->mass[k] * vndf_profile_kernel(at->r[k], rho) : 0;
-        upper = at[1].edge > rho && at[1].edge < HUGE_VAL ? vndf_profile_kernel(at[1].edge, rho) : 0;
-        s->tilt[i] = s->xi[2 * i + 1] > 0 ? lean_of(s->kernel[2 * i], s->kernel[2 * i + 1], end * s->ends[2 * i], upper * s->ends[2 * i + 1]) : 0;
+    *found = (direction){{{0, 1, 0}, {0, 1, 0}}, 1};
+    for (size_t i = 0; i < edge; i++)
+        s->in[i].seen = s->in[i].tilt = 0;
+    for (size_t i = edge; i < s->strips.count; i++, inner = outer) {
+        halves *in = &s->in[i];
+        double near = at[i].mass[0] * vndf_profile_kernel(at[i].r[0], rho),
+               far = at[i].mass[1] * vndf_profile_kernel(at[i].r[1], rho);
+        outer = at[i + 1].edge < HUGE_VAL ? vndf_profile_kernel(at[i + 1].edge, rho) : 0;
+        in->seen = near + far;
+        in->tilt = in->middle > 0 ? lean_of(near, far, inner * in->end[0], outer * in->end[1]) : 0;
     }
-    look_at_side(s, edge, 0, to->side[0]);
-    look_at_side(s, edge, 1, to->side[1]);
+    look_at_side(s, edge, 0, found->side[0]);
+    look_at_side(s, edge, 1, found->side[1]);
 }
 
 /* ---- all directions ---- */
@@ -154,22 +187,22 @@ static void look_from(survey *s, size_t edge)
 /* Climbs from the edge with the largest figure to a neighbour with a larger one, the nearer the later. */
 static void climb(survey *s, int side, int figure)
 {
-    enum { FURTHEST = 16 };
+    enum { FAR = 16 };
     size_t best = 0, edges = s->strips.count;
     for (size_t i = 0; i < edges; i++)
         best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
-    for (size_t apart = FURTHEST; apart > 0;) {
-        size_t from = best, beside[2] = {best > apart ? best - apart : 0, best + apart < edges ? best + apart : edges - 1};
+    for (size_t apart = FAR, from = best; apart > 0; apart = best == from ? apart / 2 : apart) {
+        size_t beside[2] = {best > apart ? best - apart : 0, best + apart < edges ? best + apart : edges - 1};
+        from = best;
         for (int k = 0; k < 2; k++) {
             look_from(s, beside[k]);
             best = s->at[beside[k]].side[side][figure] > s->at[best].side[side][figure] ? beside[k] : best;
         }
-        apart = best == from ? apart / 2 : apart;
     }
 }
 
-/* Some angles of incidence at alpha 1; of every so many cells the left knot and two places; wherever less and less is
- * seen from below; and the neighbourhood of what is worst. */
+/* Directions an octave of rho apart; of every so many cells the left knot and two places; others wherever there is less
+ * and less to be seen from below; and the neighbourhood of what is worst. */
 static void look_around(survey *s)
 {
     enum { OCTAVES = 12 };
@@ -193,11 +226,9 @@ static void look_around(survey *s)
             last = along - f * at[i].edge;
         }
     }
-    if (getenv("ALL")) for (size_t i = 0; i < s->strips.count; i++) look_from(s, i);
     for (int figure = TV; figure <= WEIGHT; figure++)
         for (int side = 0; side < 2; side++)
             climb(s, side, figure);
-    if (getenv("LOOKS")) { int n = 0; for (size_t i = 0; i < s->strips.count; i++) n += s->at[i].known; printf("looks %d of %zu\n", n, s->strips.count); }
 }
 
 /* Takes what is worst so far. */
@@ -262,8 +293,13 @@ static double area_error(const survey *s)
 
 /* ---- D, and its ends ---- */
 
-/* Largest relative error of D, which is drawn as if all normals were, in the tail as if those of grazing incidence
- * were, over the strips that hold all but LEFT_OUT of the mass on either side. */
+static double error_of(double is, double right)
+{
+    return fabs(is / right - 1);
+}
+
+/* Largest relative error of D over the halves of the strips that hold all but LEFT_OUT of the mass on either side: of
+ * f, in the last cell of R f. */
 static double ndf_error(const survey *s)
 {
     const size_t *first = s->strips.first;
@@ -272,22 +308,35 @@ static double ndf_error(const survey *s)
         int tail = i == s->table.cells;
         piece all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
-        double before = 0;
-        for (size_t n = first[i]; n < first[i + 1]; n++) {
+        double before = 0, next;
+        for (size_t n = first[i]; n < first[i + 1]; n++, before = next) {
             const vndf_strip *strip = &s->strips.at[n];
-            double next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? s->xi[2 * n + 2] : 1), is = next - before;
-            double right = tail ? strip->along : strip->f, upper = 0, lean = s->lean[n] * right / strip->f;
-            if (s->xi[2 * n + 1] > 0)
-                upper = is - vndf_drawn_before(&cell, s->xi[2 * n + 1]) + before;
-            double error = upper > 0 ? fmax(fabs(upper / (right / 2 + lean) - 1), fabs((is - upper) / (right / 2 - lean) - 1)) : fabs(is / right - 1);
-            before = next;
+            const halves *in = &s->in[n];
+            next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? in[1].xi : 1);
             sum += strip->f;
-            if (sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                strip->f > LEFT_OUT * log(strip[1].edge / strip->edge))
-                worst = fmax(worst, error);
+            if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
+                  strip->f > LEFT_OUT * log(strip[1].edge / strip->edge)))
+                continue;
+            double right = tail ? strip->along : strip->f, lean = in->lean * right / strip->f;
+            if (in->middle > 0) {
+                double middle = vndf_drawn_before(&cell, in->middle);
+                worst = fmax(worst, error_of(middle - before, right / 2 - lean));
+                worst = fmax(worst, error_of(next - middle, right / 2 + lean));
+            } else
+                worst = fmax(worst, error_of(next - before, right));
         }
     }
     return worst;
+}
+
+/* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is. */
+static void put_ends(vndf_certificate *c, const vndf_profile *profile)
+{
+    double power = profile->tail - 4, pole = profile->pole;
+    c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
+    c->weight_bounded = !(power < -4e-3) && (pole < 7e-3 || pole == HUGE_VAL);
+    c->hidden = (float)profile->hidden;
+    c->finest = (float)profile->finest;
 }
 
 int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_profile *profile)
@@ -300,29 +349,10 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells / 2);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);
-    s.xi = calloc(2 * n + 2, sizeof *s.xi);
-    s.lean = calloc(n + 1, sizeof *s.lean);
-    s.ends = calloc(2 * n + 2, sizeof *s.ends);
-    s.tilt = malloc((n + 1) * sizeof *s.tilt);
-    s.kernel = malloc((2 * n + 1) * sizeof *s.kernel);
-    good = good && s.at && s.xi && s.kernel && s.lean && s.ends && s.tilt;
+    s.in = calloc(n + 1, sizeof *s.in);
+    good = good && s.at && s.in;
     if (good) {
-        for (unsigned i = 0; i <= cells; i++) {
-            vndf_cell cell =
-                vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)d->squarings);
-            for (size_t k = s.strips.first[i]; k < s.strips.first[i + 1]; k++) {
-                const vndf_strip *at = &s.strips.at[k];
-                s.xi[2 * k] = vndf_cell_place(&cell, at->edge);
-                if (at->gathered || !(at[1].edge < HUGE_VAL))
-                    continue;
-                double z0 = 1 / (1 + at->edge), z1 = 1 / (1 + at[1].edge), width = PI * (z0 - z1);
-                s.xi[2 * k + 1] = vndf_cell_place(&cell, 2 / (z0 + z1) - 1);
-                s.ends[2 * k] = width * at->p0 * at->edge / (z0 * z0);
-                s.ends[2 * k + 1] = width * at->p1 * at[1].edge / (z1 * z1);
-                s.lean[k] = lean_of(at->mass[0], at->mass[1], s.ends[2 * k], s.ends[2 * k + 1]);
-            }
-        }
-        s.furthest = d->squarings > 0 ? 1 - pow(Z_LEAST * (1 + (double)knot[cells]), 1.0 / (1 << d->squarings)) : 1;
+        halve(&s, knot);
         look_around(&s);
         *c = (vndf_certificate){.max_weight = 1};
         for (size_t i = 0; i < 2 * n; i++)
@@ -330,22 +360,11 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
                 take(c, s.at[i / 2].side[i % 2], s.strips.at[i / 2].edge, i % 2, profile->scale);
         c->area_error = (float)area_error(&s);
         c->ndf_error = (float)ndf_error(&s);
-        /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is */
-        double first = profile->panel[0].r, end = profile->panel[profile->count].r;
-        double power = vndf_profile_exponent(profile, end / 16, end / 4) - 4,
-               pole = vndf_profile_exponent(profile, 4 * first, 16 * first);
-        c->horizon_power = power < -4e-3 ? (float)power : 0.0f;
-        c->weight_bounded = !(power < -4e-3) && (pole < 7e-3 || pole == HUGE_VAL);
-        c->hidden = (float)profile->hidden;
-        c->finest = (float)profile->finest;
+        put_ends(c, profile);
     }
     vndf_strips_free(&s.strips);
     free(knot);
     free(s.at);
-    free(s.xi);
-    free(s.kernel);
-    free(s.lean);
-    free(s.ends);
-    free(s.tilt);
+    free(s.in);
     return good;
 }

@@ -297,7 +297,7 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
     size_t jumps = find_jumps(profile, jump);
     memset(k, 0, sizeof *k);
     k->profile = profile;
-    double end = profile->panel[profile->count].r, power = vndf_profile_exponent(profile, end / 64, end / 4);
+    double power = profile->tail;
     /* the least with which R^2 P22, by xi, stays finite in the tail */
     while (k->squarings < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << k->squarings) < 1 - 1e-3)
         k->squarings++;

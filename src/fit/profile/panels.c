@@ -12,6 +12,7 @@ static const double DEGREES = 57.295779513082323; /* to a radian */
 static const double PANEL_TOLERANCE = 1e-10;
 static const double NEGLIGIBLE = 1e-34; /* of both peaks: less than numbers of tables tell from nothing */
 static const double LEAST = 1e-290;     /* a product with a slope or two remains a normal double */
+static const double WINDOW = 0x1p30;    /* between the slopes from which exponents at both ends are read */
 static const double ROUNDED = 4e-16;    /* of a slope: the error of points */
 
 const double vndf_gauss_node[VNDF_GAUSS] = {
@@ -76,10 +77,21 @@ void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf
         point[i] = (vndf_profile_point){r[i], vndf_gauss_weight[i] * du * r[i] * r[i] * p22[i]};
 }
 
-double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1)
+/* -d log P / d log r over many octaves, by the line closest to P at points whose spacing has no period, so that waves
+ * even out; infinite where P vanishes at half of them. */
+static double exponent(const vndf_profile *profile, double from, double to)
 {
-    double p0 = vndf_profile_p22(profile, r0), p1 = vndf_profile_p22(profile, r1);
-    return p0 > 0.0 && p1 > 0.0 ? -log(p1 / p0) / log(r1 / r0) : HUGE_VAL;
+    enum { POINTS = 96 };
+    const double golden = 0.6180339887498949;
+    double n = 0, x1 = 0, y1 = 0, xx = 0, xy = 0;
+    for (int i = 0; i < POINTS; i++) {
+        double x = log(to / from) * (i + fmod(golden * i, 1)) / POINTS, p22 = vndf_profile_p22(profile, from * exp(x));
+        if (!(p22 > 0))
+            continue;
+        double y = -log(p22);
+        n++, x1 += x, y1 += y, xx += x * x, xy += x * y;
+    }
+    return 2 * n > POINTS ? (n * xy - x1 * y1) / (n * xx - x1 * x1) : HUGE_VAL;
 }
 
 /* ---- one panel ---- */
@@ -171,7 +183,8 @@ void vndf_panels_sum(vndf_profile *profile)
     vndf_panel *p = profile->panel;
     size_t n = profile->count;
     double end = p[n].r, last = vndf_profile_p22(profile, end),
-           power = vndf_profile_exponent(profile, end / 4, end);
+           power = profile->tail = exponent(profile, end / WINDOW, end);
+    profile->pole = exponent(profile, p->r, p->r * WINDOW);
     double before = 0.0; /* the integral of P r^2 */
     profile->tail_m0 = profile->tail_m1 = 0.0;
     if (last > 0.0 && power > 3.0 + VNDF_POWER_MARGIN && power < HUGE_VAL) {

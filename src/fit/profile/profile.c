@@ -25,8 +25,7 @@ static vndf_status check(const vndf_profile *profile, double peak, vndf_error *e
     if (!(profile->f0 > 0.0))
         return vndf_fail(error, VNDF_ERROR_DISTRIBUTION,
                          "P22 is zero everywhere from slope 1e-30 to 1e30: no projected area");
-    double tail = vndf_profile_exponent(profile, exp2(VNDF_OCTAVES - 2), exp2(VNDF_OCTAVES));
-    double pole = vndf_profile_exponent(profile, exp2(-VNDF_OCTAVES), exp2(2 - VNDF_OCTAVES));
+    double tail = profile->tail, pole = profile->pole;
     const vndf_panel *p = profile->panel;
     size_t n = profile->count;
     if (pole < HUGE_VAL && pole >= 2.0 - VNDF_POWER_MARGIN)

@@ -77,6 +77,7 @@ typedef struct vndf_profile {
     size_t count;            /* of panels */
     vndf_panel *panel;       /* room for the limit of them; panel[count] is the outer end */
     double f0, f1;           /* totals: integrals of P r dr and P r^2 dr */
+    double pole, tail;       /* -d log P / d log r at both ends; infinite if P vanishes there */
     double tail_m0, tail_m1; /* as m0 and m1 of a panel: beyond the last one, where P falls by a power */
     double *edge;            /* slopes in the source's unit where panels end, ascending and apart */
     size_t edge_count;
@@ -94,9 +95,6 @@ double vndf_profile_p22(const vndf_profile *profile, double r);
 
 /* The same at up to VNDF_SOURCE_MANY slopes. */
 void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t count, double *p22);
-
-/* -d log P / d log r between two slopes; infinite if P vanishes there. */
-double vndf_profile_exponent(const vndf_profile *profile, double r0, double r1);
 
 /* The points of the rule over [from, to], even in log r. */
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS]);
