@@ -25,6 +25,7 @@ static const double share[2] = {0.17392742256872693, 0.32607257743127307};
 /* A point of the quadrature: a slope over the median. */
 typedef struct point {
     double r, p, drawn; /* P22 of the source as it is; of the table */
+    double both;        /* P22 of the source as the table says it is normalised, and of the table */
     double mass, solid; /* P22 R dR of the source; 2 pi R dR over what a solid angle takes of the slopes */
     double seen;        /* the mean of (c + s R cos a)+ from the direction at hand */
     float x, z;         /* the normal that leans towards it */
@@ -40,7 +41,7 @@ typedef struct spread {
 typedef struct laws {
     const vndf_source *source;
     vndf_surface surface; /* its slopes are over the median */
-    double scale, unit;   /* the median; P22 of the table over that of the source, as it is said */
+    double scale, unit;   /* the median, rounded; P22 of the table over that of the source, as it is said */
     size_t count;
     double end[2 * PANELS_MOST];
     point at[GAUSS * PANELS_MOST];
@@ -79,6 +80,7 @@ static point point_at(const laws *l, double r, double dr, double width)
     at.r = width > UNDECIDED * r ? (double)at.x / (double)at.z : r;
     at.p = vndf_source_p22(l->source, at.r * l->scale);
     at.drawn = (double)vndf_p22(&l->surface, (float)at.r, 0);
+    at.both = l->unit * at.p + at.drawn;
     at.mass = at.p * at.r * dr;
     at.solid = 2 * PI * at.r * dr * z * z * z;
     return at;
@@ -99,7 +101,7 @@ static void add_panel(laws *l, size_t i, double from, double to, const point at[
         l->x[k] = l->at[k].x, l->z[k] = l->at[k].z;
 }
 
-/* How far P22 is off the cubic through the points of a panel, at those of its halves and at its ends, over the
+/* How far both P22 are off the cubic through the points of a panel, at those of its halves and at its ends, over the
  * largest. */
 static double variation(const point at[GAUSS], const point tried[TRIED])
 {
@@ -110,18 +112,18 @@ static double variation(const point at[GAUSS], const point tried[TRIED])
                                    : i - 2 * GAUSS,
                cubic = 0;
         for (int k = 0; k < GAUSS; k++) {
-            double part = at[k].p;
+            double part = at[k].both;
             for (int j = 0; j < GAUSS; j++)
                 part *= j == k ? 1 : (x - place[j]) / (place[k] - place[j]);
             cubic += part;
         }
-        off = fmax(off, fabs(cubic - tried[i].p));
-        most = fmax(most, tried[i].p);
+        off = fmax(off, fabs(cubic - tried[i].both));
+        most = fmax(most, tried[i].both);
     }
     return off / most;
 }
 
-/* Halves a panel until P22 is smooth in it. */
+/* Halves a panel until both P22 are smooth in it. */
 static void refine(laws *l, double from, double to, const point at[GAUSS])
 {
     double middle = from + (to - from) / 2, inside = 1e-12 * (to - from), most = 0;
@@ -131,7 +133,7 @@ static void refine(laws *l, double from, double to, const point at[GAUSS])
     tried[2 * GAUSS] = point_at(l, from + inside, 0, 0);
     tried[2 * GAUSS + 1] = point_at(l, to - inside, 0, 0);
     for (int i = 0; i < TRIED; i++)
-        most = fmax(most, fmax(tried[i].p, tried[i].drawn / l->unit) * to * (to - from));
+        most = fmax(most, tried[i].both / l->unit * to * (to - from));
     if ((most < LITTLE_MASS * l->mass[0] && most * to < LITTLE_AREA * l->mass[1]) ||
         l->count + GRADES == PANELS_MOST)
         return;
@@ -294,28 +296,21 @@ static void look_both_ways(laws *l, double rho)
 
 /* ---- all directions ---- */
 
-/* Even in what is left of the area, and in log rho between the slopes that are seen. 0: `progress` said to stop. */
+/* Even in log rho and in what is left of the area, where slopes are. 0: `progress` said to stop. */
 static int look_around(laws *l, int per_octave, vndf_progress *progress, void *user)
 {
-    double m0 = 0, m1 = l->tail[1], low = 0, high = 0, next = AREA_LEAST, step = exp2(1.0 / per_octave);
-    for (size_t i = GAUSS * l->count; i-- > 0;) {
-        m1 += l->at[i].mass * l->at[i].r;
+    const double step = exp2(1.0 / per_octave), grazing = 1e-9, steep = 1e-12; /* beyond: parts of mass and area */
+    double m0 = 0, m1 = l->tail[1], area = 0, rho = 1e12;
+    for (size_t i = GAUSS * l->count; i-- > 0 && m0 < (1 - grazing) * l->mass[0];) {
+        const double r = l->at[i].r;
         m0 += l->at[i].mass;
-        high = m1 < 1e-12 * l->mass[1] ? l->at[i].r : high;
-        low = m0 < (1 - 1e-4) * l->mass[0] ? l->at[i].r : low;
-        if (m1 < next * l->mass[1])
+        m1 += l->at[i].mass * r;
+        if (m1 < steep * l->mass[1] || r > rho || (m1 < step * area && r * step > rho))
             continue;
-        if (progress && progress(0.5 - log(next) / log(AREA_LEAST) / 2, "certificate", user))
+        if (progress && progress(1 - (double)i / (GAUSS * (double)l->count), "certificate", user))
             return 0;
-        look_both_ways(l, l->at[i].r);
-        while (m1 >= next * l->mass[1])
-            next *= step;
-    }
-    low = fmax(low / 64, 1e-6), high = fmin(high > 0 ? 8 * high : 1e6, 1e6);
-    for (double rho = low; rho < high; rho *= step) {
-        if (progress && progress(0.5 + log(rho / low) / log(high / low) / 2, "certificate", user))
-            return 0;
-        look_both_ways(l, rho);
+        look_both_ways(l, rho = r);
+        area = m1;
     }
     return 1;
 }
@@ -336,6 +331,7 @@ static void look_closer(laws *l, const vndf_certificate *c, int per_octave)
             look_both_ways(l, jump * (1 + beside[k]));
     }
     look_from(l, 0);
+    look_from(l, 1e6);
     for (int i = 0; i < 2; i++)
         look_both_ways(l, fabs(1 / (tan(said[i]) * l->scale)));
     for (int figure = LAWS_TV; figure <= LAWS_AREA_ERROR; figure++)
@@ -356,18 +352,6 @@ static double ndf_error(laws *l)
     return take_most(&l->spread);
 }
 
-/* The surface whose slopes are over the median: its roughness times that is 1, if it is of any float. */
-static vndf_surface surface_of(const vndf_distribution *table, double scale)
-{
-    const float near = (float)(1 / scale);
-    float alpha = near;
-    for (int i = -2; i <= 2; i++) {
-        const float other = near * (1 + (float)i * 0x1p-23f);
-        alpha = other * (float)scale == 1 ? other : alpha;
-    }
-    return (vndf_surface){table, alpha, alpha};
-}
-
 int laws_measure(const vndf_distribution *table, const vndf_source *source, int per_octave,
                  vndf_progress *progress, void *user, laws_figure found[LAWS_FIGURES])
 {
@@ -381,10 +365,11 @@ int laws_measure(const vndf_distribution *table, const vndf_source *source, int 
     for (int i = 0; i < LAWS_FIGURES; i++)
         found[i] = (laws_figure){names[i], (double)stored[i], -1, NAN, 0};
     l->source = source;
-    l->surface = surface_of(table, info.scale);
-    l->scale = info.scale;
+    const float alpha = (float)(1 / info.scale);
+    l->surface = (vndf_surface){table, alpha, alpha};
+    l->scale = 1 / (double)alpha;
     l->worst = found;
-    l->unit = info.normalization * info.scale * info.scale;
+    l->unit = info.normalization * l->scale * l->scale;
     l->mass[0] = 1 / (2 * PI * l->unit); /* first guesses */
     l->mass[1] = PI * l->mass[0] * (double)vndf_projected_area(&l->surface, (vndf_vec3){1, 0, 0});
     const int done = place_points(l) && look_around(l, per_octave, progress, user);
@@ -393,7 +378,7 @@ int laws_measure(const vndf_distribution *table, const vndf_source *source, int 
         found[LAWS_NDF_ERROR].measured = ndf_error(l);
     }
     for (int i = 0; i < LAWS_FIGURES; i++) {
-        const double best = i == LAWS_MAX_WEIGHT, claim = found[i].stored - best, is = found[i].measured - best;
+        const double claim = found[i].stored, is = found[i].measured;
         found[i].good = is >= 0 && is <= fmax(1.1 * claim, claim + 2e-5);
     }
     free(l);

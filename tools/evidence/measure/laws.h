@@ -15,7 +15,7 @@ enum { LAWS_TV, LAWS_TV_ABOVE, LAWS_MAX_WEIGHT, LAWS_AREA_ERROR, LAWS_CONSISTENC
 typedef struct laws_figure {
     const char *name;
     double stored, measured, theta; /* the worst, and where it was found, degrees; NaN for ndf_error */
-    int good;                       /* it is at most a tenth, or 2e-5, worse than stored; max_weight beyond 1 */
+    int good;                       /* it is at most a tenth, or 2e-5, worse than stored */
 } laws_figure;
 
 /* `per_octave` directions in each octave of cot(theta), on both sides of the horizon, and some hundred more: 4 are
