@@ -1,7 +1,7 @@
 /* Figures have names and units: build and info print the same lines, --json the same numbers in JSON, -q nothing; the
- * verdict is the last of them, and a table that is worth little is told of on stderr too; a table whose certificate says
- * less than is true fails check. It notices a figure without a unit, JSON that does not parse, a verdict that praises a
- * poor table, and a check that forgives. */
+ * verdict is the last of them, and a table that is worth little is told of on stderr too; check fails a table whose
+ * certificate says less than is true. It notices a figure without a unit, JSON that does not parse, a verdict that
+ * praises a poor table, and a check that forgives. */
 #include "harness/run_program.h"
 
 #include "harness/damage.h"

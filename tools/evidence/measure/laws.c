@@ -36,8 +36,8 @@ typedef struct spread {
     double part[BINS];
 } spread;
 
-/* Panel i is from end[2 i] to end[2 i + 1] and has GAUSS points. They ascend; behind `count` there is room for GRADES of
- * the direction at hand. */
+/* Panel i is from end[2 i] to end[2 i + 1] and has GAUSS points. `count` of them ascend; then there is room for GRADES
+ * of the direction at hand. */
 typedef struct laws {
     const vndf_source *source;
     vndf_surface surface; /* its slopes are over the median */
