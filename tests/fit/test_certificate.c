@@ -1,6 +1,6 @@
 /* The certificate is true, and not by much too large: nothing that an independent quadrature finds (measure/laws.h,
- * from directions of its own) is more than a tenth worse than stored, for smooth D, rings, jumps with gaps, waves, lobes
- * 1000 apart, heavy tails, and rows with plateaus, saws and noise. An argument: one of the subjects. */
+ * from directions of its own) is more than a tenth worse than stored, for smooth D, rings, jumps with gaps, waves,
+ * lobes 1000 apart, heavy tails, and rows with plateaus, saws and noise. An argument: one of the subjects. */
 #include "evidence/measure/laws.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"

@@ -15,7 +15,7 @@ static const double UNDECIDED = 0x1p-20; /* below which floats do not tell on wh
 static const double LEAST = 0x1p-44;     /* and at a jump */
 static const double VARIES = 1e-2;       /* what P22 may be off a cubic in a panel */
 static const double LITTLE_MASS = 1e-15, LITTLE_AREA = 1e-18; /* of a panel, of all: it is left out */
-static const double ROUNDING = 0x1p-23;                       /* of cot(theta) */
+static const double ROUNDING = 0x1p-22;                       /* of cot(theta) and of slopes: two of floats */
 enum { GAUSS = 4, TRIED = 2 * GAUSS + 2, QUANTILES = 1024, PANELS_MOST = 1 << 17, JUMPS_MOST = 32 };
 enum { GRADES = 200, PARTS = 24, BINS = 4096, PER_BIN = 64 };
 static const double place[GAUSS] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
@@ -243,14 +243,16 @@ static void take(laws *l, int figure, double measured, double rho)
 static void look_from(laws *l, double rho)
 {
     const vndf_vec3 wi = {(float)fmin(1 / fabs(rho), 1), 0, (float)fmin(fmax(rho, -1), 1)};
-    double s = (double)wi.x, c = (double)wi.z, horizon = rho < 0 ? -c / s : 0, all = 0, moved = 0;
+    double s = (double)wi.x, c = (double)wi.z, horizon = rho < 0 ? -c / s : 0,
+           area = s * l->tail[1] / PI + c / 2 * l->tail[0], beyond = area, moved = 0, steep = 0;
     size_t end = l->count, from = rho < 0 ? GAUSS * grade(l, horizon, &end) : 0;
     end *= GAUSS;
     for (size_t i = from; i < end; i++) {
-        moved += l->at[i].mass * see(&l->at[i], s, c);
-        all += l->at[i].mass * l->at[i].seen;
+        point *at = &l->at[i];
+        moved += at->mass * see(at, s, c);
+        steep += i > from ? at->r * at->r * fabs(at->p - at[-1].p) * at->seen : 0;
+        area += at->mass * at->seen;
     }
-    double beyond = s * l->tail[1] / PI + c / 2 * l->tail[0], area = all + beyond, slack = ROUNDING * moved / area;
     if (!(area > AREA_LEAST * hypot(s, c * l->scale) * l->mass[1] / PI))
         return;
     const vndf_batch batch = {l->surface.distribution,
@@ -264,20 +266,23 @@ static void look_from(laws *l, double rho)
                               &wi.z,
                               .lobes = 0};
     vndf_pdf_n(&batch, (vndf_normals){l->x + from, l->y, l->z + from}, l->pdf + from);
-    double drawn = 0, rarely = beyond / area, often = 0;
+    double drawn = 0, rarely = beyond / area, often = 0, unsure = 0;
     for (size_t i = from; i < end; i++) {
         const point *at = &l->at[i];
         double facing = c + s * at->r, right = at->mass * at->seen / area;
         double is = facing > 0 ? (double)l->pdf[i] * at->solid * at->seen / facing : 0;
         drawn += is;
-        if (!is_decided(l, i, horizon))
+        if (!is_decided(l, i, horizon)) {
+            unsure += right + is;
             continue;
+        }
         rarely += fmax(right - is, 0);
         often += fmax(is - right, 0);
         if (right > is)
             add_to(&l->spread, right / is - 1, right);
     }
-    const double tv = fmax(fmax(rarely, often) - slack, 0);
+    const double slack = ROUNDING * moved / area, both = slack + ROUNDING * steep / area,
+                 tv = fmax(fmax(rarely, often) - both, 0);
     take(l, LAWS_TV, tv, rho);
     if (rho >= 0)
         take(l, LAWS_TV_ABOVE, tv, rho);
@@ -285,7 +290,7 @@ static void look_from(laws *l, double rho)
     take(l, LAWS_AREA_ERROR,
          fmax(fabs((double)vndf_projected_area(&l->surface, wi) * l->mass[0] / area - 1) - slack, 0), rho);
     /* points miss some of what is drawn at knots */
-    take(l, LAWS_CONSISTENCY, fmax(fabs(drawn - 1) - slack - tv / 20, 0), rho);
+    take(l, LAWS_CONSISTENCY, fmax(fabs(drawn - 1) - both - unsure - tv / 20, 0), rho);
 }
 
 static void look_both_ways(laws *l, double rho)

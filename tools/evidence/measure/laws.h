@@ -19,8 +19,8 @@ typedef struct laws_figure {
 } laws_figure;
 
 /* `per_octave` directions in each octave of cot(theta), on both sides of the horizon, and some hundred more: 4 are
- * within a few percent. What one rounding of a direction explains is taken off. 0: no memory, or `progress`, which may
- * be NULL, said to stop. */
+ * within a few percent. What rounding of directions and normals explains is taken off. 0: no memory, or `progress`,
+ * which may be NULL, said to stop. */
 int laws_measure(const vndf_distribution *table, const vndf_source *source, int per_octave,
                  vndf_progress *progress, void *user, laws_figure found[LAWS_FIGURES]);
 
