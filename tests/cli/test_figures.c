@@ -1,7 +1,10 @@
 /* Figures have names and units: build and info print the same lines, --json the same numbers in JSON, -q nothing; the
- * verdict is the last of them, and a table that is worth little is told of on stderr too. It notices a figure without a
- * unit, JSON that does not parse, and a verdict that praises a poor table. */
+ * verdict is the last of them, and a table that is worth little is told of on stderr too; check fails a table whose
+ * certificate says less than is true. It notices a figure without a unit, JSON that does not parse, a verdict that
+ * praises a poor table, and a check that forgives. */
 #include "harness/run_program.h"
+
+#include "harness/damage.h"
 
 /* Whether brackets are closed, a comma stands between them, nothing behind the last one, and nothing is nan or inf. */
 static int is_json(const char *text)
@@ -91,6 +94,29 @@ static void test_check(void)
     TEST(*run_said(text, "vndf check ggx --samples 1000 -q") == '\0');
 }
 
+/* A certificate that says 0.62 of what is true fails, whichever figure says it. */
+static void test_false(void)
+{
+    static const int figures[] = {0, 2, 4, 6, 8}; /* tv, tv_above, max_weight, area_error, ndf_error */
+    static unsigned char bytes[DAMAGE_BYTES_MAX];
+    vndf_distribution *table = vndf_load("t", NULL);
+    const vndf_certificate claim = vndf_distribution_info(table).certificate;
+    const float *number = &claim.tv;
+    size_t size = read_bytes("t", bytes, sizeof bytes), at = 0;
+    while (at + sizeof claim < size && memcmp(bytes + at, &claim, sizeof claim) != 0)
+        at++;
+    for (int i = 0; i < 5; i++) {
+        const float less = 0.62f * number[figures[i]];
+        memcpy(bytes + at, &claim, sizeof claim);
+        memcpy(bytes + at + sizeof less * (size_t)figures[i], &less, sizeof less);
+        mend_checksum(bytes, size);
+        FILE *file = fopen("false", "wb");
+        TEST(file && fwrite(bytes, 1, size, file) == size && fclose(file) == 0);
+        run_line(1, "result FAILED", "vndf check false --samples 1000");
+    }
+    vndf_free(table);
+}
+
 int main(void)
 {
     static const char keys[] =
@@ -112,6 +138,7 @@ int main(void)
     TEST_HAS(run_said(text, "vndf build --csv - -o c <rows.csv"), "source --csv stdin (crc32 ");
     test_verdicts();
     test_check();
-    TEST(system("rm t m c rows.csv two.vndfs") == 0);
+    test_false();
+    TEST(system("rm t m c false rows.csv two.vndfs") == 0);
     return run_end(folder);
 }

@@ -8,7 +8,7 @@
  *     evidence.c   all of these in order, and time in turns, into the numbers of the rows
  *     row.c        the one list of columns, the printer
  *     report.c     the page of `vndf report`
- *     measure/     what `vndf check` asks: chi-square, hard cases and agreement of calls; points of Sobol'
+ *     measure/     what `vndf check` asks: certificates, chi-square, hard cases, agreement of calls; points of Sobol'
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
 #ifndef TOOLS_EVIDENCE_EVIDENCE_H
