@@ -66,7 +66,7 @@ static void halve(survey *s, const float *knot)
             double to = at[1].edge, z0 = 1 / (1 + at->edge), z1 = 1 / (1 + to), per = PI * (z0 - z1);
             halves *in = &s->in[n];
             in->xi = vndf_cell_place(&cell, at->edge);
-            if (at->gathered || !(to < HUGE_VAL))
+            if (to - at->edge < 2 * VNDF_GRAIN * to || !(to < HUGE_VAL))
                 continue;
             in->middle = vndf_cell_place(&cell, 2 / (z0 + z1) - 1);
             in->end[0] = per * at->p0 * at->edge / (z0 * z0);
@@ -249,16 +249,22 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 
 /* ---- areas ---- */
 
-/* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. */
+/* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. What is left
+ * of c below the horizon loses digits of floats (law_area_in). */
 static double area_error_at(const survey *s, int cell, double rho)
 {
+    const double floats = 0x1.8p-23, digits = 4e-4;
     table t = s->table;
     if (!(rho >= RHO_LEAST && rho <= RHO_MOST))
         return 0;
-    double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below;
-    double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / (below + cosine) - 1);
-    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1)
-        error = fmax(error, fabs(law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1) / below - 1));
+    double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below,
+           above = below + cosine;
+    double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / above - 1);
+    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1) {
+        double lost = below > digits * above ? floats * fmin((below / above - digits) * 625, 1) * above / below : 0;
+        double left = law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1);
+        error = fmax(error, lost + fabs(left / below - 1));
+    }
     return error;
 }
 
@@ -298,10 +304,11 @@ static double error_of(double is, double right)
     return fabs(is / right - 1);
 }
 
-/* Largest relative error of D over the halves of the strips that hold all but LEFT_OUT of the mass on either side: of
- * f, in the last cell of R f. */
+/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side: at their points and
+ * ends; of all of a strip in the last cell, which draws R f. */
 static double ndf_error(const survey *s)
 {
+    static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1}; /* ends and points of strips */
     const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
@@ -317,13 +324,11 @@ static double ndf_error(const survey *s)
             if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
                   strip->f > LEFT_OUT * log(strip[1].edge / strip->edge)))
                 continue;
-            double right = tail ? strip->along : strip->f, lean = in->lean * right / strip->f;
-            if (in->middle > 0) {
-                double middle = vndf_drawn_before(&cell, in->middle);
-                worst = fmax(worst, error_of(middle - before, right / 2 - lean));
-                worst = fmax(worst, error_of(next - middle, right / 2 + lean));
-            } else
-                worst = fmax(worst, error_of(next - before, right));
+            double wide = (n + 1 < first[i + 1] ? in[1].xi : 1) - in->xi;
+            const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]};
+            worst = fmax(worst, error_of(next - before, tail ? strip->along : strip->f));
+            for (int k = 0; k < 4 && in->middle > 0 && !tail; k++)
+                worst = fmax(worst, error_of(wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]), right[k]));
         }
     }
     return worst;

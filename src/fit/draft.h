@@ -79,6 +79,13 @@ static inline double vndf_drawn_before(const vndf_drawn *d, double xi)
     return under > 0 ? d->mass * (d->mass * xi * xi + d->d0 * w) / under : 0;
 }
 
+/* The mass that is drawn per xi. */
+static inline double vndf_drawn_density(const vndf_drawn *d, double xi)
+{
+    double w = xi * (1 - xi), under = d->mass + (d->d0 + d->d1 - 2 * d->mass) * w;
+    return d->mass * d->mass * (d->d1 * xi * xi + 2 * d->mass * w + d->d0 * (1 - xi) * (1 - xi)) / (under * under);
+}
+
 /* ---- knots ----
  *
  * They are as far apart as an error of cells allows, which is chosen so that there are as many as wanted (knots.c). */

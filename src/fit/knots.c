@@ -225,12 +225,6 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
     k->count = k->count > count ? count : k->count;
 }
 
-/* P22 beside an edge: at the end of a strip, or the mean of one that is gathered. */
-static double p22_beside(const vndf_strip *strip, double at_end)
-{
-    return strip->gathered ? strip->f / (2 * PI * strip->edge * (strip[1].edge - strip->edge)) : at_end;
-}
-
 /* The float on the side of fewer normals where P22 jumps: the others stay in one cell. */
 float vndf_knots_slope(const vndf_knots *k, unsigned i)
 {
@@ -239,7 +233,7 @@ float vndf_knots_slope(const vndf_knots *k, unsigned i)
     float knot = (float)beyond->edge;
     if (k->at[i] == 0)
         return knot;
-    double inner = p22_beside(beyond - 1, beyond[-1].p1), outer = p22_beside(beyond, beyond->p0);
+    double inner = beyond[-1].p1, outer = beyond->p0;
     if (inner > jump * outer && (double)knot < beyond->edge)
         return nextafterf(knot, HUGE_VALF);
     return outer > jump * inner && (double)knot > beyond->edge ? nextafterf(knot, 0.0f) : knot;
@@ -277,7 +271,7 @@ static size_t find_jumps(const vndf_profile *profile, float *jump)
             continue;
         vndf_profile_p22_many(profile, at, 4, p22);
         double most = fmax(p22[0], p22[1]), around = fmax(p22[2], p22[3]), leap = fabs(p22[0] - p22[1]);
-        int jumps = (leap > jump_least * most && leap > fabs(p22[2] - p22[3]) / 2) ||
+        int jumps = (leap > jump_least * most && leap > fabs(p22[2] - p22[3]) / 2 && most < pole_least * around) ||
                     (most > pole_least * around && fmin(in, out) < narrow * r),
             up = p22[0] > p22[1];
         float knot = (float)r;

@@ -73,14 +73,14 @@ static void put_ends(double from, double to, double r[2])
     r[1] = to - fmin(INSIDE * to, width / 3);
 }
 
-/* Ends what is gathered at a slope, as one point. */
+/* Ends what is gathered at a slope, as one point; P22 of its ends is that of slopes between them and the point, so that
+ * both are on its side of a jump. */
 static void end_gathered(maker *m, double to)
 {
-    double from = edge_of(m), end[2], p[2];
+    double from = edge_of(m), p[2];
     if (m->pieces > 0 && to > from) {
-        double mean = m->mass > 0 ? fmin(fmax(m->along / m->mass, from), to) : from + (to - from) / 2;
-        const double r[2] = {mean, mean}, mass[2] = {m->mass, 0};
-        put_ends(from, to, end);
+        double at = m->mass > 0 ? fmin(fmax(m->along / m->mass, from), to) : from + (to - from) / 2;
+        const double r[2] = {at, at}, mass[2] = {m->mass, 0}, end[2] = {at - (at - from) / 3, at + (to - at) / 3};
         vndf_profile_p22_many(m->profile, end, 2, p);
         push(m, to, r, mass, p[0], p[1]);
         m->to->at[m->to->count - 1].gathered = 1;
@@ -113,7 +113,7 @@ static void gather(maker *m, const vndf_panel *panel, double from, double to)
 static double end_before(maker *m, double slope)
 {
     double least = fmin(edge_of(m) * (1 + VNDF_GRAIN / 2), m->knot);
-    least = slope * (1 + SAME) > m->knot ? m->knot : least;
+    least = fmax(slope, least) * (1 + SAME) > m->knot ? m->knot : least;
     if (!m->little && m->pieces > 0 && slope < least) {
         gather(m, NULL, slope, least);
         slope = least;

@@ -7,7 +7,7 @@
 #include "cli/sort.h"
 
 static const double PI = 3.14159265358979323846;
-static const double SLOPE_LEAST = 1e-37, SLOPE_MOST = 1e37; /* of float normals, over the median slope */
+static const double SLOPE_LEAST = 1e-37, SLOPE_MOST = 1e26; /* over the median: no slope is drawn beyond */
 static const double LEFT_OUT = 1e-6;     /* the part that the largest weight and the error of D leave out */
 static const double AREA_LEAST = 1e-10;  /* over the area at grazing incidence */
 static const double FIRST = 0x1p-7;      /* widths of panels in log R: at first, */
