@@ -121,8 +121,10 @@ VNDF_API const vndf_distribution *vndf_ggx(void);
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured: the table as it is stored against quadrature of the given D, for incident directions
- * from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of that at grazing incidence. Slopes
- * nearer to each other than 2^-21 of themselves count as one. All members are zero for the closed forms.
+ * from 0 to 180 degrees whose projected area at alpha = 1 exceeds 1e-10 of that at grazing incidence, but within
+ * some 1e-9 radians of straight down. Each is at most a tenth, or 2e-5, too low. Slopes nearer to each other than
+ * 2^-20 of themselves count as one. No slope is drawn beyond 1e26 times the median: what tails heavier than r^-3.2
+ * have there is missing in tv and consistency. All members are zero for the closed forms.
  *
  * `hidden` and `finest` say how well the builder knew D. It bounds formulas and families between all points, and
  * knows every row of a CSV: then finest is 0, and at most the part `hidden` of the mass, or of the area at grazing

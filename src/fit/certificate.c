@@ -17,7 +17,7 @@ static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
 static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30; /* claims end there */
 static const double Z_LEAST = 1e-26;                        /* law_length draws no less */
-enum { CELLS_MOST = 64, RATIOS = 1024, PER_OCTAVE = 32 };
+enum { CELLS_MOST = 128, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
 enum { TV, WEIGHT, CONSISTENCY, FIGURES };
@@ -60,7 +60,8 @@ static void halve(survey *s, const float *knot)
 {
     int cells = s->table.cells, squarings = s->table.squarings;
     for (int i = 0; i <= cells; i++) {
-        vndf_cell cell = vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)squarings);
+        vndf_cell cell =
+            vndf_cell_between(knot[i], i < cells ? (double)knot[i + 1] : HUGE_VAL, (unsigned)squarings);
         for (size_t n = s->strips.first[i]; n < s->strips.first[i + 1]; n++) {
             const vndf_strip *at = &s->strips.at[n];
             double to = at[1].edge, z0 = 1 / (1 + at->edge), z1 = 1 / (1 + to), per = PI * (z0 - z1);
@@ -261,7 +262,8 @@ static double area_error_at(const survey *s, int cell, double rho)
            above = below + cosine;
     double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / above - 1);
     if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1) {
-        double lost = below > digits * above ? floats * fmin((below / above - digits) * 625, 1) * above / below : 0;
+        double lost =
+            below > digits * above ? floats * fmin((below / above - digits) * 625, 1) * above / below : 0;
         double left = law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1);
         error = fmax(error, lost + fabs(left / below - 1));
     }
@@ -308,7 +310,8 @@ static double error_of(double is, double right)
  * ends; of all of a strip in the last cell, which draws R f. */
 static double ndf_error(const survey *s)
 {
-    static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1}; /* ends and points of strips */
+    static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288,
+                                     1}; /* ends and points of strips */
     const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
@@ -328,7 +331,8 @@ static double ndf_error(const survey *s)
             const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]};
             worst = fmax(worst, error_of(next - before, tail ? strip->along : strip->f));
             for (int k = 0; k < 4 && in->middle > 0 && !tail; k++)
-                worst = fmax(worst, error_of(wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]), right[k]));
+                worst = fmax(worst,
+                             error_of(wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]), right[k]));
         }
     }
     return worst;

@@ -256,8 +256,8 @@ enum { JUMPS_MAX = 64, STOPS_MAX = 16 };
  * panel's edge to the other, after a 0. Returns how many there are. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-9, /* of a slope: half a panel at a pole, */
-        apart = 0x1p-21;         /* and knots */
+    const double narrow = 1e-9,                              /* of a slope: half a panel at a pole, */
+        apart = 0x1p-21;                                     /* and knots */
     const double least = 1e-9, beside = 2e-7, widely = 1e-4; /* of a slope: just beyond it, and away from it */
     const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
     const vndf_panel *p = profile->panel;
@@ -310,8 +310,10 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
         m0 += s->m0;
         while (next > 0 && (double)jump[next] > r)
             next--;
-        k->rim[i] =
-            (vndf_rim){.z = 1 / (1 + r), .s1 = m2 + r * m1, .s2 = m2, .stop = next > 0 && jumps <= STOPS_MAX && (double)jump[next] == r};
+        k->rim[i] = (vndf_rim){.z = 1 / (1 + r),
+                               .s1 = m2 + r * m1,
+                               .s2 = m2,
+                               .stop = next > 0 && jumps <= STOPS_MAX && (double)jump[next] == r};
         if (k->last == 0 && r <= KNOT_MOST && m0 > M0_LEAST)
             k->last = k->strips.at[i + 1].edge <= KNOT_MOST ? i + 1 : i;
         k->last = k->last == 0 && k->rim[i].stop ? i : k->last;

@@ -6,11 +6,12 @@
 #include "math/ascending.h"
 
 static const double PI = 3.14159265358979323846;
-static const double SAME = 1.3e-7;   /* of a slope: a knot may be the end of a panel, rounded */
-static const double WORTH = 1e-7;    /* of the mass: a panel with more has at least as many strips: ten points of it */
+static const double SAME = 1.3e-7; /* of a slope: a knot may be the end of a panel, rounded */
+static const double WORTH =
+    1e-7; /* of the mass: a panel with more has at least as many strips: ten points of it */
 static const double PARTS_LEAST = 4; /* may show more than one wave */
 static const double CLOSER = 1.5;    /* times nearer to an end is the next strip there */
-static const double INSIDE = 4e-7; /* of a slope: some floats beyond an edge, where P22 may jump beside it */
+static const double INSIDE = 4e-7;   /* of a slope: some floats beyond an edge, where P22 may jump beside it */
 
 /* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered
  * to one strip. */

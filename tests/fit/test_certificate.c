@@ -19,6 +19,7 @@ static const char *const FORMULAS[] = {
     "(1+r)^-3.15",
     "exp(-r)*(1+0.1*cos(1000*r))",
     "exp(-r)*(1+0.95*sin(9*r^2))",
+    "(1+r^2)^-2*(1+0.9*cos(40*log(r+1e-3)))", /* its exponent shows over many octaves alone */
 };
 enum { FORMULA_COUNT = sizeof FORMULAS / sizeof *FORMULAS, ROWS_MOST = 400 };
 

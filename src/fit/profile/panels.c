@@ -85,7 +85,8 @@ static double exponent(const vndf_profile *profile, double from, double to)
     const double golden = 0.6180339887498949;
     double n = 0, x1 = 0, y1 = 0, xx = 0, xy = 0;
     for (int i = 0; i < POINTS; i++) {
-        double x = log(to / from) * (i + fmod(golden * i, 1)) / POINTS, p22 = vndf_profile_p22(profile, from * exp(x));
+        double x = log(to / from) * (i + fmod(golden * i, 1)) / POINTS,
+               p22 = vndf_profile_p22(profile, from * exp(x));
         if (!(p22 > 0))
             continue;
         double y = -log(p22);
