@@ -202,14 +202,12 @@ static void climb(survey *s, int side, int figure)
     }
 }
 
-/* Directions an octave of rho apart; of every so many cells the left knot and two places; others wherever there is less
- * and less to be seen from below; and the neighbourhood of what is worst. */
+/* Directions an octave of rho apart; of every so many cells the left knot and two places; and the neighbourhood of what
+ * is worst. */
 static void look_around(survey *s)
 {
     enum { OCTAVES = 12 };
-    const double less = 8;
     const vndf_strip *at = s->strips.at;
-    double f = 0, along = 0, last = 0;
     for (int i = -OCTAVES; i <= OCTAVES; i++)
         look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count, exp2(i)));
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
@@ -218,14 +216,6 @@ static void look_around(survey *s)
         look_from(s, from + strips / 3);
         if (i > 0)
             look_from(s, from + 2 * strips / 3);
-    }
-    for (size_t i = s->strips.count; i-- > 0;) {
-        f += at[i].f;
-        along += at[i].along;
-        if (along - f * at[i].edge > less * last) {
-            look_from(s, i);
-            last = along - f * at[i].edge;
-        }
     }
     for (int figure = TV; figure <= WEIGHT; figure++)
         for (int side = 0; side < 2; side++)

@@ -126,7 +126,7 @@ vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
         t->scale = profile->scale;
         for (unsigned i = 0; i < count; i++) {
             const vndf_area *area = vndf_knots_area(knots, knots->at[i]);
-            float *low = vndf_table_row(t, VNDF_LOW, i), r = knot[i] = vndf_knots_slope(knots, i);
+            float *low = vndf_table_row(t, VNDF_LOW, i), r = knot[i] = (float)knots->strips.at[knots->at[i]].edge;
             vndf_table_row(t, VNDF_KNOT, i)[0] = r;
             low[2] = (float)(area->below + (double)r / (1 + (double)r));
             low[3] = (float)(1 - area->turned - area->along);

@@ -116,9 +116,6 @@ void vndf_knots_free(vndf_knots *knots);
 /* Places at most `count` knots, but no more than errors are worth. */
 void vndf_knots_place(vndf_knots *knots, unsigned count);
 
-/* A knot as a float: what is gathered to one place stays on its side. */
-float vndf_knots_slope(const vndf_knots *knots, unsigned i);
-
 /* The areas for rho at an edge. */
 const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 

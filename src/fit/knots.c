@@ -225,20 +225,6 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
     k->count = k->count > count ? count : k->count;
 }
 
-/* The float on the side of fewer normals where P22 jumps: the others stay in one cell. */
-float vndf_knots_slope(const vndf_knots *k, unsigned i)
-{
-    const double jump = 1 + 1e-4;
-    const vndf_strip *beyond = &k->strips.at[k->at[i]];
-    float knot = (float)beyond->edge;
-    if (k->at[i] == 0)
-        return knot;
-    double inner = beyond[-1].p1, outer = beyond->p0;
-    if (inner > jump * outer && (double)knot < beyond->edge)
-        return nextafterf(knot, HUGE_VALF);
-    return outer > jump * inner && (double)knot > beyond->edge ? nextafterf(knot, 0.0f) : knot;
-}
-
 const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 {
     vndf_rim *rim = &k->rim[edge];
