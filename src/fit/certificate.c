@@ -345,7 +345,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
         knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
-    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells / 2);
+    int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);
     s.in = calloc(n + 1, sizeof *s.in);
