@@ -23,6 +23,7 @@ typedef struct builder {
     size_t least_bytes, max_bytes; /* a smaller table than the first is not looked for */
     double max_tv;                 /* 0: the best that fits */
     unsigned moments;
+    vndf_floor floor;
     vndf_distribution *table; /* the last that was tried; NULL if the build must end */
 } builder;
 
@@ -67,8 +68,11 @@ static double try_knots(builder *b, unsigned knots)
     if (why)
         vndf_fail(vndf_guard_why(guard), VNDF_ERROR_DISTRIBUTION,
                   "the distribution cannot be held in a table of floats: not a consistent table: %s", why);
-    if (!vndf_guard_stopped(guard))
+    if (!vndf_guard_stopped(guard)) {
+        t->certificate.floor_above = (float)b->floor.above;
+        t->certificate.floor = (float)b->floor.all;
         return excess_of(&t->certificate, b->max_tv);
+    }
     vndf_free(t);
     b->table = NULL;
     return 0;
@@ -117,7 +121,8 @@ static unsigned knots_in(const builder *b, size_t bytes)
 static void make_table(builder *b)
 {
     unsigned most = knots_in(b, b->max_bytes), few = knots_in(b, b->least_bytes), least = CELLS_LEAST + 1;
-    if (most >= least && !vndf_knots_from(&b->knots, b->profile, most)) {
+    if (most >= least && (!vndf_knots_from(&b->knots, b->profile, most) ||
+                          !vndf_floor_measure(&b->floor, b->profile, b->moments))) {
         vndf_guard_starve(b->profile->guard);
         return;
     }

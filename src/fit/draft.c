@@ -27,59 +27,22 @@ static void put_cells(vndf_distribution *t, const vndf_strips *s, const vndf_pro
 
 /* ---- shares below the horizon ---- */
 
-/* What is seen from below at one point: the true kernel times f dR, and the two of which shares are drawn. */
-typedef struct ray {
-    double k, near, far;
-} ray;
-
 /* From rho on, in `cell` and beyond. Far out, where next to nothing is added, the rays end. grazing[i]: the integral of
  * R f from cell i on. Returns their number. */
 static size_t look(const vndf_strips *s, unsigned cell, unsigned cells, double rho, const double *grazing,
-                   ray *out)
+                   vndf_ray *out)
 {
     const double little = 1e-7;
     double seen = 0;
     size_t count = 0;
     for (unsigned i = cell; i <= cells && !(grazing[i] < little * seen); i++)
-        for (size_t k = 2 * s->first[i]; k < 2 * s->first[i + 1]; k++) {
-            double mass = s->at[k / 2].mass[k % 2], r = s->at[k / 2].r[k % 2], way = r - rho;
-            if (!(way > 0 && mass > 0))
-                continue;
-            out[count] = (ray){mass * vndf_profile_kernel(r, rho), mass * way, mass * way * way / r};
-            seen += out[count++].k;
-        }
+        count += vndf_rays_from(s, s->first[i], s->first[i + 1], rho, out + count, &seen);
     return count;
-}
-
-/* The shares with the least total variation among those of the right area: that is convex in the first share. */
-static void put_best(const ray *at, size_t count, float *b0, float *b1)
-{
-    enum { STEPS = 20 };
-    const double least = 0.02;
-    double area = 0, near = 0, far = 0;
-    for (size_t i = 0; i < count; i++) {
-        area += at[i].k;
-        near += at[i].near;
-        far += at[i].far;
-    }
-    if (!(area > 1e-30 && far > 1e-9 * near))
-        return;
-    double low = 0, high = area / near, per = near / far;
-    for (int step = 0; step < STEPS; step++) {
-        double first = (low + high) / 2, second = (area - first * near) / far, slope = 0;
-        for (size_t i = 0; i < count; i++) {
-            double change = at[i].near - per * at[i].far;
-            slope += first * at[i].near + second * at[i].far > at[i].k ? change : -change;
-        }
-        *(slope > 0 ? &high : &low) = first;
-    }
-    *b0 = (float)low;
-    *b1 = (float)fmax((area - low * near) / far, least);
 }
 
 /* Puts the shares of all knots, scaled so that the area that is drawn from there is the true one, below[i]. */
 static void put_shares(vndf_distribution *t, const vndf_strips *s, const double *below, double *grazing,
-                       vndf_cell *cell, ray *room)
+                       vndf_cell *cell, vndf_ray *room)
 {
     unsigned cells = (unsigned)t->cells;
     float b0 = 0.43f, b1 = 0.57f;
@@ -99,7 +62,7 @@ static void put_shares(vndf_distribution *t, const vndf_strips *s, const double 
     for (unsigned i = 0; i <= cells; i++) {
         float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
         double rho = i ? cell[i].r : 0.1 * cell[1].r, drawn = 0, factor = 1, area = below[i] * (1 + rho);
-        put_best(room, look(s, i, cells, rho, grazing, room), &b0, &b1);
+        vndf_shares_best(room, look(s, i, cells, rho, grazing, room), &b0, &b1);
         for (unsigned k = i; i > 0 && k <= cells; k++)
             drawn += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;
         if (drawn > 0 && area > 1e-30)
@@ -120,7 +83,7 @@ vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
     double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
     float *knot = malloc(count * sizeof *knot);
     vndf_cell *cell = malloc(count * sizeof *cell);
-    ray *rays = NULL;
+    vndf_ray *rays = NULL;
     if (t && room && knot && cell) {
         t->normalization = profile->normalization;
         t->scale = profile->scale;
