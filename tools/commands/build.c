@@ -61,7 +61,7 @@ static const char *const help[] = {
     "  --profile OUT   the curve that was found, as a CSV for --csv\n"
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
-    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
+    "         vndf build --family student-t:2.5 --max-tv 5e-4 -o student.vndf\n"
     "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n"
     "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n",
     NULL};
@@ -207,9 +207,7 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     if (output_stopping() && error.status != VNDF_OK)
         complain(name, "%s; '%s' was not touched", error.message, option_value(given, "-o"));
     else if (error.status != VNDF_OK)
-        complain(name, "%s%s", error.message,
-                 error.status == VNDF_ERROR_TARGET && bytes < 1048576 ? "; --max-bytes N allows a larger table"
-                                                                      : "");
+        complain(name, "%s", error.message);
     return to->owned || to->family;
 }
 
