@@ -69,65 +69,81 @@ static double distance(const vndf_ray *at, size_t count)
     return miss / 2;
 }
 
+typedef struct survey {
+    vndf_strips strips;
+    const float *terms;
+    double least; /* what has to be seen below the horizon of a direction that counts, over its length */
+    vndf_ray *ray;
+    double worst[2]; /* above, below, */
+    size_t where[2]; /* and at which edge */
+} survey;
+
 /* With ever closer knots the law of k~ begins in the middle of the eighth of an octave that rho is in. */
-static double above(const vndf_strips *s, const float *terms, double rho, vndf_ray *ray)
+static double above(const survey *s, double rho)
 {
     const double begin = of_bits((VNDF_RHO_FIRST + law_eighth(rho)) * (1 << 20) + (1 << 19));
-    size_t count = 2 * s->count;
+    const int far = law_eighth(rho) == VNDF_RHO_PARTS - 1;
+    size_t count = 2 * s->strips.count;
     for (size_t i = 0; i < count; i++) {
-        double mass = PI * s->at[i / 2].mass[i % 2], r = s->at[i / 2].r[i % 2], y = r / rho;
-        weights w = {terms[0], terms[1], terms[2], terms[3] / (y * y * y)};
-        w = law_weights_at(w, 1, i / 2 == s->count - 1 || law_eighth(rho) == VNDF_RHO_PARTS - 1);
-        ray[i] = (vndf_ray){mass, mass, 0};
+        const vndf_strip *strip = &s->strips.at[i / 2];
+        double mass = PI * strip->mass[i % 2], r = strip->r[i % 2], y = r / rho;
+        weights w = {s->terms[0], s->terms[1], s->terms[2], s->terms[3] / (y * y * y)};
+        w = law_weights_at(w, 1, far || i + 2 >= count);
+        s->ray[i] = (vndf_ray){mass, mass, 0};
         if (r > rho)
-            ray[i].k += mass * vndf_profile_kernel(r, rho) / (PI * rho);
+            s->ray[i].k += mass * vndf_profile_kernel(r, rho) / (PI * rho);
         if (r > begin)
-            ray[i].near = mass * (w.w1 * y + w.w0 + (w.wq + w.w4) / y);
+            s->ray[i].near = mass * (w.w1 * y + w.w0 + (w.wq + w.w4) / y);
     }
-    return distance(ray, count);
+    return distance(s->ray, count);
 }
 
-static double below(const vndf_strips *s, size_t edge, double least, vndf_ray *ray)
+static double below(const survey *s, size_t edge, double rho)
 {
-    double rho = s->at[edge].edge, all = 0;
+    double all = 0;
     float b0 = 0, b1 = 0;
-    size_t count = vndf_rays_from(s, edge, s->count, rho, ray, &all);
-    if (!(all > least * hypot(1, rho)))
+    size_t count = vndf_rays_from(&s->strips, edge, s->strips.count, rho, s->ray, &all);
+    if (!(all > s->least * hypot(1, rho)))
         return 0;
-    vndf_shares_best(ray, count, &b0, &b1);
+    vndf_shares_best(s->ray, count, &b0, &b1);
     for (size_t i = 0; i < count; i++)
-        ray[i].near = (double)b0 * ray[i].near + (double)b1 * ray[i].far;
-    return distance(ray, count);
+        s->ray[i].near = (double)b0 * s->ray[i].near + (double)b1 * s->ray[i].far;
+    return distance(s->ray, count);
 }
 
-/* ---- all directions ---- */
+static void look_from(survey *s, int side, size_t edge)
+{
+    double rho = s->strips.at[edge].edge;
+    double d = rho < RHO_LEAST || rho > RHO_MOST ? 0 : side ? below(s, edge, rho) : above(s, rho);
+    if (d > s->worst[side]) {
+        s->worst[side] = d;
+        s->where[side] = edge;
+    }
+}
 
-/* The largest over some edges, and over the neighbourhood of the worst. */
+/* The largest from some edges, and from the neighbourhood of the worst. */
 int vndf_floor_measure(vndf_floor *to, const vndf_profile *profile, unsigned moments)
 {
-    enum { EDGES = 24 };
-    const float none = 0, *const terms = law_terms + 4 * (moments - 2);
-    const double least = vndf_profile_claimed(profile) * 2 * PI * profile->f1;
-    vndf_strips s;
-    int good = vndf_strips_from(&s, profile, &none, 1, 0);
-    vndf_ray *ray = good ? malloc(2 * s.count * sizeof *ray) : NULL;
-    double worst[2] = {0, 0};
-    for (int side = 0; ray && side < 2; side++) {
-        size_t best = 0, step = s.count / EDGES + 1;
-        for (size_t i = step / 2, from = 0, end = s.count; step > 0; step /= 2) {
-            for (i = from; i < end; i += step) {
-                double rho = s.at[i].edge, d = 0;
-                if (rho >= RHO_LEAST && rho <= RHO_MOST && vndf_guard_spend(profile->guard, 4 * (double)s.count))
-                    d = side ? below(&s, i, least, ray) : above(&s, terms, rho, ray);
-                best = d > worst[side] ? i : best;
-                worst[side] = fmax(worst[side], d);
-            }
-            from = best > step / 2 ? best - step / 2 : 0;
-            end = best + step / 2 + 1 < s.count ? best + step / 2 + 1 : s.count;
+    enum { EDGES = 24, LOOKS = 80 }; /* that a side costs */
+    const float none = 0;
+    survey s = {.terms = law_terms + 4 * (moments - 2),
+                .least = vndf_profile_claimed(profile) * 2 * PI * profile->f1};
+    int good = vndf_strips_from(&s.strips, profile, &none, 1, 0);
+    size_t edges = s.strips.count;
+    s.ray = good ? malloc(2 * edges * sizeof *s.ray) : NULL;
+    for (int side = 0; s.ray && side < 2 && vndf_guard_spend(profile->guard, LOOKS * (double)edges); side++) {
+        size_t step = edges / EDGES + 1;
+        for (size_t i = step / 2; i < edges; i += step)
+            look_from(&s, side, i);
+        while ((step /= 2) > 0) {
+            size_t at = s.where[side];
+            look_from(&s, side, at > step ? at - step : 0);
+            look_from(&s, side, at + step < edges ? at + step : edges - 1);
         }
     }
-    *to = (vndf_floor){worst[0], fmax(worst[0], worst[1])};
-    free(ray);
-    vndf_strips_free(&s);
-    return ray != NULL;
+    *to = (vndf_floor){s.worst[0], fmax(s.worst[0], s.worst[1])};
+    good = s.ray != NULL;
+    free(s.ray);
+    vndf_strips_free(&s.strips);
+    return good;
 }
