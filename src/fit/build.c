@@ -16,7 +16,8 @@ enum { KNOTS_ENOUGH = 64 };
 static const double TV_DEFAULT = 1e-3;
 static const double CLOSE = 1.0 / 16,
                     CLOSE_DEFAULT = 1.0 / 4; /* so many of its knots fewer do not reach a target */
-static const double BELOW = 30; /* times the total variation above the horizon may be reached below it */
+/* So many times the total variation above the horizon may be reached below it, but no more than samples are worth. */
+static const double BELOW = 30, BELOW_MOST = 5e-2;
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
 /* A build at work. */
@@ -217,7 +218,7 @@ static void make_table(builder *b, double max_tv, int by_default)
     if (!least)
         return;
     b->above = max_tv;
-    b->all = BELOW * max_tv;
+    b->all = fmin(BELOW * max_tv, fmax(BELOW_MOST, beyond * b->floor.all));
     if (by_default) {
         b->above = b->floor.above < TV_DEFAULT ? TV_DEFAULT : beyond * b->floor.above;
         b->all = b->floor.all < BELOW * TV_DEFAULT ? BELOW * TV_DEFAULT : beyond * b->floor.all;

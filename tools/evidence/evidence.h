@@ -22,14 +22,15 @@
 
 /* ---- what is asked ------------------------------------------------------------------------------- */
 
-/* Both axes of what accuracy costs; and a table so fine that it stands for D itself. */
+/* Both axes of what accuracy costs; 0 bytes: what vndf_build makes by default; and a table so fine that it stands for D
+ * itself. */
 typedef struct table_size {
     size_t bytes;
     int moments;
     const char *name;
 } table_size;
 
-enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9 };
+enum { SIZES = 11, SIZE_PLAIN = 3, SIZE_DEFAULT = 9, SIZE_FINE = 10 };
 extern const table_size table_sizes[SIZES];
 
 /* A D and its tables, which are built when they are wanted. */
