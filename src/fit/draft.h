@@ -115,30 +115,17 @@ float vndf_knots_slope(const vndf_knots *knots, unsigned i);
 /* The areas for rho at an edge. */
 const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
 
-/* ---- what no size mends (floor.c) ---- */
+/* ---- tables ---- */
 
-/* What is seen from below at one point: the true kernel times f dR, and the two of which shares are drawn. */
-typedef struct vndf_ray {
-    double k, near, far;
-} vndf_ray;
-
-/* From rho on in strips `from` to `end` - 1; returns their number, and adds up their k. */
-size_t vndf_rays_from(const vndf_strips *strips, size_t from, size_t end, double rho, vndf_ray *out, double *sum);
-
-/* The shares with the least total variation among those of the right area; leaves them where nothing is seen. */
-void vndf_shares_best(const vndf_ray *rays, size_t count, float *b0, float *b1);
+/* The table on these knots, but for its texts, its certificate and what vndf_table_fill fills; NULL if there is no
+ * memory. */
+vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments);
 
 /* The total variation above the horizon and over all directions with cells that cost nothing; 0 if there is no memory. */
 typedef struct vndf_floor {
     double above, all;
 } vndf_floor;
 int vndf_floor_measure(vndf_floor *to, const vndf_profile *profile, unsigned moments);
-
-/* ---- tables ---- */
-
-/* The table on these knots, but for its texts, its certificate and what vndf_table_fill fills; NULL if there is no
- * memory. */
-vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments);
 
 /* How good a table is (certificate.c); 0 if there is no memory. */
 int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
