@@ -15,8 +15,8 @@ enum { KNOTS_ENOUGH = 64 };
 
 static const double TV_DEFAULT = 1e-3;
 static const double CLOSE = 1.0 / 16,
-                    CLOSE_DEFAULT = 1.0 / 4; /* so many of its knots fewer do not reach a target */
-/* So many times the total variation above the horizon may be reached below it, but no more than samples are worth. */
+                    CLOSE_DEFAULT = 1.0 / 4; /* of its knots: without them a target is not reached */
+/* Total variations below the horizon over those above it, and at which samples stop being worth their name. */
 static const double BELOW = 30, BELOW_MOST = 5e-2;
 static const char TOOL[] = "vndf " VNDF_VERSION;
 
@@ -26,26 +26,12 @@ typedef struct builder {
     vndf_knots knots;
     size_t max_bytes;
     unsigned moments;
-    double above,
-        all; /* total variations that are asked for, above the horizon and of all; 0: the best that fits */
-    vndf_floor floor;
-    vndf_distribution *table,
-        *best; /* the last that was tried; the smallest that reached what is asked for, or NULL */
+    double above, all, close;        /* total variations that are asked for, 0: the best that fits; CLOSE */
+    vndf_certificate floor;          /* only that of it */
+    vndf_distribution *table, *best; /* the last that was tried; the smallest that is good enough; or NULL */
 } builder;
 
 /* ---- tables ---- */
-
-/* The total variations over those asked for, the larger of both. */
-static double excess_of(const builder *b, const vndf_certificate *c)
-{
-    return b->above > 0 ? fmax((double)c->tv_above / b->above, (double)c->tv / b->all) : 0;
-}
-
-static void put_floor(vndf_certificate *c, const vndf_floor *floor)
-{
-    c->floor_above = (float)floor->above;
-    c->floor = (float)floor->all;
-}
 
 static char *copy_of(const char *text)
 {
@@ -54,9 +40,9 @@ static char *copy_of(const char *text)
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* Makes and measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must
- * end. */
-static double try_knots(builder *b, unsigned knots)
+/* Makes and measures the table on so many knots, or as many as there can be; returns whether it is good enough. There is
+ * none if the build must end. */
+static int try_knots(builder *b, unsigned knots)
 {
     vndf_guard *guard = b->profile->guard;
     if (b->table != b->best)
@@ -81,51 +67,52 @@ static double try_knots(builder *b, unsigned knots)
     if (why)
         vndf_fail(vndf_guard_why(guard), VNDF_ERROR_DISTRIBUTION,
                   "the distribution cannot be held in a table of floats: not a consistent table: %s", why);
-    if (!vndf_guard_stopped(guard)) {
-        put_floor(&t->certificate, &b->floor);
-        return excess_of(b, &t->certificate);
+    if (vndf_guard_stopped(guard)) {
+        vndf_free(t);
+        b->table = NULL;
+        return 0;
     }
-    vndf_free(t);
-    b->table = NULL;
-    return 0;
+    t->certificate.floor_above = b->floor.floor_above;
+    t->certificate.floor = b->floor.floor;
+    return b->above == 0 || ((double)t->certificate.tv_above <= b->above && (double)t->certificate.tv <= b->all);
 }
 
 /* How many knots reach the target, by a table: above the horizon its total variation is the floor and what cells add,
  * which falls as the square of their number; below it cells may undo a little of the floor. */
 static double knots_enough(const builder *b, unsigned knots, const vndf_certificate *c)
 {
-    const double margin = 1.02, slow = 1.15, step_most = 2.5;
-    double above = ((double)c->tv_above - b->floor.above) / fmax(b->above - b->floor.above, 1e-3 * b->above);
-    double all = (double)c->tv > b->all ? slow * slow * (double)c->tv / b->all : 0;
-    return margin * knots * sqrt(fmin(fmax(fmax(above, all), 1 / (step_most * step_most)), step_most * step_most));
+    const double margin = 1.02, slow = 1.3, most = 6, floor = (double)c->floor_above;
+    double above = ((double)c->tv_above - floor) / fmax(b->above - floor, 1e-3 * b->above);
+    double all = (double)c->tv > b->all ? slow * (double)c->tv / b->all : 0;
+    return margin * knots * sqrt(fmin(fmax(fmax(above, all), 1 / most), most));
 }
 
 /* Whether cells are good enough above the horizon, and what is too much below it is the floor. */
 static int is_settled(const builder *b, const vndf_certificate *c)
 {
-    return (double)c->tv_above <= b->above && b->floor.all > b->all && (double)c->tv > 0.97 * b->floor.all;
+    return (double)c->tv_above <= b->above && (double)c->floor > b->all && c->tv > 0.97f * c->floor;
 }
 
-/* As few knots as reach the target, from `least` to `most`: the part `close` fewer do not. Begins with `knots`. */
-static void search(builder *b, unsigned least, unsigned most, unsigned knots, double close)
+/* As few knots as reach the target, from `least` to `most`: the part `close` fewer do not. Begins near `knots`. */
+static void search(builder *b, unsigned least, unsigned most, double knots)
 {
     unsigned few = least - 1, enough = most + 1;
-    for (;;) {
-        int reached = try_knots(b, knots) <= 1;
+    for (double next = fmin(fmax(knots, least), most);;) {
+        unsigned n = (unsigned)fmax(next, few + 1.0);
+        int reached = try_knots(b, n);
         if (!b->table)
             return;
-        *(reached ? &enough : &few) = knots;
+        *(reached ? &enough : &few) = n;
         if (reached) {
             vndf_free(b->best);
             b->best = b->table;
         }
-        double gap = enough - few, near = fmax(close * enough, 1);
+        double gap = enough - few, near = fmax(b->close * enough, 1);
         if (b->best ? gap <= near : few == most || is_settled(b, &b->table->certificate))
             return;
-        double next = knots_enough(b, knots, &b->table->certificate);
-        next = reached ? fmin(next, enough - near) : fmax(next, knots + 1.0);
+        next = knots_enough(b, n, &b->table->certificate);
+        next = reached ? fmin(next, enough - near) : fmax(next, n + 1.0);
         next = b->best ? fmin(fmax(next, few + gap / 4), enough - gap / 4) : fmin(next, most);
-        knots = (unsigned)fmax(next, few + 1.0);
     }
 }
 
@@ -142,114 +129,94 @@ static unsigned knots_in(const builder *b, size_t bytes)
     return knots < VNDF_CELLS_MAX + 1 ? (unsigned)knots : VNDF_CELLS_MAX + 1;
 }
 
-/* Whether a table may come to what is asked for. Floors are known to a tenth, and cells may undo so much below the
- * horizon. */
-static int is_within(const builder *b, const vndf_floor *floor)
+/* Strips for `most` knots; what has no memory ends the build. */
+static void place_strips(builder *b, unsigned most)
 {
-    const double known = 0.9, undone = 0.85;
-    return known * floor->above <= b->above && undone * floor->all <= b->all;
+    vndf_knots_free(&b->knots);
+    if (!vndf_knots_from(&b->knots, b->profile, most))
+        vndf_guard_starve(b->profile->guard);
 }
 
-/* Tries larger tables than those that are allowed: which size is it that reaches the target? */
-static void refuse_size(builder *b)
+/* Whether tables come to what is asked for. Floors are known to a tenth, and cells may undo a little more below. */
+static int is_within(const builder *b, const vndf_certificate *floor)
+{
+    return 0.9 * (double)floor->floor_above <= b->above && 0.85 * (double)floor->floor <= b->all;
+}
+
+/* Says which larger size reaches the target, or what is left whatever the size - in a table that was tried, or the
+ * floor - and whether more moments leave less. */
+static void refuse(builder *b)
 {
     const unsigned most = knots_in(b, b->max_bytes), all = knots_in(b, BYTES_MOST);
-    const vndf_certificate c = b->table->certificate;
-    const size_t bytes = b->table->bytes;
-    const int above = (double)c.tv_above > b->above;
-    if (most == all || is_settled(b, &c))
-        return;
-    vndf_knots_free(&b->knots);
-    if (!vndf_knots_from(&b->knots, b->profile, all))
-        vndf_guard_starve(b->profile->guard);
-    search(b, most + 1, all, (unsigned)fmin(fmax(knots_enough(b, most, &c), most + 1), all), CLOSE);
+    const size_t bytes = b->table ? b->table->bytes : 0;
+    vndf_certificate less = b->floor, c = b->table ? b->table->certificate : (vndf_certificate){.tv = less.floor};
+    if (b->table && most < all && !is_settled(b, &c)) {
+        place_strips(b, all);
+        search(b, most + 1, all, knots_enough(b, most, &c));
+        c = b->table && !b->best ? b->table->certificate : c;
+    }
+    const int above = (double)(bytes ? c.tv_above : less.floor_above) > b->above;
+    const float left = !bytes && above ? less.floor_above : above ? c.tv_above : c.tv;
+    unsigned more = b->moments;
+    char target[64], hint[64] = "";
+    snprintf(target, sizeof target, "a total variation of %g %s the horizon", above ? b->above : b->all,
+             above ? "above" : "below");
+    while (!b->best && ++more <= 4 && !*hint)
+        if (vndf_floor_measure(&less, b->profile, more) && is_within(b, &less))
+            snprintf(hint, sizeof hint, "; %d moments leave %.3g", (int)more,
+                     (double)(above ? less.floor_above : less.floor));
     if (b->best)
+        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET, "%s takes %lu bytes: %lu leave %.3g",
+                  target, (unsigned long)b->best->bytes, (unsigned long)bytes, (double)left);
+    else
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
-                  "a total variation of %g %s the horizon takes %lu bytes: %lu reach %.3g at %g degrees",
-                  above ? b->above : b->all, above ? "above" : "below", (unsigned long)b->best->bytes,
-                  (unsigned long)bytes, (double)(above ? c.tv_above : c.tv),
-                  (double)(above ? c.tv_above_theta : c.tv_theta));
+                  "no table reaches %s: %d moments leave %.3g whatever the size%s", target, (int)b->moments,
+                  (double)left, hint);
 }
 
-/* Says what is left whatever the size: by a table that was tried, or the floor; and whether more moments leave less. */
-static void refuse_moments(const builder *b)
+/* The best that fits; or what reaches the target, or is refused; or by default what reaches that of KNOTS_ENOUGH, or
+ * else the best that fits. */
+static void make_table(builder *b, int by_default)
 {
-    const vndf_certificate *c = b->table ? &b->table->certificate : NULL;
-    const vndf_floor left = c ? (vndf_floor){(double)c->tv_above, (double)c->tv} : b->floor;
-    const int above = left.above > b->above;
-    vndf_floor less = {1, 1};
-    unsigned more = b->moments + 1;
-    char hint[80] = "";
-    while (more <= 4 && vndf_floor_measure(&less, b->profile, more) && !is_within(b, &less))
-        more++;
-    if (more <= 4)
-        snprintf(hint, sizeof hint, "; %d moments leave %.3g", (int)more, above ? less.above : less.all);
-    vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
-              "no table reaches a total variation of %g %s the horizon: %d moments leave %.3g whatever the size%s",
-              above ? b->above : b->all, above ? "above" : "below", (int)b->moments, above ? left.above : left.all,
-              hint);
-}
-
-/* Strips for `most` knots, and the floor; returns how few knots there can be, or 0 if the build must end. */
-static unsigned prepare(builder *b, unsigned most)
-{
-    unsigned least = CELLS_LEAST + 1;
-    if (most >= least && (!vndf_knots_from(&b->knots, b->profile, most) ||
-                          !vndf_floor_measure(&b->floor, b->profile, b->moments))) {
-        vndf_guard_starve(b->profile->guard);
-        return 0;
+    unsigned most = knots_in(b, b->max_bytes), least = CELLS_LEAST + 1;
+    if (most >= least) {
+        place_strips(b, most);
+        if (!vndf_floor_measure(&b->floor, b->profile, b->moments))
+            vndf_guard_starve(b->profile->guard);
     }
     least = b->knots.least > least ? b->knots.least : least;
-    if (most >= least)
-        return least;
-    vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
-              "%lu bytes are too few: the smallest table of this distribution takes %lu",
-              (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
-    return 0;
-}
-
-/* The best that fits; or what reaches max_tv, or is refused; or by default what reaches TV_DEFAULT and has KNOTS_ENOUGH,
- * or else the best that fits. */
-static void make_table(builder *b, double max_tv, int by_default)
-{
-    const double beyond = 1.1; /* what is taken for a target that moments do not reach, over their floor */
-    const double close = by_default ? CLOSE_DEFAULT : CLOSE;
-    unsigned most = knots_in(b, b->max_bytes), least = prepare(b, most);
-    if (!least)
+    if (most < least)
+        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
+                  "%lu bytes are too few: the smallest table of this distribution takes %lu",
+                  (unsigned long)b->max_bytes, (unsigned long)bytes_of_knots(b, least));
+    if (vndf_guard_stopped(b->profile->guard))
         return;
-    b->above = max_tv;
-    b->all = fmin(BELOW * max_tv, fmax(BELOW_MOST, beyond * b->floor.all));
-    if (by_default) {
-        b->above = b->floor.above < TV_DEFAULT ? TV_DEFAULT : beyond * b->floor.above;
-        b->all = b->floor.all < BELOW * TV_DEFAULT ? BELOW * TV_DEFAULT : beyond * b->floor.all;
-        least = least > KNOTS_ENOUGH ? least : most < KNOTS_ENOUGH ? most : KNOTS_ENOUGH;
-    }
-    /* the error of cells is some 0.6 over the square of their number */
-    double first = b->above > 0 ? 0.8 / sqrt(fmax(b->above - b->floor.above, 0.1 * b->above)) : most;
-    if (!(b->above > 0))
+    int is_possible = is_within(b, &b->floor);
+    if (b->above == 0 || (by_default && !is_possible))
         least = most;
-    if (!(b->above > 0) || is_within(b, &b->floor))
-        search(b, least, most, first > most ? most : first > least ? (unsigned)first : least, close);
+    else if (by_default)
+        least = most < KNOTS_ENOUGH ? most : least < KNOTS_ENOUGH ? KNOTS_ENOUGH : least;
+    /* the error of cells is some 0.6 over the square of their number */
+    if (b->above == 0 || by_default || is_possible)
+        search(b, least, most, 0.8 / sqrt(fmax(b->above - (double)b->floor.floor_above, 0.1 * b->above)));
     if (by_default && !b->best)
         b->best = b->table;
-    if (!b->best && b->table)
-        refuse_size(b);
     if (!b->best && !vndf_guard_stopped(b->profile->guard))
-        refuse_moments(b);
+        refuse(b);
 }
 
 /* ---- the call ---- */
 
-static vndf_status check_request(const vndf_source *source, const builder *b, double max_tv, vndf_error *error)
+static vndf_status check_request(const vndf_source *source, const builder *b, vndf_error *error)
 {
     if (!source)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "no source: NULL was given");
     if (b->max_bytes < BYTES_LEAST || b->max_bytes > BYTES_MOST)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "max_bytes is %lu; from %d to %d is possible",
                          (unsigned long)b->max_bytes, BYTES_LEAST, BYTES_MOST);
-    if (!(max_tv >= 0.0 && max_tv < 1.0))
+    if (!(b->above >= 0.0 && b->above < 1.0))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", max_tv);
+                         "max_tv is %g; it is a total variation, from 0 (none) to below 1", b->above);
     if (b->moments < 2 || b->moments > 4)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "moments is %d; 2, 3 and 4 are possible", (int)b->moments);
     return VNDF_OK;
@@ -259,10 +226,14 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
                               vndf_certificate *certificate, vndf_error *error)
 {
     const vndf_build_options none = {0}, given = options ? *options : none;
+    int by_default = !given.max_bytes && given.max_tv == 0;
     builder b = {.max_bytes = given.max_bytes ? given.max_bytes : BYTES_DEFAULT,
+                 .above = by_default ? TV_DEFAULT : given.max_tv,
+                 .close = by_default ? CLOSE_DEFAULT : CLOSE,
                  .moments = (unsigned)(given.moments ? given.moments : MOMENTS_DEFAULT)};
-    if (check_request(source, &b, given.max_tv, error) != VNDF_OK)
+    if (check_request(source, &b, error) != VNDF_OK)
         return NULL;
+    b.all = fmin(BELOW * b.above, BELOW_MOST);
     vndf_guard guard = vndf_guard_from(given.progress, given.progress_user);
     vndf_guard_stage(&guard, 0, "the source");
     vndf_profile *profile = vndf_profile_from(source, &guard, error);
@@ -270,7 +241,7 @@ vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_option
         return NULL;
     b.profile = profile;
     vndf_guard_stage(&guard, 0.5, "knots and certificate");
-    make_table(&b, given.max_tv, !given.max_bytes && !(given.max_tv > 0.0));
+    make_table(&b, by_default);
     if (b.table != b.best)
         vndf_free(b.table);
     if (vndf_guard_status(&guard, error) != VNDF_OK) {
@@ -290,7 +261,6 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "a table, a source and a place for the certificate are needed");
     vndf_guard guard = vndf_guard_from(NULL, NULL);
-    vndf_floor floor = {0, 0};
     vndf_profile *profile = vndf_profile_from(source, &guard, error);
     if (!profile)
         return vndf_guard_status(&guard, NULL);
@@ -302,10 +272,8 @@ vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_sourc
                   "the source has %.9g and %.9g",
                   distribution->scale, distribution->normalization, profile->scale, profile->normalization);
     else if (!vndf_certificate_measure(certificate, distribution, profile) ||
-             !vndf_floor_measure(&floor, profile, (unsigned)distribution->moments))
+             !vndf_floor_measure(certificate, profile, (unsigned)distribution->moments))
         vndf_guard_starve(&guard);
-    else
-        put_floor(certificate, &floor);
     vndf_profile_free(profile);
     return vndf_guard_status(&guard, error);
 }

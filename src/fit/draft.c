@@ -145,7 +145,7 @@ static double floor_from(const vndf_strips *s, double rho, const float *terms, d
 }
 
 /* The largest from some edges, and from the neighbourhood of the worst. */
-int vndf_floor_measure(vndf_floor *to, const vndf_profile *profile, unsigned moments)
+int vndf_floor_measure(vndf_certificate *to, const vndf_profile *profile, unsigned moments)
 {
     enum { EDGES = 24, LOOKS = 80 }; /* that a side costs */
     const double claimed = vndf_profile_claimed(profile) * 2 * PI * profile->f1, rho_least = 0x1p-20,
@@ -168,7 +168,8 @@ int vndf_floor_measure(vndf_floor *to, const vndf_profile *profile, unsigned mom
             from = best - (best < step / 2 ? best : step / 2);
             end = best + step / 2 + 1 < s.count ? best + step / 2 + 1 : s.count;
         }
-    *to = (vndf_floor){worst[0], fmax(worst[0], worst[1])};
+    to->floor_above = (float)worst[0];
+    to->floor = (float)fmax(worst[0], worst[1]);
     good = rays != NULL;
     free(rays);
     vndf_strips_free(&s);
