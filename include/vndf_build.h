@@ -130,9 +130,9 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * whatever the size is in the certificate: floor_above and floor.
  *
  * The default. If max_bytes and max_tv are both 0, the table has 64 knots, some 3000 bytes. If these do not reach
- * 1e-3 above the horizon and 3e-2 below it (a tenth more than the floor, where that is larger), it has as many more
- * as do, to a fourth, or is the best of 8192 bytes. With a max_tv of 1e-3 it may be smaller: that is not faster, since
- * lanes hold 64 knots in registers, and its D and areas err some ten times as much.
+ * 1e-3 above the horizon and 3e-2 below it, it has as many more as do, to a fourth, or is the best of 8192 bytes. With
+ * a max_tv of 1e-3 it may be smaller: that is not faster, since lanes hold 64 knots in registers, and its D and areas
+ * err some ten times as much.
  *
  * Narrow features. The builder bounds formulas and families between all points by interval arithmetic, and reads
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
@@ -142,9 +142,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * than 1e-3 of their slope may escape; bring such a D as a formula or as rows. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
-    double max_tv; /* the smallest table that reaches this total variation above the horizon, and below it 30 times
-                    * it, but no more than 5e-2 or a tenth more than the floor: with a sixteenth fewer knots it does
-                    * not. 0: the best that fits */
+    double max_tv; /* the smallest table that reaches this total variation above the horizon, and the lesser of 30
+                    * times it and 5e-2 below: with a sixteenth fewer knots it does not. 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
     int moments; /* 2, 3 or 4; 0: 4 */

@@ -111,7 +111,7 @@ static void search(builder *b, unsigned least, unsigned most, double knots)
         if (b->best ? gap <= near : few == most || is_settled(b, &b->table->certificate))
             return;
         next = knots_enough(b, n, &b->table->certificate);
-        next = reached ? fmin(next, enough - near) : fmax(next, n + 1.0);
+        next = reached ? fmin(next, enough - near) : fmax(next, n + fmax(b->close * n, 1));
         next = b->best ? fmin(fmax(next, few + gap / 4), enough - gap / 4) : fmin(next, most);
     }
 }
@@ -166,8 +166,8 @@ static void refuse(builder *b)
             snprintf(hint, sizeof hint, "; %d moments leave %.3g", (int)more,
                      (double)(above ? less.floor_above : less.floor));
     if (b->best)
-        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET, "%s takes %lu bytes: %lu leave %.3g",
-                  target, (unsigned long)b->best->bytes, (unsigned long)bytes, (double)left);
+        vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET, "%s takes some %lu bytes: %lu leave %.3g",
+                  target, (unsigned long)(b->best->bytes * 17 / 16), (unsigned long)bytes, (double)left);
     else
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
                   "no table reaches %s: %d moments leave %.3g whatever the size%s", target, (int)b->moments,
