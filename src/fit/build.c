@@ -40,8 +40,8 @@ static char *copy_of(const char *text)
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
-/* Makes and measures the table on so many knots, or as many as there can be; returns whether it is good enough. There is
- * none if the build must end. */
+/* Makes and measures the table on so many knots, or as many as there can be; returns whether it is good enough. There
+ * is none if the build must end. */
 static int try_knots(builder *b, unsigned knots)
 {
     vndf_guard *guard = b->profile->guard;

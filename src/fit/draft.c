@@ -119,7 +119,8 @@ static void put_shares(vndf_distribution *t, const vndf_strips *s, const double 
 /* ---- what no size mends ---- */
 
 /* The total variation from rho with cells that cost nothing: above the horizon by `terms`, which begin in the middle of
- * the eighth of an octave that rho is in, below it, without them, by the best shares. 0 where less than `least` is seen. */
+ * the eighth of an octave that rho is in; below it, without them, by the best shares. 0 where no more than `least` is
+ * seen. */
 static double floor_from(const vndf_strips *s, double rho, const float *terms, double least, ray *at)
 {
     const double begin = of_bits((VNDF_RHO_FIRST + law_eighth(rho)) * (1 << 20) + (1 << 19)), grazing = 1;

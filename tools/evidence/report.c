@@ -257,8 +257,9 @@ static const struct {
     {"advice", "Which table, and how many moments",
      "Every table is exact with its weight; a coarse one costs noise. The advice is what vndf build makes by default. "
      "Its limits are weights up to 2 and a total variation (TV) up to 0.001 above the horizon, so that the weight may "
-     "be left out where a bias below half a step of 8 bits does not matter, and 0.03 below it. A smaller one that keeps these limits (--max-tv 0.001) is not faster, and its D errs some ten times as much. "
-     "All are of the certificates of the tables.",
+     "be left out where a bias below half a step of 8 bits does not matter, and 0.03 below it. A smaller one that "
+     "keeps these limits (--max-tv 0.001) is not faster, and its D errs some ten times as much. All are of the "
+     "certificates of the tables.",
      write_tables},
     {"frontier", "Error against time",
      "Further left is faster, further down nearer to the true visible normals. Curves join tables from 2 to "
