@@ -144,6 +144,8 @@ typedef struct vndf_certificate {
     float hidden;         /* the part that may have escaped, in [0, 1] */
     float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
     float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon; 0 if D is bounded there */
+    float floor_above; /* where tv_above ends at large sizes with these moments, to a tenth; higher for r^-3.1 */
+    float floor;       /* the same of tv; small tables may stay a tenth below that */
 } vndf_certificate;
 
 /* What a distribution is. The strings belong to the distribution. */

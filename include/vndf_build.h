@@ -126,8 +126,13 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * Size and moments are what accuracy costs. Bytes buy cells: the slope length is drawn closer to D. Moments bound
  * how far the law of the slope length from one direction is from the visible one: above the horizon by 6.5e-2 with
  * 2 moments, 4.7e-3 with 3 and 7.2e-4 with 4, for every D, direction and roughness. Below the horizon the total
- * variation is some 3e-2 at most with any of them. Fewer moments take fewer bytes and less time. If max_bytes and
- * max_tv are both 0, the table is about the smallest that reaches a max_tv of 1e-3, or else the best of 8192 bytes.
+ * variation is some 3e-2 at most with any of them. Fewer moments take fewer bytes and less time. What moments leave
+ * whatever the size is in the certificate: floor_above and floor.
+ *
+ * The default. If max_bytes and max_tv are both 0, the table has 64 knots, some 3000 bytes. If these do not reach
+ * 1e-3 above the horizon and 3e-2 below it, it has as many more as do, to a fourth, or is the best of 8192 bytes. With
+ * a max_tv of 1e-3 it may be smaller: that is not faster, since lanes hold 64 knots in registers, and its D and areas
+ * err some ten times as much.
  *
  * Narrow features. The builder bounds formulas and families between all points by interval arithmetic, and reads
  * every row of a CSV. From slope 1e-30 to 1e30 at most 1e-5 of the mass, or of the area at grazing incidence,
@@ -137,8 +142,8 @@ typedef int vndf_progress(double done, const char *what, void *user);
  * than 1e-3 of their slope may escape; bring such a D as a formula or as rows. */
 typedef struct vndf_build_options {
     size_t max_bytes; /* largest size of the file, from 2048 to 1 MiB; 0: 8192, see above */
-    double max_tv; /* about the smallest table that reaches this total variation above the horizon, and 30 times it
-                    * below; 0: the best that fits */
+    double max_tv; /* the smallest table that reaches this total variation above the horizon, and the lesser of 30
+                    * times it and 5e-2 below: with a sixteenth fewer knots it does not. 0: the best that fits */
     vndf_progress *progress; /* may be NULL */
     void *progress_user;
     int moments; /* 2, 3 or 4; 0: 4 */
@@ -146,7 +151,8 @@ typedef struct vndf_build_options {
 
 /* Builds a table. options and certificate may be NULL. Returns NULL and an error if the source cannot be the
  * normals of a microsurface (VNDF_ERROR_DISTRIBUTION, with the reason) or if the target cannot be met
- * (VNDF_ERROR_TARGET, with the value that was reached). Deterministic. Free the result with vndf_free. */
+ * (VNDF_ERROR_TARGET: the message says which size meets it, or what is left whatever the size, and whether more
+ * moments leave less). Deterministic. Free the result with vndf_free. */
 VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_build_options *options,
                                        vndf_certificate *certificate, vndf_error *error);
 

@@ -1,8 +1,15 @@
-/* From knots to the numbers of a table. */
-#include "fit/draft.h"
-
+/* From knots to the numbers of a table; and what none of these numbers mends. */
 #include <math.h>
 #include <stdlib.h>
+
+#include "fit/draft.h"
+
+#define VNDF_KERNEL_DOUBLE
+#include "kernel/one.h"
+
+#include "kernel/rows.h"
+
+#include "kernel/law.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -34,19 +41,19 @@ typedef struct ray {
 
 /* From rho on, in `cell` and beyond. Far out, where next to nothing is added, the rays end. grazing[i]: the integral of
  * R f from cell i on. Returns their number. */
-static size_t look(const vndf_strips *s, unsigned cell, unsigned cells, double rho, const double *grazing,
+static size_t cast(const vndf_strips *s, unsigned cell, unsigned cells, double rho, const double *grazing,
                    ray *out)
 {
     const double little = 1e-7;
-    double seen = 0;
+    double sum = 0;
     size_t count = 0;
-    for (unsigned i = cell; i <= cells && !(grazing[i] < little * seen); i++)
+    for (unsigned i = cell; i <= cells && !(grazing[i] < little * sum); i++)
         for (size_t k = 2 * s->first[i]; k < 2 * s->first[i + 1]; k++) {
             double mass = s->at[k / 2].mass[k % 2], r = s->at[k / 2].r[k % 2], way = r - rho;
             if (!(way > 0 && mass > 0))
                 continue;
             out[count] = (ray){mass * vndf_profile_kernel(r, rho), mass * way, mass * way * way / r};
-            seen += out[count++].k;
+            sum += out[count++].k;
         }
     return count;
 }
@@ -98,15 +105,76 @@ static void put_shares(vndf_distribution *t, const vndf_strips *s, const double 
     }
     for (unsigned i = 0; i <= cells; i++) {
         float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
-        double rho = i ? cell[i].r : 0.1 * cell[1].r, drawn = 0, factor = 1, area = below[i] * (1 + rho);
-        put_best(room, look(s, i, cells, rho, grazing, room), &b0, &b1);
+        double rho = i ? cell[i].r : 0.1 * cell[1].r, mass = 0, factor = 1, area = below[i] * (1 + rho);
+        put_best(room, cast(s, i, cells, rho, grazing, room), &b0, &b1);
         for (unsigned k = i; i > 0 && k <= cells; k++)
-            drawn += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;
-        if (drawn > 0 && area > 1e-30)
-            factor = fmin(fmax(area / drawn, 0.5), 2);
+            mass += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;
+        if (mass > 0 && area > 1e-30)
+            factor = fmin(fmax(area / mass, 0.5), 2);
         b0 = shares[0] = b0 * (float)factor;
         b1 = shares[1] = b1 * (float)factor;
     }
+}
+
+/* ---- what no size mends ---- */
+
+/* The total variation from rho with cells that cost nothing: above the horizon by `terms`, which begin in the middle of
+ * the eighth of an octave that rho is in; below it, without them, by the best shares. 0 where no more than `least` is
+ * seen. */
+static double floor_from(const vndf_strips *s, double rho, const float *terms, double least, ray *at)
+{
+    const double begin = of_bits((VNDF_RHO_FIRST + law_eighth(rho)) * (1 << 20) + (1 << 19)), grazing = 1;
+    double all = 0, near = 0, miss = 0;
+    float b0 = 0, b1 = 0;
+    size_t count = terms ? 2 * s->count : cast(s, 0, 0, rho, &grazing, at);
+    if (!terms)
+        put_best(at, count, &b0, &b1);
+    for (size_t i = 0; i < count; i++) {
+        double mass = PI * s->at[i / 2].mass[i % 2], r = s->at[i / 2].r[i % 2], y = r / rho;
+        if (terms)
+            at[i] = (ray){r > rho ? mass + mass * vndf_profile_kernel(r, rho) / (PI * rho) : mass, mass, 0};
+        if (terms && r > begin)
+            at[i].near *= terms[0] * y + terms[1] + terms[2] / y + terms[3] / (y * y * y * y);
+        if (!terms)
+            at[i].near = (double)b0 * at[i].near + (double)b1 * at[i].far;
+        all += at[i].k;
+        near += at[i].near;
+    }
+    for (size_t i = 0; i < count && all > least; i++)
+        miss += fabs(at[i].k / all - at[i].near / near);
+    return miss / 2;
+}
+
+/* The largest from some edges, and from the neighbourhood of the worst. */
+int vndf_floor_measure(vndf_certificate *to, const vndf_profile *profile, unsigned moments)
+{
+    enum { EDGES = 24, LOOKS = 80 }; /* that a side costs */
+    const double claimed = vndf_profile_claimed(profile) * 2 * PI * profile->f1, rho_least = 0x1p-20,
+                 rho_most = 0x1p14;
+    const float none = 0;
+    double worst[2] = {0, 0};
+    vndf_strips s;
+    int good = vndf_strips_from(&s, profile, &none, 1, 0);
+    ray *rays = good ? malloc(2 * s.count * sizeof *rays) : NULL;
+    for (int side = 0; rays && side < 2 && vndf_guard_spend(profile->guard, LOOKS * (double)s.count); side++)
+        for (size_t step = s.count / EDGES + 1, from = 0, end = s.count, best = 0; step > 0; step /= 2) {
+            for (size_t i = from; i < end; i += step) {
+                double rho = s.at[i].edge, d = 0;
+                if (rho > rho_least && rho < rho_most)
+                    d = floor_from(&s, rho, side ? NULL : law_terms + 4 * (moments - 2), claimed * hypot(1, rho),
+                                   rays);
+                best = d > worst[side] ? i : best;
+                worst[side] = fmax(worst[side], d);
+            }
+            from = best - (best < step / 2 ? best : step / 2);
+            end = best + step / 2 + 1 < s.count ? best + step / 2 + 1 : s.count;
+        }
+    to->floor_above = (float)worst[0];
+    to->floor = (float)fmax(worst[0], worst[1]);
+    good = rays != NULL;
+    free(rays);
+    vndf_strips_free(&s);
+    return good;
 }
 
 /* ---- the whole ---- */

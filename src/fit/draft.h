@@ -125,6 +125,9 @@ const vndf_area *vndf_knots_area(vndf_knots *knots, size_t edge);
  * memory. */
 vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments);
 
+/* Puts the floors of a certificate; 0 if there is no memory. */
+int vndf_floor_measure(vndf_certificate *to, const vndf_profile *profile, unsigned moments);
+
 /* How good a table is (certificate.c); 0 if there is no memory. */
 int vndf_certificate_measure(vndf_certificate *certificate, const vndf_distribution *table,
                              const vndf_profile *profile);

@@ -52,7 +52,7 @@ static const struct {
     {"from 2048 to 1048576", "build --slope 'exp(-r)' --max-bytes 100 -o x.csv"},
     {"'KiB' stands behind it", "build --slope 'exp(-r)' --max-bytes 4KiB -o x.csv"},
     {"--moments '5' is not 2, 3 or 4", "build --slope 'exp(-r)' --moments 5 -o x.csv"},
-    {"--max-bytes N allows a larger table", "build --slope 'exp(-r)' --max-bytes 2048 --max-tv 1e-9 -o x.csv"},
+    {"4 moments leave 0.0002", "build --slope 'exp(-r)' --max-bytes 2048 --max-tv 1e-9 -o x.csv"},
     {"cannot write 'no/x.vndf': No such file", "build --slope 'exp(-r)' -o no/x.vndf"},
     {"'.' is a folder", "build --slope 'exp(-r)' -o ."},
     {"known by .vndfs, and this is one table", "build --slope 'exp(-r)' -o x.vndfs"},

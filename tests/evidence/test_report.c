@@ -4,8 +4,6 @@
 #include "harness/run_program.h"
 
 #include "command.h"
-#include "evidence/evidence.h"
-#include "oracle/oracle.h"
 
 /* ---- the page ---- */
 
@@ -73,28 +71,17 @@ static void check_page(void)
     }
 }
 
-/* ---- the advice ---- */
-
-/* The table that is advised is the smallest that keeps all limits; where even the finest breaks one, it is within a
- * quarter of the finest there. */
-static void test_advice(const char *name, vndf_source *source, int is_good)
+/* What is advised is what `vndf build` makes. */
+static void test_advice(void)
 {
-    subject s;
-    size_t at = 0;
-    vndf_error error = {VNDF_OK, ""};
-    progress p = progress_begin("", 0);
-    const evidence_plan plan = {.seconds = 3600, .progress = &p};
-    subject_begin(&s, source, name);
-    if (TEST(s.source && report_choose(&s, &at, &plan, &error) == VNDF_OK)) {
-        const vndf_certificate finest = vndf_distribution_info(s.table[SIZE_FINE]).certificate,
-                               chosen = vndf_distribution_info(s.table[at]).certificate;
-        TEST(report_keeps(s.table[at]) == is_good);
-        for (size_t i = 0; i < at; i++)
-            TEST(!report_keeps(s.table[i]));
-        TEST(at > 0);
-        TEST(chosen.tv <= fmaxf(0.03f, 1.25f * finest.tv) && chosen.tv_above <= 1e-3f && chosen.max_weight <= 2);
-    }
-    subject_free(&s);
+    char row[64], text[RUN_TEXT];
+    size_t size;
+    run_said(text, "vndf build --ndf 'step(c-0.5)*(1+theta)' -o built");
+    snprintf(row, sizeof row, ",%lu,4,", strtoul(strstr(text, "\nbytes ") + 7, NULL, 10));
+    char *tables = run_file("page/tables.csv", &size);
+    TEST_HAS(tables, row);
+    free(tables);
+    remove("built");
 }
 
 /* ---- what stops it ---- */
@@ -117,12 +104,11 @@ int main(void)
     if (!run_begin(scratch))
         return test_done();
     test_checker();
-    test_advice("student-t:2.5", vndf_source_family("student-t:2.5", NULL), 1);
-    test_advice("many rings", oracle_source("exp(-r)*(1+0.99*cos(40*r))", NULL), 0);
     test_stopped();
     TEST_HAS(run_said(text, "vndf report --ndf 'step(c-0.5)*(1+theta)' --seconds 1 page"), "page/index.html\n");
     TEST(run_count("page", "") == 4);
     check_page();
+    test_advice();
     TEST(run_put("page/note.txt", "")); /* it is still there when the page is replaced */
     run_said(text, "cp '" VNDF_SOURCE_DIR "/tables/example.csv' 'a&<b>.csv'"); /* a name that HTML has to escape */
     if (!test_quick()) {

@@ -33,9 +33,10 @@ static const char *const help[] = {
     "  --csv FILE      a header line that names the columns (theta_deg, theta or slope; ndf or p22), then rows\n"
     "  --family NAME   a named distribution or a measured material\n"
     "  --list          lists families and materials\n"
-    "  --max-bytes N   size of the table at most, 2048 to 1048576 (default: what a total variation of 1e-3 above and\n"
-    "                  3e-2 below the horizon takes, up to 8192)\n"
-    "  --max-tv X      the smallest table with total variation <= X above the horizon and 30 X below\n"
+    "  --max-bytes N   the best table of this size at most, 2048 to 1048576 (default: some 3000, or what a total\n"
+    "                  variation of 1e-3 above and 3e-2 below the horizon takes, up to 8192)\n"
+    "  --max-tv X      the smallest table with total variation <= X above the horizon and the lesser of 30 X and 0.05\n"
+    "                  below, up to --max-bytes or 8192; smaller than the default it is not faster, and D errs more\n"
     "  --moments 2|3|4    default 4: above the horizon densities are within 6.5e-2, 4.7e-3 or 7.2e-4 of the\n"
     "                  visible ones, whatever D is, but for the error of cells; fewer are smaller and faster\n"
     "  -o FILE         the table; it appears whole or not at all; - for stdout, in place of the figures\n"
@@ -61,7 +62,7 @@ static const char *const help[] = {
     "  --profile OUT   the curve that was found, as a CSV for --csv\n"
     "\n"
     "example: vndf build --slope 'exp(-k*r)*(1+0.8*cos(6*r))' --set k=3 -o wavy.vndf\n"
-    "         vndf build --family student-t:2.5 --max-tv 1e-4 -o student.vndf\n"
+    "         vndf build --family student-t:2.5 --max-tv 5e-4 -o student.vndf\n"
     "         vndf build --family student-t --parameter 1.6..6 -o tails.vndfs\n"
     "         vndf build --height surface.pfm --step 0.5 --cutoff 8 -o surface.vndf\n",
     NULL};
@@ -207,9 +208,7 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     if (output_stopping() && error.status != VNDF_OK)
         complain(name, "%s; '%s' was not touched", error.message, option_value(given, "-o"));
     else if (error.status != VNDF_OK)
-        complain(name, "%s%s", error.message,
-                 error.status == VNDF_ERROR_TARGET && bytes < 1048576 ? "; --max-bytes N allows a larger table"
-                                                                      : "");
+        complain(name, "%s", error.message);
     return to->owned || to->family;
 }
 

@@ -52,8 +52,9 @@ static int measure(report *r, const arguments *given, evidence_plan *plan)
     vndf_error error = {VNDF_OK, ""};
     int status = add_subjects(r, given);
     for (size_t i = 0; i < r->count && status == STATUS_GOOD; i++)
-        if (report_choose(&r->subject[i], &r->chosen[i], plan, &error) != VNDF_OK)
-            status = complain(name, "%s: %s", r->subject[i].name, error.message);
+        for (size_t k = 0; k < SIZES && status == STATUS_GOOD; k++)
+            if (!subject_table(&r->subject[i], k, plan, &error))
+                status = complain(name, "%s: %s", r->subject[i].name, error.message);
     if (status != STATUS_GOOD)
         return status;
     const vndf_instructions best = vndf_instructions_used(VNDF_INSTRUCTIONS_BEST);

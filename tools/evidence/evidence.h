@@ -22,14 +22,15 @@
 
 /* ---- what is asked ------------------------------------------------------------------------------- */
 
-/* Both axes of what accuracy costs; and a table so fine that it stands for D itself. */
+/* Both axes of what accuracy costs; 0 bytes: what vndf_build makes by default; and a table so fine that it stands for D
+ * itself. */
 typedef struct table_size {
     size_t bytes;
     int moments;
     const char *name;
 } table_size;
 
-enum { SIZES = 10, SIZE_DEFAULT = 8, SIZE_FINE = 9 };
+enum { SIZES = 11, SIZE_PLAIN = 3, SIZE_DEFAULT = 9, SIZE_FINE = 10 };
 extern const table_size table_sizes[SIZES];
 
 /* A D and its tables, which are built when they are wanted. */
@@ -134,18 +135,11 @@ enum { REPORT_SUBJECTS = 4 };
 
 typedef struct report {
     subject subject[REPORT_SUBJECTS]; /* the first is the one at hand */
-    size_t chosen[REPORT_SUBJECTS];   /* the table to ship */
     size_t count;
     evidence *found;       /* for the one at hand */
     evidence_column batch; /* by the best instructions of this machine, and their name */
     const char *instructions;
 } report;
-
-/* Builds all tables and chooses. VNDF_OK, or the status and error that stopped it. */
-vndf_status report_choose(subject *s, size_t *chosen, const evidence_plan *plan, vndf_error *error);
-
-/* Whether a table keeps all limits of the advice. */
-int report_keeps(const vndf_distribution *table);
 
 /* The page with its data; 0 after a complaint. */
 int report_write(html_page *page, const report *r);

@@ -8,11 +8,11 @@
 #include "cli/arguments.h"
 #include "evidence/evidence.h"
 
-const table_size table_sizes[SIZES] = {{2048, 2, "table 2 KiB, 2 moments"}, {2048, 3, "table 2 KiB, 3 moments"},
-                                       {2048, 4, "table 2 KiB, 4 moments"}, {4096, 2, "table 4 KiB, 2 moments"},
-                                       {4096, 3, "table 4 KiB, 3 moments"}, {4096, 4, "table 4 KiB, 4 moments"},
-                                       {8192, 2, "table 8 KiB, 2 moments"}, {8192, 3, "table 8 KiB, 3 moments"},
-                                       {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
+const table_size table_sizes[SIZES] = {
+    {2048, 2, "table 2 KiB, 2 moments"}, {2048, 3, "table 2 KiB, 3 moments"},  {2048, 4, "table 2 KiB, 4 moments"},
+    {0, 4, "table by default"},          {4096, 2, "table 4 KiB, 2 moments"},  {4096, 3, "table 4 KiB, 3 moments"},
+    {4096, 4, "table 4 KiB, 4 moments"}, {8192, 2, "table 8 KiB, 2 moments"},  {8192, 3, "table 8 KiB, 3 moments"},
+    {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
 
 /* ---- subjects ------------------------------------------------------------------------------------ */
 

@@ -143,7 +143,7 @@ def build(
     """Builds a table.
 
     max_bytes: largest size of the file, 2048 to 1 MiB; 0: what TV 1e-3 above and 3e-2 below the horizon takes, to 8192.
-    max_tv: the smallest table that reaches this total variation above, and 30 times it below; 0: the best that fits.
+    max_tv: the smallest table that reaches this total variation above the horizon (vndf_build.h); 0: the best that fits.
     moments: 2, 3 or 4, which bound the error of the density above the horizon by 6.5e-2, 4.7e-3, 7.2e-4; 0: 4.
     progress: called with the part that is done, 0 to 1, and the name of the stage; a true result stops the build.
 
