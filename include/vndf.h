@@ -142,6 +142,8 @@ typedef struct vndf_certificate {
     float hidden;         /* the part that may have escaped, in [0, 1] */
     float finest;         /* relative width in slope of features that may have escaped; 0 if there are none */
     float horizon_power;  /* p < 0 if D grows as cos(theta_m)^p towards the horizon; 0 if D is bounded there */
+    float floor_above;    /* what is left of tv_above at any size, with these moments; 0 where it is not known, */
+    float floor;          /* and of tv */
 } vndf_certificate;
 
 /* What a distribution is. The strings belong to the distribution. */

@@ -1,9 +1,9 @@
-/* The table on disk, version 4. All little-endian; strings without terminator; floats are IEEE single.
+/* The table on disk, version 5. All little-endian; strings without terminator; floats are IEEE single.
  *
  *     8 bytes  "VNDFtab\n"        u32 version      u32 size of the whole file
  *     f64 normalization           f64 scale
  *     u32 cells N, moments, squarings
- *     12 f32 certificate (order of vndf_certificate)
+ *     14 f32 certificate (order of vndf_certificate)
  *     u32 n, n bytes source       u32 n, n bytes tool
  *     f32[N + 1] each: knot, g0, g1, m0, m1, m2, m4 (only if moments is 4), b0, b1, area, slope
  *     u32 CRC-32 of all bytes before it
@@ -16,7 +16,7 @@
 #include "core/error.h"
 #include "table/table.h"
 
-static const vndf_frame FRAME = {"VNDFtab\n", "table", 4, VNDF_LIMIT_TABLE_BYTES};
+static const vndf_frame FRAME = {"VNDFtab\n", "table", 5, VNDF_LIMIT_TABLE_BYTES};
 
 /* Where the arrays of the file stand in memory: row and place. */
 enum { ARRAYS = 11, ARRAY_OF_CUBES = 6 };

@@ -60,8 +60,9 @@ static const char *numbers_invalid(const vndf_distribution *t)
     }
     const vndf_certificate *c = &t->certificate;
     const float claims[VNDF_CERTIFICATE_FLOATS] = {
-        c->tv,         c->tv_theta,    c->tv_above,  c->tv_above_theta, c->max_weight, c->weight_bounded,
-        c->area_error, c->consistency, c->ndf_error, c->hidden,         c->finest,     -c->horizon_power};
+        c->tv,          c->tv_theta,    c->tv_above,  c->tv_above_theta, c->max_weight, c->weight_bounded,
+        c->area_error,  c->consistency, c->ndf_error, c->hidden,         c->finest,     -c->horizon_power,
+        c->floor_above, c->floor};
     for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
         if (!in_range(claims[i], 0.0, HUGE_VAL))
             return "the certificate holds what is no measurement";

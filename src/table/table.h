@@ -90,6 +90,6 @@ size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const
 /* Writes the file (file.c). */
 void vndf_table_write(const vndf_distribution *table, vndf_writer *writer);
 
-enum { VNDF_CERTIFICATE_FLOATS = 12 };
+enum { VNDF_CERTIFICATE_FLOATS = 14 };
 
 #endif

@@ -95,7 +95,7 @@ int main(void)
 {
     static const char keys[] =
         "tv tv_theta tv_above tv_above_theta max_weight weight_bounded area_error consistency ndf_error hidden finest "
-        "horizon_power verdict tool bytes memory cells moments normalization scale";
+        "horizon_power floor_above floor verdict tool bytes memory cells moments normalization scale";
     char folder[] = "figures.XXXXXX";
     struct stat is;
     if (!run_begin(folder))

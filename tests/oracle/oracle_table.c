@@ -43,8 +43,8 @@ static int take_arrays(oracle_table *t, const unsigned char *at)
 /* Magic, format, size, the numbers of the head, two texts, those of the cells; then a checksum, which is not read. */
 static int read_table(oracle_table *t, const unsigned char *bytes, size_t size)
 {
-    size_t at = 92;
-    if (size < 104 || memcmp(bytes, "VNDFtab\n", 8) != 0 || word_at(bytes + 8, 4) != 4 ||
+    size_t at = 100;
+    if (size < 112 || memcmp(bytes, "VNDFtab\n", 8) != 0 || word_at(bytes + 8, 4) != 5 ||
         word_at(bytes + 12, 4) != size)
         return 0;
     const uint64_t scale = word_at(bytes + 24, 8);
@@ -65,7 +65,7 @@ int oracle_table_of(oracle_table *t, const vndf_distribution *distribution)
     memset(t, 0, sizeof *t);
     int good = bytes && vndf_save_memory(distribution, bytes, size, NULL) == VNDF_OK && read_table(t, bytes, size);
     if (!good)
-        fprintf(stderr, "oracle: this is no table of format 4\n");
+        fprintf(stderr, "oracle: this is no table of format 5\n");
     free(bytes);
     return good;
 }

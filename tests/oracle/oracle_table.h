@@ -1,4 +1,4 @@
-/* A table of format 4 once more, in double, from its bytes alone: what it draws, its D and its area, straight from
+/* A table of format 5 once more, in double, from its bytes alone: what it draws, its D and its area, straight from
  * the definition and sharing no code with src/. Slow and plain: masses are added up cell by cell.
  *
  * The unit problem: slopes R of median 1, incident direction (s, 0, c), s >= 0, rho = |c|/s. In cell i, from knot R_i
@@ -20,7 +20,7 @@ typedef struct oracle_table {
     double *numbers; /* where all of them are */
 } oracle_table;
 
-/* Of a loaded or built table, from the bytes of its file; 0 after a message if they are none of format 4. */
+/* Of a loaded or built table, from the bytes of its file; 0 after a message if they are none of format 5. */
 int oracle_table_of(oracle_table *t, const vndf_distribution *distribution);
 void oracle_table_free(oracle_table *t);
 

@@ -1,14 +1,14 @@
 /* Every truncation and every single-bit flip of a shipped table is refused, and nothing is read beyond its end (as
  * sanitizers see); where the checksum is put right again, the table is refused or its samples are finite, unit and not
  * below the surface, and its densities finite and positive: it may be wrong, never dangerous. A table that breaks one
- * rule of format 4 is refused, whatever its checksum says, and the message names the rule: the counts, the range of
+ * rule of format 5 is refused, whatever its checksum says, and the message names the rule: the counts, the range of
  * every number, knots that ascend, masses that add up to 1, parts that fill the file. (Random damage nearly always
  * breaks several rules at once: it would not miss one of them.) Arguments: tables, to be damaged alone. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
 
-enum { ROOM = 1 << 14, VERSION = 8, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 92 };
+enum { ROOM = 1 << 14, VERSION = 8, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 100 };
 
 /* The arrays in their order, then the head and the end of the file. */
 enum { KNOT, DENSITY_LEFT, DENSITY_RIGHT, M0, M1, M2, M4, B0, B1, AREA, SLOPE, ARRAYS, FILE_START };
@@ -50,8 +50,8 @@ static const broken_rule RULES[] = {
     {FILE_START, COUNTS + 4, WORD, 5, "outside the limits"},
     {FILE_START, COUNTS + 8, WORD, 6, "outside the limits"},
     {FILE_START, VERSION, WORD, 1, "build it again"},
-    {FILE_START, VERSION, WORD, 3, "build it again"},
-    {FILE_START, VERSION, WORD, 5, "version"},
+    {FILE_START, VERSION, WORD, 4, "build it again"},
+    {FILE_START, VERSION, WORD, 6, "version"},
 };
 
 static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)
@@ -82,7 +82,7 @@ static void test_rules(const file_kind *tables)
     if (!TEST(part[ARRAYS] + 4 == size && size < ROOM - 16))
         return;
     test_broken_rules(tables, sound, size, part, RULES, sizeof RULES / sizeof *RULES);
-    for (int claim = 0; claim < 12; claim++) {
+    for (int claim = 0; claim < 14; claim++) {
         const broken_rule bad = {FILE_START, CLAIMS + 4 * claim, FLOAT, claim % 2 ? (double)NAN : -1,
                                  "no measurement"};
         test_broken_rules(tables, sound, size, part, &bad, 1);

@@ -30,6 +30,7 @@ static const char *const help[] = {
     "  hidden         part of the mass, or of the area at grazing incidence, that the builder may have missed\n"
     "  finest         0 if that is proven; else the relative width of slope down to which D was sampled\n"
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
+    "  floor_above, floor    what is left of tv_above and of tv at any size, with these moments\n"
     "\n"
     "and a verdict. Of a family of tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
     "\n"

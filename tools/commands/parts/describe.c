@@ -31,6 +31,8 @@ static void put_table(figures *f, const vndf_info *info)
     figures_number(f, "hidden", "%.4g", (double)c->hidden, mass);
     figures_number(f, "finest", "%.4g", (double)c->finest, "of the slope");
     figures_number(f, "horizon_power", "%.4g", (double)c->horizon_power, "power of cos(theta_m)");
+    figures_number(f, "floor_above", "%.4g", (double)c->floor_above, mass);
+    figures_number(f, "floor", "%.4g", (double)c->floor, mass);
 }
 
 /* The largest total variation of the tables of a family. */
