@@ -41,6 +41,11 @@ static char *copy_of(const char *text)
     return copy ? memcpy(copy, text, size) : NULL;
 }
 
+static const char *notes_of(const builder *b)
+{
+    return b->profile->source->notes ? b->profile->source->notes : "";
+}
+
 /* Makes and measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must
  * end. */
 static double try_knots(builder *b, unsigned knots)
@@ -56,9 +61,10 @@ static double try_knots(builder *b, unsigned knots)
         return 0;
     vndf_distribution *t = b->table = vndf_draft_from(&b->knots, b->moments);
     const char *why = NULL;
-    int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL));
+    int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL)) &&
+               (t->notes = copy_of(notes_of(b)));
     if (good) {
-        t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL);
+        t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL, t->notes);
         why = vndf_table_fill(t);
         good = why || vndf_guard_stopped(guard) || vndf_certificate_measure(&t->certificate, t, b->profile);
     }
@@ -103,7 +109,7 @@ static void search(builder *b, unsigned least, unsigned most)
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL);
+    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL, notes_of(b));
 }
 
 /* The largest number of knots that fits into bytes. */

@@ -76,7 +76,9 @@ static void test_rules(const file_kind *tables)
     size_t size = vndf_distribution_info(table).bytes, part[FILE_START + 1] = {0};
     TEST(table && vndf_save_memory(table, sound, size, NULL) == VNDF_OK);
     vndf_free(table);
-    size_t tool = TEXTS + 4 + get_u32(sound + TEXTS), arrays = tool + 4 + get_u32(sound + tool);
+    size_t arrays = TEXTS;
+    for (int i = 0; i < 3; i++)
+        arrays += 4 + get_u32(sound + arrays);
     for (size_t i = 0; i <= ARRAYS; i++)
         part[i] = arrays + 4 * i * (get_u32(sound + COUNTS) + 1);
     if (!TEST(part[ARRAYS] + 4 == size && size < ROOM - 16))

@@ -3,10 +3,9 @@
 #include <string.h>
 
 #include "bake/bake.h"
-#include "cli/figures.h"
 #include "cli/files.h"
 #include "cli/output.h"
-#include "cli/subject.h"
+#include "cli/verdict.h"
 #include "command.h"
 
 static const char name[] = "vndf bake";
@@ -64,8 +63,24 @@ static int make(const bake_settings *s, unsigned what, baked_list *list)
     return 1;
 }
 
-static int print(const arguments *given, const baked_list *list, const char *folder)
+/* `is`, that of D, with what is wrong with its tables. */
+static verdict verdict_of_tables(verdict is, const baked_list *list)
 {
+    is.within[0] = '\0';
+    for (const baked *b = list->table; b < list->table + list->count; b++) {
+        const int is_next = b > list->table && b[-1].error == b->error && b[-1].mean == b->mean; /* of one fit */
+        if (!is_next && !(b->worst <= b->worst_most && b->mean <= b->mean_most))
+            verdict_doubt(&is, "%s is %.2g off in the mean, %.2g at most: draw samples of this D", b->name,
+                          b->mean, b->worst);
+        if (baked_bad(b))
+            verdict_doubt(&is, "%zu numbers of %s are none", baked_bad(b), b->name);
+    }
+    return is;
+}
+
+static int print(const arguments *given, const baked_list *list, const char *folder, verdict of_distribution)
+{
+    const verdict is = verdict_of_tables(of_distribution, list);
     figures f = figures_begin(given);
     figures_text(&f, "folder", folder);
     figures_list(&f, "table");
@@ -79,10 +94,12 @@ static int print(const arguments *given, const baked_list *list, const char *fol
             figures_number(&f, "mean error", "%.3g", b->mean, "");
         }
     }
+    figures_list_end(&f);
+    verdict_tell(&is, name, &f);
     return figures_end(&f);
 }
 
-static int bake(const arguments *given, bake_settings *s, unsigned what)
+static int bake(const arguments *given, bake_settings *s, unsigned what, verdict of_distribution)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
     const char *folder = option_value(given, "-o");
@@ -110,7 +127,7 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
         status = STATUS_USE;
     status = page_close(&page, status);
     if (status == STATUS_GOOD)
-        status = print(given, &list, folder);
+        status = print(given, &list, folder, of_distribution);
     baked_free(&list);
     return status;
 }
@@ -130,7 +147,7 @@ static int run(const arguments *given)
                                                                        : VNDF_MASKING_HEIGHT_CORRELATED,
                        .shape = (bake_shape)option_choice(given, "--shape", BAKE_GRID),
                        .size = (size_t)size};
-    int status = bake(given, &s, listed(given, "--what", 15));
+    int status = bake(given, &s, listed(given, "--what", 15), verdict_of(&chosen));
     distribution_close(&chosen);
     return status;
 }

@@ -47,13 +47,11 @@ static const char *const help[] = {
 static int run(const arguments *given)
 {
     const char *name = given->positional.item[0];
-    char verdict[DESCRIBE_VERDICT];
     chosen_distribution chosen;
     if (!distribution_open(&chosen, given->command, name, 1))
         return STATUS_USE;
     figures f = figures_begin(given);
-    describe_verdict(&chosen, 0, verdict);
-    describe(&f, &chosen, "", verdict);
+    describe(&f, &chosen);
     const int status = figures_end(&f);
     distribution_close(&chosen);
     return status;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "cli/subject.h"
+#include "cli/verdict.h"
 #include "draw/chart.h"
 #include "draw/panels.h"
 #include "evidence/evidence.h"
@@ -79,7 +79,8 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
     const vndf_distribution *table = s->table[chosen];
     const table_size *size = &table_sizes[chosen];
     const double ns = measured(r, table, COL_NS);
-    char bytes[48];
+    const verdict is = verdict_of(&(chosen_distribution){.distribution = table});
+    char bytes[48], text[VERDICT_TEXT];
     limited of[LIMITS];
     fputs("<p><strong>", html);
     svg_escape(html, s->name);
@@ -96,6 +97,8 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
             fprintf(html, of[i].sentence, of[i].is);
             between = ", ";
         }
+    fputs(". As <code>vndf build</code> says: ", html);
+    svg_escape(html, verdict_text(&is, text));
     fputs(". ", html);
     if (ns > 0)
         fprintf(html, "A sample takes %.0f ns, in a batch %.0f ns.", ns, measured(r, table, r->batch));

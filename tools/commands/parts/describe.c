@@ -1,6 +1,7 @@
 #include "commands/parts/describe.h"
 
-#include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* The units of figures, as text and JSON name them. */
 static const char bytes[] = "B", mass[] = "of the mass", degrees[] = "degrees", relative[] = "relative";
@@ -35,15 +36,6 @@ static void put_table(figures *f, const vndf_info *info)
     figures_number(f, "floor", "%.4g", (double)c->floor, mass);
 }
 
-/* The largest total variation of the tables of a family. */
-static double largest_tv(const vndf_family *family)
-{
-    double most = 0;
-    for (size_t i = 0; i < vndf_family_info(family).count; i++)
-        most = fmax(most, (double)vndf_distribution_info(vndf_family_distribution(family, i)).certificate.tv);
-    return most;
-}
-
 static void put_family(figures *f, const vndf_family *family)
 {
     vndf_family_facts facts = vndf_family_info(family);
@@ -57,7 +49,7 @@ static void put_family(figures *f, const vndf_family *family)
     figures_text(f, "linear_in", facts.reciprocal ? "1/p" : "p");
     figures_number(f, "distance", "%.4g", (double)facts.distance, mass);
     figures_number(f, "grazing", "%.4g", (double)facts.grazing, mass);
-    figures_number(f, "tables_tv", "%.4g", largest_tv(family), mass);
+    figures_number(f, "tables_tv", "%.4g", verdict_largest_tv(family), mass);
     figures_list(f, "knot");
     for (size_t i = 0; i < facts.count; i++) {
         vndf_info info = vndf_distribution_info(vndf_family_distribution(family, i));
@@ -73,54 +65,32 @@ static void put_family(figures *f, const vndf_family *family)
 
 /* ---- what is public ------------------------------------------------------------------------------ */
 
-int describe_verdict(const chosen_distribution *of, int by_default, char verdict[DESCRIBE_VERDICT])
+/* A file may say anything: a note with the name of a figure would pass for it. */
+static int is_taken(const figures *f, const char *key)
 {
-    const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
-    char more[160] = "good to ship";
-    int good = 1;
-    if (of->family) {
-        const vndf_family_facts facts = vndf_family_info(of->family);
-        const double distance = (double)facts.distance, tables = largest_tv(of->family);
-        good = distance <= poor && tables <= poor;
-        if (!good)
-            snprintf(more, sizeof more, "%s",
-                     tables <= poor ? "mixtures are worth little: try more --knots"
-                                    : "tables are worth little: try a larger --max-bytes");
-        snprintf(verdict, DESCRIBE_VERDICT,
-                 "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; %.1f KiB; %s",
-                 100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024, more);
-        return good;
-    }
-    const vndf_info info = vndf_distribution_info(of->distribution);
-    const vndf_certificate *c = &info.certificate;
-    const double above = (double)c->tv_above, below = (double)c->tv;
-    if (!(above <= poor && below <= poor)) {
-        good = 0;
-        snprintf(more, sizeof more, "worth little at %.0f degrees: try a larger --max-bytes%s",
-                 (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
-                 !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
-    } else if (by_default && !(above <= table_aim_above && below <= table_aim_below)) {
-        good = 0;
-        snprintf(more, sizeof more, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
-                 100 * table_aim_above, 100 * table_aim_below);
-    } else if (c->finest > 0)
-        snprintf(more, sizeof more, "good to ship if no feature is narrower than %.2g of its slope",
-                 (double)c->finest);
-    snprintf(verdict, DESCRIBE_VERDICT, "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; %s",
-             100 * above, 100 * below, (double)info.bytes / 1024, more);
-    return good;
+    int taken = strcmp(key, "verdict") == 0;
+    for (size_t i = 0; i < f->count; i++)
+        taken |= strcmp(key, f->at[i].name) == 0;
+    return taken;
 }
 
-void describe(figures *f, const chosen_distribution *of, const char *found, const char *verdict)
+void describe_notes(figures *f, const char *notes)
 {
-    const vndf_info info = of->family ? (vndf_info){.bytes = 1} : vndf_distribution_info(of->distribution);
-    int length = 0;
+    char key[VNDF_LIMIT_NOTE_KEY + 1], value[VNDF_LIMIT_NOTES + 1];
+    for (int length = 0; sscanf(notes, "%32s %4096[^\n]%n", key, value, &length) == 2; notes += length)
+        if (!is_taken(f, key))
+            figures_text(f, key, value);
+}
+
+void describe(figures *f, const chosen_distribution *of)
+{
+    const vndf_info info = vndf_distribution_info(of->distribution);
+    const verdict is = verdict_of(of);
     if (of->family)
         put_family(f, of->family);
     else
         put_table(f, &info);
-    for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)
-        figures_text(f, key, value);
-    if (info.bytes)
-        figures_text(f, "verdict", verdict);
+    describe_notes(f, info.notes);
+    if (of->family || info.bytes)
+        verdict_tell(&is, f->command, f);
 }
