@@ -152,7 +152,7 @@ enum { VNDF_LIMIT_NOTES = 4096, VNDF_LIMIT_NOTE_KEY = 32 }; /* characters: of al
 typedef struct vndf_info {
     const char *source;   /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
     const char *tool;     /* version that made it, "vndf 0.1.0" */
-    const char *notes;    /* of a measurement, lines `key value`: what was found, and left unsaid (vndf_source_note) */
+    const char *notes;    /* lines `key value` that a measurement left (vndf_source_note); or "" */
     size_t bytes;         /* size of the table file; 0 for closed forms */
     size_t memory;        /* bytes that the loaded table takes, all its allocations together; 0 for closed forms */
     size_t cells;         /* intervals of the slope length before the tail; 0 for closed forms */

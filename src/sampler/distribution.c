@@ -16,7 +16,7 @@ static const vndf_distribution beckmann = {.kind = VNDF_KIND_BECKMANN,
                                            .scale = 0.83255461115769776,
                                            .source = "--family beckmann",
                                            .tool = "vndf " VNDF_VERSION,
-                                      .notes = ""};
+                                           .notes = ""};
 
 const vndf_distribution *vndf_ggx(void)
 {

@@ -75,7 +75,8 @@ const char *vndf_notes_invalid(const char *notes)
         size_t key = strspn(notes, "abcdefghijklmnopqrstuvwxyz0123456789_"), end = key;
         while ((unsigned char)notes[end] >= 32 && notes[end] != 127)
             end++;
-        if (key < 1 || key > VNDF_LIMIT_NOTE_KEY || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' || notes[end] != '\n')
+        if (key < 1 || key > VNDF_LIMIT_NOTE_KEY || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' ||
+            notes[end] != '\n')
             return "a line of its notes is no `key value`";
         notes += end + 1;
     }

@@ -62,7 +62,7 @@ struct vndf_distribution {
     double scale;                   /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool, *notes; /* owned by tables */
-    size_t bytes;              /* of the file */
+    size_t bytes;                      /* of the file */
 };
 
 VNDF_INLINE int vndf_is_table(const vndf_distribution *d)

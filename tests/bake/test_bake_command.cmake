@@ -1,5 +1,6 @@
 # `vndf bake` writes the tables it is asked for in the forms it is asked for, the same bytes twice, and a page; refuses
-# wrong words with status 2 and a folder with other files in it, and leaves nothing behind.
+# wrong words with status 2 and a folder with other files in it, and leaves nothing behind. It ends with
+# a verdict.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -35,10 +36,22 @@ has(page "dfg.png")
 
 run(0 ggx --what ltc --size 4 --format js -o one -q)
 expect("-q prints ${output}" "x${output}" STREQUAL "x")
-run(0 ${SOURCE}/tables/hazy.vndf --what ltc --size 4 --format npy -o haze)
+run(0 ${SOURCE}/tables/hazy.vndf --what ltc --size 8 --format npy -o haze)
 file(GLOB names RELATIVE ${OUT}/haze ${OUT}/haze/*)
 list(LENGTH names count)
 expect("haze has ${names}" count EQUAL 5)
+
+has(output "\nverdict good to ship\n")
+
+# A ring of light is no transformed cosine; and a table of which much is wrong makes no good ones.
+execute_process(COMMAND ${VNDF} build --slope "exp(-3*r)*(1+0.8*cos(6*r))" -q -o rings.vndf WORKING_DIRECTORY ${OUT})
+execute_process(COMMAND ${VNDF} build --slope "exp(-r)*(1+0.9*sin(300*r))" --max-bytes 2048 -q -o poor.vndf
+    WORKING_DIRECTORY ${OUT} ERROR_QUIET)
+run(0 rings.vndf --what ltc --size 8 --format npy -o rings)
+expect("rings: ${output}" output MATCHES "\nverdict doubtful: ltc_inverse is 0.3[0-9]* off in the mean, [^\n]*\n$")
+expect("on stderr: ${errors}" errors MATCHES "vndf bake: doubtful: ltc_inverse is ")
+run(0 poor.vndf --what prefilter --format npy -q -o poor)
+expect("on stderr: ${errors}" errors MATCHES "vndf bake: doubtful: worth little at ")
 
 file(MAKE_DIRECTORY ${OUT}/full)
 file(WRITE ${OUT}/full/notes.txt "mine")

@@ -2,8 +2,8 @@
  * sanitizers see); where the checksum is put right again, the table is refused or its samples are finite, unit and not
  * below the surface, and its densities finite and positive: it may be wrong, never dangerous. A table that breaks one
  * rule of format 5 is refused, whatever its checksum says, and the message names the rule: the counts, the range of
- * every number, knots that ascend, masses that add up to 1, parts that fill the file. (Random damage nearly always
- * breaks several rules at once: it would not miss one of them.) Arguments: tables, to be damaged alone. */
+ * every number, knots that ascend, masses that add up to 1, notes in lines, parts that fill the file. (Random damage
+ * nearly always breaks several rules at once: it would not miss one of them.) Arguments: tables, damaged alone. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
@@ -95,6 +95,41 @@ static void test_rules(const file_kind *tables)
     }
 }
 
+static double bell(double r, void *user)
+{
+    (void)user;
+    return exp(-r * r);
+}
+
+/* Programs print notes, and read them by lines. */
+static void test_notes(const file_kind *tables)
+{
+    static const char notes[] = "key value\n";
+    static const struct {
+        size_t at;
+        unsigned char byte;
+        const char *says;
+    } bad[] = {{0, 'K', "`key value`"},  {0, ' ', "`key value`"}, {3, '_', "`key value`"}, {4, ' ', "`key value`"},
+               {4, '\n', "`key value`"}, {9, ' ', "`key value`"}, {9, 0, "do not fill"},   {5, 27, "do not fill"},
+               {5, 127, "do not fill"},  {5, '\t', "do not fill"}};
+    static unsigned char sound[ROOM], bytes[ROOM];
+    vndf_source *source = vndf_source_slope_callback(bell, NULL, "bell", NULL);
+    vndf_distribution *table =
+        vndf_source_note(source, notes, NULL) == VNDF_OK ? vndf_build(source, NULL, NULL, NULL) : NULL;
+    size_t size = vndf_distribution_info(table).bytes, at = TEXTS;
+    TEST(table && size < ROOM && vndf_save_memory(table, sound, size, NULL) == VNDF_OK);
+    for (int i = 0; i < 2; i++)
+        at += 4 + get_u32(sound + at);
+    if (TEST(get_u32(sound + at) == strlen(notes) && memcmp(sound + at + 4, notes, strlen(notes)) == 0))
+        for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+            memcpy(bytes, sound, size);
+            bytes[at + 4 + bad[i].at] = bad[i].byte;
+            test_refused_for(tables, bytes, size, bad[i].says);
+        }
+    vndf_free(table);
+    vndf_source_free(source);
+}
+
 int main(int count, char **paths)
 {
     const file_kind tables = {load, mend};
@@ -103,6 +138,7 @@ int main(int count, char **paths)
     if (count == 1) {
         test_damaged_file(&tables, VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf", test_quick() ? 5 : 1);
         test_rules(&tables);
+        test_notes(&tables);
     }
     return test_done();
 }

@@ -6,27 +6,28 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Beyond these a table is not good to ship. Two numbers of a certificate are no doubts: weight_bounded, since a tail that
- * grows towards the horizon has no largest weight and its last 1e-6 of the mass are no brighter for that (student-t-1.8:
- * 1.06 elsewhere); horizon_power, which says what D is. */
-static const double
-    tv_most = 5e-2,          /* of all samples wrong: they stop being worth their name */
-    weight_most = 10,        /* a sample as bright as ten stands out as a firefly */
-    area_most = 5e-2,        /* Lambda and G1, which the brightness of the surface follows */
-    mass_most = 2e-3,        /* of the density, a bias: half a step of 8 bits */
-    ndf_most = 1,            /* D is twice itself, at a slope; beside thin rings, where little is, 0.4 is usual */
-    hidden_most = 1e-3,      /* of the mass unknown, as much as a table may be off */
-    isotropy_most = 5e-2,    /* of the normals, the measure that refuses a .bsdf */
-    reflectance_most = 1e-1, /* of the light; a good fit has 0.02 (MERL) */
-    row_most = 1e-1,         /* one standard deviation of P22 at the median slope: too few slopes, or no one surface */
-    left_out_most = 1e-2,    /* of the pixels that were no normals: a border, not a surface */
-    integral_most = 5e-2,    /* of measured rows off 1: rows of slopes have 1 within 0.02 */
-    tilt_least = 1e-2,       /* of the rms slope: a mean slope below moves less than 0.5% of the normals */
-    near_floor = 1.2;        /* times what no size mends: a larger table gains less than that */
+/* Beyond these a table is not good to ship. Two numbers of a certificate are no doubts. weight_bounded: a tail that
+ * grows towards the horizon has no largest weight, but max_weight holds for all but 1e-6 of the mass (student-t-1.8 has
+ * 1.06). horizon_power says what D is, not how well it is drawn. */
+static const double tv_most = 5e-2;       /* of all samples wrong: they stop being worth their name */
+static const double weight_most = 10;     /* a sample as bright as ten stands out as a firefly */
+static const double area_most = 5e-2;     /* Lambda and G1, which the brightness of the surface follows */
+static const double mass_most = 2e-3;     /* of the density, a bias: half a step of 8 bits */
+static const double ndf_most = 1;         /* D is twice itself; beside thin rings, where little is, 0.4 is usual */
+static const double hidden_most = 1e-3;   /* of the mass unknown, as much as a default table may be off */
+static const double isotropy_most = 5e-2; /* of the normals; more of it refuses a .bsdf */
+static const double by_chance = 6;        /* over the root of the number of slopes; independent ones have 4 */
+static const double reflectance_most = 1e-1; /* of the light; a good fit has 0.02 */
+static const double row_most = 1e-1;      /* one deviation of P22 at the median: few slopes, or no one surface */
+static const double left_out_most = 1e-2; /* of the pixels that were no normals: a border, no surface */
+static const double integral_most = 5e-2; /* of measured rows off 1; slopes that have a law stay within 0.02 */
+static const double tilt_least = 1e-2;    /* of the rms slope: less moves less than 0.5% of the normals */
+static const double tilt_most = 0.3;      /* 17 degrees: a tilted stage, or normals stored by a curve (sRGB) */
+static const double near_floor = 1.2;     /* times what no size mends: a larger table gains less than that */
 
 /* ---- reasons ------------------------------------------------------------------------------------- */
 
-void verdict_doubt(verdict *to, const char *format, ...)
+void verdict_doubt(table_verdict *to, const char *format, ...)
 {
     const size_t used = strlen(to->doubts);
     const int mark = snprintf(to->doubts + used, sizeof to->doubts - used, "%s", used ? "; " : "");
@@ -38,7 +39,7 @@ void verdict_doubt(verdict *to, const char *format, ...)
 }
 
 /* Where the total variation is too large, and what helps, if anything does. */
-static void judge_distance(verdict *v, const vndf_info *info)
+static void judge_distance(table_verdict *v, const vndf_info *info)
 {
     const vndf_certificate *c = &info->certificate;
     const double above = (double)c->tv_above, below = (double)c->tv, floor_above = (double)c->floor_above;
@@ -52,7 +53,7 @@ static void judge_distance(verdict *v, const vndf_info *info)
                                                              : ", and no size mends it");
 }
 
-static void judge_certificate(verdict *v, const vndf_info *info)
+static void judge_certificate(table_verdict *v, const vndf_info *info)
 {
     const vndf_certificate *c = &info->certificate;
     judge_distance(v, info);
@@ -65,7 +66,8 @@ static void judge_certificate(verdict *v, const vndf_info *info)
     if (!((double)c->ndf_error <= ndf_most))
         verdict_doubt(v, "D is up to %.3g%% off", 100 * (double)c->ndf_error);
     if (c->finest > 0)
-        snprintf(v->needs, sizeof v->needs, " if no feature is narrower than %.2g of its slope", (double)c->finest);
+        snprintf(v->needs, sizeof v->needs, " if no feature is narrower than %.2g of its slope",
+                 (double)c->finest);
     else if (!((double)c->hidden <= hidden_most))
         verdict_doubt(v, "%.2g of the normals may have been missed", (double)c->hidden);
 }
@@ -89,18 +91,21 @@ static double number_of(const char *notes, const char *key)
 }
 
 /* The matrix, and a mean slope that moves normals. */
-static void find_needs(verdict *v, const char *notes)
+static void find_needs(table_verdict *v, const char *notes)
 {
     const char *matrix = note_of(notes, "matrix"), *tilt = note_of(notes, "tilt");
     double x, y;
     char *put = v->needs + strlen(v->needs);
     if (matrix)
         put += snprintf(put, 100, " with the matrix %.*s", (int)fmin((double)strcspn(matrix, "\n"), 64), matrix);
-    if (tilt && sscanf(tilt, "%lf,%lf", &x, &y) == 2 && !(hypot(x, y) <= tilt_least * number_of(notes, "rms_slope")))
-        snprintf(put, 100, " %s the mean slope %.4g,%.4g", matrix ? "and" : "with", x, y);
+    if (!tilt || sscanf(tilt, "%lf,%lf", &x, &y) != 2 || hypot(x, y) <= tilt_least * number_of(notes, "rms_slope"))
+        return;
+    snprintf(put, 100, " %s the mean slope %.4g,%.4g", matrix ? "and" : "with", x, y);
+    if (hypot(x, y) > fmax(tilt_most, number_of(notes, "rms_slope")))
+        verdict_doubt(v, "the surface leans as a whole, is it meant to?");
 }
 
-static void judge_notes(verdict *v, const vndf_info *info)
+static void judge_notes(table_verdict *v, const vndf_info *info)
 {
     const char *notes = info->notes, *wrong = notes;
     const double isotropy = number_of(notes, "residual_isotropy"),
@@ -109,7 +114,10 @@ static void judge_notes(verdict *v, const vndf_info *info)
     for (; (wrong = note_of(wrong, "implausible")) != NULL; wrong += strcspn(wrong, "\n"))
         verdict_doubt(v, "implausible %.*s", (int)fmin((double)strcspn(wrong, "\n"), 200), wrong);
     if (isotropy > isotropy_most)
-        verdict_doubt(v, "%.2g of the normals would have to turn about z: the slopes are no ellipse", isotropy);
+        verdict_doubt(v, "%.2g of the normals would have to turn about z: %s", isotropy,
+                      isotropy < by_chance / sqrt(number_of(notes, "slopes"))
+                          ? "too few slopes to tell; measure more of the surface"
+                          : "the slopes are no ellipse");
     if (light > reflectance_most)
         verdict_doubt(v, "%.2g of the light is not that of one D", light);
     if (row > row_most)
@@ -125,7 +133,7 @@ static void judge_notes(verdict *v, const vndf_info *info)
 /* ---- the sentence -------------------------------------------------------------------------------- */
 
 /* Mixtures between knots, and the first table with a doubt. */
-static void judge_family(verdict *v, const vndf_family *family)
+static void judge_family(table_verdict *v, const vndf_family *family)
 {
     const vndf_family_facts facts = vndf_family_info(family);
     for (size_t i = 0; i < facts.count && !v->doubts[0]; i++) {
@@ -146,9 +154,9 @@ double verdict_largest_tv(const vndf_family *family)
     return most;
 }
 
-verdict verdict_of(const chosen_distribution *of)
+table_verdict verdict_of(const chosen_distribution *of)
 {
-    verdict v = {.within = ""};
+    table_verdict v = {.within = ""};
     const vndf_info info = vndf_distribution_info(of->distribution);
     const vndf_family_facts facts = vndf_family_info(of->family);
     if (of->family)
@@ -169,7 +177,7 @@ verdict verdict_of(const chosen_distribution *of)
     return v;
 }
 
-const char *verdict_text(const verdict *is, char text[VERDICT_TEXT])
+const char *verdict_text(const table_verdict *is, char text[VERDICT_TEXT])
 {
     const int doubtful = is->doubts[0] != 0;
     snprintf(text, VERDICT_TEXT, "%s%s%s%s%s", is->within, doubtful ? "doubtful" : "good to ship", is->needs,
@@ -177,7 +185,7 @@ const char *verdict_text(const verdict *is, char text[VERDICT_TEXT])
     return text;
 }
 
-void verdict_tell(const verdict *is, const char *command, figures *f)
+void verdict_tell(const table_verdict *is, const char *command, figures *f)
 {
     char text[VERDICT_TEXT];
     verdict_text(is, text);

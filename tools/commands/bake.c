@@ -64,7 +64,7 @@ static int make(const bake_settings *s, unsigned what, baked_list *list)
 }
 
 /* `is`, that of D, with what is wrong with its tables. */
-static verdict verdict_of_tables(verdict is, const baked_list *list)
+static table_verdict verdict_of_tables(table_verdict is, const baked_list *list)
 {
     is.within[0] = '\0';
     for (const baked *b = list->table; b < list->table + list->count; b++) {
@@ -78,9 +78,9 @@ static verdict verdict_of_tables(verdict is, const baked_list *list)
     return is;
 }
 
-static int print(const arguments *given, const baked_list *list, const char *folder, verdict of_distribution)
+static int print(const arguments *given, const baked_list *list, const char *folder, table_verdict of_distribution)
 {
-    const verdict is = verdict_of_tables(of_distribution, list);
+    const table_verdict is = verdict_of_tables(of_distribution, list);
     figures f = figures_begin(given);
     figures_text(&f, "folder", folder);
     figures_list(&f, "table");
@@ -99,7 +99,7 @@ static int print(const arguments *given, const baked_list *list, const char *fol
     return figures_end(&f);
 }
 
-static int bake(const arguments *given, bake_settings *s, unsigned what, verdict of_distribution)
+static int bake(const arguments *given, bake_settings *s, unsigned what, table_verdict of_distribution)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
     const char *folder = option_value(given, "-o");

@@ -120,7 +120,8 @@ static int read_rows(const arguments *given, data_file *file, profile *rows)
     return good;
 }
 
-/* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", notes what was found, and writes its rows to --profile. 0 after a complaint. */
+/* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", notes what was found, writes its rows to --profile. 0 after a
+ * complaint. */
 static int finish_measured(const arguments *given, const data_file *file, const profile *rows, vndf_source *source)
 {
     static const char *const options[] = {"--rgl",  "--merl",   "--channel",    "--height",
@@ -232,7 +233,7 @@ static int save(const chosen_distribution *of, output_file *output)
 static int tell(const arguments *given, const chosen_distribution *of)
 {
     static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
-    const verdict is = verdict_of(of);
+    const table_verdict is = verdict_of(of);
     if (is.misses && !is.doubts[0] && !option_among(given, sizes))
         complain(name, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer", 100 * table_aim_above,
                  100 * table_aim_below);

@@ -292,7 +292,7 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
 {
     checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
     const char *csv = option_value(given, "--csv");
-    const verdict is = verdict_of(chosen);
+    const table_verdict is = verdict_of(chosen);
     if (!option_count(given, "--samples", 1000, 1e10, &c.samples) ||
         !option_count(given, "--seed", 0, 0x1p53, &c.seed))
         return STATUS_USE;

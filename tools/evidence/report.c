@@ -79,7 +79,7 @@ static void write_advice(FILE *html, const report *r, const subject *s, size_t c
     const vndf_distribution *table = s->table[chosen];
     const table_size *size = &table_sizes[chosen];
     const double ns = measured(r, table, COL_NS);
-    const verdict is = verdict_of(&(chosen_distribution){.distribution = table});
+    const table_verdict is = verdict_of(&(chosen_distribution){.distribution = table});
     char bytes[48], text[VERDICT_TEXT];
     limited of[LIMITS];
     fputs("<p><strong>", html);

@@ -85,7 +85,7 @@ void describe_notes(figures *f, const char *notes)
 void describe(figures *f, const chosen_distribution *of)
 {
     const vndf_info info = vndf_distribution_info(of->distribution);
-    const verdict is = verdict_of(of);
+    const table_verdict is = verdict_of(of);
     if (of->family)
         put_family(f, of->family);
     else
