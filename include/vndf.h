@@ -101,8 +101,8 @@ VNDF_API const char *vndf_version(void);
 /* A distribution of normals: a table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* No table is larger. Those that vndf_build makes have at most 180 KiB. */
-enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
+/* No table is larger, and no notes in it. Tables that vndf_build makes have at most 180 KiB. */
+enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23, VNDF_LIMIT_NOTES = 4096 };
 
 /* Reads a table from a file or from memory, whose bytes are copied. NULL and an error if the file cannot be read,
  * or is not a whole, consistent table. No bytes crash the loader. Free the result with vndf_free. */
@@ -145,8 +145,6 @@ typedef struct vndf_certificate {
     float floor_above;    /* what is left of tv_above at any size, with these moments; 0 where it is not known, */
     float floor;          /* and of tv */
 } vndf_certificate;
-
-enum { VNDF_LIMIT_NOTES = 4096, VNDF_LIMIT_NOTE_KEY = 32 }; /* characters: of all notes, of a key in them */
 
 /* What a distribution is. The strings belong to the distribution. */
 typedef struct vndf_info {

@@ -34,16 +34,13 @@ static double excess_of(const vndf_certificate *c, double tv)
     return tv > 0 ? fmax((double)c->tv_above, (double)c->tv / BELOW) / tv : 0;
 }
 
+/* Of no text an empty one. */
 static char *copy_of(const char *text)
 {
+    text = text ? text : "";
     size_t size = strlen(text) + 1;
     char *copy = malloc(size);
     return copy ? memcpy(copy, text, size) : NULL;
-}
-
-static const char *notes_of(const builder *b)
-{
-    return b->profile->source->notes ? b->profile->source->notes : "";
 }
 
 /* Makes and measures the table on so many knots, or as many as there can be; returns its excess, or 0 if the build must
@@ -62,7 +59,7 @@ static double try_knots(builder *b, unsigned knots)
     vndf_distribution *t = b->table = vndf_draft_from(&b->knots, b->moments);
     const char *why = NULL;
     int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL)) &&
-               (t->notes = copy_of(notes_of(b)));
+               (t->notes = copy_of(b->profile->source->notes));
     if (good) {
         t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL, t->notes);
         why = vndf_table_fill(t);
@@ -109,7 +106,7 @@ static void search(builder *b, unsigned least, unsigned most)
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL, notes_of(b));
+    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL, b->profile->source->notes);
 }
 
 /* The largest number of knots that fits into bytes. */

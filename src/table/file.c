@@ -61,7 +61,7 @@ size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const
 {
     size_t numbers = (ARRAYS - (size_t)(moments < 4)) * knots;
     size_t counts = 3 + VNDF_CERTIFICATE_FLOATS + 3; /* of 4 bytes, with the lengths of texts */
-    size_t letters = strlen(source) + strlen(tool) + strlen(notes);
+    size_t letters = strlen(source) + strlen(tool) + (notes ? strlen(notes) : 0);
     return VNDF_FRAME_HEAD + 2 * sizeof(double) + 4 * (counts + numbers + 1) + letters;
 }
 
@@ -75,8 +75,7 @@ const char *vndf_notes_invalid(const char *notes)
         size_t key = strspn(notes, "abcdefghijklmnopqrstuvwxyz0123456789_"), end = key;
         while ((unsigned char)notes[end] >= 32 && notes[end] != 127)
             end++;
-        if (key < 1 || key > VNDF_LIMIT_NOTE_KEY || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' ||
-            notes[end] != '\n')
+        if (key < 1 || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' || notes[end] != '\n')
             return "a line of its notes is no `key value`";
         notes += end + 1;
     }

@@ -63,22 +63,6 @@ static double number_behind(const char *key)
     return at ? strtod(at + strlen(key), NULL) : NAN;
 }
 
-static void test_verdicts(void)
-{
-    double before = 1;
-    for (int moments = 2; moments <= 4; moments++) {
-        run_said(text, "vndf build --slope 'exp(-r)' --max-bytes 4096 --moments %d -o m", moments);
-        double above = number_behind("\ntv_above ");
-        TEST(number_behind("\nmoments ") == moments && above < before);
-        before = above;
-        TEST_NEAR(number_behind("\nverdict within "), 100 * above, 0.05 * 100 * above);
-        TEST(strcmp(text + strlen(text) - 15, "; good to ship\n") == 0);
-    }
-    run_said(text, "vndf build --slope 'exp(-r)*(1+0.9*sin(300*r))' --max-bytes 2048 -q -o m");
-    TEST_HAS(text, "vndf build: within ");
-    TEST(strstr(text, "worth little at ") && strstr(text, "try a larger --max-bytes"));
-}
-
 /* check says the same in a line and in JSON. */
 static void test_check(void)
 {
@@ -110,7 +94,9 @@ int main(void)
     test_both("two.vndfs", "knots low high linear_in distance grazing tables_tv knot verdict");
     TEST(run_put("rows.csv", "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n"));
     TEST_HAS(run_said(text, "vndf build --csv - -o c <rows.csv"), "source --csv stdin (crc32 ");
-    test_verdicts();
+    run_said(text, "vndf build --slope 'exp(-r)*(1+0.9*sin(300*r))' --max-bytes 2048 -q -o m");
+    TEST_HAS(text, "vndf build: within ");
+    TEST(strstr(text, "doubtful: worth little at ") && strstr(text, "try a larger --max-bytes"));
     test_check();
     TEST(system("rm t m c rows.csv two.vndfs") == 0);
     return run_end(folder);

@@ -45,10 +45,6 @@ class Built(unittest.TestCase):
         np.savetxt(csv, np.stack([theta, ndf], 1), header="theta,ndf", comments="", delimiter=",", fmt="%.17g")
         rows, file = vndf.Source.rows(theta=theta, ndf=ndf), vndf.Source.csv(csv)
         self.assertEqual([rows.p22(r) for r in theta], [file.p22(r) for r in theta])
-        with self.assertRaisesRegex(vndf.Error, "no `key value`"):
-            rows.note(origin="two\nlines")
-        vndf.build(rows.note(origin="a laboratory", tilt="0.1,0"), max_bytes=2048).save(self.file)
-        self.assertEqual(vndf.load(self.file).info.notes, "origin a laboratory\ntilt 0.1,0\n")
         slope, p22 = np.tan(theta), ndf * np.cos(theta) ** 4
         self.assertAlmostEqual(vndf.Source.rows(slope=slope, p22=p22).p22(slope[9]), p22[9], 12)
 

@@ -47,13 +47,10 @@ typedef struct baked {
     int axes, channels;
     float *value;      /* owned */
     const char *error; /* what was compared, NULL: nothing, and the largest and mean difference */
-    double worst, mean, worst_most, mean_most; /* and how large both may be */
+    double worst, mean;
 } baked;
 
 size_t baked_size(const baked *b);
-
-/* How many of them are no numbers. */
-size_t baked_bad(const baked *b);
 
 typedef struct baked_list {
     baked table[BAKE_TABLES];

@@ -245,10 +245,6 @@ static double cosine_at(size_t i, size_t n)
     return fmax(1 - v * v, 2e-3);
 }
 
-/* Light of a square is within a tenth where the mean is that of Beckmann (0.13) or of a haze (0.15), and 26% off for a
- * ring (0.30). At grazing incidence on smooth surfaces GGX itself, which the cosine was made for, has 0.42. */
-static const double WORST_MOST = 0.6, MEAN_MOST = 0.2;
-
 /* Tables of n roughnesses, `ratios` of alpha_y over alpha_x, n cosines and as many azimuths as ratios. Rougher first,
  * from straight above to grazing: what is smooth is the easiest, and begins what follows. The first direction of a
  * surface begins the next one; the first of a cosine, along x, the next cosine. */
@@ -303,8 +299,6 @@ static int fit_all(const bake_settings *s, baked_list *list, const part *parts, 
                     (float)(column < 3 ? found.inverse[row][column] : more[row]);
             }
             b[k].error = "half the integral of |f cos/E - density| over all texels";
-            b[k].worst_most = WORST_MOST;
-            b[k].mean_most = MEAN_MOST;
             b[k].worst = fmax(b[k].worst, t.wrong);
             b[k].mean += t.wrong / (double)all;
         }

@@ -232,13 +232,12 @@ static int save(const chosen_distribution *of, output_file *output)
 /* Says what was built and what it is worth. Where the file itself is on stdout there is no place for figures. */
 static int tell(const arguments *given, const chosen_distribution *of)
 {
-    static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
-    const table_verdict is = verdict_of(of);
-    if (is.misses && !is.doubts[0] && !option_among(given, sizes))
-        complain(name, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer", 100 * table_aim_above,
-                 100 * table_aim_below);
-    if (output_is_stdout(option_value(given, "-o")))
-        return verdict_tell(&is, name, NULL), STATUS_GOOD;
+    char verdict[DESCRIBE_VERDICT];
+    if (output_is_stdout(option_value(given, "-o"))) {
+        if (!describe_verdict(of, verdict))
+            complain(name, "%s", verdict);
+        return STATUS_GOOD;
+    }
     figures f = figures_begin(given);
     describe(&f, of);
     return figures_end(&f);

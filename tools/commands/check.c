@@ -292,7 +292,6 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
 {
     checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
     const char *csv = option_value(given, "--csv");
-    const table_verdict is = verdict_of(chosen);
     if (!option_count(given, "--samples", 1000, 1e10, &c.samples) ||
         !option_count(given, "--seed", 0, 0x1p53, &c.seed))
         return STATUS_USE;
@@ -305,9 +304,8 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
     if (is_done) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
-        describe_notes(&c.to, vndf_distribution_info(c.distribution).notes);
         if (chosen->owned)
-            verdict_tell(&is, name, &c.to);
+            describe_end(&c.to, chosen);
         figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);

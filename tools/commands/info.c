@@ -32,7 +32,7 @@ static const char *const help[] = {
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
     "  floor_above, floor    what is left of tv_above and of tv at any size, with these moments\n"
     "\n"
-    "and a verdict. Of a family of tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
+    "what a measurement noted of it (tools/measured/README.md), and a verdict made from all that. Of a family of tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
     "\n"
     "  knots          the number of tables, from the parameter `low` to `high`\n"
     "  linear_in      p or 1/p: what the weights of neighbours are linear in\n"

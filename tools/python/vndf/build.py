@@ -63,13 +63,6 @@ class Source(Owner):
         addresses = at.ctypes.data, value.ctypes.data
         return Source._of(checked("source_rows", theta is None, ndf is None, *addresses, at.size, text_bytes(name)))
 
-    def note(self, **notes: Any) -> Source:
-        """Notes that tables built from the source keep as lines of ``info.notes``, in the place of those before: what a
-        measurement found, or what a table leaves unsaid (tools/measured/README.md has the keys that matter)."""
-        lines = "".join(f"{key} {value}\n" for key, value in notes.items())
-        checked("source_note", self._pointer, text_bytes(lines))
-        return self
-
     def p22(self, r: float) -> float:
         """P22 at the slope length r >= 0, as it was given."""
         return _Call().run(lambda: float(library.source_p22(self._pointer, r)))
