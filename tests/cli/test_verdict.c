@@ -23,7 +23,7 @@ static const struct {
     {.integral = 1.03, "residual_reflectance 0.099\ntilt 1e-3,0\nrms_slope 0.2\n", "good to ship"},
     {.integral = 1.7, "residual_isotropy 0\n", "doubtful: the integral of the measured D off by 0.7"},
     {.integral = 1, "residual_reflectance 0.2\n", "doubtful: 0.2 of the light is not that of one D"},
-    {.integral = 1, "residual_isotropy 0.8\n", "doubtful: no ellipse: 0.8 of the normals would have to turn"},
+    {.integral = 1, "residual_isotropy 0.06\n", "doubtful: no ellipse: 0.06 of the normals would have to turn"},
     {.integral = 1, "p22_error_median 0.3\n", "doubtful: P22 known within 0.3, measure more"},
     {.integral = 1, "left_out 2\nslopes 8\nimplausible: a\n", "doubtful: 0.2 of the pixels no normals"},
     {.integral = 1, "implausible scale: in mm?\nx 1\n", "doubtful: implausible scale: in mm?"},
