@@ -64,7 +64,7 @@ static void test_stated_size(void)
 {
     unsigned char bytes[64] = "VNDFtab\n";
     vndf_error error = {VNDF_OK, ""};
-    put_u32(bytes + 8, 4); /* the version */
+    put_u32(bytes + 8, 5); /* the version */
     put_u32(bytes + 12, VNDF_LIMIT_TABLE_BYTES);
     TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && !strstr(error.message, "are possible"));
     put_u32(bytes + 12, VNDF_LIMIT_TABLE_BYTES + 1u);

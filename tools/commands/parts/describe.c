@@ -84,10 +84,9 @@ static const char *note_of(const char *notes, const char *key)
     return *notes ? notes + length + 1 : "";
 }
 
-/* NaN if there is none. */
 static double number_of(const char *notes, const char *key)
 {
-    double x = NAN;
+    double x = 0;
     sscanf(note_of(notes, key), "%lf", &x);
     return x;
 }
@@ -104,8 +103,10 @@ static void judge_distance(const vndf_info *info, char *to, size_t room)
     const char *what = (double)tv > near_floor * (double)floor ? ": try a larger --max-bytes"
                        : is_above && info->moments < 4         ? ": try --moments 4"
                                                                : ", and no size mends it";
-    snprintf(to, room, (double)tv <= poor ? "" : "; worth little at %.0f degrees%s",
-             (double)(is_above ? c->tv_above_theta : c->tv_theta), what);
+    *to = '\0';
+    if (!((double)tv <= poor))
+        snprintf(to, room, "; worth little at %.0f degrees%s",
+                 (double)(is_above ? c->tv_above_theta : c->tv_theta), what);
 }
 
 /* What is wrong, each behind "; ". No doubts are horizon_power, which says what D is, and weight_bounded: a tail that
@@ -115,10 +116,9 @@ static void find_doubts(const vndf_info *info, char *to, size_t room)
 {
     const vndf_certificate *c = &info->certificate;
     const char *notes = info->notes, *implausible = note_of(notes, "implausible");
-    const double isotropy = number_of(notes, "residual_isotropy"),
-                 light = number_of(notes, "residual_reflectance");
-    const double rows = number_of(notes, "p22_error_median"), left_out = number_of(notes, "left_out");
-    const double off = isotropy >= 0 || light >= 0 ? fabs(1 / info->normalization - 1) : 0;
+    const double isotropy = number_of(notes, "residual_isotropy"), rows = number_of(notes, "p22_error_median"),
+                 light = number_of(notes, "residual_reflectance"), left_out = number_of(notes, "left_out"),
+                 off = strstr(notes, "residual_") ? fabs(1 / info->normalization - 1) : 0;
     const struct {
         double is, most;
         const char *says;
@@ -131,13 +131,14 @@ static void find_doubts(const vndf_info *info, char *to, size_t room)
         {isotropy, 5e-2, "no ellipse: %.2g of the normals would have to turn"},    /* more refuses a .bsdf */
         {light, 1e-1, "%.2g of the light is not that of one D"},                   /* a good fit has 0.02 */
         {rows, 1e-1, "P22 known within %.2g, measure more"},                       /* a bin of 100 slopes */
-        {left_out / (left_out + number_of(notes, "slopes")), 1e-2, "%.2g of the pixels no normals"}, /* a border */
+        {left_out / (left_out + 1 + number_of(notes, "slopes")), 1e-2,
+         "%.2g of the pixels no normals"},                         /* a rim */
         {off, 5e-2, "the integral of the measured D off by %.2g"}, /* 0.02 for slopes that have a law */
     };
     judge_distance(info, to, room);
     size_t used = strlen(to);
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
-        if (limits[i].is > limits[i].most) {
+        if (!(limits[i].is <= limits[i].most)) {
             used += (size_t)snprintf(to + used, room - used, "; ");
             used += (size_t)snprintf(to + used, room - used, limits[i].says, limits[i].is);
         }
@@ -152,15 +153,15 @@ static void find_needs(const vndf_info *info, char *to, size_t room)
     const double least = 1e-2; /* of the rms slope: a smaller mean slope moves less than 0.5% of the normals */
     const char *matrix = note_of(info->notes, "matrix");
     double x = 0, y = 0;
-    snprintf(to, room, *matrix ? " with the matrix %.64s" : "", matrix);
-    int used = (int)strcspn(to, "\n");
+    snprintf(to, room, "%s%.64s", *matrix ? " with the matrix " : "", matrix);
+    size_t used = strcspn(to, "\n");
     to[used] = '\0';
     sscanf(note_of(info->notes, "tilt"), "%lf,%lf", &x, &y);
     if (hypot(x, y) > least * number_of(info->notes, "rms_slope"))
-        used += snprintf(to + used, room - (size_t)used, " %s the mean slope %.4g,%.4g", *matrix ? "and" : "with",
-                         x, y);
+        used += (size_t)snprintf(to + used, room - used, " %s the mean slope %.4g,%.4g", *matrix ? "and" : "with",
+                                 x, y);
     if (info->certificate.finest > 0)
-        snprintf(to + used, room - (size_t)used, " if no feature is narrower than %.2g of its slope",
+        snprintf(to + used, room - used, " if no feature is narrower than %.2g of its slope",
                  (double)info->certificate.finest);
 }
 
