@@ -49,5 +49,7 @@ int main(void)
         if (!TEST(strcmp(worth, cases[i].worth) == 0))
             fprintf(stderr, "  %s\n  wanted: %s\n", worth, cases[i].worth);
     }
+    const vndf_info largest = {"", "", "", 1, 1, 4095, 3, 1, 1, {.tv = 0.06f}};
+    TEST(!describe_worth(&largest, worth) && TEST_HAS(worth, "no size mends it"));
     return test_done();
 }

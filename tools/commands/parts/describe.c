@@ -91,6 +91,7 @@ static double number_of(const char *notes, const char *key)
     return x;
 }
 
+enum { CELLS_MOST = 4095 };      /* of any table */
 static const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
 
 /* "" where the total variation is good, else what helps, which is only what would make it good. */
@@ -100,9 +101,10 @@ static void judge_distance(const vndf_info *info, char *to, size_t room)
     const vndf_certificate *c = &info->certificate;
     const int is_above = !((double)c->tv_above <= poor);
     const float tv = is_above ? c->tv_above : c->tv, floor = is_above ? c->floor_above : c->floor;
-    const char *what = (double)tv > near_floor * (double)floor ? ": try a larger --max-bytes"
-                       : is_above && info->moments < 4         ? ": try --moments 4"
-                                                               : ", and no size mends it";
+    const int size_helps = (double)tv > near_floor * (double)floor && info->cells < CELLS_MOST;
+    const char *what = size_helps                      ? ": try a larger --max-bytes"
+                       : is_above && info->moments < 4 ? ": try --moments 4"
+                                                       : ", and no size mends it";
     *to = '\0';
     if (!((double)tv <= poor))
         snprintf(to, room, "; worth little at %.0f degrees%s",
