@@ -73,7 +73,7 @@ const char *vndf_notes_invalid(const char *notes)
         return "its notes are longer than the limit";
     while (*notes) {
         size_t key = strspn(notes, "abcdefghijklmnopqrstuvwxyz0123456789_"), end = key;
-        while ((unsigned char)notes[end] >= 32 && notes[end] != 127)
+        while (notes[end] >= ' ' && notes[end] < 127)
             end++;
         if (key < 1 || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' || notes[end] != '\n')
             return "a line of its notes is no `key value`";

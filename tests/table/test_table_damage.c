@@ -73,7 +73,7 @@ static void test_rules(const file_kind *tables)
 {
     static unsigned char sound[ROOM], longer[ROOM];
     static const char notes[] = "key value\n",
-                      *const wrong = "0K0 3_3=4 4\n9 9\0010\0335\t5\1775\n"; /* a place, and what is there */
+                      *const wrong = "0K0 3_3=5\2004 4\n9 9\0010\0335\t5\1775\n"; /* a place, and what is there */
     vndf_source *source = oracle_source("exp(-r)", NULL);
     TEST(vndf_source_note(source, notes, NULL) == VNDF_OK);
     vndf_distribution *table = vndf_build(source, NULL, NULL, NULL); /* of four moments: all arrays are there */
@@ -98,7 +98,7 @@ static void test_rules(const file_kind *tables)
     for (const char *at = wrong; *at; at += 2) {
         memcpy(longer, sound, size);
         longer[arrays - strlen(notes) + (size_t)(*at - '0')] = (unsigned char)at[1];
-        test_refused_for(tables, longer, size, strchr(" K_=\n", at[1]) ? "`key value`" : "do not fill");
+        test_refused_for(tables, longer, size, strchr(" K_=\200\n", at[1]) ? "`key value`" : "do not fill");
     }
     for (size_t more = 1; more <= 8; more++) { /* parts that end before the file does */
         memcpy(longer, sound, size);
