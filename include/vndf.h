@@ -101,8 +101,8 @@ VNDF_API const char *vndf_version(void);
 /* A distribution of normals: a table, or a closed form. It is immutable; threads may share it. */
 typedef struct vndf_distribution vndf_distribution;
 
-/* No table is larger. Those that vndf_build makes have at most 180 KiB. */
-enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23 };
+/* No table is larger, and no notes in it. Tables that vndf_build makes have at most 180 KiB. */
+enum { VNDF_LIMIT_TABLE_BYTES = 1 << 23, VNDF_LIMIT_NOTES = 4096 };
 
 /* Reads a table from a file or from memory, whose bytes are copied. NULL and an error if the file cannot be read,
  * or is not a whole, consistent table. No bytes crash the loader. Free the result with vndf_free. */
@@ -152,6 +152,7 @@ typedef struct vndf_certificate {
 typedef struct vndf_info {
     const char *source;   /* how it was made, as arguments of `vndf build`: "--slope exp(-r)" ... */
     const char *tool;     /* version that made it, "vndf 0.1.0" */
+    const char *notes;    /* lines `key value` that a measurement left (vndf_source_note); or "" */
     size_t bytes;         /* size of the table file; 0 for closed forms */
     size_t memory;        /* bytes that the loaded table takes, all its allocations together; 0 for closed forms */
     size_t cells;         /* intervals of the slope length before the tail; 0 for closed forms */

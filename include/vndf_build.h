@@ -91,6 +91,13 @@ VNDF_API const char *vndf_source_description(const vndf_source *source);
  * that was made by one of these. Not while a build reads the source. */
 VNDF_API vndf_status vndf_source_describe(vndf_source *source, const char *words, vndf_error *error);
 
+/* Puts notes that every table of the source keeps (vndf_info), for programs that measure: what was found, and what a
+ * table leaves unsaid, as the matrix that it needs. Lines `key value` with a line feed behind each, at most
+ * VNDF_LIMIT_NOTES characters, which count in max_bytes: a key of a to z, 0 to 9 and _, one blank, printable ASCII.
+ * tools/measured/README.md has the keys that the verdict of `vndf` knows. VNDF_ERROR_ARGUMENT for any other lines. Not
+ * while a build reads the source. */
+VNDF_API vndf_status vndf_source_note(vndf_source *source, const char *notes, vndf_error *error);
+
 VNDF_API void vndf_source_free(vndf_source *source);
 
 /* ---- limits ------------------------------------------------------------------------------------ */

@@ -103,13 +103,13 @@ void vndf_write_text(vndf_writer *w, const char *text)
 }
 
 /* Programs print the texts, and a control character could harm a terminal. */
-char *vndf_read_text(vndf_reader *r)
+char *vndf_read_text(vndf_reader *r, int lines)
 {
     uint32_t n = vndf_read_u32(r);
     const unsigned char *bytes = n <= TEXT_MAX ? vndf_read_bytes(r, n) : NULL;
     r->failed |= !bytes;
     for (uint32_t i = 0; bytes && i < n; i++)
-        r->failed |= bytes[i] < 32 || bytes[i] == 127;
+        r->failed |= (bytes[i] < 32 && !(lines && bytes[i] == '\n')) || bytes[i] == 127;
     char *text = r->failed ? NULL : malloc((size_t)n + 1);
     if (text) {
         memcpy(text, bytes, n);

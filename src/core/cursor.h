@@ -28,9 +28,9 @@ uint32_t vndf_read_u32(vndf_reader *reader);
 float vndf_read_f32(vndf_reader *reader);
 double vndf_read_f64(vndf_reader *reader);
 
-/* A terminated copy, to be freed, of the next length-prefixed text; NULL if there is no text (the reader fails) or no
- * memory. */
-char *vndf_read_text(vndf_reader *reader);
+/* A terminated copy, to be freed, of the next length-prefixed text, of one line or of `lines`; NULL if there is no text
+ * (the reader fails) or no memory. */
+char *vndf_read_text(vndf_reader *reader, int lines);
 
 void vndf_write_bytes(vndf_writer *writer, const void *bytes, size_t n);
 void vndf_write_u32(vndf_writer *writer, uint32_t value);

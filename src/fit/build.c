@@ -33,8 +33,10 @@ typedef struct builder {
 
 /* ---- tables ---- */
 
+/* Of no text an empty one. */
 static char *copy_of(const char *text)
 {
+    text = text ? text : "";
     size_t size = strlen(text) + 1;
     char *copy = malloc(size);
     return copy ? memcpy(copy, text, size) : NULL;
@@ -56,9 +58,10 @@ static int try_knots(builder *b, unsigned knots)
         return 0;
     vndf_distribution *t = b->table = vndf_draft_from(&b->knots, b->moments);
     const char *why = NULL;
-    int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL));
+    int good = t && (t->source = copy_of(b->profile->source->description)) && (t->tool = copy_of(TOOL)) &&
+               (t->notes = copy_of(b->profile->source->notes));
     if (good) {
-        t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL);
+        t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL, t->notes);
         why = vndf_table_fill(t);
         good = why || vndf_guard_stopped(guard) || vndf_certificate_measure(&t->certificate, t, b->profile);
     }
@@ -118,7 +121,7 @@ static void search(builder *b, unsigned least, unsigned most, double knots)
 
 static size_t bytes_of_knots(const builder *b, size_t knots)
 {
-    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL);
+    return vndf_table_size(knots, b->moments, b->profile->source->description, TOOL, b->profile->source->notes);
 }
 
 /* The largest number of knots that fits into bytes. */

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "source/source.h"
 #include "source/words.h"
+#include "table/table.h"
 
 double vndf_source_p22(const vndf_source *source, double r)
 {
@@ -23,8 +24,10 @@ const char *vndf_source_description(const vndf_source *source)
 
 void vndf_source_free(vndf_source *source)
 {
-    if (source)
-        source->destroy(source);
+    if (!source)
+        return;
+    free(source->notes);
+    source->destroy(source);
 }
 
 /* ---- functions: P22(r), or D(cos theta) with P22(r) = D(c) c^4, c = 1/sqrt(1 + r^2) ---------------------------- */
@@ -162,11 +165,22 @@ vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *e
            NULL;
 }
 
+static vndf_status replace(char **text, const char *by, vndf_error *error)
+{
+    vndf_writer copy = {NULL, 0, 0, 0};
+    vndf_text_add(&copy, by);
+    char *own = vndf_text_finish(&copy, error);
+    if (!own)
+        return VNDF_ERROR_MEMORY;
+    free(*text);
+    *text = own;
+    return VNDF_OK;
+}
+
 vndf_status vndf_source_describe(vndf_source *source, const char *text, vndf_error *error)
 {
     vndf_words words;
     vndf_error inner = {VNDF_OK, ""};
-    vndf_writer copy = {NULL, 0, 0, 0};
     size_t length = text ? strlen(text) : 0, printable = 0;
     if (!source || !text)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the %s is NULL", source ? "description" : "source");
@@ -189,11 +203,13 @@ vndf_status vndf_source_describe(vndf_source *source, const char *text, vndf_err
     if (taken)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "the description begins as that of a formula or a family does, which it is not");
-    vndf_text_add(&copy, text);
-    char *description = vndf_text_finish(&copy, error);
-    if (!description)
-        return VNDF_ERROR_MEMORY;
-    free(source->description);
-    source->description = description;
-    return VNDF_OK;
+    return replace(&source->description, text, error);
+}
+
+vndf_status vndf_source_note(vndf_source *source, const char *notes, vndf_error *error)
+{
+    const char *why = source && notes ? vndf_notes_invalid(notes) : "a source and its notes are needed";
+    if (why)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s", why);
+    return replace(&source->notes, notes, error);
 }

@@ -19,6 +19,7 @@ struct vndf_source {
     void (*p22)(const vndf_source *self, const double *r, size_t count, double *p22);
     void (*destroy)(vndf_source *self); /* frees self and all it owns */
     char *description;                  /* arguments of `vndf build`, owned */
+    char *notes;                        /* of tables made from it, owned; NULL for none */
     const double *breaks;               /* ascending slopes of rows, or NULL */
     size_t break_count;
     int rebuildable;   /* the description alone makes the same source again */

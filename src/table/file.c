@@ -4,7 +4,7 @@
  *     f64 normalization           f64 scale
  *     u32 cells N, moments, squarings
  *     14 f32 certificate (order of vndf_certificate)
- *     u32 n, n bytes source       u32 n, n bytes tool
+ *     u32 n, n bytes each: source, tool, notes (lines `key value`)
  *     f32[N + 1] each: knot, g0, g1, m0, m1, m2, m4 (only if moments is 4), b0, b1, area, slope
  *     u32 CRC-32 of all bytes before it
  *
@@ -51,19 +51,36 @@ void vndf_table_write(const vndf_distribution *table, vndf_writer *w)
         vndf_write_f32(w, claims[i]);
     vndf_write_text(w, table->source);
     vndf_write_text(w, table->tool);
+    vndf_write_text(w, table->notes);
     while ((number = next_number(table, &array, &knot)) != NULL)
         vndf_write_f32(w, *number);
     vndf_frame_end(w);
 }
 
-size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool)
+size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool, const char *notes)
 {
     size_t numbers = (ARRAYS - (size_t)(moments < 4)) * knots;
-    size_t counts = 3 + VNDF_CERTIFICATE_FLOATS + 2; /* of 4 bytes, with the lengths of both texts */
-    return VNDF_FRAME_HEAD + 2 * sizeof(double) + 4 * (counts + numbers + 1) + strlen(source) + strlen(tool);
+    size_t counts = 3 + VNDF_CERTIFICATE_FLOATS + 3; /* of 4 bytes, with the lengths of texts */
+    size_t letters = strlen(source) + strlen(tool) + (notes ? strlen(notes) : 0);
+    return VNDF_FRAME_HEAD + 2 * sizeof(double) + 4 * (counts + numbers + 1) + letters;
 }
 
 /* ---- reading ---- */
+
+const char *vndf_notes_invalid(const char *notes)
+{
+    if (strlen(notes) > VNDF_LIMIT_NOTES)
+        return "its notes are longer than the limit";
+    while (*notes) {
+        size_t key = strspn(notes, "abcdefghijklmnopqrstuvwxyz0123456789_"), end = key;
+        while (notes[end] >= ' ' && notes[end] < 127)
+            end++;
+        if (key < 1 || notes[key] != ' ' || end < key + 2 || notes[key + 1] == ' ' || notes[end] != '\n')
+            return "a line of its notes is no `key value`";
+        notes += end + 1;
+    }
+    return NULL;
+}
 
 vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *error)
 {
@@ -85,13 +102,16 @@ vndf_distribution *vndf_load_memory(const void *bytes, size_t size, vndf_error *
         table->bytes = size;
         for (int i = 0; i < VNDF_CERTIFICATE_FLOATS; i++)
             claims[i] = vndf_read_f32(&r);
-        table->source = vndf_read_text(&r);
-        table->tool = vndf_read_text(&r);
+        table->source = vndf_read_text(&r, 0);
+        table->tool = vndf_read_text(&r, 0);
+        table->notes = vndf_read_text(&r, 1);
         while ((number = next_number(table, &array, &knot)) != NULL)
             *number = vndf_read_f32(&r);
         why = r.failed || r.at + 4 != size ? "its parts do not fill the file" : vndf_table_fill(table);
+        if (!why && table->notes)
+            why = vndf_notes_invalid(table->notes);
     }
-    if (table && table->source && table->tool && !why)
+    if (table && table->source && table->tool && table->notes && !why)
         return table;
     if (why)
         vndf_fail(error, VNDF_ERROR_TABLE, "not a consistent table: %s", why);
@@ -119,5 +139,6 @@ void vndf_free(vndf_distribution *distribution)
     free(distribution->columns);
     free((char *)distribution->source);
     free((char *)distribution->tool);
+    free((char *)distribution->notes);
     free(distribution);
 }

@@ -197,7 +197,8 @@ const char *vndf_table_fill(vndf_distribution *t)
 size_t vndf_table_memory(const vndf_distribution *table)
 {
     size_t floats = table->number_count + column_floats(table);
-    return sizeof *table + floats * sizeof(float) + strlen(table->source) + strlen(table->tool) + 2;
+    size_t letters = strlen(table->source) + strlen(table->tool) + strlen(table->notes);
+    return sizeof *table + floats * sizeof(float) + letters + 3;
 }
 
 size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity)

@@ -61,8 +61,8 @@ struct vndf_distribution {
     double normalization;           /* the source was multiplied by it */
     double scale;                   /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
-    const char *source, *tool; /* owned by tables */
-    size_t bytes;              /* of the file */
+    const char *source, *tool, *notes; /* owned by tables */
+    size_t bytes;                      /* of the file */
 };
 
 VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
@@ -85,7 +85,10 @@ const char *vndf_table_fill(vndf_distribution *table);
 
 /* Bytes of memory that it takes, all allocations together; bytes of a file. */
 size_t vndf_table_memory(const vndf_distribution *table);
-size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool);
+size_t vndf_table_size(size_t knots, unsigned moments, const char *source, const char *tool, const char *notes);
+
+/* What is wrong with notes (vndf_source_note), NULL if nothing is. */
+const char *vndf_notes_invalid(const char *notes);
 
 /* Writes the file (file.c). */
 void vndf_table_write(const vndf_distribution *table, vndf_writer *writer);

@@ -1,5 +1,6 @@
 # `vndf bake` writes the tables it is asked for in the forms it is asked for, the same bytes twice, and a page; refuses
-# wrong words with status 2 and a folder with other files in it, and leaves nothing behind.
+# wrong words with status 2 and a folder with other files in it, and leaves nothing behind. It ends with
+# a verdict.
 cmake_minimum_required(VERSION 3.16)
 
 include(${SOURCE}/tests/harness/program.cmake)
@@ -35,10 +36,16 @@ has(page "dfg.png")
 
 run(0 ggx --what ltc --size 4 --format js -o one -q)
 expect("-q prints ${output}" "x${output}" STREQUAL "x")
-run(0 ${SOURCE}/tables/hazy.vndf --what ltc --size 4 --format npy -o haze)
+run(0 ${SOURCE}/tables/hazy.vndf --what ltc --size 8 --format npy -o haze)
 file(GLOB names RELATIVE ${OUT}/haze ${OUT}/haze/*)
 list(LENGTH names count)
 expect("haze has ${names}" count EQUAL 5)
+
+has(output "\nverdict good to ship\n")
+execute_process(COMMAND ${VNDF} build --slope "exp(-3*r)*(1+0.8*cos(6*r))" -q -o rings.vndf WORKING_DIRECTORY ${OUT})
+run(0 rings.vndf --what ltc --size 8 --format npy -o rings) # no transformed cosine resembles a ring of light
+expect("${output}" output MATCHES "\nverdict doubtful: ltc_inverse is 0.3[0-9]* off in the mean, [^\n]*\n$")
+expect("on stderr: ${errors}" errors MATCHES "vndf bake: doubtful: ltc_inverse is ")
 
 file(MAKE_DIRECTORY ${OUT}/full)
 file(WRITE ${OUT}/full/notes.txt "mine")

@@ -10,7 +10,7 @@ set(order_src
     "core:" "math: core" "table: core" "table/family: core table"
     "kernel: core table" "sampler: core table table/family kernel" "sampler/batch: core table kernel sampler"
     "bsdf: core math table kernel sampler"
-    "source: core math" "source/interval: core math source" "source/formula: core math source source/interval"
+    "source: core math table" "source/interval: core math source" "source/formula: core math source source/interval"
     "source/family: core math source source/formula source/interval"
     "fit/profile: core math source"
     "fit: core math table table/family kernel sampler source fit/profile")

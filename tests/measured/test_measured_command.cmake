@@ -72,7 +72,15 @@ number(scale scale)
 expect("the median slope of the profile is ${scale}, of the table ${before}" scale STREQUAL before)
 run(0 build --height heights.txt --step 0.001 --cutoff 4 --max-bytes 2048 -o heights.vndf)
 has(output "\ncutoff 4\nslopes 1936\n")
-has(errors "heights.txt: implausible median slope ")
+expect("build: ${errors}" errors MATCHES "doubtful with the matrix [^\n]*implausible median slope ")
+
+# What was found stays with the table.
+string(REGEX MATCH "\nheights 48 x 48.*\ntilt .*\nmatrix .*\nverdict [^\n]*" found "${output}")
+run(0 check heights.vndf --samples 1000)
+has(output "${found}\nresult good")
+expect("check: ${errors}" errors MATCHES "doubtful with the matrix [^\n]*implausible median slope ")
+run(0 info heights.vndf --json -q)
+expect("info: ${errors}" errors MATCHES "doubtful with the matrix [^\n]*implausible median slope ")
 
 answers(2 "--cutoff '300'" build --height heights.txt --cutoff 300 ${to})
 answers(2 "4 slopes" build --height heights.txt --cutoff 46 ${to})

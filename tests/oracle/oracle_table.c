@@ -40,7 +40,7 @@ static int take_arrays(oracle_table *t, const unsigned char *at)
     return 1;
 }
 
-/* Magic, format, size, the numbers of the head, two texts, those of the cells; then a checksum, which is not read. */
+/* Magic, format, size, the numbers of the head, three texts, those of the cells; then a checksum, which is not read. */
 static int read_table(oracle_table *t, const unsigned char *bytes, size_t size)
 {
     size_t at = 100;
@@ -52,7 +52,7 @@ static int read_table(oracle_table *t, const unsigned char *bytes, size_t size)
     t->cells = (size_t)word_at(bytes + 32, 4);
     t->moments = (size_t)word_at(bytes + 36, 4);
     t->squarings = (size_t)word_at(bytes + 40, 4);
-    for (int i = 0; i < 2 && at + 4 <= size; i++)
+    for (int i = 0; i < 3 && at + 4 <= size; i++)
         at += 4 + (size_t)word_at(bytes + at, 4);
     return t->cells >= 2 && t->cells < 4096 && t->moments >= 2 && t->moments <= 4 && t->squarings <= 5 &&
            at + 4 * (t->cells + 1) * (t->moments == 4 ? 11 : 10) + 4 == size && take_arrays(t, bytes + at);

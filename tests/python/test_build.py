@@ -45,6 +45,8 @@ class Built(unittest.TestCase):
         np.savetxt(csv, np.stack([theta, ndf], 1), header="theta,ndf", comments="", delimiter=",", fmt="%.17g")
         rows, file = vndf.Source.rows(theta=theta, ndf=ndf), vndf.Source.csv(csv)
         self.assertEqual([rows.p22(r) for r in theta], [file.p22(r) for r in theta])
+        corpus = os.path.join(SOURCE, "tests", "corpus", "table", "notes.vndf")
+        self.assertRegex(vndf.load(corpus).info.notes, r"\nmatrix [-.0-9,e]+\n")
         slope, p22 = np.tan(theta), ndf * np.cos(theta) ** 4
         self.assertAlmostEqual(vndf.Source.rows(slope=slope, p22=p22).p22(slope[9]), p22[9], 12)
 

@@ -90,6 +90,13 @@ static void test_own_words(void)
     words[VNDF_LIMIT_NAME_LENGTH] = '\0';
     TEST(vndf_source_describe(source, words, NULL) == VNDF_OK);
     TEST(strcmp(vndf_source_description(source), words) == 0);
+    words[1] = ' '; /* notes, of which test_table_damage has more */
+    TEST(vndf_source_note(source, words, &error) == VNDF_ERROR_ARGUMENT);
+    words[VNDF_LIMIT_NOTES - 1] = '\n';
+    TEST(vndf_source_note(source, words, NULL) == VNDF_OK);
+    strcpy(words + VNDF_LIMIT_NOTES, "y");
+    TEST(vndf_source_note(source, words, &error) == VNDF_ERROR_ARGUMENT && TEST_HAS(error.message, "limit"));
+    TEST(vndf_source_note(source, NULL, NULL) == VNDF_ERROR_ARGUMENT);
     vndf_source_free(source);
     vndf_source_free(family);
 }

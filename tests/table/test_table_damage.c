@@ -2,8 +2,8 @@
  * sanitizers see); where the checksum is put right again, the table is refused or its samples are finite, unit and not
  * below the surface, and its densities finite and positive: it may be wrong, never dangerous. A table that breaks one
  * rule of format 5 is refused, whatever its checksum says, and the message names the rule: the counts, the range of
- * every number, knots that ascend, masses that add up to 1, parts that fill the file. (Random damage nearly always
- * breaks several rules at once: it would not miss one of them.) Arguments: tables, to be damaged alone. */
+ * every number, knots that ascend, masses that add up to 1, notes in lines, parts that fill the file. (Random damage
+ * nearly always breaks several rules at once: it would not miss one of them.) Arguments: tables, damaged alone. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"
@@ -49,6 +49,7 @@ static const broken_rule RULES[] = {
     {FILE_START, COUNTS + 4, WORD, 3, "do not fill the file"}, /* one array less */
     {FILE_START, COUNTS + 4, WORD, 5, "outside the limits"},
     {FILE_START, COUNTS + 8, WORD, 6, "outside the limits"},
+    {FILE_START, TEXTS + 4, WORD, 0x0a0a0a0a, "do not fill the file"}, /* a source in lines */
     {FILE_START, VERSION, WORD, 1, "build it again"},
     {FILE_START, VERSION, WORD, 4, "build it again"},
     {FILE_START, VERSION, WORD, 6, "version"},
@@ -71,12 +72,19 @@ static void mend(unsigned char *bytes, const unsigned char *sound, size_t size)
 static void test_rules(const file_kind *tables)
 {
     static unsigned char sound[ROOM], longer[ROOM];
-    vndf_distribution *table =
-        oracle_build("exp(-r)", 8192, NULL, NULL); /* of four moments: all arrays are there */
+    static const char notes[] = "key value\n",
+                      *const wrong = "0K0 3_3=5\2004 4\n9 9\0010\0335\t5\1775\n"; /* a place, and what is there */
+    vndf_source *source = oracle_source("exp(-r)", NULL);
+    TEST(vndf_source_note(source, notes, NULL) == VNDF_OK);
+    vndf_distribution *table = vndf_build(source, NULL, NULL, NULL); /* of four moments: all arrays are there */
     size_t size = vndf_distribution_info(table).bytes, part[FILE_START + 1] = {0};
     TEST(table && vndf_save_memory(table, sound, size, NULL) == VNDF_OK);
+    TEST(strcmp(vndf_distribution_info(table).notes, notes) == 0);
     vndf_free(table);
-    size_t tool = TEXTS + 4 + get_u32(sound + TEXTS), arrays = tool + 4 + get_u32(sound + tool);
+    vndf_source_free(source);
+    size_t arrays = TEXTS;
+    for (int i = 0; i < 3; i++)
+        arrays += 4 + get_u32(sound + arrays);
     for (size_t i = 0; i <= ARRAYS; i++)
         part[i] = arrays + 4 * i * (get_u32(sound + COUNTS) + 1);
     if (!TEST(part[ARRAYS] + 4 == size && size < ROOM - 16))
@@ -86,6 +94,11 @@ static void test_rules(const file_kind *tables)
         const broken_rule bad = {FILE_START, CLAIMS + 4 * claim, FLOAT, claim % 2 ? (double)NAN : -1,
                                  "no measurement"};
         test_broken_rules(tables, sound, size, part, &bad, 1);
+    }
+    for (const char *at = wrong; *at; at += 2) {
+        memcpy(longer, sound, size);
+        longer[arrays - strlen(notes) + (size_t)(*at - '0')] = (unsigned char)at[1];
+        test_refused_for(tables, longer, size, strchr(" K_=\200\n", at[1]) ? "`key value`" : "do not fill");
     }
     for (size_t more = 1; more <= 8; more++) { /* parts that end before the file does */
         memcpy(longer, sound, size);

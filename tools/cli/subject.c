@@ -57,8 +57,6 @@ void distribution_close(chosen_distribution *chosen)
 
 enum { NDF, SLOPE, CSV, FAMILY };
 
-const double table_aim_above = 1e-3, table_aim_below = 3e-2;
-
 const char *const source_kinds[] = {"--ndf", "--slope", "--csv", "--family", NULL};
 
 vndf_source *source_from_csv(const char *command, const char *path)

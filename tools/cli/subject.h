@@ -23,10 +23,6 @@ void distribution_close(chosen_distribution *chosen);
 /* A file with the tables of a family is known by its name, FILE.vndfs. */
 int is_family_file(const char *name);
 
-/* The total variations above and below the horizon that a table is to keep: above, the error without its weight
- * stays below half a step of 8 bits; light from below has met the surface before. */
-extern const double table_aim_above, table_aim_below;
-
 /* ---- sources ---- */
 
 /* --ndf, --slope, --csv, --family; NULL ends them. */

@@ -121,7 +121,8 @@ static int read_rows(const arguments *given, data_file *file, profile *rows)
     return good;
 }
 
-/* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", and writes its rows to --profile. 0 after a complaint. */
+/* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", notes what was found, writes its rows to --profile. 0 after a
+ * complaint. */
 static int finish_measured(const arguments *given, const data_file *file, const profile *rows, vndf_source *source)
 {
     static const char *const options[] = {"--rgl",  "--merl",   "--channel",    "--height",
@@ -133,7 +134,8 @@ static int finish_measured(const arguments *given, const data_file *file, const 
     options_text(given, options, text, sizeof text);
     snprintf(text + strlen(text), sizeof text - strlen(text), " (crc32 %08lx)",
              (unsigned long)vndf_crc32(0, file->bytes, file->size));
-    if (vndf_source_describe(source, text, &error) != VNDF_OK)
+    if (vndf_source_describe(source, text, &error) != VNDF_OK ||
+        vndf_source_note(source, file->notes, &error) != VNDF_OK)
         return complain(name, "%.100s: %s", file->name, error.message), 0;
     if (!profile_path)
         return 1;
@@ -144,22 +146,20 @@ static int finish_measured(const arguments *given, const data_file *file, const 
                 : output_give_up(&output, "no place on the disk")) == STATUS_GOOD;
 }
 
-/* What was found on the way is in the notes of the file. NULL after a complaint. */
-static vndf_source *measured_source(const arguments *given, data_file *file)
+/* NULL after a complaint. */
+static vndf_source *measured_source(const arguments *given)
 {
+    data_file file = {.notes = ""};
     profile rows = {0};
     vndf_source *source = NULL;
-    file->name = option_value(given, option_among(given, measured));
-    char *bytes = input_read(name, file->name, MEASURED_BYTES, &file->size);
-    file->bytes = (const unsigned char *)bytes;
-    if (bytes && read_rows(given, file, &rows))
-        source = profile_source(&rows, file);
-    if (!source && file->refused[0])
-        complain(name, "%s", file->refused);
-    const char *implausible = source ? strstr(file->notes, "implausible ") : NULL;
-    if (implausible)
-        complain(name, "%s: %.*s", file->name, (int)strcspn(implausible, "\n"), implausible);
-    if (source && !finish_measured(given, file, &rows, source)) {
+    file.name = option_value(given, option_among(given, measured));
+    char *bytes = input_read(name, file.name, MEASURED_BYTES, &file.size);
+    file.bytes = (const unsigned char *)bytes;
+    if (bytes && read_rows(given, &file, &rows))
+        source = profile_source(&rows, &file);
+    if (!source && file.refused[0])
+        complain(name, "%s", file.refused);
+    if (source && !finish_measured(given, &file, &rows, source)) {
         vndf_source_free(source);
         source = NULL;
     }
@@ -228,18 +228,17 @@ static int save(const chosen_distribution *of, output_file *output)
     return output_commit(output);
 }
 
-/* Says what was built and what it is worth, and that on stderr too where it is worth little. Where the file itself is
- * on stdout there is no place for figures. */
-static int tell(const arguments *given, const chosen_distribution *of, const char *found)
+/* Says what was built and what it is worth. Where the file itself is on stdout there is no place for figures. */
+static int tell(const arguments *given, const chosen_distribution *of)
 {
-    static const char *const sizes[] = {"--max-bytes", "--max-tv", "--moments", NULL};
     char verdict[DESCRIBE_VERDICT];
-    if (!describe_verdict(of, !option_among(given, sizes), verdict))
-        complain(name, "%s", verdict);
-    if (output_is_stdout(option_value(given, "-o")))
+    if (output_is_stdout(option_value(given, "-o"))) {
+        if (!describe_verdict(of, verdict))
+            complain(name, "%s", verdict);
         return STATUS_GOOD;
+    }
     figures f = figures_begin(given);
-    describe(&f, of, found, verdict);
+    describe(&f, of);
     return figures_end(&f);
 }
 
@@ -277,7 +276,6 @@ static int check_words(const arguments *given)
 static int run(const arguments *given)
 {
     const int is_family = option_value(given, "--parameter") != NULL;
-    data_file file = {.notes = ""};
     chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
     output_file output;
@@ -287,12 +285,12 @@ static int run(const arguments *given)
     if (!check_words(given))
         return STATUS_USE;
     if (!is_family)
-        source = option_among(given, measured) ? measured_source(given, &file) : source_from_words(given, NULL);
+        source = option_among(given, measured) ? measured_source(given) : source_from_words(given, NULL);
     /* Opened before the work, so that a place that cannot be written is told first. */
     if ((source || is_family) && output_open(&output, name, option_value(given, "-o")))
         status = build(given, source, &made) ? save(&made, &output) : output_give_up(&output, NULL);
     if (status == STATUS_GOOD)
-        status = tell(given, &made, file.notes);
+        status = tell(given, &made);
     distribution_close(&made);
     vndf_source_free(source);
     return status;

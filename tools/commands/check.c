@@ -15,6 +15,7 @@
 #include "cli/sort.h"
 #include "cli/subject.h"
 #include "command.h"
+#include "commands/parts/describe.h"
 #include "evidence/measure/bins.h"
 #include "evidence/measure/laws.h"
 #include "evidence/measure/statistics.h"
@@ -295,6 +296,8 @@ static int check_all(const chosen_distribution *chosen, const arguments *given)
     if (is_done) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
+        if (chosen->owned)
+            describe_end(&c.to, chosen);
         figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);

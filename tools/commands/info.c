@@ -32,7 +32,8 @@ static const char *const help[] = {
     "  horizon_power  p < 0 where D grows as cos(theta_m)^p towards the horizon: no angular grid resolves it\n"
     "  floor_above, floor    what is left of tv_above and of tv at any size, with these moments\n"
     "\n"
-    "and a verdict. Of a family of tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
+    "what a measurement noted of it (tools/measured/README.md), and a verdict, made from all that. Of a family of\n"
+    "tables (vndf build --parameter), a mixture of neighbours between its knots:\n"
     "\n"
     "  knots          the number of tables, from the parameter `low` to `high`\n"
     "  linear_in      p or 1/p: what the weights of neighbours are linear in\n"
@@ -47,13 +48,11 @@ static const char *const help[] = {
 static int run(const arguments *given)
 {
     const char *name = given->positional.item[0];
-    char verdict[DESCRIBE_VERDICT];
     chosen_distribution chosen;
     if (!distribution_open(&chosen, given->command, name, 1))
         return STATUS_USE;
     figures f = figures_begin(given);
-    describe_verdict(&chosen, 0, verdict);
-    describe(&f, &chosen, "", verdict);
+    describe(&f, &chosen);
     const int status = figures_end(&f);
     distribution_close(&chosen);
     return status;

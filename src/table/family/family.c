@@ -146,8 +146,8 @@ size_t vndf_family_size(const vndf_family *family)
 static const char *read_family(vndf_reader *r, vndf_family *family, vndf_error *error)
 {
     family->grazing = vndf_read_f32(r);
-    family->source = vndf_read_text(r);
-    family->tool = vndf_read_text(r);
+    family->source = vndf_read_text(r, 0);
+    family->tool = vndf_read_text(r, 0);
     for (size_t i = 0; i < family->count; i++)
         family->parameter[i] = vndf_read_f32(r);
     for (size_t i = 0; i + 1 < family->count; i++)

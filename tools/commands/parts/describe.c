@@ -1,6 +1,8 @@
 #include "commands/parts/describe.h"
 
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 /* The units of figures, as text and JSON name them. */
 static const char bytes[] = "B", mass[] = "of the mass", degrees[] = "degrees", relative[] = "relative";
@@ -71,56 +73,150 @@ static void put_family(figures *f, const vndf_family *family)
     figures_list_end(f);
 }
 
-/* ---- what is public ------------------------------------------------------------------------------ */
+/* ---- what it is worth ---------------------------------------------------------------------------- */
 
-int describe_verdict(const chosen_distribution *of, int by_default, char verdict[DESCRIBE_VERDICT])
+/* The value of the first note with this key, up to the end of its line; "" if there is none. */
+static const char *note_of(const char *notes, const char *key)
 {
-    const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
-    char more[160] = "good to ship";
-    int good = 1;
-    if (of->family) {
-        const vndf_family_facts facts = vndf_family_info(of->family);
-        const double distance = (double)facts.distance, tables = largest_tv(of->family);
-        good = distance <= poor && tables <= poor;
-        if (!good)
-            snprintf(more, sizeof more, "%s",
-                     tables <= poor ? "mixtures are worth little: try more --knots"
-                                    : "tables are worth little: try a larger --max-bytes");
-        snprintf(verdict, DESCRIBE_VERDICT,
-                 "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; %.1f KiB; %s",
-                 100 * distance, 100 * (double)facts.grazing, 100 * tables, (double)facts.bytes / 1024, more);
-        return good;
+    const size_t length = strlen(key);
+    while (*notes && (strncmp(notes, key, length) != 0 || notes[length] != ' '))
+        notes += strcspn(notes, "\n") + 1;
+    return *notes ? notes + length + 1 : "";
+}
+
+static double number_of(const char *notes, const char *key)
+{
+    double x = 0;
+    sscanf(note_of(notes, key), "%lf", &x);
+    return x;
+}
+
+enum { CELLS_MOST = 4095 };      /* of any table */
+static const double poor = 5e-2; /* a total variation at which samples stop being worth their name */
+
+/* "" where the total variation is good, else what helps, which is only what would make it good. */
+static void judge_distance(const vndf_info *info, char *to, size_t room)
+{
+    const double near_floor = 1.2; /* times what no size mends: a larger table gains less than that */
+    const vndf_certificate *c = &info->certificate;
+    const int is_above = !((double)c->tv_above <= poor);
+    const float tv = is_above ? c->tv_above : c->tv, floor = is_above ? c->floor_above : c->floor;
+    const int size_helps = (double)tv > near_floor * (double)floor && info->cells < CELLS_MOST;
+    const char *what = size_helps                      ? ": try a larger --max-bytes"
+                       : is_above && info->moments < 4 ? ": try --moments 4"
+                                                       : ", and no size mends it";
+    *to = '\0';
+    if (!((double)tv <= poor))
+        snprintf(to, room, "; worth little at %.0f degrees%s",
+                 (double)(is_above ? c->tv_above_theta : c->tv_theta), what);
+}
+
+/* What is wrong, each behind "; ". No doubts are horizon_power, which says what D is, and weight_bounded: a tail that
+ * grows towards the horizon has no largest weight, and 1.06 for all but 1e-6 of the mass (student-t-1.8). A formula or
+ * a curve has any scale: the integral counts of measurements, whose rows have their own. */
+static void find_doubts(const vndf_info *info, char *to, size_t room)
+{
+    const vndf_certificate *c = &info->certificate;
+    const char *notes = info->notes, *implausible = note_of(notes, "implausible");
+    const double isotropy = number_of(notes, "residual_isotropy"), rows = number_of(notes, "p22_error_median"),
+                 light = number_of(notes, "residual_reflectance"), left_out = number_of(notes, "left_out"),
+                 off = strstr(notes, "residual_") ? fabs(1 / info->normalization - 1) : 0;
+    const struct {
+        double is, most;
+        const char *says;
+    } limits[] = {
+        {(double)c->max_weight, 10, "weights up to %.3g, fireflies"}, /* as bright as ten samples stands out */
+        {(double)c->area_error, poor, "Lambda and G1 off by %.2g"},   /* which brightness follows */
+        {(double)c->consistency, 2e-3, "densities biased by %.2g"},   /* half a step of 8 bits */
+        {(double)c->ndf_error, 1, "D off by %.2g of itself"},         /* 0.4 is usual at the feet of thin rings */
+        {c->finest > 0 ? 0 : (double)c->hidden, 1e-3, "%.2g of D may be missing"}, /* as much as tables are off */
+        {isotropy, 5e-2, "no ellipse: %.2g of the normals would have to turn"},    /* more refuses a .bsdf */
+        {light, 1e-1, "%.2g of the light is not that of one D"},                   /* a good fit has 0.02 */
+        {rows, 1e-1, "P22 known within %.2g, measure more"},                       /* a bin of 100 slopes */
+        {left_out / (left_out + 1 + number_of(notes, "slopes")), 1e-2,
+         "%.2g of the pixels no normals"},                         /* a rim */
+        {off, 5e-2, "the integral of the measured D off by %.2g"}, /* 0.02 for slopes that have a law */
+    };
+    judge_distance(info, to, room);
+    size_t used = strlen(to);
+    for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
+        if (!(limits[i].is <= limits[i].most)) {
+            used += (size_t)snprintf(to + used, room - used, "; ");
+            used += (size_t)snprintf(to + used, room - used, limits[i].says, limits[i].is);
+        }
+    if (*implausible)
+        snprintf(to + used, room - used, "; implausible %.200s", implausible);
+    to[used + strcspn(to + used, "\n")] = '\0';
+}
+
+/* What a good verdict hangs on: the matrix and the mean slope of a surface, features that no sample has met. */
+static void find_needs(const vndf_info *info, char *to, size_t room)
+{
+    const double least = 1e-2; /* of the rms slope: a smaller mean slope moves less than 0.5% of the normals */
+    const char *matrix = note_of(info->notes, "matrix");
+    double x = 0, y = 0;
+    snprintf(to, room, "%s%.64s", *matrix ? " with the matrix " : "", matrix);
+    size_t used = strcspn(to, "\n");
+    to[used] = '\0';
+    sscanf(note_of(info->notes, "tilt"), "%lf,%lf", &x, &y);
+    if (hypot(x, y) > least * number_of(info->notes, "rms_slope"))
+        used += (size_t)snprintf(to + used, room - used, " %s the mean slope %.4g,%.4g", *matrix ? "and" : "with",
+                                 x, y);
+    if (info->certificate.finest > 0)
+        snprintf(to + used, room - used, " if no feature is narrower than %.2g of its slope",
+                 (double)info->certificate.finest);
+}
+
+int describe_worth(const vndf_info *of, char worth[DESCRIBE_WORTH])
+{
+    char doubts[1280], needs[256];
+    find_doubts(of, doubts, sizeof doubts);
+    find_needs(of, needs, sizeof needs);
+    snprintf(worth, DESCRIBE_WORTH, *doubts ? "doubtful%s: %s" : "good to ship%s", needs, doubts + 2);
+    return !*doubts;
+}
+
+int describe_verdict(const chosen_distribution *of, char verdict[DESCRIBE_VERDICT])
+{
+    const vndf_family_facts facts = vndf_family_info(of->family);
+    vndf_info info = vndf_distribution_info(of->distribution);
+    char worth[DESCRIBE_WORTH];
+    int good = !of->distribution || describe_worth(&info, worth), length;
+    for (size_t i = 0; i < facts.count && good; i++) {
+        info = vndf_distribution_info(vndf_family_distribution(of->family, i));
+        good = describe_worth(&info, worth);
     }
-    const vndf_info info = vndf_distribution_info(of->distribution);
-    const vndf_certificate *c = &info.certificate;
-    const double above = (double)c->tv_above, below = (double)c->tv;
-    if (!(above <= poor && below <= poor)) {
-        good = 0;
-        snprintf(more, sizeof more, "worth little at %.0f degrees: try a larger --max-bytes%s",
-                 (double)(above <= poor ? c->tv_theta : c->tv_above_theta),
-                 !(above <= poor) && info.moments < 4 ? " or --moments 4" : "");
-    } else if (by_default && !(above <= table_aim_above && below <= table_aim_below)) {
-        good = 0;
-        snprintf(more, sizeof more, "%g%% and %g%% were aimed at: --max-bytes 16384 may come closer",
-                 100 * table_aim_above, 100 * table_aim_below);
-    } else if (c->finest > 0)
-        snprintf(more, sizeof more, "good to ship if no feature is narrower than %.2g of its slope",
-                 (double)c->finest);
-    snprintf(verdict, DESCRIBE_VERDICT, "within %.2g%% of exact above the horizon, %.2g%% below; %.1f KiB; %s",
-             100 * above, 100 * below, (double)info.bytes / 1024, more);
+    if (!((double)facts.distance <= poor))
+        good = snprintf(worth, sizeof worth, "doubtful: mixtures are worth little: try more --knots") < 0;
+    if (of->family)
+        length = snprintf(verdict, 128, "within %.2g%% of the family, %.2g%% at grazing; tables within %.2g%%; ",
+                          100 * (double)facts.distance, 100 * (double)facts.grazing, 100 * largest_tv(of->family));
+    else
+        length = snprintf(verdict, 128, "within %.2g%% of exact above the horizon, %.2g%% below; ",
+                          100 * (double)info.certificate.tv_above, 100 * (double)info.certificate.tv);
+    snprintf(verdict + length, DESCRIBE_WORTH + 64, "%.1f KiB; %s",
+             (double)(of->family ? facts.bytes : info.bytes) / 1024, worth);
     return good;
 }
 
-void describe(figures *f, const chosen_distribution *of, const char *found, const char *verdict)
+void describe_end(figures *f, const chosen_distribution *of)
 {
-    const vndf_info info = of->family ? (vndf_info){.bytes = 1} : vndf_distribution_info(of->distribution);
-    int length = 0;
+    char verdict[DESCRIBE_VERDICT], key[VNDF_LIMIT_NOTES + 1], value[VNDF_LIMIT_NOTES + 1];
+    const char *notes = vndf_distribution_info(of->distribution).notes;
+    for (int length = 0; sscanf(notes, "%4096s %4096[^\n]%n", key, value, &length) == 2; notes += length)
+        figures_text(f, key, value);
+    if (!describe_verdict(of, verdict))
+        complain(f->command, "%s", verdict);
+    figures_text(f, "verdict", verdict);
+}
+
+void describe(figures *f, const chosen_distribution *of)
+{
+    const vndf_info info = vndf_distribution_info(of->distribution);
     if (of->family)
         put_family(f, of->family);
     else
         put_table(f, &info);
-    for (char key[64], value[512]; sscanf(found, "%63s %511[^\n]%n", key, value, &length) == 2; found += length)
-        figures_text(f, key, value);
-    if (info.bytes)
-        figures_text(f, "verdict", verdict);
+    if (of->family || info.bytes)
+        describe_end(f, of);
 }

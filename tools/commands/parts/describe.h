@@ -5,13 +5,17 @@
 #include "cli/figures.h"
 #include "cli/subject.h"
 
-/* One sentence: "within 0.05% of exact above the horizon, 1.2% below; 4.1 KiB; good to ship", or what is wrong and what
- * to do. `by_default`: no size and no accuracy was asked for. Returns whether it is good. */
-enum { DESCRIBE_VERDICT = 320 };
-int describe_verdict(const chosen_distribution *of, int by_default, char verdict[DESCRIBE_VERDICT]);
+/* "good to ship", with the matrix, the mean slope and the condition that it hangs on, or "doubtful: " and what is wrong
+ * by certificate and notes, and what helps. Returns whether it is good, as closed forms are. */
+enum { DESCRIBE_WORTH = 1600, DESCRIBE_VERDICT = DESCRIBE_WORTH + 192 };
+int describe_worth(const vndf_info *of, char worth[DESCRIBE_WORTH]);
 
-/* As figures: what it is, its certificate, `found` in measurements (lines of a key and a value), and the verdict; a
- * closed form has neither certificate nor verdict. */
-void describe(figures *f, const chosen_distribution *of, const char *found, const char *verdict);
+/* The same of a table or a family behind "within 0.05% of exact above the horizon, 1.2% below; 4.1 KiB; ". */
+int describe_verdict(const chosen_distribution *of, char verdict[DESCRIBE_VERDICT]);
+
+/* As figures: what it is, its certificate, and its end: notes, and the verdict, a doubtful one on stderr too, with or
+ * without -q. A closed form has neither certificate nor end. */
+void describe(figures *f, const chosen_distribution *of);
+void describe_end(figures *f, const chosen_distribution *of);
 
 #endif

@@ -31,7 +31,7 @@ class Distribution(Stored):
 
     @property
     def info(self) -> Any:
-        """source, tool, bytes, memory, cells, moments, normalization, scale, certificate (vndf_info)."""
+        """source, tool, notes, bytes, memory, cells, moments, normalization, scale, certificate (vndf_info)."""
         return Info(*values(library.distribution_info(self._pointer))[:-1], self.certificate)
 
     @property
