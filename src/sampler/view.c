@@ -144,7 +144,7 @@ VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *p
     if (view->distribution) {
         weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
         n = frame_sampled(vndf_state_of(view)->f, w.n);
-        factor = w.weight;
+        factor = n.pdf > 0.0f ? w.weight : 0.0f;
     }
     if (pdf)
         *pdf = n.pdf;
@@ -336,7 +336,9 @@ float vndf_view_own_area(const vndf_view *view)
 float vndf_view_drawn_area(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    if (!view->distribution || !vndf_is_table(view->distribution))
+    if (!view->distribution || !(s->f.densest > 0.0f))
+        return 0.0f;
+    if (!vndf_is_table(view->distribution))
         return vndf_view_own_area(view);
     return law_drawn_area(s->of.table.v, vndf_is_below(s)) * frame_reach(s->f) * s->f.size;
 }

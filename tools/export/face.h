@@ -158,6 +158,8 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         weight = both_drawn.weight;
     }
     const sampled_normal s = frame_sampled(view.at, n);
+    if (!(s.pdf > 0.0f))
+        weight = 0.0f;
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
@@ -207,6 +209,8 @@ typedef struct vndf_mixture_view {
 HERE float drawn_area(vndf_view view)
 {
     float area = view.unit_area;
+    if (!(view.at.densest > 0.0f))
+        return 0.0f;
     if (view.surface.distribution >= 0)
         area = law_drawn_area(view.v, view.below) * frame_reach(view.at);
     return area * view.at.size;
@@ -303,7 +307,7 @@ HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
     float before = 0.0f, share = lobes.share[0], density = 0.0f;
     int at = 0;
     for (int i = 1; i < VNDF_LOBES; i++)
-        if (at == i - 1 && i < lobes.count && u1 >= before + share) {
+        if (i < lobes.count && lobes.share[i] > 0.0f && u1 >= before + share) {
             before = before + share;
             at = i;
             chosen = lobes.lobe[i];
