@@ -109,7 +109,7 @@ HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length
     piece all = law_cell_all(t, i);
     real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
     real z = most(r.z, 1e-36f * r.x); /* which rounding makes 0 at the very end */
-    if (below) { /* from the place in what is seen of the cell to that in the cell */
+    if (below) {                      /* from the place in what is seen of the cell to that in the cell */
         part = pick(at_most(to_real(i), to_real(v.first)), v.near, part);
         rest = rest * part;
         over = under - rest;

@@ -61,7 +61,7 @@ typedef struct frame {
     real scale;       /* (ux, uy, uz) is this times w of the scaled wi */
     real size;        /* w of wi as it was given is this times (ux, uy, uz) */
     real determinant; /* |det M| */
-    real densest;     /* the largest density: 0 within 1e-10 of straight from below, where nothing is seen */
+    real densest;     /* the largest density: 0 within 1e-15 of straight from below, where nothing is seen */
     real near;        /* below this cosine to the scaled wi, rounding may turn a normal away */
 } frame;
 
@@ -112,9 +112,9 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
     mask odd = either(less(square, set(1e-4f)), less(set(1e4f), square));
     if (any(odd))
         f = frame_scaled(f, odd);
-    mask upright = at_most(under, 1e-19f * square);
+    mask upright = at_most(under, 1e-29f * square);
     if (any(upright)) {
-        upright = both(at_most(size(f.ux) + size(f.uy), -1e-10f * f.uz), less(f.uz, set(0.0f)));
+        upright = both(at_most(size(f.ux) + size(f.uy), -1e-15f * f.uz), less(f.uz, set(0.0f)));
         f.densest = pick(upright, set(0.0f), f.densest);
     }
     return f;

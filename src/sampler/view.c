@@ -144,7 +144,7 @@ VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *p
     if (view->distribution) {
         weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
         n = frame_sampled(vndf_state_of(view)->f, w.n);
-        factor = n.pdf > 0.0f ? w.weight : 0.0f;
+        factor = w.weight;
     }
     if (pdf)
         *pdf = n.pdf;

@@ -1,7 +1,8 @@
-/* What is invalid has the one result that vndf.h states, for surfaces, matrices and mixtures; and mixtures, with
- * weights 1e-30 to 1e30 and lobes up to 1e4 apart, give a unit normal with wm.z >= 0 that faces wi, with a density
- * within [FLT_MIN, FLT_MAX], from straight up to where 1e-10 of the area is left; where areas vanish weights are
- * shares; one lobe has the bits of its surface. What test_stress asks of one distribution holds too where the caller
+/* What is invalid has the one result that vndf.h states, for surfaces, matrices and mixtures. What is valid gives a unit
+ * normal with wm.z >= 0 that faces wi, with a density within [FLT_MIN, FLT_MAX] and a finite weight, or from
+ * straight below density 0: mixtures with weights 1e-38 to 1e38, matrices and mean slopes to the ends of
+ * what is valid, of any condition, directions of any length. No quantity is infinite or NaN. Where areas vanish weights
+ * are shares; one lobe has the bits of its surface. What test_stress asks of one distribution holds too where the caller
  * has the processor flush denormals to zero and read them as zero, as renderers do (batches: test_batch). */
 #include <float.h>
 
@@ -10,33 +11,60 @@
 
 /* ---- mixtures ---- */
 
-/* Where less than 1e-10 of what is seen at grazing incidence is left, nothing is promised but no harm. */
+/* Whether all lobes are seen from straight below, as vndf.h says it, or those that are not have no area that a float
+ * holds; rounding moves what a matrix and a mean slope make of wi. */
+static int is_straight_below(const seen *s)
+{
+    const double largest = fmax((double)s->of.lobe[0].weight, (double)s->of.lobe[1].weight);
+    int straight = 1;
+    for (int i = 0; i < s->of.count && (i == 0 || s->kind == SEEN_MIXTURE); i++) {
+        const vndf_affine *a = &s->of.lobe[i].surface;
+        const double unit = vndf_distribution_info(a->distribution).scale, wx = (double)s->wi.x,
+                     wy = (double)s->wi.y;
+        const double xx = unit * (double)a->xx * wx, xy = unit * (double)a->xy * wx,
+                     yx = unit * (double)a->yx * wy, yy = unit * (double)a->yy * wy, mx = wx * (double)a->mean_x,
+                     my = wy * (double)a->mean_y;
+        const double level = fabs(xx + yx) + fabs(xy + yy), up = (double)s->wi.z - mx - my;
+        const double off = 1e-6 * (fabs(xx) + fabs(xy) + fabs(yx) + fabs(yy));
+        const double area = (double)s->of.lobe[i].weight / largest * (double)vndf_affine_projected_area(a, s->wi);
+        straight &= (s->kind == SEEN_MIXTURE && area <= 1e-30) ||
+                    level - off <= 1e-15 * (1e-6 * (fabs((double)s->wi.z) + fabs(mx) + fabs(my)) - up);
+    }
+    return straight;
+}
+
 static void check_view(const seen *s, const char *name, unsigned long long *state)
 {
     static const float edges[] = {0, FLT_TRUE_MIN, 0x1p-24f, 0.25f, 0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
     int good = 1;
     for (int i = 0; i < 64 + 8; i++) {
-        float u1 = test_uniform(state), u2 = test_uniform(state), pdf = -1;
+        float u1 = test_uniform(state), u2 = test_uniform(state), pdf = -1, weight = 0;
         vndf_vec3 wm = seen_draw(s, i < 64 ? edges[i / 8] : u1, i < 64 ? edges[i % 8] : u2, &pdf);
-        good &= fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && pdf >= 0 && pdf <= FLT_MAX;
-        good &= !seen_at_all(s, 1e-10f) || (pdf >= FLT_MIN && dot_of(s->wi, wm) > 0);
+        good &= fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && pdf <= FLT_MAX;
+        good &= pdf >= FLT_MIN ? dot_of(s->wi, wm) > 0 : pdf == 0 && is_straight_below(s);
+        if (s->kind != SEEN_MIXTURE)
+            vndf_sample_weight(&s->view, i < 64 ? edges[i / 8] : u1, i < 64 ? edges[i % 8] : u2, NULL, &weight);
+        good &= weight >= 0 && weight <= FLT_MAX;
+        for (int q = 0; q < QUANTITIES; q++)
+            good &= fabsf(seen_quantity(s, (quantity)q, q < AREA ? wm : s->wi)) <= FLT_MAX;
     }
     if (!TEST(good) && test_failures < 20)
         seen_print(s, name);
 }
 
+static const double cosines[] = {1,      0.5,   0.1,   1e-2, 1e-4, 1e-7, 1e-20, 1e-42, 0,     -0.0,
+                                 -1e-42, -1e-7, -1e-2, -0.1, -0.3, -0.6, -0.9,  -0.97, -0.99, -1};
+
 static void check_mixtures(const vndf_distribution *d, const char *name, unsigned long long *state)
 {
-    static const double cosines[] = {1,      0.5,   0.1,   1e-2, 1e-4, 1e-7, 1e-20, 1e-42, 0,    -0.0,
-                                     -1e-42, -1e-7, -1e-2, -0.1, -0.3, -0.6, -0.9,  -0.97, -0.99};
     for (size_t i = 0; i < test_amount(60, 600, 6000); i++) {
         const vndf_distribution *other = i % 2 ? vndf_ggx() : vndf_beckmann();
         float a = (float)random_decade(state, -4, 0), b = (float)random_decade(state, -4, 0);
         float mean = i % 3 ? (float)random_between(state, 0, 2) : 0, shear = i % 4 ? 0 : b / 2;
         const float mirrored = i % 5 ? a : -a;
         const vndf_mixture of = {2,
-                                 {{{d, mirrored, shear, 0, b, mean, 0}, (float)random_decade(state, -30, 30)},
-                                  {{other, b, 0, -shear, a, 0, mean}, (float)random_decade(state, -30, 30)}}};
+                                 {{{d, mirrored, shear, 0, b, mean, 0}, (float)random_decade(state, -38, 38)},
+                                  {{other, b, 0, -shear, a, 0, mean}, (float)random_decade(state, -38, 38)}}};
         double z = cosines[i % (sizeof cosines / sizeof *cosines)], phi = random_between(state, -PI, PI);
         if (i % 7 == 0) /* in the mean plane of a lobe */
             z = sin(atan((double)mean * cos(phi)));
@@ -50,6 +78,47 @@ static void check_mixtures(const vndf_distribution *d, const char *name, unsigne
         vndf_vec3 a_wm = seen_draw(&one, u1, u2, &pdf), b_wm = seen_draw(&mixed, u1, u2, &density);
         TEST(memcmp(&a_wm, &b_wm, sizeof a_wm) == 0 && pdf == density);
     }
+}
+
+/* ---- ends of what is valid ---- */
+
+/* A matrix with these singular values, turned on both sides. */
+static vndf_affine turned_matrix(const vndf_distribution *d, double a, double b, unsigned long long *state)
+{
+    const double p = random_between(state, -PI, PI), q = random_between(state, -PI, PI);
+    const double c = cos(p), s = sin(p), e = cos(q), f = sin(q);
+    return (vndf_affine){d,
+                         (float)(c * a * e - s * b * f),
+                         (float)(-c * a * f - s * b * e),
+                         (float)(s * a * e + c * b * f),
+                         (float)(-s * a * f + c * b * e),
+                         0,
+                         0};
+}
+
+static void check_ends(const vndf_distribution *d, const char *name, unsigned long long *state)
+{
+    const double unit = 1 / vndf_distribution_info(d).scale;
+    size_t valid = 0, count = test_amount(200, 2000, 20000);
+    for (size_t i = 0; i < count; i++) {
+        const double larger = unit * random_decade(state, -15, i % 4 ? 15 : 1);
+        const double lesser = larger * random_decade(state, i % 4 ? -15 : -9, 0),
+                     phi = random_between(state, -PI, PI);
+        const double z = cosines[i % (sizeof cosines / sizeof *cosines)], length = random_decade(state, -20, 20);
+        const double across = length * sqrt((1 - z) * (1 + z)) * (i % 5 ? 1 : random_decade(state, -20, 0));
+        const double wi[3] = {across * cos(phi), i % 7 ? across * sin(phi) : 0, length * z};
+        vndf_mixture of = {2,
+                           {{turned_matrix(d, larger, lesser, state), 1}, {seen_straight(vndf_ggx(), 1, 1), 1}}};
+        of.lobe[1].weight = (float)random_decade(state, -44, 38);
+        of.lobe[0].surface.mean_x = (float)(i % 3 ? 0 : random_decade(state, -6, 6));
+        seen one = seen_from(SEEN_AFFINE, &of, vec3_of(wi)), mixed = seen_from(SEEN_MIXTURE, &of, vec3_of(wi));
+        if (!one.view.distribution)
+            continue;
+        valid++;
+        check_view(&one, name, state);
+        check_view(&mixed, name, state);
+    }
+    TEST(valid > count / 2);
 }
 
 /* ---- invalid input ---- */
@@ -69,6 +138,12 @@ static int gives_nothing(const seen *s)
 static void check_invalid(const vndf_distribution *d)
 {
     static const float bad[] = {NAN, INFINITY, -INFINITY, 0, -1, 1e30f};
+    static const vndf_affine beyond[] = {{NULL, 1.1e15f, 0, 0, 1, 0, 0},
+                                         {NULL, 1, 0, 0, 1, 1.1e6f, 0},
+                                         {NULL, 1, 0, 0, 1, 0, -1.1e6f},
+                                         {NULL, 1, 0, 0, 0.9e-15f, 0, 0},
+                                         {NULL, 1e4f, 1e4f, 1, 1, 0, 0}};
+    static const float lengths[] = {FLT_TRUE_MIN, 0.9e-20f, 1.1e20f, FLT_MAX};
     const vndf_vec3 wi = {0.6f, 0, 0.8f};
     for (int i = 0; i < 6; i++) {
         const vndf_vec3 odd = {i < 3 ? bad[i] : 0, 0, i < 3 ? 1.0f : 0};
@@ -83,6 +158,17 @@ static void check_invalid(const vndf_distribution *d)
         TEST(gives_nothing(&a));
         TEST(i == 4 || gives_nothing(&b)); /* a matrix may mirror */
         TEST(i == 5 || gives_nothing(&c));
+    }
+    for (int i = 0; i < 5; i++) {
+        vndf_affine a = beyond[i];
+        const float per = (float)(1 / vndf_distribution_info(d).scale);
+        a.distribution = d, a.xx *= per, a.xy *= per, a.yx *= per, a.yy *= per;
+        seen s = seen_from(SEEN_AFFINE, &(vndf_mixture){1, {{a, 1}}}, wi);
+        TEST(gives_nothing(&s));
+    }
+    for (int i = 0; i < 4; i++) {
+        seen s = seen_surface(d, 0.3f, 0.3f, (vndf_vec3){0, lengths[i], 0});
+        TEST(gives_nothing(&s));
     }
     seen none = seen_surface(NULL, 1, 1, wi);
     TEST(gives_nothing(&none));
@@ -131,6 +217,7 @@ static void test_subject(const subject *of, size_t index)
 {
     unsigned long long state = 1 + index;
     check_mixtures(of->d, of->name, &state);
+    check_ends(of->d, of->name, &state);
     check_invalid(of->d);
     check_numbers(of->d);
     check_vanished(of->d);

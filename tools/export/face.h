@@ -158,8 +158,6 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         weight = both_drawn.weight;
     }
     const sampled_normal s = frame_sampled(view.at, n);
-    if (!(s.pdf > 0.0f))
-        weight = 0.0f;
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }

@@ -359,7 +359,7 @@ HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
         if (b->write[3])
             put(b, 3, g, s.pdf);
         if (b->write[4])
-            put(b, 4, g, pick(less(set(0.0f), s.pdf), kind == VNDF_KIND_TABLE ? weight[g] : set(1.0f), set(0.0f)));
+            put(b, 4, g, kind == VNDF_KIND_TABLE ? weight[g] : set(1.0f));
     }
 }
 
@@ -554,7 +554,8 @@ HERE int is_one_sort(block *b, const int sided)
     const mask none = less(set(0.0f), set(0.0f));
     mask good = (mask)~none, below = none, above = none;
     for (int g = 0; g < b->groups; g++) {
-        real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g), height = input(b, VNDF_READ_WI_Z, g);
+        real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
+             height = input(b, VNDF_READ_WI_Z, g);
         if (!b->plain)
             height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
         good = both(good, valid_at(b, g));
