@@ -142,7 +142,7 @@ static void check_invalid(const vndf_distribution *d)
                                          {NULL, 1, 0, 0, 1, 1.1e6f, 0},
                                          {NULL, 1, 0, 0, 1, 0, -1.1e6f},
                                          {NULL, 1, 0, 0, 0.9e-15f, 0, 0},
-                                         {NULL, 1e4f, 1e4f, 1, 1, 0, 0}};
+                                         {NULL, 1, 1, 1, 1, 0, 0}};
     static const float lengths[] = {FLT_TRUE_MIN, 0.9e-20f, 1.1e20f, FLT_MAX};
     const vndf_vec3 wi = {0.6f, 0, 0.8f};
     for (int i = 0; i < 6; i++) {
