@@ -341,10 +341,10 @@ typedef struct vndf_affine {
 } vndf_affine;
 
 /* The view of an affine surface. Invalid are, of the matrix times the scale of the distribution, an entry above 1e15, a
- * determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a component of the mean slope above 1e6.
+ * determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x or y.
  * The numbers u1 and u2 mean what they mean for vndf_sample in the frame of the slopes u, seen from (M^T wi_xy, wi'.z),
- * which say what is straight below, too. A sheared matrix whose singular values are k apart, rounded as its entries are,
- * draws normals that are off by k roundings, so their densities beside vndf_pdf are too; nothing else is lost. */
+ * which say what is straight below, too. Where the singular values of a sheared matrix are k apart, rounding moves a
+ * normal k times as far, and its density beside vndf_pdf with it. */
 VNDF_API vndf_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 
 VNDF_API float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm);
@@ -359,8 +359,8 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
 /* A surface with D = sum of w_i D_i, w_i the weights divided by their sum: a core and a haze, or neighbours of a
  * family. A mixture is one microsurface, where a blend of BSDFs has several: it masks as a whole, A = sum of w_i
  * A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH
- * 2023). Weights are >= 0 and finite; a lobe of weight 0, or of none that floats hold when it is divided by the largest,
- * is not read. A plain value without memory of its own. */
+ * 2023). Weights are >= 0 and finite; a lobe of weight 0, or of one that is 0 when it is divided by the
+ * largest, is not read. A plain value without memory of its own. */
 typedef struct vndf_mixture_lobe {
     vndf_affine surface;
     float weight;

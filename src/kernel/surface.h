@@ -32,8 +32,8 @@ HERE affine_map affine_measured(affine_map bare)
     return m;
 }
 
-/* No entry above 1e15 and, as the determinant over the largest, no singular value below 1e-15: floats hold their squares
- * and cubes; mean slopes up to 1e6. NaN fails all comparisons, and makes the determinant NaN. */
+/* No entry above 1e15 and, as the determinant over the largest, no singular value below 1e-15: floats hold their
+ * squares and cubes; mean slopes up to 1e6. NaN fails all comparisons, and makes the determinant NaN. */
 HERE mask affine_is_valid(affine_map m)
 {
     real determinant = size(m.determinant), largest = most(m.xx, m.yy);
@@ -137,15 +137,10 @@ HERE triple triple_times(triple w, real k)
     return t;
 }
 
-HERE real triple_longest(triple w)
-{
-    return most(most(size(w.x), size(w.y)), size(w.z));
-}
-
 /* 1, or where the length is not within `low` and `high`, nor 0, the power of two that makes it about 1. */
 HERE real triple_scale(triple w, real low, real high)
 {
-    real longest = triple_longest(w);
+    real longest = most(most(size(w.x), size(w.y)), size(w.z));
     mask odd = either(both(less(set(0.0f), longest), less(longest, low)), less(high, longest));
     return pick(odd, inverse_scale(longest), set(1.0f));
 }
@@ -155,7 +150,7 @@ HERE real triple_scale(triple w, real low, real high)
 HERE triple triple_turned_back(triple wi, triple n)
 {
     real a = wi.x * n.x, b = wi.y * n.y, c = wi.z * n.z;
-    real tiny = 1e-12f * triple_longest(n); /* all terms may be 0 */
+    real tiny = 1e-12f * most(most(size(n.x), size(n.y)), n.z); /* all terms may be 0 */
     real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
     triple way = {wi.x, wi.y, most(wi.z, set(0.0f))};
     real k = triple_scale(way, set(1e-10f), set(1e10f)), per = 1.0f / k;

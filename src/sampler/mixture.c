@@ -55,8 +55,8 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
 
 /* ---- samples and densities ---- */
 
-/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. It is 0 where no
- * lobe sees wm. */
+/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. It is 0 where
+ * no lobe sees wm. */
 static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn_lobe, float known)
 {
     float sum = 0.0f, largest = 0.0f;

@@ -3,8 +3,8 @@
  *     same_bits COUNT [TABLE...]
  *
  * after COUNT steps. A line has the hash after so many steps, that number, and the distribution: one after PREFIX, so
- * that a slow machine that takes fewer is compared with a fast one, and one after COUNT. The last line is the sum of the
- * hashes after PREFIX: the number of README.md.
+ * that a slow machine that takes fewer is compared with a fast one, and one after COUNT. The last line is the sum of
+ * the hashes after PREFIX: the number of README.md.
  * test_same_bits.cmake compares differently compiled copies. */
 #include <stdlib.h>
 

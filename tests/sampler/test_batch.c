@@ -1,9 +1,9 @@
 /* Every batch call gives, to the bit, what the call for one element gives: surfaces, affine ones and mixtures, for
  * every instruction set, counts that fill no register, arrays without alignment, shared roughness, directions and
  * weights, matrices that are absent, results in the place of inputs, inputs at the edge of what is valid or beyond,
- * directions of length 1e-22 to 1e22, roughness 1e-16 to 1e16 and weights 1e-44 to 1e38, also where denormals are flushed to
- * zero. It notices a lane that goes another way than one alone, and a block's end. With the argument avx2 or avx512
- * that set alone. */
+ * directions of length 1e-22 to 1e22, roughness 1e-16 to 1e16 and weights 1e-44 to 1e38, also where denormals are
+ * flushed to zero. It notices a lane that goes another way than one alone, and a block's end. With the argument avx2 or
+ * avx512 that set alone. */
 #include "sampler/seen.h"
 
 enum { MOST = 600 };

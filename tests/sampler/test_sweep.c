@@ -10,7 +10,7 @@
 #include "vndf.h"
 
 enum { BLOCK = 1 << 10, NEAR_PDF = 64 };
-static const double ROUNDINGS = 0x1p-21; /* of two normals */
+static const double ROUNDINGS = 12 * 0x1p-24; /* of two normals, and of masses */
 
 typedef struct sweep {
     vndf_batch batch;
@@ -77,18 +77,13 @@ static void check_table(const char *path, size_t stride)
         s.wi = (vndf_vec3){(float)sin(theta), 0, (float)cos(theta)};
         s.view = vndf_view_from(&surface, s.wi);
         s.of_u2 = i % 2;
-        s.batch = (vndf_batch){.distribution = d,
-                               .count = BLOCK,
-                               .shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
-                               .alpha_x = &alpha,
-                               .alpha_y = &alpha,
-                               .wi_x = &s.wi.x,
-                               .wi_y = &s.wi.y,
-                               .wi_z = &s.wi.z};
+        s.batch = (vndf_batch){d, BLOCK, VNDF_SHARED_ALPHA | VNDF_SHARED_WI, 0, &alpha, &alpha, .wi_x = &s.wi.x};
+        s.batch.wi_y = &s.wi.y, s.batch.wi_z = &s.wi.z;
         sweep_numbers(&s, stride, s.of_u2 ? 0.37f : 0.61f);
     }
-    const int good = TEST(s.bad == 0) & TEST(s.back == 0) & TEST((double)s.beyond[0] <= 1e-4 * (double)s.asked) &
-                     TEST((double)s.beyond[1] <= 1e-3 * (double)s.asked);
+    const double asked = (double)s.asked; /* and an end of each of 20 lines */
+    const int good = TEST(s.bad == 0) & TEST(s.back == 0) & TEST((double)s.beyond[0] <= 1e-4 * asked + 20) &
+                     TEST((double)s.beyond[1] <= 1e-3 * asked + 20);
     if (!good || stride == 1)
         fprintf(stderr, "%s: %ld bad, %ld back, of %ld densities %ld and %ld off\n", path, s.bad, s.back, s.asked,
                 s.beyond[1], s.beyond[0]);

@@ -133,8 +133,8 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
     }
 }
 
-/* Densities, by the shares of lobes: where a lobe sees the normal none is 0. D, areas and what masking makes of them, by
- * the weights. */
+/* Densities, by the shares of lobes: where a lobe sees the normal none is 0. D, areas and what masking makes of them,
+ * by the weights. */
 static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
 {
     const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
