@@ -179,7 +179,7 @@ static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, int ext
         numbers[WI_Z] = (float)(length * (side < ALL_ABOVE && (i % 14 == 0) != side ? -z : z));
         numbers[NX] = wm.x, numbers[NY] = wm.y, numbers[NZ] = wm.z;
         if (i % 9 == 0)
-            numbers[U1 + i / 9 % 2] = i % 2 ? 1.0f : 0.0f;
+            numbers[U1 + i / 9 % 2] = i / 18 % 2 ? 1.0f : 0.0f;
         if (i % 23 == 5)
             numbers[test_random_bits(state) % INPUTS] = odd[test_random_bits(state) % 8];
         for (int j = 0; j < INPUTS; j++)
