@@ -182,6 +182,7 @@ int main(int arguments, char **argument)
     if (TEST(tail != NULL))
         check_valid(tail, "c^-0.7", test_amount(1200, 1200, 12000), &state);
     check_beyond();
+    TEST(strcmp(vndf_version(), VNDF_VERSION) == 0);
     vndf_free(tail);
     vndf_source_free(source);
     return subjects_test(arguments, argument, test_subject);
