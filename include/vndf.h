@@ -187,12 +187,13 @@ typedef struct vndf_view {
     float numbers[VNDF_VIEW_NUMBERS];      /* private */
 } vndf_view;
 
-/* wi may have any length but 0 that a float can hold. Invalid input gives an invalid view: NULL, a direction that
- * is zero or not finite, alpha times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15,
- * 1e15]. From an invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
+/* wi may have any length: |x| + |y| + |z| within [1e-20, 1e20]. Invalid input gives an invalid view: NULL, another
+ * length, NaN, alpha times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15, 1e15]. From an
+ * invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: the density is D(wm) cos(theta_m), and u1
- * turns the normal from -x through +x. From straight below no normal is visible: samples have density 0. */
+ * turns the normal from -x through +x. From straight below no normal is visible: samples have density 0 and may be
+ * turned away; so it is where |alpha_x wi.x| + |alpha_y wi.y|, times that scale, is at most 1e-15 |wi.z|. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). It has unit length
@@ -208,7 +209,8 @@ VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float 
 
 /* The same, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an estimator with Dv
  * in it is multiplied; faster than the three calls. The weight has the accuracy of the densities (head of this
- * file) and of the projected area (area_error of the certificate). It is 1 for closed forms. `pdf` may be NULL. */
+ * file) and of the projected area (area_error of the certificate); it is finite, 0 where next to no area is seen from
+ * below, and 1 for closed forms. `pdf` may be NULL. */
 VNDF_API vndf_vec3 vndf_sample_weight(const vndf_view *view, float u1, float u2, float *pdf, float *weight);
 
 /* The density per steradian with which vndf_sample draws wm, a unit vector: 0 where wm.z < 0 or wi.wm <= 0,
@@ -343,9 +345,11 @@ typedef struct vndf_affine {
     float mean_x, mean_y;
 } vndf_affine;
 
-/* The view of an affine surface. Also invalid are, of the matrix times the scale of the distribution, an entry
- * above 1e15 or a determinant outside [1e-36, 1e36], and a mean slope above 1e6. The numbers u1 and u2 mean what
- * they mean for vndf_sample in the frame of the slopes u, seen from (M^T wi_xy, wi'.z). */
+/* The view of an affine surface. Invalid are, of the matrix times the scale of the distribution, an entry above 1e15, a
+ * determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x or y.
+ * The numbers u1 and u2 mean what they mean for vndf_sample in the frame of the slopes u, seen from (M^T wi_xy, wi'.z),
+ * which say what is straight below, too. Where the singular values of a sheared matrix are k apart, rounding moves a
+ * normal k times as far, and its density beside vndf_pdf with it. */
 VNDF_API vndf_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
 
 VNDF_API float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm);
@@ -360,7 +364,8 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
 /* A surface with D = sum of w_i D_i, w_i the weights divided by their sum: a core and a haze, or neighbours of a
  * family. A mixture is one microsurface, where a blend of BSDFs has several: it masks as a whole, A = sum of w_i
  * A_i, and Dv = sum of (w_i A_i/A) Dv_i (d'Eon et al., "Microfacet Theory for Non-Uniform Heightfields", SIGGRAPH
- * 2023). Weights are >= 0 and finite; a lobe of weight 0 is not read. A plain value without memory of its own. */
+ * 2023). Weights are >= 0 and finite; a lobe of weight 0, or of one that is 0 when it is divided by the
+ * largest, is not read. A plain value without memory of its own. */
 typedef struct vndf_mixture_lobe {
     vndf_affine surface;
     float weight;
@@ -389,7 +394,7 @@ VNDF_API vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, v
 /* u1 picks a lobe by its interval of [0, 1], which is as long as w_i A_i/A; stretched to [0, 1] it draws, with u2,
  * from the lobe. The cost is one draw, and one density for each lobe. *pdf, unless NULL, receives the density of
  * the whole; *lobe, unless NULL, the index of the lobe, or -1 for an invalid view. The map is continuous and
- * monotone within each lobe. */
+ * monotone within each lobe. Where no lobe has an area that a float holds, weights pick, and the density may be 0. */
 VNDF_API vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe);
 VNDF_API float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm);
 VNDF_API float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm);

@@ -308,7 +308,7 @@ typedef enum vndf_lobe {
 } vndf_lobe;
 
 typedef struct vndf_scattered {
-    vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23 */
+    vndf_vec3 wo;                   /* unit within 10 ulps of 2^-23, of transmission 2 max(eta, 1/eta) more */
     float weight[VNDF_WAVELENGTHS]; /* f |cos_o| / density ("Accuracy" above); through V-cavities to 2e-5 of 1 */
     float density; /* per steradian, at least FLT_MIN; vndf_bsdf_pdf of wo, but for its rounding */
     vndf_lobe lobe;

@@ -101,20 +101,25 @@ HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
     return n;
 }
 
-/* The visible density over the density as drawn, where the slope length is that of f at that place of the cell. */
+/* The visible density over the density as drawn, where the slope length is that of f at that place of the cell; 0 from
+ * below where next to nothing is seen. */
 HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length r, arc k, real area,
                        const int below)
 {
     piece all = law_cell_all(t, i);
     real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
-    if (below) { /* from the place in what is seen of the cell to that in the cell */
+    real z = most(r.z, 1e-36f * r.x); /* which rounding makes 0 at the very end */
+    if (below) {                      /* from the place in what is seen of the cell to that in the cell */
         part = pick(at_most(to_real(i), to_real(v.first)), v.near, part);
         rest = rest * part;
         over = under - rest;
     }
     real below_all = law_below(all, over, rest),
-         f_mass = law_of_f(all, over, rest, r.x, r.z) * f.at.per / (below_all * below_all);
-    return f_mass * part * ((in.below * v.total) / (in.root * area)) * (0.318309886f * k.mass * k.sum / r.z);
+         f_mass = law_of_f(all, over, rest, r.x, z) * f.at.per / (below_all * below_all);
+    real weight = f_mass * part * ((in.below * v.total) / (in.root * area)) * (0.318309886f * k.mass * k.sum / z);
+    if (below)
+        weight = pick(less(set(1e-30f), area), weight, set(0.0f));
+    return weight;
 }
 
 /* ---- given normals ---- */

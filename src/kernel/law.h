@@ -92,7 +92,8 @@ HERE whole law_eighth(real rho)
 }
 
 /* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose
- * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). */
+ * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). A part that u2 = 0 alone would draw, far too
+ * often for its mass, is not drawn. */
 HERE seen law_see_above(table t, real s, real c, real rho)
 {
     seen v;
@@ -110,7 +111,7 @@ HERE seen law_see_above(table t, real s, real c, real rho)
     v.w = law_weights_at(w, c, either(same(v.first, t.cells), same(eighth, VNDF_RHO_PARTS - 1)));
     real near = c * most(1.0f - tail.b, set(0.0f));
     v.total = near + law_sum(v.w, tail);
-    v.near = pick(same(v.first, 0), set(0.0f), near);
+    v.near = pick(either(same(v.first, 0), less(near, 1e-12f * v.total)), set(0.0f), near);
     return v;
 }
 

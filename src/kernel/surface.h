@@ -32,25 +32,25 @@ HERE affine_map affine_measured(affine_map bare)
     return m;
 }
 
-/* Singular values from 1e-15, the determinant over the largest entry, to 1e15, whose squares and cubes floats hold;
- * mean slopes up to 1e6. NaN fails all comparisons. */
+/* No entry above 1e15 and, as the determinant over the largest, no singular value below 1e-15: floats hold their
+ * squares and cubes; mean slopes up to 1e6. NaN fails all comparisons, and makes the determinant NaN. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = size(m.determinant), means = set(0.0f), entries = m.xx + m.yy;
+    real determinant = size(m.determinant), largest = most(m.xx, m.yy);
+    mask small = at_most(determinant, set(1e36f));
     if (m.plain == 0) {
-        means = size(m.mean_x) + size(m.mean_y);
-        entries = (size(m.xx) + size(m.xy)) + (size(m.yx) + size(m.yy));
+        largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
+        small = both(small, both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f))));
     }
-    mask large = at_most(most(entries * 4e-16f, set(1e-36f)), determinant);
-    mask small = both(at_most(entries, set(2e15f)), at_most(means, set(2e6f)));
-    return both(both(large, small), at_most(determinant, set(1e36f)));
+    mask large = at_most(most(largest * 1e-15f, set(1e-36f)), determinant);
+    return both(both(large, small), at_most(largest, set(1e15f)));
 }
 
-/* Not zero, infinite or NaN. */
+/* Of a length that stays a float when it is stretched; not NaN. */
 HERE mask direction_is_valid(real x, real y, real z)
 {
-    real nothing = ((x - x) + (y - y)) + (z - z); /* NaN of what is infinite */
-    return both(less(set(0.0f), (size(x) + size(y)) + size(z)), at_most(nothing, set(0.0f)));
+    real length = (size(x) + size(y)) + size(z);
+    return both(at_most(set(1e-20f), length), at_most(length, set(1e20f)));
 }
 
 /* A direction wi on a surface. Scales are powers of two, 1 for ordinary directions. */
@@ -61,7 +61,7 @@ typedef struct frame {
     real scale;       /* (ux, uy, uz) is this times w of the scaled wi */
     real size;        /* w of wi as it was given is this times (ux, uy, uz) */
     real determinant; /* |det M| */
-    real densest;     /* the largest density: 0 straight from below, where nothing is seen */
+    real densest;     /* the largest density: 0 within 1e-15 of straight from below, where nothing is seen */
     real near;        /* below this cosine to the scaled wi, rounding may turn a normal away */
 } frame;
 
@@ -112,9 +112,9 @@ HERE frame frame_of(affine_map m, real x, real y, real z)
     mask odd = either(less(square, set(1e-4f)), less(set(1e4f), square));
     if (any(odd))
         f = frame_scaled(f, odd);
-    mask upright = at_most(under, set(0.0f));
+    mask upright = at_most(under, 1e-29f * square);
     if (any(upright)) {
-        upright = both(both(at_most(size(f.ux) + size(f.uy), set(0.0f)), less(f.uz, set(0.0f))), upright);
+        upright = both(at_most(size(f.ux) + size(f.uy), -1e-15f * f.uz), less(f.uz, set(0.0f)));
         f.densest = pick(upright, set(0.0f), f.densest);
     }
     return f;
@@ -131,16 +131,45 @@ HERE real frame_density(frame f, real density)
     return least(most(density, set(1.17549435e-38f)), f.densest);
 }
 
-/* Turns it to wi where rounding may have turned it away: wi . wm exceeds what three more roundings may take. */
-HERE triple frame_turned_back(frame f, triple n)
+HERE triple triple_times(triple w, real k)
 {
-    real up = most(f.wz, set(0.0f)), a = f.wx * n.x, b = f.wy * n.y, c = f.wz * n.z;
+    const triple t = {w.x * k, w.y * k, w.z * k};
+    return t;
+}
+
+/* 1, or where the length is not within `low` and `high`, nor 0, the power of two that makes it about 1. */
+HERE real triple_scale(triple w, real low, real high)
+{
+    real longest = most(most(size(w.x), size(w.y)), size(w.z));
+    mask odd = either(both(less(set(0.0f), longest), less(longest, low)), less(high, longest));
+    return pick(odd, inverse_scale(longest), set(1.0f));
+}
+
+/* Turns n, about 1 long, to wi where rounding may have turned it away: wi . wm exceeds what three more roundings may
+ * take. The way is that of wi across z, or its own from above: where this is short, n becomes short too. */
+HERE triple triple_turned_back(triple wi, triple n)
+{
+    real a = wi.x * n.x, b = wi.y * n.y, c = wi.z * n.z;
     real tiny = 1e-12f * most(most(size(n.x), size(n.y)), n.z); /* all terms may be 0 */
     real lack = 3e-7f * (size(a) + size(b) + size(c)) + tiny - (a + b + c);
-    real turn_by = lack / ((f.wx * f.wx + f.wy * f.wy) + (up * up + 1e-30f));
+    triple way = {wi.x, wi.y, most(wi.z, set(0.0f))};
+    real k = triple_scale(way, set(1e-10f), set(1e10f)), per = 1.0f / k;
+    way = triple_times(way, k);
+    real turn_by = lack / ((way.x * way.x + way.y * way.y) + (way.z * way.z + 1e-30f));
     mask away = less(set(0.0f), lack); /* not by a turn of 0: that would make -0 of 0 */
-    triple m = {pick(away, n.x + turn_by * f.wx, n.x), pick(away, n.y + turn_by * f.wy, n.y),
-                pick(away, n.z + turn_by * up, n.z)};
+    triple m = {pick(away, n.x * per + turn_by * way.x, n.x), pick(away, n.y * per + turn_by * way.y, n.y),
+                pick(away, n.z * per + turn_by * way.z, n.z)};
+    return m;
+}
+
+/* A normal that may be turned away, and with its factor of the density those whose squares are no floats. */
+HERE drawn frame_turned_back(frame f, drawn n)
+{
+    triple w = {n.x, n.y, n.z}, wi = {f.wx, f.wy, f.wz};
+    real k = triple_scale(w, set(1e-17f), set(1e17f)), per = 1.0f / k;
+    w = triple_turned_back(triple_times(wi, triple_scale(wi, set(1e-2f), set(1e2f))), triple_times(w, k));
+    w = triple_times(w, triple_scale(w, set(1e-17f), set(1e17f)));
+    const drawn m = {w.x, w.y, w.z, n.density * per * per * per};
     return m;
 }
 
@@ -148,20 +177,25 @@ HERE triple frame_turned_back(frame f, triple n)
 HERE sampled_normal frame_sampled(frame f, drawn n)
 {
     affine_map m = f.m;
-    triple w = {m.xx * n.x, m.yy * n.y, n.z};
+    drawn w = {m.xx * n.x, m.yy * n.y, n.z, n.density};
     if (m.plain == 0) {
         w.x = (w.x + m.xy * n.y) - m.mean_x * n.z;
         w.y = (m.yx * n.x + w.y) - m.mean_y * n.z;
     }
     real square = (w.x * w.x + w.y * w.y) + w.z * w.z, reach = root(square);
-    if (any(at_most((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * reach))) {
-        w = frame_turned_back(f, w);
+    mask close = at_most((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * (reach + 2e-11f));
+    if (any(close)) {
+        drawn turned = frame_turned_back(f, w);
+        w.x = pick(close, turned.x, w.x);
+        w.y = pick(close, turned.y, w.y);
+        w.z = pick(close, turned.z, w.z);
+        w.density = pick(close, turned.density, w.density);
         square = (w.x * w.x + w.y * w.y) + w.z * w.z;
         reach = root(square);
     }
     real per = reach * (1.0f / square);
     sampled_normal s = {w.x * per, w.y * per, w.z * per,
-                        frame_density(f, (n.density * reach) * (square / f.determinant))};
+                        frame_density(f, (w.density * reach) * (square / f.determinant))};
     return s;
 }
 

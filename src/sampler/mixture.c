@@ -36,7 +36,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         return view;
     for (int i = 0; i < mixture->count; i++) {
         vndf_mixture_part *part = &view.part[view.count];
-        if (mixture->lobe[i].weight == 0.0f)
+        if (weight[i] == 0.0f)
             continue;
         vndf_view_make(&part->view, &mixture->lobe[i].surface, wi, 0);
         if (!part->view.distribution) {
@@ -55,28 +55,36 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
 
 /* ---- samples and densities ---- */
 
-/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. */
+/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. It is 0 where
+ * no lobe sees wm. */
 static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn_lobe, float known)
 {
-    float sum = 0.0f;
-    for (int i = 0; i < view->count; i++)
-        sum += view->part[i].share * (i == drawn_lobe ? known : vndf_pdf(&view->part[i].view, wm));
-    return sum;
+    float sum = 0.0f, largest = 0.0f;
+    for (int i = 0; i < view->count; i++) {
+        const float density = i == drawn_lobe ? known : vndf_pdf(&view->part[i].view, wm);
+        sum += view->part[i].share * density;
+        largest = most(largest, density);
+    }
+    return largest > 0.0f ? least(most(sum, FLT_MIN), FLT_MAX) : 0.0f;
 }
 
 vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe)
 {
     vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
-    float begin = 0.0f, density = 0.0f, u = vndf_clamp_unit(u1);
+    float begin = 0.0f, end = 0.0f, density = 0.0f, u = vndf_clamp_unit(u1);
     int i = 0;
-    while (i + 1 < view->count && u >= begin + view->part[i].share)
-        begin += view->part[i++].share;
+    for (int l = 0; l < view->count; l++)
+        if (view->part[l].share > 0.0f && u >= end) { /* the last one takes what rounding leaves */
+            i = l;
+            begin = end;
+            end += view->part[l].share;
+        }
     if (view->count) {
         wm = vndf_sample(&view->part[i].view, (u - begin) / view->part[i].share, u2, &density);
-        density = density > 0.0f ? most(density_with(view, wm, i, density), FLT_MIN) : 0.0f;
+        density = density > 0.0f ? density_with(view, wm, i, density) : 0.0f;
     }
     if (pdf)
-        *pdf = least(density, FLT_MAX);
+        *pdf = density;
     if (lobe)
         *lobe = view->count ? view->part[i].lobe : -1;
     return wm;
@@ -84,8 +92,7 @@ vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2,
 
 float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
 {
-    int is_seen = view->count && vndf_pdf(&view->part[0].view, wm) > 0.0f;
-    return is_seen ? least(most(density_with(view, wm, -1, 0.0f), FLT_MIN), FLT_MAX) : 0.0f;
+    return density_with(view, wm, -1, 0.0f);
 }
 
 float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)

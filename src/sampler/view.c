@@ -336,7 +336,9 @@ float vndf_view_own_area(const vndf_view *view)
 float vndf_view_drawn_area(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    if (!view->distribution || !vndf_is_table(view->distribution))
+    if (!view->distribution || !(s->f.densest > 0.0f))
+        return 0.0f;
+    if (!vndf_is_table(view->distribution))
         return vndf_view_own_area(view);
     return law_drawn_area(s->of.table.v, vndf_is_below(s)) * frame_reach(s->f) * s->f.size;
 }

@@ -3,7 +3,8 @@
  *     same_bits COUNT [TABLE...]
  *
  * after COUNT steps. A line has the hash after so many steps, that number, and the distribution: one after PREFIX, so
- * that a slow machine that takes fewer is compared with a fast one, and one after COUNT.
+ * that a slow machine that takes fewer is compared with a fast one, and one after COUNT. The last line is the sum of
+ * the hashes after PREFIX: the number of README.md.
  * test_same_bits.cmake compares differently compiled copies. */
 #include <stdlib.h>
 
@@ -90,11 +91,14 @@ static unsigned long long hash_step(unsigned long long hash, const vndf_distribu
 
 enum { PREFIX = 20000 };
 
+static unsigned long long sum_at_prefix;
+
 static void print_hashes(const vndf_distribution *distribution, const char *name, unsigned long count)
 {
     unsigned long long state = 20140716, hash = 0xCBF29CE484222325ULL;
     for (unsigned long i = 0; i < count; i++) {
         hash = hash_step(hash, distribution, i, &state);
+        sum_at_prefix += i + 1 == PREFIX ? hash : 0;
         if (i + 1 == PREFIX || i + 1 == count)
             printf("%016llx %lu %s\n", hash, i + 1, name);
     }
@@ -114,5 +118,6 @@ int main(int arguments, char **argument)
             print_hashes(table, slash ? slash + 1 : argument[i], count);
         vndf_free(table);
     }
+    printf("%016llx %d all\n", sum_at_prefix, PREFIX);
     return test_done();
 }

@@ -1,55 +1,70 @@
-/* What is invalid has the one result that vndf.h states, for surfaces, matrices and mixtures; and mixtures, with
- * weights 1e-30 to 1e30 and lobes up to 1e4 apart, give a unit normal with wm.z >= 0 that faces wi, with a density
- * within [FLT_MIN, FLT_MAX], from straight up to where 1e-10 of the area is left; where areas vanish weights are
- * shares; one lobe has the bits of its surface. What test_stress asks of one distribution holds too where the caller
- * has the processor flush denormals to zero and read them as zero, as renderers do (batches: test_batch). */
+/* What is invalid has the one result that vndf.h states, for surfaces, matrices and mixtures. What is valid gives a
+ * unit normal with wm.z >= 0 that faces wi, with a density within [FLT_MIN, FLT_MAX] and a finite weight, or density 0
+ * from straight below: mixtures with weights 1e-38 to 1e38, matrices, mean slopes and lengths of directions to the ends
+ * of what is valid. No quantity is infinite or NaN. Where areas vanish weights are shares; one lobe has the bits of its
+ * surface. What test_stress asks of one distribution holds too where the caller has the processor flush denormals to
+ * zero and read them as zero, as renderers do (batches: test_batch). */
 #include <float.h>
 
 #include "evidence/measure/stress.h"
 #include "sampler/seen.h"
+#include "vndf_build.h"
 
-/* ---- mixtures ---- */
+/* ---- valid input ---- */
 
-/* Where less than 1e-10 of what is seen at grazing incidence is left, nothing is promised but no harm. */
 static void check_view(const seen *s, const char *name, unsigned long long *state)
 {
     static const float edges[] = {0, FLT_TRUE_MIN, 0x1p-24f, 0.25f, 0.5f, 0.5f + 0x1p-24f, 1 - 0x1p-24f, 1};
     int good = 1;
     for (int i = 0; i < 64 + 8; i++) {
-        float u1 = test_uniform(state), u2 = test_uniform(state), pdf = -1;
+        float u1 = test_uniform(state), u2 = test_uniform(state), pdf = -1, weight = 0;
         vndf_vec3 wm = seen_draw(s, i < 64 ? edges[i / 8] : u1, i < 64 ? edges[i % 8] : u2, &pdf);
-        good &= fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && pdf >= 0 && pdf <= FLT_MAX;
-        good &= !seen_at_all(s, 1e-10f) || (pdf >= FLT_MIN && dot_of(s->wi, wm) > 0);
+        good &= fabs(length_of(wm) - 1) <= 4 * 0x1p-23 && wm.z >= 0 && pdf <= FLT_MAX;
+        good &= pdf >= FLT_MIN ? dot_of(s->wi, wm) > 0 : pdf == 0 && seen_quantity(s, LAMBDA, s->wi) == -1;
+        if (s->kind != SEEN_MIXTURE)
+            vndf_sample_weight(&s->view, i < 64 ? edges[i / 8] : u1, i < 64 ? edges[i % 8] : u2, NULL, &weight);
+        good &= weight >= 0 && weight <= FLT_MAX;
+        for (int q = 0; q < QUANTITIES; q++)
+            good &= fabsf(seen_quantity(s, (quantity)q, q < AREA ? wm : s->wi)) <= FLT_MAX;
     }
     if (!TEST(good) && test_failures < 20)
         seen_print(s, name);
 }
 
-static void check_mixtures(const vndf_distribution *d, const char *name, unsigned long long *state)
+/* Ordinary ones by turns with those at the ends of what is valid. */
+static void check_valid(const vndf_distribution *d, const char *name, size_t count, unsigned long long *state)
 {
-    static const double cosines[] = {1,      0.5,   0.1,   1e-2, 1e-4, 1e-7, 1e-20, 1e-42, 0,    -0.0,
-                                     -1e-42, -1e-7, -1e-2, -0.1, -0.3, -0.6, -0.9,  -0.97, -0.99};
-    for (size_t i = 0; i < test_amount(60, 600, 6000); i++) {
-        const vndf_distribution *other = i % 2 ? vndf_ggx() : vndf_beckmann();
-        float a = (float)random_decade(state, -4, 0), b = (float)random_decade(state, -4, 0);
-        float mean = i % 3 ? (float)random_between(state, 0, 2) : 0, shear = i % 4 ? 0 : b / 2;
-        const float mirrored = i % 5 ? a : -a;
-        const vndf_mixture of = {2,
-                                 {{{d, mirrored, shear, 0, b, mean, 0}, (float)random_decade(state, -30, 30)},
-                                  {{other, b, 0, -shear, a, 0, mean}, (float)random_decade(state, -30, 30)}}};
-        double z = cosines[i % (sizeof cosines / sizeof *cosines)], phi = random_between(state, -PI, PI);
-        if (i % 7 == 0) /* in the mean plane of a lobe */
-            z = sin(atan((double)mean * cos(phi)));
-        double across = sqrt((1 - z) * (1 + z));
-        const double wi[3] = {across * cos(phi), across * sin(phi), z};
-        seen s = seen_from(SEEN_MIXTURE, &of, vec3_of(wi));
-        check_view(&s, name, state);
+    static const double cosines[] = {1,      0.5,   0.1,   1e-2, 1e-4, 1e-7, 1e-20, 1e-42, 0,     -0.0,
+                                     -1e-42, -1e-7, -1e-2, -0.1, -0.3, -0.6, -0.9,  -0.97, -0.99, -1};
+    const double unit = 1 / vndf_distribution_info(d).scale;
+    size_t valid = 0;
+    for (size_t i = 0; i < count; i++) {
+        const int wild = i % 2;
+        const double larger = unit * random_decade(state, wild ? -15 : -4, wild ? 15 : 0);
+        const double lesser = larger * random_decade(state, i % 4 == 1 ? -15 : -9, 0);
+        const double mean = i % 3 ? random_decade(state, -6, wild ? 6 : 0) : 0,
+                     phi = random_between(state, -PI, PI);
+        const double z = i % 7 ? cosines[i % (sizeof cosines / sizeof *cosines)] : sin(atan(mean * cos(phi)));
+        const double length = wild ? random_decade(state, -20, 20) : 1, across = length * sqrt((1 - z) * (1 + z));
+        const double wi[3] = {across * cos(phi), i % 11 ? across * sin(phi) : 0, length * z};
+        vndf_mixture of = {2, {{seen_turned(d, larger, lesser, (double)i, phi + 2 * (double)i), 0}}};
+        of.lobe[0].surface.mean_x = (float)mean;
+        of.lobe[0].weight = (float)random_decade(state, -38, 38);
+        of.lobe[1].surface = seen_turned(i % 3 ? vndf_ggx() : vndf_beckmann(), 1, 0.1, phi, phi);
+        of.lobe[1].weight = (float)random_decade(state, -38, 38);
         const vndf_mixture alone = {1, {of.lobe[0]}};
-        const seen one = seen_from(SEEN_AFFINE, &alone, s.wi), mixed = seen_from(SEEN_MIXTURE, &alone, s.wi);
+        seen one = seen_from(SEEN_AFFINE, &alone, vec3_of(wi)), mixed = seen_from(SEEN_MIXTURE, &of, one.wi),
+             lone = seen_from(SEEN_MIXTURE, &alone, one.wi);
+        if (!one.view.distribution)
+            continue;
+        valid++;
+        check_view(&one, name, state);
+        check_view(&mixed, name, state);
         float u1 = test_uniform(state), u2 = test_uniform(state), pdf, density;
-        vndf_vec3 a_wm = seen_draw(&one, u1, u2, &pdf), b_wm = seen_draw(&mixed, u1, u2, &density);
+        vndf_vec3 a_wm = seen_draw(&one, u1, u2, &pdf), b_wm = seen_draw(&lone, u1, u2, &density);
         TEST(memcmp(&a_wm, &b_wm, sizeof a_wm) == 0 && pdf == density);
     }
+    TEST(valid > count / 2);
 }
 
 /* ---- invalid input ---- */
@@ -88,6 +103,21 @@ static void check_invalid(const vndf_distribution *d)
     TEST(gives_nothing(&none));
 }
 
+/* Beyond the ends: a matrix, a mean slope, and a length of wi. */
+static void check_beyond(void)
+{
+    static const float of[][7] = {{1.1e15f, 0, 0, 1, 0, 0, 1}, {1, 0, 0, 0.9e-15f, 0, 0, 1},
+                                  {1, 1, 1, 1, 0, 0, 1},       {1, 0, 0, 1, 1.1e6f, 0, 1},
+                                  {1, 0, 0, 1, 0, -1.1e6f, 1}, {1, 0, 0, 1, 0, 0, FLT_TRUE_MIN},
+                                  {1, 0, 0, 1, 0, 0, 1.1e20f}};
+    for (size_t i = 0; i < sizeof of / sizeof *of; i++) {
+        const float *a = of[i];
+        const vndf_mixture one = {1, {{{vndf_ggx(), a[0], a[1], a[2], a[3], a[4], a[5]}, 1}}};
+        seen s = seen_from(SEEN_AFFINE, &one, (vndf_vec3){0, 0, a[6]});
+        TEST(gives_nothing(&s));
+    }
+}
+
 /* Numbers outside are clamped, NaN is 0; a normal of NaN, or below the surface, has no density. */
 static void check_numbers(const vndf_distribution *d)
 {
@@ -105,7 +135,8 @@ static void check_numbers(const vndf_distribution *d)
         }
 }
 
-/* Straight below no lobe has an area that a float can hold: lobes are drawn by their weights. */
+/* Straight below no lobe has an area that a float can hold: lobes are drawn by their weights. A lobe whose share is 0
+ * does not take the end of u1. */
 static void check_vanished(const vndf_distribution *d)
 {
     const vndf_mixture of = {2, {{seen_straight(d, 1e-3f, 1e-3f), 1}, {seen_straight(d, 1e-3f, 1e-3f), 3}}};
@@ -114,6 +145,10 @@ static void check_vanished(const vndf_distribution *d)
     vndf_mixture_sample(&s.mixture, 0.2499f, 0.5f, NULL, &before);
     vndf_mixture_sample(&s.mixture, 0.2501f, 0.5f, NULL, &after);
     TEST(before == 0 && after == 1);
+    const vndf_mixture faint = {2, {{seen_straight(d, 1, 1), 1}, {seen_straight(d, 1e-6f, 1e-6f), 1e-44f}}};
+    s = seen_from(SEEN_MIXTURE, &faint, (vndf_vec3){1, 0, 0});
+    vndf_mixture_sample(&s.mixture, 1, 0.5f, NULL, &after);
+    TEST(after == 0);
 }
 
 static void check_flushed(const subject *of)
@@ -130,7 +165,7 @@ static void check_flushed(const subject *of)
 static void test_subject(const subject *of, size_t index)
 {
     unsigned long long state = 1 + index;
-    check_mixtures(of->d, of->name, &state);
+    check_valid(of->d, of->name, test_amount(120, 1200, 12000), &state);
     check_invalid(of->d);
     check_numbers(of->d);
     check_vanished(of->d);
@@ -138,7 +173,17 @@ static void test_subject(const subject *of, size_t index)
         check_flushed(of);
 }
 
+/* The tail of c^-0.7, r^-3.3, leads to normals so level that a matrix may make nothing of them. */
 int main(int arguments, char **argument)
 {
+    unsigned long long state = 5;
+    vndf_source *source = vndf_source_ndf_expression("c^-0.7+20*c^30", NULL, 0, NULL);
+    vndf_distribution *tail = source ? vndf_build(source, NULL, NULL, NULL) : NULL;
+    if (TEST(tail != NULL))
+        check_valid(tail, "c^-0.7", test_amount(1200, 1200, 12000), &state);
+    check_beyond();
+    TEST(strcmp(vndf_version(), VNDF_VERSION) == 0);
+    vndf_free(tail);
+    vndf_source_free(source);
     return subjects_test(arguments, argument, test_subject);
 }

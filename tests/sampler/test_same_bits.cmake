@@ -1,10 +1,11 @@
 # The run time gives the same bits whatever compiled it and wherever it runs: the library of this build, gcc and clang
 # at -O0 and -O3 -march=native, 32-bit x86 with SSE2, and the machines below through qemu, where they are here; all are
-# compared with tests/corpus/same_bits.txt, so that machines that never met are compared too. Without LONG
+# compared with tests/corpus/same_bits.txt, so that machines that never met are compared too, and README.md names the
+# sum of these hashes. Without LONG
 # (more_same_bits) it is the library, -O0 and -O3 of a compiler that did not build it, and one machine through qemu.
 #
 # After a change of arithmetic or of tables on purpose:  cmake --build build --target same_bits
-# runs this with -DRENEW=ON and writes the file anew, if all builds agree.
+# runs this with -DRENEW=ON and writes the file and the number of README.md anew, if all builds agree.
 cmake_minimum_required(VERSION 3.16)
 
 set(expected_file ${SOURCE}/tests/corpus/same_bits.txt)
@@ -117,7 +118,15 @@ foreach(machine IN LISTS machines)
     endif()
 endforeach()
 
+file(READ ${SOURCE}/README.md readme)
+string(REGEX MATCH "([0-9a-f]+) ${few} all" sum "${expected}")
 if(RENEW)
     list(JOIN expected "\n" text)
     file(WRITE ${expected_file} "${text}\n")
+    string(REGEX REPLACE "[0-9a-f]+ ${few} all" "${sum}" readme "${readme}")
+    file(WRITE ${SOURCE}/README.md "${readme}")
+endif()
+string(FIND "${readme}" "`${sum}`" found)
+if(sum STREQUAL "" OR found EQUAL -1)
+    message(SEND_ERROR "README.md has not the sum of the hashes, ${sum}")
 endif()

@@ -207,6 +207,8 @@ typedef struct vndf_mixture_view {
 HERE float drawn_area(vndf_view view)
 {
     float area = view.unit_area;
+    if (!(view.at.densest > 0.0f))
+        return 0.0f;
     if (view.surface.distribution >= 0)
         area = law_drawn_area(view.v, view.below) * frame_reach(view.at);
     return area * view.at.size;
@@ -303,7 +305,7 @@ HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
     float before = 0.0f, share = lobes.share[0], density = 0.0f;
     int at = 0;
     for (int i = 1; i < VNDF_LOBES; i++)
-        if (at == i - 1 && i < lobes.count && u1 >= before + share) {
+        if (i < lobes.count && lobes.share[i] > 0.0f && u1 >= before + share) {
             before = before + share;
             at = i;
             chosen = lobes.lobe[i];

@@ -442,11 +442,12 @@ HERE void ndf(const block *b, const vndf_kind kind)
 HERE void areas(const block *b, const vndf_kind kind)
 {
     table_direction w[GROUPS];
-    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS];
+    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], densest[GROUPS];
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g, b->plain);
         cosine[g] = f.uz * f.size;
         scale[g] = f.size;
+        densest[g] = f.densest;
         reach[g] = frame_reach(f);
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
@@ -457,6 +458,8 @@ HERE void areas(const block *b, const vndf_kind kind)
         table_areas(b, w, area);
     for (int g = 0; g < b->groups; g++) {
         real all = (kind == VNDF_KIND_TABLE ? area[g] * reach[g] : area[g]) * scale[g];
+        if (b->task == VNDF_TASK_DRAWN_AREA)
+            all = pick(less(set(0.0f), densest[g]), all, set(0.0f));
         if (b->task == VNDF_TASK_LAMBDA)
             all = lambda_of(all, cosine[g]);
         else if (b->task == VNDF_TASK_G1)
@@ -551,13 +554,13 @@ HERE int is_one_sort(block *b, const int sided)
     const mask none = less(set(0.0f), set(0.0f));
     mask good = (mask)~none, below = none, above = none;
     for (int g = 0; g < b->groups; g++) {
-        real height = input(b, VNDF_READ_WI_Z, g);
+        real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
+             height = input(b, VNDF_READ_WI_Z, g);
         if (!b->plain)
-            height = height - (input(b, VNDF_READ_WI_X, g) * input(b, VNDF_READ_MEAN_X, g) +
-                               input(b, VNDF_READ_WI_Y, g) * input(b, VNDF_READ_MEAN_Y, g));
+            height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
         good = both(good, valid_at(b, g));
         if (sided)
-            good = both(good, both(less(set(1e-30f), size(height)), less(size(height), set(1e30f))));
+            good = both(good, less(1e-20f * (size(x) + size(y)), size(height)));
         below = either(below, less(height, set(0.0f)));
         above = either(above, less(set(0.0f), height));
     }

@@ -89,7 +89,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float to[4][
     }
     for (int l = 0; l < m->lobes; l++)
         for (int i = 0; i < m->count; i++) { /* the last one takes what rounding leaves */
-            const int takes = m->valid[i] & (m->weight[l][i] > 0.0f) & (u1[i] >= end[i]);
+            const int takes = m->valid[i] & (m->share[l][i] > 0.0f) & (u1[i] >= end[i]);
             chosen[i] = takes ? l : chosen[i];
             share[i] = takes ? m->share[l][i] : share[i];
             begin[i] = takes ? end[i] : begin[i];
@@ -133,19 +133,19 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
     }
 }
 
-/* Densities, by the shares of lobes: where the first lobe sees the normal none is 0. D, areas and what masking makes of
- * them, by the weights. */
+/* Densities, by the shares of lobes: where a lobe sees the normal none is 0. D, areas and what masking makes of them,
+ * by the weights. */
 static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
 {
     const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
     sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, NULL, NULL,
               to);
     for (int i = 0; i < m->count; i++) {
-        int first = 0;
-        while (first + 1 < m->lobes && !(m->weight[first][i] > 0.0f))
-            first++;
+        int is_seen = 0;
+        for (int l = 0; l < m->lobes; l++)
+            is_seen |= (m->weight[l][i] > 0.0f) & (m->value[l][i] > 0.0f);
         if (task == VNDF_TASK_PDF)
-            to[i] = m->value[first][i] > 0.0f ? most(to[i], FLT_MIN) : 0.0f;
+            to[i] = is_seen ? most(to[i], FLT_MIN) : 0.0f;
         to[i] = least(to[i], FLT_MAX);
     }
     if (masks)
@@ -221,7 +221,7 @@ void vndf_run_mixtures(const vndf_batch *b, vndf_task task, vndf_arrays a)
             set_shares(&m, VNDF_TASK_AREA);
             sum_mixtures(&m, VNDF_TASK_VISIBLE, normal, to[4]);
             for (int i = 0; i < m.count; i++)
-                to[4][i] = to[3][i] > 0.0f ? to[4][i] / to[3][i] : 0.0f;
+                to[4][i] = to[3][i] > 0.0f ? least(to[4][i] / to[3][i], FLT_MAX) : 0.0f;
         }
         for (int w = 0; w < VNDF_WRITES; w++)
             if (a.write[w])

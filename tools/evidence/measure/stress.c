@@ -60,7 +60,9 @@ static void measure_sample(const vndf_view *view, vndf_vec3 wi, const float at[S
 {
     float pdf = -1, v1 = -1, v2 = -1;
     vndf_vec3 wm = vndf_sample(view, at[8], at[9], &pdf);
-    int blind = wi.x == 0 && wi.y == 0 && wi.z < 0; /* from straight below no normal is visible */
+    const double level = fabs((double)at[0] * (double)wi.x) + fabs((double)at[1] * (double)wi.y);
+    const double scale = fmax(vndf_distribution_info(view->distribution).scale, 1e-30);
+    int blind = level * scale <= -1e-15 * (double)wi.z; /* from straight below no normal is visible */
     int dense = blind ? pdf == 0 : is_density(pdf) && is_density(vndf_pdf(view, wm));
     result->samples++;
     vndf_invert(view, wm, &v1, &v2);
