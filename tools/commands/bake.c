@@ -64,7 +64,7 @@ static int make(const bake_settings *s, unsigned what, baked_list *list)
     return 1;
 }
 
-static int print(const arguments *given, const baked_list *list, const char *folder)
+static figures tell(const arguments *given, const baked_list *list, const char *folder)
 {
     figures f = figures_begin(given);
     figures_text(&f, "folder", folder);
@@ -79,7 +79,7 @@ static int print(const arguments *given, const baked_list *list, const char *fol
             figures_number(&f, "mean error", "%.3g", b->mean, "");
         }
     }
-    return figures_end(&f);
+    return f;
 }
 
 static int bake(const arguments *given, bake_settings *s, unsigned what)
@@ -108,9 +108,13 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     if (status == STATUS_GOOD &&
         !bake_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
         status = STATUS_USE;
+    figures f = tell(given, &list, folder);
+    if (status == STATUS_GOOD && f.failed)
+        status = complain(name, "no memory for figures");
     status = page_close(&page, status);
     if (status == STATUS_GOOD)
-        status = print(given, &list, folder);
+        figures_end(&f);
+    figures_free(&f);
     baked_free(&list);
     return status;
 }

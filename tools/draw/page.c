@@ -70,18 +70,11 @@ int page_open(html_page *page, const char *command, const char *folder)
 
 int page_close(html_page *page, int status)
 {
-    for (size_t i = 0; i < page->count && status == STATUS_GOOD; i++)
-        if (!vndf_replace_flush(page->file[i].file))
-            status = complain(page->command, "cannot write '%s': %s", page->path[i], strerror(errno));
     if (status == STATUS_GOOD && output_stopping())
         status = complain(page->command, "interrupted; '%s' was not touched", page->folder);
-    for (size_t i = page->count; i-- > 0;) {
-        if (status == STATUS_GOOD)
-            status = output_commit(&page->file[i]);
-        else
-            output_give_up(&page->file[i], NULL);
+    status = output_commit_all(page->file, page->count, status);
+    for (size_t i = 0; i < page->count; i++)
         free(page->path[i]);
-    }
     if (status != STATUS_GOOD && page->is_new)
         rmdir(page->folder); /* fails, and the folder stays, if a file was committed */
     output_release_signals();

@@ -1,9 +1,11 @@
-#define _POSIX_C_SOURCE 200809L
 #include "export/export.h"
 
 #include <ctype.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "core/cursor.h"
 
 int document_prefix(export_document *document, const char *name)
 {
@@ -197,7 +199,7 @@ static int has_parts(const char *parts, const char *mark)
 
 /* Directives are left out, and a line that ends in a mark where the file has not what that names; so are the lines
  * between a mark that stands alone and the next one, "end". *in: whether lines are written. */
-static void put_line(FILE *to, const char *parts, const char *line, int *in)
+static void put_line(vndf_writer *to, const char *parts, const char *line, int *in)
 {
     static const char only[] = "/* only ";
     int length = (int)strcspn(line, "\n");
@@ -212,41 +214,50 @@ static void put_line(FILE *to, const char *parts, const char *line, int *in)
     } else if (*in && has != 0) {
         for (length = has > 0 ? (int)(mark - line) : length; length > 0 && line[length - 1] == ' ';)
             length--;
-        fprintf(to, "%.*s\n", length, line);
+        vndf_write_bytes(to, line, (size_t)length);
+        vndf_write_bytes(to, "\n", 1);
     }
 }
 
-/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. */
+static void add(vndf_writer *to, const char *format, ...)
+{
+    char text[160];
+    va_list list;
+    va_start(list, format);
+    const int length = vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    vndf_write_bytes(to, text, (size_t)length);
+}
+
+/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. Not by
+ * open_memstream, which then loses a part of the text without a word. */
 static char *whole_text(const export_document *document, const char *more)
 {
-    char *whole = NULL, parts[PARTS_MAX];
-    size_t size = 0;
+    vndf_writer to = {NULL, 0, 0, 0};
+    char parts[PARTS_MAX];
     int in = 1;
-    FILE *to = open_memstream(&whole, &size);
-    if (!to)
-        return NULL;
     name_parts(document, parts);
-    fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
+    add(&to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
-        fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    fputs(" };\n", to);
+        add(&to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
+    add(&to, " };\n");
     if (document->embeds)
-        fprintf(to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
+        add(&to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
     for (size_t i = 0; document->embeds && i < document->count; i++)
-        fprintf(to, "%.8e%s", (double)document->numbers[i],
-                i + 1 == document->count ? "};\n"
-                : i % 8 == 7             ? ",\n    "
-                                         : ", ");
+        add(&to, "%.8e%s", (double)document->numbers[i],
+            i + 1 == document->count ? "};\n"
+            : i % 8 == 7             ? ",\n    "
+                                     : ", ");
     for (const embedded_text *file = kernel_text; file->name; file++)
         for (const char *const *line = file->lines; *line; line++)
             if (document->scatters || strcmp(file->name, "scatter.h") != 0)
-                put_line(to, parts, *line, &in);
+                put_line(&to, parts, *line, &in);
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
-        put_line(to, parts, line, &in);
-    if (fclose(to) == 0)
-        return whole;
-    free(whole);
-    return NULL;
+        put_line(&to, parts, line, &in);
+    vndf_write_bytes(&to, "", 1);
+    if (to.failed)
+        free(to.bytes);
+    return to.failed ? NULL : (char *)to.bytes;
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)
