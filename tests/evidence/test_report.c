@@ -53,8 +53,9 @@ static void check_page(void)
 {
     static const char *const files[][12] = {
         {"page/index.html", "<!DOCTYPE html>\n", "<h2 id=\"advice\">", "<h2 id=\"frontier\">", "<h2 id=\"time\">",
-         "<h2 id=\"normals\">", ": ship ", ">advised</text>", "<tr class=\"chosen\"><td class=\"text\">",
-         "href=\"tables.csv\"", "href=\"methods.csv\"", "href=\"frontier.svg\""},
+         "<h2 id=\"normals\">", ": ship ", ">advised</text>", "<tr class=\"chosen\"><td>",
+         "<tr class=\"group\"><th class=\"text\" colspan=\"9\">", "href=\"tables.csv\"", "href=\"methods.csv\"",
+         "href=\"frontier.svg\""},
         {"page/frontier.svg", "<svg "},
         {"page/tables.csv", "distribution,file (bytes),moments,"},
         {"page/methods.csv", "distribution,method,"}};
