@@ -15,7 +15,7 @@
 static const char name[] = "vndf export";
 
 static const char *const help[] = {
-    "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
+    "usage: vndf export FILE|ggx|beckmann... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
     "       vndf export FILE|ggx|beckmann --rgl -o OUT [options]\n"
     "\n"
     "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"

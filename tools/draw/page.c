@@ -178,7 +178,7 @@ int page_table(html_page *page, const figures *f)
     FILE *html = page->html;
     const size_t columns = figures_columns(f);
     if (f->failed)
-        return 0;
+        return complain(page->command, "no memory"), 0;
     fputs("<div class=\"scroll\"><table><thead><tr>", html);
     for (size_t k = 1; k < columns; k++)
         put_cell(html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);
