@@ -132,15 +132,10 @@ int vndf_replace_begin(vndf_replacement *r, const char *path)
     return r->file ? 1 : finish(r, 0);
 }
 
-int vndf_replace_sync(vndf_replacement *r)
-{
-    return vndf_replace_flush(r->file) && reaches_disk(r->file);
-}
-
 /* Synced before the rename, so that a crash leaves the old file or the new one. */
 int vndf_replace_commit(vndf_replacement *r)
 {
-    int good = vndf_replace_sync(r), reason = errno, closed = fclose(r->file) == 0;
+    int good = vndf_replace_flush(r->file) && reaches_disk(r->file), reason = errno, closed = fclose(r->file) == 0;
     if (!good)
         errno = reason;
     return finish(r, good && closed && rename(r->temporary, r->target) == 0);

@@ -16,10 +16,7 @@ typedef struct vndf_replacement {
 /* 0 and errno, with nothing left behind. */
 int vndf_replace_begin(vndf_replacement *r, const char *path);
 
-/* What was written is on the disk; 0 and errno if anything could not be written, now or before. */
-int vndf_replace_sync(vndf_replacement *r);
-
-/* Syncs first; 0 and errno if that fails, and the file is as it was then. Either ends r. */
+/* 0 and errno if anything could not be written, now or before; the file is as it was then. Either ends r. */
 int vndf_replace_commit(vndf_replacement *r);
 void vndf_replace_discard(vndf_replacement *r);
 

@@ -130,12 +130,9 @@ size_t vndf_character(const char *text, size_t size)
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size)
 {
     size_t i = 0, length = 0;
-    for (size_t n; i < size && length + (n = vndf_character(text + i, size - i)) <= VNDF_EXCERPT - 4; i += n) {
-        const unsigned char first = (unsigned char)text[i], second = (unsigned char)text[i + (n > 1)];
-        const int is_printable = n > 1 ? first > 0xc2 || second >= 0xa0 : first >= 32 && first < 127;
-        memcpy(out + length, is_printable ? text + i : "?", is_printable ? n : 1);
-        length += is_printable ? n : 1;
-    }
+    for (size_t n; i < size && length + (n = vndf_character(text + i, size - i)) <= VNDF_EXCERPT - 4; i += n)
+        for (size_t k = 0; k < n; k++)
+            out[length++] = n > 1 || (text[i] >= 32 && text[i] < 127) ? text[i + k] : '?';
     strcpy(out + length, i < size ? "..." : "");
     return out;
 }

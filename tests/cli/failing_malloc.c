@@ -1,49 +1,46 @@
-/* In the place of the C library's, by LD_PRELOAD: allocation number FAIL_AT, from 1, of this process fails, those of the
- * C library itself among them. How many there were is written to the file FAIL_COUNT. */
-#define _GNU_SOURCE
-#include <dlfcn.h>
+/* In the place of glibc's, by LD_PRELOAD: allocation number FAIL_AT, from 1, of this process fails, those of the C
+ * library itself among them. How many there were is written to descriptor 9. */
+#define _POSIX_C_SOURCE 200809L
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-static long count, failing = -1;
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t n, size_t size);
+void *__libc_realloc(void *block, size_t size);
+
+static long count, failing;
 
 static int fails(void)
 {
-    if (failing < 0) {
-        const char *at = getenv("FAIL_AT");
-        failing = at ? atol(at) : 0;
-        unsetenv("LD_PRELOAD"); /* children are left alone */
-    }
     errno = ENOMEM;
     return __atomic_add_fetch(&count, 1, __ATOMIC_SEQ_CST) == failing;
 }
 
 void *malloc(size_t size)
 {
-    static void *(*real)(size_t);
-    *(void **)&real = real ? *(void **)&real : dlsym(RTLD_NEXT, "malloc");
-    return fails() ? NULL : real(size);
+    return fails() ? NULL : __libc_malloc(size);
 }
 
 void *calloc(size_t n, size_t size)
 {
-    static void *(*real)(size_t, size_t);
-    *(void **)&real = real ? *(void **)&real : dlsym(RTLD_NEXT, "calloc");
-    return fails() ? NULL : real(n, size);
+    return fails() ? NULL : __libc_calloc(n, size);
 }
 
 void *realloc(void *block, size_t size)
 {
-    static void *(*real)(void *, size_t);
-    *(void **)&real = real ? *(void **)&real : dlsym(RTLD_NEXT, "realloc");
-    return fails() ? NULL : real(block, size);
+    return fails() ? NULL : __libc_realloc(block, size);
+}
+
+/* Children are left alone. */
+__attribute__((constructor)) static void begin(void)
+{
+    const char *at = getenv("FAIL_AT");
+    failing = at ? atol(at) : 0;
+    unsetenv("LD_PRELOAD");
 }
 
 __attribute__((destructor)) static void tell(void)
 {
-    const char *name = getenv("FAIL_COUNT");
-    FILE *to = name ? fopen(name, "w") : NULL;
-    if (to && fprintf(to, "%ld", count) > 0)
-        fclose(to);
+    dprintf(9, "%ld", count);
 }

@@ -33,7 +33,7 @@ static const struct {
     {"%c_truth", 0.999, 1.001, ""},
     {"%c_facing_to_density", 0.999, 1.001, ""},
     {"%c_faults", 0, 0, ""},
-    {"%c_off", 0, 1e-4, ""},
+    {"a_off", 0, 1e-4, ""},
     {"%c_kept", 0.5, 1, ""},
     {"%c_light", 0.005, 2, ""},
     {"%c_spread", 0.02, 2, ""},
@@ -130,13 +130,12 @@ int main(void)
     size_t size;
     if (!run_begin(folder))
         return test_done();
-    run_line(
-        0, "",
-        "cp " SHIPPED
-        "student-t-2.5-small.vndf 'a&b.vndf'; vndf build --slope 'exp(-((r-1)/0.001)^2)' -q -o ring.vndf; for page in one two; do vndf explore " SHIPPED
-        "hazy.vndf ring.vndf 'a&b.vndf' " SHIPPED "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
-        "cmp one.html two.html && rm two.html *.vndf",
-        test_long() ? 32 : 4);
+    run_line(0, "",
+             "cp " SHIPPED "student-t-2.5-small.vndf 'a&b.vndf'; vndf build --slope "
+             "'exp(-((r-1)/0.001)^2)' -q -o ring.vndf; for page in one two; do vndf explore " SHIPPED
+             "hazy.vndf ring.vndf 'a&b.vndf' " SHIPPED "student-t-2.5.vndf -q --engines %d -o $page.html; done; "
+             "cmp one.html two.html && rm two.html *.vndf",
+             test_long() ? 32 : 4);
     char *text = run_file("one.html", &size);
     for (size_t i = 0; i < sizeof parts / sizeof *parts; i++)
         TEST_HAS(text, parts[i]);

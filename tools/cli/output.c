@@ -133,7 +133,7 @@ int output_commit_all(output_file *output, size_t count, int status)
 {
     for (output_file *o = output; o < output + count && status == STATUS_GOOD; o++)
         if (o->command)
-            status = o->path ? written(o, vndf_replace_sync(&o->replaces)) : output_finish_stdout(o->command);
+            status = o->path ? written(o, vndf_replace_flush(o->file)) : output_finish_stdout(o->command);
     while (count-- > 0)
         if (output[count].command && status == STATUS_GOOD)
             status = output_commit(&output[count]);

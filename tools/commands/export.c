@@ -115,7 +115,8 @@ static int write_all(const arguments *given, const export_document *document)
     const int written = document_write(document, output[0].file, NULL);
     if (raw && written)
         put_floats(output[1].file, document->numbers, document->count);
-    return output_commit_all(output, 2, written ? STATUS_GOOD : complain(name, "no memory"));
+    return output_commit_all(
+        output, 2, written ? STATUS_GOOD : complain(name, "no memory, or no place for a temporary file"));
 }
 
 /* ---- reflectances -------------------------------------------------------------------------------- */

@@ -1,7 +1,6 @@
 #include "export/export.h"
 
 #include <ctype.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -199,7 +198,7 @@ static int has_parts(const char *parts, const char *mark)
 
 /* Directives are left out, and a line that ends in a mark where the file has not what that names; so are the lines
  * between a mark that stands alone and the next one, "end". *in: whether lines are written. */
-static void put_line(vndf_writer *to, const char *parts, const char *line, int *in)
+static void put_line(FILE *to, const char *parts, const char *line, int *in)
 {
     static const char only[] = "/* only ";
     int length = (int)strcspn(line, "\n");
@@ -214,50 +213,42 @@ static void put_line(vndf_writer *to, const char *parts, const char *line, int *
     } else if (*in && has != 0) {
         for (length = has > 0 ? (int)(mark - line) : length; length > 0 && line[length - 1] == ' ';)
             length--;
-        vndf_write_bytes(to, line, (size_t)length);
-        vndf_write_bytes(to, "\n", 1);
+        fprintf(to, "%.*s\n", length, line);
     }
 }
 
-static void add(vndf_writer *to, const char *format, ...)
-{
-    char text[160];
-    va_list list;
-    va_start(list, format);
-    const int length = vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    vndf_write_bytes(to, text, (size_t)length);
-}
-
-/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. Not by
- * open_memstream, which then loses a part of the text without a word. */
+/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. By a temporary
+ * file: open_memstream loses a part of its text without a word where memory ends. */
 static char *whole_text(const export_document *document, const char *more)
 {
-    vndf_writer to = {NULL, 0, 0, 0};
-    char parts[PARTS_MAX];
+    char *whole = NULL, parts[PARTS_MAX];
+    size_t size;
     int in = 1;
+    FILE *to = tmpfile();
+    if (!to)
+        return NULL;
     name_parts(document, parts);
-    add(&to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
+    fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
-        add(&to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
-    add(&to, " };\n");
+        fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
+    fputs(" };\n", to);
     if (document->embeds)
-        add(&to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
+        fprintf(to, "static const float VNDF_NUMBERS[%zu] = {", document->count);
     for (size_t i = 0; document->embeds && i < document->count; i++)
-        add(&to, "%.8e%s", (double)document->numbers[i],
-            i + 1 == document->count ? "};\n"
-            : i % 8 == 7             ? ",\n    "
-                                     : ", ");
+        fprintf(to, "%.8e%s", (double)document->numbers[i],
+                i + 1 == document->count ? "};\n"
+                : i % 8 == 7             ? ",\n    "
+                                         : ", ");
     for (const embedded_text *file = kernel_text; file->name; file++)
         for (const char *const *line = file->lines; *line; line++)
             if (document->scatters || strcmp(file->name, "scatter.h") != 0)
-                put_line(&to, parts, *line, &in);
+                put_line(to, parts, *line, &in);
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
-        put_line(&to, parts, line, &in);
-    vndf_write_bytes(&to, "", 1);
-    if (to.failed)
-        free(to.bytes);
-    return to.failed ? NULL : (char *)to.bytes;
+        put_line(to, parts, line, &in);
+    if (fseek(to, 0, SEEK_SET) == 0 && !ferror(to))
+        whole = (char *)vndf_read_all(to, SIZE_MAX / 2, &size);
+    fclose(to);
+    return whole;
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)

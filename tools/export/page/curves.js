@@ -8,7 +8,7 @@ function measureCurve(surface, last) {
   return readTarget(targets.curve, 0)[0];
 }
 
-// All distributions of the menus: the two chosen in bold, over the others in thin lines of hues and dashes of their own.
+// All distributions of the menus: the two chosen in bold, the others thin, in hues and dashes of their own.
 const lookOf = (i) => `--hue:${[155, 290, 50, 190, 330, 100][i % 6]};--dash:${["none", "7 3", "2 3"][i / 6 % 3 | 0]}`;
 
 function drawCurves(box, last) {

@@ -26,26 +26,22 @@ function measureSamples(surface) {
     (lean[0] * y[i] - lean[1] * dx) / alpha_y) / Math.sqrt(Math.max(1 - dx * dx - y[i] * y[i], 1e-12)));
   const quantile = (values, part) => values.sort()[Math.floor(part * values.length)];
   const dots = Array.from({length: DOTS}, (_, i) => Math.imul(i * i, 0x9E3779B1) >>> 18).map((at) => [x[at], y[at]]);
-  return {facing: mean(facing), off: off.reduce((a, b) => Math.max(a, b)), kept: mean(kept), faults: sum(faults), dots, slopes,
-          angle: quantile(angle, 0.97) * 180 / Math.PI, high: quantile(density, 0.98), low: quantile(density, 0.02)};
+  return {facing: mean(facing), off: off.reduce((a, b) => Math.max(a, b)), kept: mean(kept), faults: sum(faults), dots,
+          slopes, angle: quantile(angle, 0.97) * 180 / Math.PI, high: quantile(density, 0.98), low: quantile(density, 0.02)};
 }
 
 // Half of the borders of columns are even, half are quantiles of drawn slopes: a thin ring has columns of its own.
 function placeColumns(slopes) {
-  const half = GRID / 2, values = new Float32Array(4 * GRID), borders = Array.from({length: half + 1}, (_, i) => i / half);
-  slopes.sort();
-  for (let i = 0; i < half; i++) {
+  const half = GRID / 2, sorted = slopes.sort(), even = Array.from({length: half + 1}, (_, i) => i / half);
+  const quantiles = Array.from({length: half}, (_, i) => {
     const part = Math.sin(Math.PI / 2 * i / (half - 1)) ** 2; // closer at both ends
-    const odds = Math.cbrt(slopes[Math.floor(part * (slopes.length - 1))]);
-    borders.push(odds / (1 + odds));
-  }
-  borders.sort((a, b) => a - b);
-  for (let i = 0; i < GRID; i++) {
-    values[4 * i] = (borders[i] + borders[i + 1]) / 2;
-    values[4 * i + 1] = borders[i + 1] - borders[i];
-  }
+    const odds = Math.cbrt(sorted[Math.floor(part * (sorted.length - 1))]);
+    return odds / (1 + odds);
+  });
+  const borders = [...even, ...quantiles].sort((a, b) => a - b);
+  const columns = borders.slice(1).flatMap((end, i) => [(borders[i] + end) / 2, end - borders[i], 0, 0]);
   gl.bindTexture(gl.TEXTURE_2D, targets.columns);
-  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, GRID, 1, gl.RGBA, gl.FLOAT, values);
+  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, GRID, 1, gl.RGBA, gl.FLOAT, new Float32Array(columns));
 }
 
 // What the density itself says.
