@@ -78,7 +78,7 @@ int output_open(output_file *output, const char *command, const char *path)
 {
     struct stat is;
     const output_file opened = {.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
-    *output = (output_file){NULL};
+    *output = (output_file){.command = NULL};
     if (!opened.path)
         return *output = opened, 1;
     if (path[0] == '\0')

@@ -274,7 +274,7 @@ static int run(const arguments *given)
     data_file file = {.notes = ""};
     chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
-    output_file output[2] = {{NULL}}; /* the table, the profile */
+    output_file output[2] = {{.command = NULL}}; /* the table, the profile */
     figures f = figures_begin(given);
     int status = STATUS_USE;
     if (option_value(given, "--list"))

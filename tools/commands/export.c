@@ -105,7 +105,7 @@ static int fits(const export_document *document)
 static int write_all(const arguments *given, const export_document *document)
 {
     const char *path = option_value(given, "-o"), *raw = option_value(given, "--buffer");
-    output_file output[2] = {{NULL}}; /* the text, the numbers */
+    output_file output[2] = {{.command = NULL}}; /* the text, the numbers */
     if (raw && output_is_stdout(raw))
         return complain(name, "--buffer '-': a file is needed");
     if (raw && !output_is_stdout(path) && files_same(path, raw))
