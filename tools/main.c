@@ -176,8 +176,7 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    output_begin();
-    int status = dispatch(argc, argv);
+    int status = output_begin() ? dispatch(argc, argv) : complain("vndf", "cannot open /dev/null");
     int delivered = output_finish_stdout("vndf");
     return delivered == STATUS_GOOD ? status : delivered;
 }

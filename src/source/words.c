@@ -117,12 +117,23 @@ vndf_span vndf_cut(vndf_span *rest, char separator)
     return head;
 }
 
+size_t vndf_character(const char *text, size_t size)
+{
+    const unsigned char *at = (const unsigned char *)text;
+    const size_t length = *at >= 0xf0 && *at < 0xf5 ? 4 : *at >= 0xe0 && *at < 0xf0 ? 3 : *at >= 0xc2 ? 2 : 1;
+    size_t n = 1;
+    while (n < length && n < size && (at[n] & 0xc0) == 0x80)
+        n++;
+    return n == length ? n : 1;
+}
+
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size)
 {
-    size_t most = VNDF_EXCERPT - 4, length = size < most ? size : most;
-    for (size_t i = 0; i < length; i++)
-        out[i] = text[i] >= 32 && text[i] < 127 ? text[i] : '?';
-    strcpy(out + length, size > most ? "..." : "");
+    size_t i = 0, length = 0;
+    for (size_t n; i < size && length + (n = vndf_character(text + i, size - i)) <= VNDF_EXCERPT - 4; i += n)
+        for (size_t k = 0; k < n; k++)
+            out[length++] = n > 1 || (text[i] >= 32 && text[i] < 127) ? text[i + k] : '?';
+    strcpy(out + length, i < size ? "..." : "");
     return out;
 }
 

@@ -40,7 +40,10 @@ typedef struct vndf_span {
 } vndf_span;
 vndf_span vndf_cut(vndf_span *rest, char separator);
 
-/* The first characters of text, for a message: '?' for an unprintable character, "..." where it is cut. */
+/* The bytes of the first character of text, which is UTF-8; 1 where it is not. */
+size_t vndf_character(const char *text, size_t size);
+
+/* The first characters of text, for a message: '?' for an unprintable one, "..." where it is cut. */
 enum { VNDF_EXCERPT = 48 };
 const char *vndf_excerpt(char out[VNDF_EXCERPT], const char *text, size_t size);
 

@@ -102,7 +102,9 @@ static const struct {
     {"--language is missing", "export " SMALL " -o x"},
     {"FILE is missing", "export --language c -o x"},
     {"-o OUT is missing", "export " SMALL " --language c"},
-    {"'ggx' is a closed form: every kernel has it", "export ggx --language c -o x"},
+    {"-n '1.5' is not a whole", "sample ggx --theta 60 -n=1.5 -o x.csv"},
+    {"there is no option '-nten'; did you mean '-n'?", "sample ggx --theta 60 -nten -o x.csv"},
+    {"did you mean '--set a=3'?", "build --slope 'exp(-a*r)' -a=3 -o x.csv"},
     {"numbers cannot be embedded in GLSL", "export " MANY " --language glsl -o x"},
     {"use --buffer FILE, or smaller tables: vndf build --max-bytes", "export " MANY " --language wgsl -o x"},
     {"which is taken; rename the file", "export " SMALL " " SMALL " --language c -o x"},
@@ -135,6 +137,8 @@ int main(void)
              "-q -o two.vndfs");
     for (size_t i = 0; i < sizeof refusals / sizeof *refusals; i++)
         run_line(2, refusals[i].says, "vndf %s", refusals[i].words);
+    run_line(0, "", "for n in -n9 -n=9 '-n 9'; do vndf sample ggx --theta=60 $n -o -; done | wc -l | grep -x 30");
+    run_line(0, "", "vndf export ggx beckmann --language c -o x.h && rm x.h");
     run_line(2, "cannot read stdin: it is read already", "vndf export - - --language c -o x.h <" SMALL);
     TEST(remove("text.txt") == 0 && remove("two.vndfs") == 0);
     return run_end(folder);

@@ -119,9 +119,9 @@ static void off(const method *m, block *b)
 
 static int is_right(const method *m, vndf_instructions set, double theta)
 {
-    static block b;
+    static block b[2];
     const block_law law = {vndf_ggx(), 0.05f, 0.95f, theta, 0};
-    return evidence_verify(m, set, &law, &b, 1);
+    return evidence_verify(m, set, &law, b, 1);
 }
 
 /* What is wrong is noticed: a length, normals that face away (seen along the surface), a bit of a batch. */
@@ -163,20 +163,20 @@ static void off_material(const method *m, block *of)
 
 static void test_verify_material(void)
 {
-    static block b;
+    static block b[2];
     const effect_set set = {.name = "conductor", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}};
     const vndf_surface surface = {vndf_ggx(), 0.3f, 0.3f};
     const block_law law = effect_law(&set);
     vndf_error error;
     method m = method_effect(&set, &surface, &error);
-    TEST(evidence_verify(&m, VNDF_INSTRUCTIONS_BEST, &law, &b, 5) &&
-         evidence_verify(&m, VNDF_INSTRUCTIONS_PORTABLE, &law, &b, 5));
+    TEST(evidence_verify(&m, VNDF_INSTRUCTIONS_BEST, &law, b, 5) &&
+         evidence_verify(&m, VNDF_INSTRUCTIONS_PORTABLE, &law, b, 5));
     for (off_number = 0; off_number < DEFECTS; off_number++) {
         const int is_batch = off_number >= BATCH;
         method_run **run = is_batch ? &m.batch : off_number == SHARED ? &m.shared : &m.each;
         right = *run;
         *run = off_material;
-        TEST(!evidence_verify(&m, is_batch ? VNDF_INSTRUCTIONS_PORTABLE : VNDF_INSTRUCTIONS_BEST, &law, &b, 5));
+        TEST(!evidence_verify(&m, is_batch ? VNDF_INSTRUCTIONS_PORTABLE : VNDF_INSTRUCTIONS_BEST, &law, b, 5));
         *run = right;
     }
     method_release(&m);

@@ -49,10 +49,11 @@ static void test_checker(void)
 /* The files that a page links are there, begin as they have to, and hold what they have to, which is in quotes. */
 static void check_page(void)
 {
-    static const char *const files[][12] = {
+    static const char *const files[][13] = {
         {"page/index.html", "<!DOCTYPE html>\n", "<h2 id=\"advice\">", "<h2 id=\"frontier\">", "<h2 id=\"time\">",
-         "<h2 id=\"normals\">", ": ship ", ">advised</text>", "<tr class=\"chosen\"><td class=\"text\">",
-         "href=\"tables.csv\"", "href=\"methods.csv\"", "href=\"frontier.svg\""},
+         "<h2 id=\"normals\">", ": ship ", ">advised</text>", "<tr class=\"chosen\"><td>",
+         "<tr class=\"group\"><th class=\"text\" colspan=\"9\">", "href=\"tables.csv\"", "href=\"methods.csv\"",
+         "href=\"frontier.svg\""},
         {"page/frontier.svg", "<svg "},
         {"page/tables.csv", "distribution,file (bytes),moments,"},
         {"page/methods.csv", "distribution,method,"}};
@@ -63,7 +64,7 @@ static void check_page(void)
         if (!TEST(text && strncmp(text, files[i][1], strlen(files[i][1])) == 0))
             return;
         TEST(i > 1 || is_well_formed(i ? text : text + strlen(files[0][1])));
-        for (size_t k = 2; k < 12 && files[i][k]; k++)
+        for (size_t k = 2; k < 13 && files[i][k]; k++)
             TEST_HAS(text, files[i][k]);
         for (size_t k = 0; i == 0 && k < sizeof never / sizeof *never; k++)
             TEST(!strstr(text, never[k]));

@@ -152,19 +152,21 @@ static int refuse_option(const arguments *given, const char *word, size_t length
 static int take_option(arguments *given, int argc, char **argv, int *at)
 {
     const char *word = argv[*at], *value = word, *next = *at + 1 < argc ? argv[*at + 1] : NULL, *wrong = NULL;
-    const char *equals = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
+    const char *equals = strchr(word, '='), *attached = equals ? equals + 1 : NULL;
     const size_t length = equals ? (size_t)(equals - word) : strlen(word);
     const struct option *found = find_option(given, word, length);
+    if (!found && length > 2 && isdigit((unsigned char)word[2]) && (found = find_option(given, word, 2)) != NULL)
+        attached = word + 2; /* -n10 */
     if (!found)
-        return refuse_option(given, word, length, equals ? equals + 1 : next);
+        return refuse_option(given, word, length, equals ? attached : next);
     struct option *o = &given->option[found - given->option];
-    if (*o->value && equals)
-        value = equals + 1;
+    if (*o->value && attached)
+        value = attached;
     else if (*o->value && next && !find_option(given, next, strlen(next)))
         value = argv[++*at];
     else if (*o->value)
         return complain(given->command, "%s needs a value, as in %s %s", o->name, o->name, o->value), 0;
-    if (!*o->value && equals)
+    if (!*o->value && attached)
         wrong = "takes no value";
     else if (!o->repeats && o->given.count)
         wrong = strchr(o->value, ',') ? "is given twice; its values have commas between them" : "is given twice";

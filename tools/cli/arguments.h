@@ -5,7 +5,8 @@
  *     --hard           is a flag                    --channel red|green       takes one of these words
  *     --ndf EXPR, --slope EXPR   are two            --what dfg,energy         takes some of them between commas
  *
- * with two blanks before what is said of them. Every refusal says which word was wrong and what would be right. */
+ * with two blanks before what is said of them. A value may follow = (--seed=7, -n=10), a number an option of one letter
+ * at once (-n10). Every refusal says which word was wrong and what would be right. */
 #ifndef TOOLS_CLI_ARGUMENTS_H
 #define TOOLS_CLI_ARGUMENTS_H
 

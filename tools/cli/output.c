@@ -2,6 +2,7 @@
 #include "cli/output.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <signal.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -12,11 +13,17 @@
 
 /* ---- signals ------------------------------------------------------------------------------------- */
 
-void output_begin(void)
+/* The wrong way round, so that reading from a stdin that was closed fails, as writing to a stdout does. */
+int output_begin(void)
 {
+    static const int modes[] = {O_WRONLY, O_RDONLY, O_RDONLY};
+    for (int i = 0; i < 3; i++)
+        if (fcntl(i, F_GETFD) < 0 && open("/dev/null", modes[i]) != i)
+            return 0;
 #ifdef SIGXFSZ
     signal(SIGXFSZ, SIG_IGN);
 #endif
+    return 1;
 }
 
 enum { STOPPING = 3 };
@@ -70,9 +77,10 @@ int output_is_stdout(const char *path)
 int output_open(output_file *output, const char *command, const char *path)
 {
     struct stat is;
-    *output = (output_file){.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
-    if (!output->path)
-        return 1;
+    const output_file opened = {.command = command, .path = output_is_stdout(path) ? NULL : path, .file = stdout};
+    *output = (output_file){.command = NULL};
+    if (!opened.path)
+        return *output = opened, 1;
     if (path[0] == '\0')
         return complain(command, "the name of the output file is empty"), 0;
     if (stat(path, &is) == 0 && !S_ISREG(is.st_mode))
@@ -84,7 +92,7 @@ int output_open(output_file *output, const char *command, const char *path)
         return complain(command, "'%s' is not replaced: it is %s", path, role), 0;
     output_hold_signals();
     if (vndf_replace_begin(&output->replaces, path)) {
-        output->file = output->replaces.file;
+        *output = (output_file){command, path, output->replaces.file, output->replaces};
         return 1;
     }
     complain(command, "cannot write '%s': %s", path, strerror(errno));
@@ -105,15 +113,32 @@ int output_finish_stdout(const char *command)
     return STATUS_USE;
 }
 
+static int written(const output_file *output, int good)
+{
+    return good ? STATUS_GOOD
+                : complain(output->command, "cannot write '%s': %s", output->path,
+                           errno ? strerror(errno) : "write failed");
+}
+
 int output_commit(output_file *output)
 {
-    int status = STATUS_GOOD;
     if (!output->path)
         return output_finish_stdout(output->command);
-    if (!vndf_replace_commit(&output->replaces))
-        status = complain(output->command, "cannot write '%s': %s", output->path,
-                          errno ? strerror(errno) : "write failed");
+    const int status = written(output, vndf_replace_commit(&output->replaces));
     output_release_signals();
+    return status;
+}
+
+int output_commit_all(output_file *output, size_t count, int status)
+{
+    for (output_file *o = output; o < output + count && status == STATUS_GOOD; o++)
+        if (o->command)
+            status = o->path ? written(o, vndf_replace_flush(o->file)) : output_finish_stdout(o->command);
+    while (count-- > 0)
+        if (output[count].command && status == STATUS_GOOD)
+            status = output_commit(&output[count]);
+        else if (output[count].command)
+            output_give_up(&output[count], NULL);
     return status;
 }
 

@@ -16,14 +16,19 @@ typedef struct output_file {
 } output_file;
 
 /* Opens path, "-" for stdout. What a rename would damage is refused: a device, a pipe, a folder, an input of the
- * command. Returns 1, or 0 after a complaint. */
+ * command. Returns 1, or 0 and all 0 after a complaint. */
 int output_open(output_file *output, const char *command, const char *path);
 
 /* 1 if one of the signals that wait has come; close with output_give_up then. */
 int output_stopping(void);
 
-/* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. */
+/* Closes and renames. Returns an exit status; a reader of stdout that went away is no complaint. What may fail for want
+ * of memory comes before: figures are complete. */
 int output_commit(output_file *output);
+
+/* All or, if one cannot be written or `status` is not good, none; the first is renamed last. Those that are all 0 are
+ * left out. An exit status. */
+int output_commit_all(output_file *output, size_t count, int status);
 
 /* Closes, leaves nothing behind, and complains, unless `why` is NULL: another file failed. An exit status. */
 int output_give_up(output_file *output, const char *why);
@@ -31,8 +36,9 @@ int output_give_up(output_file *output, const char *why);
 /* "-" */
 int output_is_stdout(const char *path);
 
-/* A file that outgrows a limit of the shell fails to be written, as on a full disk, and ends nothing. */
-void output_begin(void);
+/* Before anything is opened: descriptors 0 to 2 are open, so that no file becomes one of them. And a file that outgrows
+ * a limit of the shell fails to be written, as on a full disk, and ends nothing. 0: there is no /dev/null. */
+int output_begin(void);
 
 /* Makes the stopping signals wait until as many callers have released them as held them. */
 void output_hold_signals(void);

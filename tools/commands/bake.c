@@ -68,7 +68,7 @@ static int make(const bake_settings *s, unsigned what, baked_list *list)
 static const double mean_most = 0.2, worst_most = 0.6;
 
 /* Ends with the verdict: that of D, unless a table is the doubt. */
-static int print(const arguments *given, const baked_list *list, const char *folder, const vndf_info *of)
+static figures tell(const arguments *given, const baked_list *list, const char *folder, const vndf_info *of)
 {
     char verdict[DESCRIBE_WORTH];
     int good = describe_worth(of, verdict);
@@ -93,7 +93,7 @@ static int print(const arguments *given, const baked_list *list, const char *fol
     figures_text(&f, "verdict", verdict);
     if (!good)
         complain(name, "%s", verdict);
-    return figures_end(&f);
+    return f;
 }
 
 static int bake(const arguments *given, bake_settings *s, unsigned what)
@@ -122,9 +122,13 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     if (status == STATUS_GOOD &&
         !bake_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))
         status = STATUS_USE;
+    figures f = tell(given, &list, folder, &info);
+    if (status == STATUS_GOOD && f.failed)
+        status = complain(name, "no memory for figures");
     status = page_close(&page, status);
     if (status == STATUS_GOOD)
-        status = print(given, &list, folder, &info);
+        figures_end(&f);
+    figures_free(&f);
     baked_free(&list);
     return status;
 }

@@ -123,31 +123,27 @@ static int read_rows(const arguments *given, data_file *file, profile *rows)
 
 /* Calls it "--height surface.pfm --cutoff 8 (crc32 ...)", notes what was found, writes its rows to --profile. 0 after a
  * complaint. */
-static int finish_measured(const arguments *given, const data_file *file, const profile *rows, vndf_source *source)
+static int finish_measured(const arguments *given, const data_file *file, const profile *rows, vndf_source *source,
+                           output_file *to)
 {
     static const char *const options[] = {"--rgl",  "--merl",   "--channel",    "--height",
                                           "--step", "--cutoff", "--normal-map", NULL};
     const char *profile_path = option_value(given, "--profile");
     char text[VNDF_LIMIT_NAME_LENGTH + 2] = "";
     vndf_error error = {VNDF_OK, ""};
-    output_file output;
     options_text(given, options, text, sizeof text);
     snprintf(text + strlen(text), sizeof text - strlen(text), " (crc32 %08lx)",
              (unsigned long)vndf_crc32(0, file->bytes, file->size));
     if (vndf_source_describe(source, text, &error) != VNDF_OK ||
         vndf_source_note(source, file->notes, &error) != VNDF_OK)
         return complain(name, "%.100s: %s", file->name, error.message), 0;
-    if (!profile_path)
-        return 1;
-    if (!output_open(&output, name, profile_path))
-        return 0;
-    return (profile_write(output.file, rows, vndf_source_description(source))
-                ? output_commit(&output)
-                : output_give_up(&output, "no place on the disk")) == STATUS_GOOD;
+    return !profile_path || (output_open(to, name, profile_path) &&
+                             (profile_write(to->file, rows, vndf_source_description(source)) ||
+                              (complain(name, "cannot write '%s'", profile_path), 0)));
 }
 
 /* NULL after a complaint. */
-static vndf_source *measured_source(const arguments *given)
+static vndf_source *measured_source(const arguments *given, output_file *to)
 {
     data_file file = {.notes = ""};
     profile rows = {0};
@@ -159,7 +155,7 @@ static vndf_source *measured_source(const arguments *given)
         source = profile_source(&rows, &file);
     if (!source && file.refused[0])
         complain(name, "%s", file.refused);
-    if (source && !finish_measured(given, &file, &rows, source)) {
+    if (source && !finish_measured(given, &file, &rows, source, to)) {
         vndf_source_free(source);
         source = NULL;
     }
@@ -212,24 +208,22 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     return to->owned || to->family;
 }
 
-static int save(const chosen_distribution *of, output_file *output)
+/* 0 after a complaint; committing tells what could not be written. */
+static int write_table(const chosen_distribution *of, FILE *file)
 {
-    vndf_error error = {VNDF_OK, ""};
+    vndf_error error = {VNDF_ERROR_MEMORY, "no memory for the file"};
     size_t size = of->owned ? vndf_distribution_info(of->owned).bytes : vndf_family_info(of->family).bytes;
     void *bytes = malloc(size);
-    if (!bytes)
-        return output_give_up(output, "no memory for the file");
-    if (of->owned)
-        vndf_save_memory(of->owned, bytes, size, &error);
-    else
-        vndf_family_save_memory(of->family, bytes, size, &error);
-    fwrite(bytes, 1, size, output->file); /* committing tells what could not be written */
+    const int good = bytes && (of->owned ? vndf_save_memory(of->owned, bytes, size, &error)
+                                         : vndf_family_save_memory(of->family, bytes, size, &error)) == VNDF_OK;
+    if (good)
+        fwrite(bytes, 1, size, file);
     free(bytes);
-    return output_commit(output);
+    return good || (complain(name, "%s", error.message), 0);
 }
 
 /* Says what was built and what it is worth. Where the file itself is on stdout there is no place for figures. */
-static int tell(const arguments *given, const chosen_distribution *of)
+static int tell(const arguments *given, const chosen_distribution *of, figures *f)
 {
     char verdict[DESCRIBE_VERDICT];
     if (output_is_stdout(option_value(given, "-o"))) {
@@ -237,9 +231,8 @@ static int tell(const arguments *given, const chosen_distribution *of)
             complain(name, "%s", verdict);
         return STATUS_GOOD;
     }
-    figures f = figures_begin(given);
-    describe(&f, of);
-    return figures_end(&f);
+    describe(f, of);
+    return f->failed ? complain(name, "no memory for figures") : STATUS_GOOD;
 }
 
 /* ---- the command --------------------------------------------------------------------------------- */
@@ -278,19 +271,23 @@ static int run(const arguments *given)
     const int is_family = option_value(given, "--parameter") != NULL;
     chosen_distribution made = {NULL, NULL, NULL};
     vndf_source *source = NULL;
-    output_file output;
+    output_file output[2] = {{.command = NULL}}; /* the table, the profile */
+    figures f = figures_begin(given);
     int status = STATUS_USE;
     if (option_value(given, "--list"))
         return print_list();
     if (!check_words(given))
         return STATUS_USE;
     if (!is_family)
-        source = option_among(given, measured) ? measured_source(given) : source_from_words(given, NULL);
+        source = option_among(given, measured) ? measured_source(given, &output[1]) : source_from_words(given, NULL);
     /* Opened before the work, so that a place that cannot be written is told first. */
-    if ((source || is_family) && output_open(&output, name, option_value(given, "-o")))
-        status = build(given, source, &made) ? save(&made, &output) : output_give_up(&output, NULL);
+    if ((source || is_family) && output_open(&output[0], name, option_value(given, "-o")) &&
+        build(given, source, &made) && write_table(&made, output[0].file))
+        status = tell(given, &made, &f);
+    status = output_commit_all(output, 2, status);
     if (status == STATUS_GOOD)
-        status = tell(given, &made);
+        figures_end(&f);
+    figures_free(&f);
     distribution_close(&made);
     vndf_source_free(source);
     return status;

@@ -231,6 +231,10 @@ static void check_chi_square(checking *c)
         const bins_sampler judged = bins_of_view(&view, &surface, wi);
         progress_show((double)i / TESTS, "chi-square", &c->bar);
         const bins_result of = bins_chi_square(&judged, (size_t)c->samples, c->seed + 1000 * (i + 1));
+        if (of.rounding < 0) {
+            c->to.failed = 1; /* there was no memory; figures_end says so */
+            break;
+        }
         const double mass_limit = 1e-5 + of.rounding;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);

@@ -1,6 +1,5 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
  * file that draws in WebGL2. Its frame is tools/export/page/explorer.html. */
-#define _POSIX_C_SOURCE 200809L
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,13 +83,14 @@ static void put_numbers(FILE *to, const float *numbers, size_t count)
 /* Escaped, since comments quote the tables' sources. */
 static int put_kernel(FILE *to, const export_document *document)
 {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *memory = open_memstream(&text, &size);
-    int good = memory && document_write(document, memory, NULL);
-    if (memory && fclose(memory) == 0 && good)
-        svg_escape(to, text);
-    free(text);
+    FILE *kernel = tmpfile();
+    char line[512];
+    int good = kernel && document_write(document, kernel, NULL) && fseek(kernel, 0, SEEK_SET) == 0;
+    while (good && fgets(line, sizeof line, kernel))
+        svg_escape(to, line);
+    good = good && !ferror(kernel);
+    if (kernel)
+        fclose(kernel);
     return good;
 }
 
@@ -186,7 +186,8 @@ static int write_page(const arguments *given, contents *of)
     snprintf(digits, sizeof digits, "%llu", size);
     if ((!size || bake_all(given, of)) && put_file(page.file, of, "explorer.html", digits))
         return output_commit(&page);
-    return output_give_up(&page, output_stopping() ? "interrupted" : "no memory");
+    return output_give_up(&page,
+                          output_stopping() ? "interrupted" : "no memory, or no place for a temporary file");
 }
 
 static int run(const arguments *given)

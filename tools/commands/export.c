@@ -15,7 +15,7 @@
 static const char name[] = "vndf export";
 
 static const char *const help[] = {
-    "usage: vndf export FILE... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
+    "usage: vndf export FILE|ggx|beckmann... --language c|cpp|cuda|opencl|glsl|hlsl|wgsl|msl -o OUT [options]\n"
     "       vndf export FILE|ggx|beckmann --rgl -o OUT [options]\n"
     "\n"
     "Writes one file that draws visible normals of these tables, of GGX and of Beckmann without this library: view,\n"
@@ -105,23 +105,18 @@ static int fits(const export_document *document)
 static int write_all(const arguments *given, const export_document *document)
 {
     const char *path = option_value(given, "-o"), *raw = option_value(given, "--buffer");
-    output_file text, numbers;
+    output_file output[2] = {{.command = NULL}}; /* the text, the numbers */
     if (raw && output_is_stdout(raw))
         return complain(name, "--buffer '-': a file is needed");
     if (raw && !output_is_stdout(path) && files_same(path, raw))
         return complain(name, "--buffer and -o both name '%s'", raw);
-    if (raw && !output_open(&numbers, name, raw))
-        return STATUS_USE;
-    int opened = output_open(&text, name, path);
-    int written = opened && document_write(document, text.file, NULL);
+    if ((raw && !output_open(&output[1], name, raw)) || !output_open(&output[0], name, path))
+        return output_commit_all(output, 2, STATUS_USE);
+    const int written = document_write(document, output[0].file, NULL);
     if (raw && written)
-        put_floats(numbers.file, document->numbers, document->count);
-    if (raw && !written)
-        output_give_up(&numbers, NULL);
-    if (!written)
-        return opened ? output_give_up(&text, "no memory, or no place on the disk") : STATUS_USE;
-    int of_raw = raw ? output_commit(&numbers) : STATUS_GOOD, of_text = output_commit(&text);
-    return of_raw != STATUS_GOOD ? of_raw : of_text;
+        put_floats(output[1].file, document->numbers, document->count);
+    return output_commit_all(
+        output, 2, written ? STATUS_GOOD : complain(name, "no memory, or no place for a temporary file"));
 }
 
 /* ---- reflectances -------------------------------------------------------------------------------- */

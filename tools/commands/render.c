@@ -185,6 +185,8 @@ static int render(render_work *w)
         return w->path ? output_give_up(&w->output, NULL) : STATUS_USE;
     }
     const int status = w->path && !w->output.path ? STATUS_GOOD : tell(w, is_whole);
+    if (status == STATUS_USE)
+        return w->path ? output_give_up(&w->output, NULL) : status;
     fflush(stdout); /* a signal that waits ends the program when the picture is saved */
     const int saved = w->path ? save(w) : STATUS_GOOD;
     return saved != STATUS_GOOD ? saved : status;

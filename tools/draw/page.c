@@ -70,18 +70,11 @@ int page_open(html_page *page, const char *command, const char *folder)
 
 int page_close(html_page *page, int status)
 {
-    for (size_t i = 0; i < page->count && status == STATUS_GOOD; i++)
-        if (!vndf_replace_flush(page->file[i].file))
-            status = complain(page->command, "cannot write '%s': %s", page->path[i], strerror(errno));
     if (status == STATUS_GOOD && output_stopping())
         status = complain(page->command, "interrupted; '%s' was not touched", page->folder);
-    for (size_t i = page->count; i-- > 0;) {
-        if (status == STATUS_GOOD)
-            status = output_commit(&page->file[i]);
-        else
-            output_give_up(&page->file[i], NULL);
+    status = output_commit_all(page->file, page->count, status);
+    for (size_t i = 0; i < page->count; i++)
         free(page->path[i]);
-    }
     if (status != STATUS_GOOD && page->is_new)
         rmdir(page->folder); /* fails, and the folder stays, if a file was committed */
     output_release_signals();
@@ -132,6 +125,7 @@ static const char style[] =
     "th,td{padding:.25em .7em;text-align:right;border-bottom:1px solid var(--rule);white-space:nowrap}\n"
     ".text{text-align:left}th{font-weight:600;vertical-align:bottom;white-space:pre-line}\n"
     "tr.chosen td{font-weight:600;background:var(--box)}tr.chosen td:first-child::before{content:'✓ '}\n"
+    ".group th{white-space:normal;overflow-wrap:anywhere;padding-top:1em}\n"
     ".no{color:var(--bad)}.no::after{content:' ✗'}\n"
     "figure{margin:1em 0;min-width:0;max-width:100%}figure svg{max-width:100%;height:auto}\n"
     ".panels{display:flex;flex-wrap:wrap;gap:0 8px;align-items:flex-start}\n"
@@ -181,24 +175,26 @@ static void put_cell(FILE *html, const char *tag, const char *mark, const char *
 
 int page_table(html_page *page, const figures *f)
 {
+    FILE *html = page->html;
     const size_t columns = figures_columns(f);
     if (f->failed)
-        return 0;
-    fputs("<div class=\"scroll\"><table><thead><tr>", page->html);
-    for (size_t k = 0; k < columns; k++)
-        put_cell(page->html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);
-    fputs("</tr></thead>\n<tbody>\n", page->html);
-    for (size_t i = 0; i < f->count; i++) {
-        const char *mark = f->at[i].mark;
-        if (i % columns == 0)
-            fprintf(page->html, mark ? "<tr class=\"%s\">" : "<tr>", mark);
-        put_cell(page->html, "td",
-                 f->at[i].kind != FIGURE_NUMBER ? "text"
-                 : i % columns                  ? mark
-                                                : NULL,
-                 figures_shown(f, i / columns, i % columns));
-        fputs((i + 1) % columns ? "" : "</tr>\n", page->html);
+        return complain(page->command, "no memory"), 0;
+    fputs("<div class=\"scroll\"><table><thead><tr>", html);
+    for (size_t k = 1; k < columns; k++)
+        put_cell(html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);
+    fputs("</tr></thead>\n<tbody>\n", html);
+    for (size_t i = 0; i < f->rows; i++) {
+        const figure *row = f->at + i * columns;
+        if (i == 0 || strcmp(row->text, row[-(ptrdiff_t)columns].text) != 0) {
+            fprintf(html, "<tr class=\"group\"><th class=\"text\" colspan=\"%zu\">", columns - 1);
+            svg_escape(html, row->text);
+            fputs("</th></tr>\n", html);
+        }
+        fprintf(html, row->mark ? "<tr class=\"%s\">" : "<tr>", row->mark);
+        for (size_t k = 1; k < columns; k++)
+            put_cell(html, "td", row[k].kind == FIGURE_NUMBER ? row[k].mark : "text", figures_shown(f, i, k));
+        fputs("</tr>\n", html);
     }
-    fputs("</tbody></table></div>\n", page->html);
+    fputs("</tbody></table></div>\n", html);
     return 1;
 }

@@ -38,7 +38,7 @@ void page_end(html_page *page);
 /* A heading with a line or two below it; both are plain text. */
 void page_section(html_page *page, const char *id, const char *title, const char *lead);
 
-/* A table; 0 if there was no memory for it. */
+/* A table, in groups of rows under what the first column says of them; 0 after a complaint. */
 int page_table(html_page *page, const figures *f);
 
 /* Begins a new file beside the page, for the caller to fill; NULL after a complaint. */

@@ -157,7 +157,7 @@ static void relate(evidence_row *r)
 evidence *evidence_run(const evidence_plan *plan, vndf_error *error)
 {
     evidence *all = calloc(1, sizeof *all);
-    block *b = malloc(sizeof *b);
+    block *b = malloc(2 * sizeof *b); /* two to compare */
     if (all && b) {
         all->plan = plan;
         all->error = error;

@@ -151,7 +151,7 @@ vndf_status evidence_list(evidence *to);
 
 /* Whether the results of a method, or of its batch by a set of instructions, are right: unit normals above the surface
  * that face wi (where the method says so), densities positive and finite, the same bits as of single calls where that
- * is promised; of materials samples that are sane. BEST stands for single calls. */
+ * is promised; of materials samples that are sane. BEST stands for single calls. There is a block behind b, too. */
 int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed);
 
 /* What a few samples of a method from one direction show, roughness 1/2 at the scale of the reference. */

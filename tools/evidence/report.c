@@ -223,7 +223,7 @@ static int write_times(html_page *page, const report *r)
     FILE *data = page_table(page, &t) ? page_file(page, "methods.csv") : NULL;
     figures_free(&t);
     if (!data || !evidence_print(data, r->found, FIGURES_CSV))
-        return 0;
+        return data ? complain(page->command, "no memory"), 0 : 0;
     page_link(page, "all methods, as vndf bench -o FILE.csv has them");
     return 1;
 }

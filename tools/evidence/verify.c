@@ -1,6 +1,5 @@
 /* A benchmark of wrong results is worth nothing: what each method returns is looked at before it is timed. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "evidence/evidence.h"
@@ -77,8 +76,8 @@ static int same_bits(const method *m, const block *b, const block *single)
 int evidence_verify(const method *m, vndf_instructions set, const block_law *law, block *b, uint64_t seed)
 {
     enum { ROUNDS = 4 };
-    block *single = malloc(sizeof *single);
-    int good = single != NULL;
+    block *single = b + 1;
+    int good = 1;
     for (uint64_t round = 0; round < ROUNDS && good; round++) {
         b->limit = set;
         block_fill(b, law, seed + round);
@@ -97,6 +96,5 @@ int evidence_verify(const method *m, vndf_instructions set, const block_law *law
             good = good && normals_good(m, m->shared, b);
         }
     }
-    free(single);
     return good;
 }

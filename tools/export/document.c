@@ -1,9 +1,10 @@
-#define _POSIX_C_SOURCE 200809L
 #include "export/export.h"
 
 #include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "core/cursor.h"
 
 int document_prefix(export_document *document, const char *name)
 {
@@ -216,13 +217,14 @@ static void put_line(FILE *to, const char *parts, const char *line, int *in)
     }
 }
 
-/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. */
+/* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. By a temporary
+ * file: open_memstream loses a part of its text without a word where memory ends. */
 static char *whole_text(const export_document *document, const char *more)
 {
     char *whole = NULL, parts[PARTS_MAX];
-    size_t size = 0;
+    size_t size;
     int in = 1;
-    FILE *to = open_memstream(&whole, &size);
+    FILE *to = tmpfile();
     if (!to)
         return NULL;
     name_parts(document, parts);
@@ -243,10 +245,10 @@ static char *whole_text(const export_document *document, const char *more)
                 put_line(to, parts, *line, &in);
     for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
         put_line(to, parts, line, &in);
-    if (fclose(to) == 0)
-        return whole;
-    free(whole);
-    return NULL;
+    if (fseek(to, 0, SEEK_SET) == 0 && !ferror(to))
+        whole = (char *)vndf_read_all(to, SIZE_MAX / 2, &size);
+    fclose(to);
+    return whole;
 }
 
 int document_write(const export_document *document, FILE *to, const char *more)

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/arguments.h"
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
@@ -135,6 +136,7 @@ typedef struct integrating {
     vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
     progress *bar;
     double rounds;
+    int gave_up; /* after a complaint */
 } integrating;
 
 /* By theta and the azimuth from wi. */
@@ -160,6 +162,7 @@ static int answer_densities(void *state, quadrature_point *at, size_t count)
     }
     free(asked);
     free(got);
+    of->gave_up = !got;
     return got != NULL;
 }
 
@@ -178,7 +181,7 @@ static size_t divide(const judge_view *views, quadrature_cell *to)
 static int integrate(const judge_task *task, judge_view *views, progress *bar)
 {
     enum { ALL = JUDGE_VIEWS * JUDGE_BINS };
-    integrating of = {task, views, {{0}}, bar, 0};
+    integrating of = {task, views, {{0}}, bar, 0, 0};
     const quadrature q = {answer_densities, &of, CLOSE, 0, 0, CELLS_MAX, CELLS_MAX, ROUNDS - 1};
     quadrature_cell *cells = malloc(ALL * sizeof *cells);
     quadrature_sum *sum = calloc(ALL, sizeof *sum);
@@ -196,6 +199,8 @@ static int integrate(const judge_task *task, judge_view *views, progress *bar)
     }
     free(cells);
     free(sum);
+    if (!good && !of.gave_up)
+        complain(task->who, "no memory");
     return good;
 }
 

@@ -51,16 +51,48 @@ static size_t name_length(const char *text, size_t size)
     return count;
 }
 
+/* What is often written in the place of something else, between blanks, and what to say then. */
+static const char *const slips[][2] = {
+    {" − – — ", "did you mean '-'?"},
+    {" · ⋅ × ", "did you mean '*'?"},
+    {" ² ", "did you mean '^2'?"},
+    {" π ", "did you mean 'pi'?"},
+    {" θ ", "did you mean 'theta'?"},
+    {" [ { ", "did you mean '('?"},
+    {" < > = ", "did you mean 'step'? step(1-r) is 1 where r <= 1, else 0"},
+    {" ln ", "did you mean 'log'?"},
+    {" e ", "did you mean 'exp'?"},
+    {" theta ", "--ndf has theta, which is atan(r) here;"},
+    {" t ", "--ndf has t, which is r here;"},
+    {" c ", "--ndf has c, which is 1/sqrt(1+r^2) here;"},
+    {" r ", "--slope has r, which is t here;"},
+};
+
+/* NULL: none of these. */
+static const char *slip_of(const char *text, size_t size)
+{
+    char word[16];
+    snprintf(word, sizeof word, " %.*s ", size < 12 ? (int)size : 0, text);
+    for (size_t i = 0; size < 12 && i < sizeof slips / sizeof *slips; i++)
+        if (strstr(slips[i][0], word))
+            return slips[i][1];
+    return NULL;
+}
+
 /* "column 7: unexpected 'x'; ..." or "column 7: the expression ends here; ...": what would be right. */
 static int unexpected(parser *p, const char *wanted, const char *more)
 {
     char excerpt[VNDF_EXCERPT], c = peek(p);
+    const char *text = p->text + p->at, *slip = NULL;
+    const size_t size = vndf_character(text, p->length - p->at);
+    if (!is_letter(c) && (slip = slip_of(text, size)) != NULL)
+        wanted = slip, more = "";
     if (c == '\0')
         vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: the expression ends here; %s%s", p->at + 1, wanted,
                   more);
     else
         vndf_fail(p->error, VNDF_ERROR_SYNTAX, "column %zu: unexpected '%s'; %s%s", p->at + 1,
-                  vndf_excerpt(excerpt, &p->text[p->at], 1), wanted, more);
+                  vndf_excerpt(excerpt, text, size), wanted, more);
     return 0;
 }
 
@@ -130,7 +162,7 @@ static int unknown_name(parser *p, size_t size)
 {
     char excerpt[VNDF_EXCERPT], known[320] = "", functions[160] = "", hint[VNDF_LIMIT_PARAMETER_NAME + 32] = "";
     size_t least = vndf_word_slip(size), first_function = p->names->variable_count + p->names->parameter_count + 1;
-    const char *name, *text = p->text + p->at;
+    const char *name, *text = p->text + p->at, *slip = slip_of(text, size);
     for (size_t i = 0; (name = known_name(p->names, i)) != NULL; i++) {
         char *list = i < first_function ? known : functions, *end = list + strlen(list);
         size_t room = i < first_function ? sizeof known : sizeof functions;
@@ -138,6 +170,8 @@ static int unknown_name(parser *p, size_t size)
             snprintf(hint, sizeof hint, "did you mean '%s'? ", name);
         snprintf(end, room - strlen(list), "%s%s", end == list ? "" : i < first_function ? ", " : " ", name);
     }
+    if (slip)
+        snprintf(hint, sizeof hint, "%s ", slip);
     vndf_fail(p->error, VNDF_ERROR_SYNTAX,
               "column %zu: unknown name '%s'; %sknown are %s, and with parentheses %s", p->at + 1,
               vndf_excerpt(excerpt, text, size), hint, known, functions);

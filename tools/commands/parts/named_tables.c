@@ -13,7 +13,7 @@ int named_tables_open(const char *command, const words *files, int families, exp
         if (!distribution_open(&chosen, command, file, families))
             return 0;
         if (!chosen.owned && !chosen.family)
-            return complain(command, "'%s' is a closed form: every kernel has it", file), 0;
+            continue; /* a closed form, which every kernel has */
         const int added = document_add(document, input_name(file), chosen.owned, chosen.family);
         if (added < 0)
             return complain(command, "no memory"), 0;
@@ -26,7 +26,11 @@ int named_tables_open(const char *command, const words *files, int families, exp
                             file),
                    0;
     }
-    return 1;
+    if (!document->count) { /* no language has an array of no numbers */
+        document->numbers = calloc(1, sizeof *document->numbers);
+        document->count = 1;
+    }
+    return document->numbers || (complain(command, "no memory"), 0);
 }
 
 void named_tables_close(export_document *document)

@@ -5,7 +5,8 @@
 #include "cli/arguments.h"
 #include "export/export.h"
 
-/* Opens the files and enters them in the document, whose prefix is set; 0 after a complaint. Close in any case. */
+/* Opens the files and enters them in the document, whose prefix is set; ggx and beckmann, which every kernel has, add
+ * nothing. 0 after a complaint. Close in any case. */
 int named_tables_open(const char *command, const words *files, int families, export_document *document);
 
 /* Frees the tables, and the numbers of the document. */

@@ -200,7 +200,7 @@ double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS 
     }
     free(cells);
     free(sum);
-    return ONE_ROUNDING * change;
+    return good ? ONE_ROUNDING * change : -1;
 }
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed)

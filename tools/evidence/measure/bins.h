@@ -45,7 +45,8 @@ enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTOR
 
 typedef struct bins_result {
     pearson found;
-    double mass, rounding; /* the integral of the density, and by how much one rounding of normals may move it */
+    double mass, rounding; /* the integral of the density, and by how much one rounding of normals may move it; -1:
+                              there was no memory for it */
     size_t unseen;         /* samples whose density is not a positive float */
 } bins_result;
 

@@ -8,7 +8,9 @@ function measureCurve(surface, last) {
   return readTarget(targets.curve, 0)[0];
 }
 
-// All distributions of the menus: the two chosen in colour, over the others in grey.
+// All distributions of the menus: the two chosen in bold, the others thin, in hues and dashes of their own.
+const lookOf = (i) => `--hue:${[155, 290, 50, 190, 330, 100][i % 6]};--dash:${["none", "7 3", "2 3"][i / 6 % 3 | 0]}`;
+
 function drawCurves(box, last) {
   const all = [...new Set(choices.values())].map((distribution) => ({distribution,
     values: measureCurve(surfaceOf(distribution), last)}));
@@ -20,8 +22,10 @@ function drawCurves(box, last) {
   const y = (v) => upper + (height - upper - lower) * clamped(Math.log10(top / Math.max(v, 1e-30)) / DECADES, 0, 1.2);
   const path = (values) => "M" + Array.from(values, (v, i) => `${x(i).toFixed(1)},${y(v).toFixed(1)}`).join("L");
   const rank = ({distribution}) => (distribution === settings.b) + 2 * (distribution === settings.a);
+  const others = all.filter((line) => !chosen.includes(line)).map(({distribution}) => distribution);
   const lines = [...all].sort((p, q) => rank(p) - rank(q)).map((line) =>
-    `<path class="line ${["other", "b", "a", "a"][rank(line)]}" d="${path(line.values)}"/>`);
+    `<path class="line ${["other", "b", "a", "a"][rank(line)]}" style="${lookOf(others.indexOf(line.distribution))}"` +
+    ` d="${path(line.values)}"/>`);
   const marks = [];
   for (let i = 0; i <= DECADES; i++) {
     const at = upper + (height - upper - lower) * i / DECADES, power = Math.round(Math.log10(top)) - i;
@@ -38,16 +42,17 @@ function drawCurves(box, last) {
     ` aria-label="D over the angle of the normal"><clipPath id="inside"><rect x="${left}" y="${upper}"` +
     ` width="${width - left - right}" height="${height - upper - lower}"/></clipPath>${marks.join("")}` +
     `<g clip-path="url(#inside)">${lines.join("")}</g></svg><p class="legend"></p>`;
-  box.lastChild.append(...legend(all.length > chosen.length));
+  box.lastChild.append(...legend(others));
 }
 
-function legend(has_others) {
-  const keys = [["a", nameOf(settings.a)], ...settings.a === settings.b ? [] : [["b", nameOf(settings.b)]],
-                ...has_others ? [["other", "the others of this page"]] : []];
-  return keys.map(([kind, text]) => {
+function legend(others) {
+  const keys = [["a", settings.a], ...settings.a === settings.b ? [] : [["b", settings.b]],
+                ...others.map((other) => ["other", other])];
+  return keys.map(([kind, distribution]) => {
     const entry = document.createElement("span");
     entry.className = `entry ${kind}`;
-    entry.textContent = text;
+    entry.style = lookOf(others.indexOf(distribution));
+    entry.textContent = nameOf(distribution);
     return entry;
   });
 }

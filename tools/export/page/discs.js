@@ -21,15 +21,33 @@ function measureSamples(surface) {
   fill(targets.samples);
   const [facing, density, angle, off] = readTarget(targets.samples, 0);
   const [kept, faults, x, y] = readTarget(targets.samples, 1);
+  const lean = [Math.cos(surface.turn), Math.sin(surface.turn)], [alpha_x, alpha_y] = surface.alpha;
+  const slopes = x.map((dx, i) => Math.hypot((lean[0] * dx + lean[1] * y[i]) / alpha_x,
+    (lean[0] * y[i] - lean[1] * dx) / alpha_y) / Math.sqrt(Math.max(1 - dx * dx - y[i] * y[i], 1e-12)));
   const quantile = (values, part) => values.sort()[Math.floor(part * values.length)];
   const dots = Array.from({length: DOTS}, (_, i) => Math.imul(i * i, 0x9E3779B1) >>> 18).map((at) => [x[at], y[at]]);
   return {facing: mean(facing), off: off.reduce((a, b) => Math.max(a, b)), kept: mean(kept), faults: sum(faults), dots,
-          angle: quantile(angle, 0.97) * 180 / Math.PI, high: quantile(density, 0.98), low: quantile(density, 0.02)};
+          slopes, angle: quantile(angle, 0.97) * 180 / Math.PI, high: quantile(density, 0.98), low: quantile(density, 0.02)};
+}
+
+// Half of the borders of columns are even, half are quantiles of drawn slopes: a thin ring has columns of its own.
+function placeColumns(slopes) {
+  const half = GRID / 2, sorted = slopes.sort(), even = Array.from({length: half + 1}, (_, i) => i / half);
+  const quantiles = Array.from({length: half}, (_, i) => {
+    const part = Math.sin(Math.PI / 2 * i / (half - 1)) ** 2; // closer at both ends
+    const odds = Math.cbrt(sorted[Math.floor(part * (sorted.length - 1))]);
+    return odds / (1 + odds);
+  });
+  const borders = [...even, ...quantiles].sort((a, b) => a - b);
+  const columns = borders.slice(1).flatMap((end, i) => [(borders[i] + end) / 2, end - borders[i], 0, 0]);
+  gl.bindTexture(gl.TEXTURE_2D, targets.columns);
+  gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, GRID, 1, gl.RGBA, gl.FLOAT, new Float32Array(columns));
 }
 
 // What the density itself says.
-function measureDensity(surface) {
-  use(programs.integral, {...surface, size: [GRID, GRID]});
+function measureDensity(surface, {slopes}) {
+  placeColumns(slopes);
+  use(programs.integral, {...surface, size: [GRID, GRID], columns: [1, targets.columns]});
   fill(targets.grid);
   const [whole, facing, truth] = readTarget(targets.grid, 0).map(sum);
   return {whole, facing, truth};

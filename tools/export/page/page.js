@@ -17,7 +17,7 @@ function makePage() {
   programs = {};
   for (const [name, files] of Object.entries(before)) programs[name] = makeProgram([...files, `${name}.glsl`]);
   targets = {samples: makeTarget(SAMPLES, SAMPLES, 2), grid: makeTarget(GRID, GRID, 1),
-             curve: makeTarget(POINTS, 1, 1)};
+             curve: makeTarget(POINTS, 1, 1), columns: makeTexture(gl.RGBA32F, GRID, 1, null)};
   tables = tableTexture();
 }
 
@@ -34,7 +34,8 @@ function drawStill() {
   says = {};
   for (const {name} of spheres) {
     const surface = surfaceOf(settings[name]);
-    says[name] = {samples: measureSamples(surface), density: measureDensity(surface)};
+    const samples = measureSamples(surface);
+    says[name] = {samples, density: measureDensity(surface, samples)};
     showFigures(byId(`figures-${name}`), settings[name], says[name].samples, says[name].density);
   }
   const edge = edgeFor(Math.max(says.a.samples.angle, says.b.samples.angle));

@@ -16,6 +16,7 @@ const clamped = (x, low, high) => Math.min(Math.max(x, low), high);
 // Distributions by name: what stands in the menus.
 const choices = new Map([...byId("choice-a").options].map((o) => [o.textContent.toLowerCase(), Number(o.value)]));
 const optionOf = (distribution) => [...byId("choice-a").options].find((o) => Number(o.value) === distribution);
+if (!optionOf(0)) settings.a = -2; // a page without tables
 const nameOf = (distribution) => optionOf(distribution).textContent;
 
 // How settings stand in the address; words that are not understood change nothing.
