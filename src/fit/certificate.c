@@ -91,6 +91,9 @@ static vndf_drawn drawn_in(table t, seen v, int i, int below)
 /* What is seen and what is drawn of some slopes: returns the difference, and notes the ratio. */
 static double miss_of(survey *s, double right, double is, double *weight)
 {
+    const double even = 1.01; /* and less need no note */
+    if (right <= even * is)
+        return fabs(right - is);
     if (right > LEFT_OUT && right > *weight * is)
         *weight = is > 0 ? right / is : HUGE_VAL;
     else if (right > *weight * is)
@@ -206,7 +209,7 @@ static void climb(survey *s, int side, int figure)
  * is worst. */
 static void look_around(survey *s)
 {
-    enum { OCTAVES = 12 };
+    enum { OCTAVES = 8 };
     const vndf_strip *at = s->strips.at;
     for (int i = -OCTAVES; i <= OCTAVES; i++)
         look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count, exp2(i)));

@@ -228,7 +228,7 @@ static void add_piece(maker *m, size_t i, double from, double to, double edge, d
 int vndf_strips_from(vndf_strips *strips, const vndf_profile *profile, const float *knot, size_t knots,
                      size_t cells)
 {
-    const double count = 3 * (double)cells + 360;
+    const double count = 3 * (double)cells + 280;
     maker m = {.to = strips, .profile = profile};
     double all = 0, *need = malloc((profile->count + 1) * sizeof *need);
     const vndf_panel *p = profile->panel;
