@@ -191,11 +191,11 @@ static void look_from(survey *s, size_t edge)
 /* Climbs from the edge with the largest figure to a neighbour with a larger one, the nearer the later. */
 static void climb(survey *s, int side, int figure)
 {
-    enum { FAR = 16 };
+    enum { OF_ALL = 32 };
     size_t best = 0, edges = s->strips.count;
     for (size_t i = 0; i < edges; i++)
         best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
-    for (size_t apart = FAR, from = best; apart > 0; apart = best == from ? apart / 2 : apart) {
+    for (size_t apart = edges / OF_ALL, from = best; apart > 0; apart = best == from ? apart / 2 : apart) {
         size_t beside[2] = {best > apart ? best - apart : 0, best + apart < edges ? best + apart : edges - 1};
         from = best;
         for (int k = 0; k < 2; k++) {

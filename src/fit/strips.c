@@ -7,11 +7,8 @@
 
 static const double PI = 3.14159265358979323846;
 static const double SAME = 1.3e-7; /* of a slope: a knot may be the end of a panel, rounded */
-static const double WORTH =
-    1e-7; /* of the mass: a panel with more has at least as many strips: ten points of it */
-static const double PARTS_LEAST = 4; /* may show more than one wave */
-static const double CLOSER = 1.5;    /* times nearer to an end is the next strip there */
-static const double INSIDE = 4e-7;   /* of a slope: some floats beyond an edge, where P22 may jump beside it */
+static const double CLOSER = 1.5;  /* times nearer to an end is the next strip there */
+static const double INSIDE = 4e-7; /* of a slope: some floats beyond an edge, where P22 may jump beside it */
 
 /* Strips while they are made. Panels that are narrower than the grain together, or hold next to nothing, are gathered
  * to one strip. */
@@ -154,6 +151,22 @@ static void scale(vndf_strips *s, size_t first, double mass)
     }
 }
 
+/* How many strips a panel has at least: more if P22 varies in it, since ten points may show more than one wave; few if it
+ * is slim, as beside a jump. */
+static double least_of(const vndf_profile *profile, const vndf_panel *p)
+{
+    const double worth = 1e-7, wave = 0.02, slim = 1e-3; /* of the mass; of P22; of the slope */
+    double least = HUGE_VAL, most = 0;
+    if (!(p->m0 > worth * profile->f0))
+        return 1;
+    for (int k = 0; k < VNDF_GAUSS; k++) {
+        double p22 = p->point[k].weight / (vndf_gauss_weight[k] * p->point[k].r * p->point[k].r);
+        least = fmin(least, p22);
+        most = fmax(most, p22);
+    }
+    return most - least > wave * most ? 6 : p[1].r - p->r > slim * p->r ? 4 : 2;
+}
+
 /* How many strips a panel needs beside others: its width and how much P22 changes in it, for equal errors of strips
  * by the root of third order of what it holds, of all or of what is seen from below; 0 if it is gathered, -1 if it is
  * a gap before something that is seen from there. */
@@ -211,8 +224,8 @@ static void add_piece(maker *m, size_t i, double from, double to, double edge, d
     }
     double begin = end_before(m, from), width = to - begin;
     size_t first = m->to->count;
-    double few = p->m0 > WORTH * m->profile->f0 ? PARTS_LEAST : 1;
-    double count = ceil(fmin(fmax(parts, few), 2 * width / (VNDF_GRAIN * to))), step = log(to / begin) / count;
+    double count = ceil(fmin(fmax(parts, least_of(m->profile, p)), 2 * width / (VNDF_GRAIN * to))),
+           step = log(to / begin) / count;
     for (double k = 1; k < count; k++)
         add_strip(m, begin * exp(k * step));
     for (double left = width / CLOSER; parts < 0 && left > 2 * VNDF_GRAIN * to; left /= CLOSER)
