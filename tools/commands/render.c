@@ -32,7 +32,7 @@ static const char *const help[] = {
     "                  squared noise and seconds), and whether all show the same (unknown of fewer than 16\n"
     "                  samples a pixel); OUT has the pictures side by side, their noise below\n"
     "    --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
-    "  --grammar       prints the language of scene files\n"
+    "  --grammar       prints how scenes are written\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
     "\n"
@@ -196,7 +196,7 @@ static int run(const arguments *given)
     render_work w;
     int status = STATUS_USE;
     if (option_value(given, "--grammar"))
-        return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+        return scene_print_grammar(stdout), STATUS_GOOD;
     if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))

@@ -18,7 +18,7 @@ int comparison_begin(comparison *c, const scene *s, vndf_error *error)
         if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, error)))
             return 0;
         if (!film_make(&c->way[i].film, s->width, s->height))
-            return refuse_at(error, "film", 0, 0, "there is no memory for %d x %d pixels", s->width, s->height);
+            return refuse_at(error, "film", 0, "there is no memory for %d x %d pixels", s->width, s->height);
     }
     return 1;
 }

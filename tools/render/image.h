@@ -43,9 +43,9 @@ int image_make_pattern(image *made, const char *name, int width, int height, vnd
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image);
 
-/* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Control
- * characters become '?'. Returns 0. */
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
-              ...) PRINTF_LIKE(5, 6);
+/* What is wrong with a file, and where: "NAME:LINE: ...", less the line where it is 0. Control characters become '?'.
+ * Returns 0. */
+int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
+    PRINTF_LIKE(4, 5);
 
 #endif

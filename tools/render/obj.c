@@ -39,6 +39,8 @@ typedef struct reader {
     vndf_error *error;
 } reader;
 
+#define refuse(r, ...) refuse_at((r)->error, (r)->name, (r)->line, __VA_ARGS__)
+
 /* Reads the next word of the line; 0 where the line has no more. */
 static int next_word(reader *r)
 {
@@ -52,8 +54,7 @@ static int next_word(reader *r)
 /* A word whose first letters go before what is wrong with it. */
 static int complain_of(reader *r, const char *what)
 {
-    return refuse_at(r->error, r->name, r->line, 0, "'%.*s'%s", (int)(r->letters < 40 ? r->letters : 40), r->word,
-                     what);
+    return refuse(r, "'%.*s'%s", (int)(r->letters < 40 ? r->letters : 40), r->word, what);
 }
 
 /* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
@@ -69,20 +70,18 @@ static int read_item(reader *r, int which)
         p[count < 3 ? count : 2] = count < 3 ? value : p[2];
     }
     if (count < least)
-        return refuse_at(r->error, r->name, r->line, 0, "there are %d numbers of %d in this line", count, least);
+        return refuse(r, "there are %d numbers of %d in this line", count, least);
     vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : vec(p[0], p[1], p[2]);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
     if (!(largest <= reach[which]))
-        return refuse_at(r->error, r->name, r->line, 0, "numbers of '%s' lie within %g of 0, and these do not",
-                         table_names[which], reach[which]);
+        return refuse(r, "numbers of '%s' lie within %g of 0, and these do not", table_names[which], reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
     if (r->of[which].count == r->of[which].room) {
         const size_t room = 64 + 2 * r->of[which].room;
         vec3 *larger = room <= ITEMS_MAX ? realloc(r->of[which].row, room * sizeof *larger) : NULL;
         if (!larger)
-            return refuse_at(r->error, r->name, r->line, 0, "there is no memory for more '%s'",
-                             table_names[which]);
+            return refuse(r, "there is no memory for more '%s'", table_names[which]);
         r->of[which].row = larger;
         r->of[which].room = room;
     }
@@ -110,7 +109,7 @@ static int read_corner(reader *r, corner *c)
         if (behind == at || behind > end)
             return complain_of(r, " should be v, v/vt, v//vn or v/vt/vn, in numbers");
         if (given == 0 || given > count || given < -count)
-            return refuse_at(r->error, r->name, r->line, 0,
+            return refuse_at(r->error, r->name, r->line,
                              "%lld is none of the %lld lines '%s' before this, which are counted from 1", given,
                              count, table_names[i]);
         c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
@@ -140,8 +139,8 @@ static int add_triangle(reader *r, const corner *a, const corner *b, const corne
     if (agreement < 0)
         return add_triangle(r, a, c, b);
     if (r->g->count == ITEMS_MAX)
-        return refuse_at(r->error, r->name, r->line, 0, "there are more than %d triangles", ITEMS_MAX);
-    return geometry_add(r->g, &t) || refuse_at(r->error, r->name, r->line, 0, "no memory for its triangles");
+        return refuse(r, "there are more than %d triangles", ITEMS_MAX);
+    return geometry_add(r->g, &t) || refuse(r, "no memory for its triangles");
 }
 
 static int read_face(reader *r)
@@ -154,8 +153,7 @@ static int read_face(reader *r)
         if (count >= 2)
             c[1] = c[2];
     }
-    return count >= 3 ||
-           refuse_at(r->error, r->name, r->line, 0, "a face has 3 corners or more, this one has %d", count);
+    return count >= 3 || refuse(r, "a face has 3 corners or more, this one has %d", count);
 }
 
 /* ---- files ---- */
@@ -177,13 +175,13 @@ int obj_read_text(geometry *g, const char *name, const char *text, size_t length
 {
     const size_t before = g->count;
     reader r = {.name = name, .at = text, .line = 1, .g = g, .material = material, .error = error};
-    int good = !memchr(text, '\0', length) || refuse_at(error, name, 1, 0, "the file has a byte 0: it is no text");
+    int good = !memchr(text, '\0', length) || refuse_at(error, name, 1, "the file has a byte 0: it is no text");
     while (good && (good = read_line(&r)) && *(r.at += strcspn(r.at, "\n")) && r.at[1]) {
         r.at++;
         r.line++;
     }
     if (good && g->count == before)
-        good = refuse_at(error, name, r.line, 0, "the file ends here without a triangle that has an area");
+        good = refuse_at(error, name, r.line, "the file ends here without a triangle that has an area");
     if (!good)
         g->count = before;
     for (int i = 0; i < TABLES; i++)
@@ -197,7 +195,7 @@ int obj_read(geometry *g, const char *path, int material, vndf_error *error)
     size_t size;
     char *text = files_read(path, BYTES_MAX, &size, reason, sizeof reason);
     const int good =
-        text ? obj_read_text(g, path, text, size, material, error) : refuse_at(error, path, 0, 0, "%s", reason);
+        text ? obj_read_text(g, path, text, size, material, error) : refuse_at(error, path, 0, "%s", reason);
     free(text);
     return good;
 }

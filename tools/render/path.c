@@ -269,7 +269,7 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error)
 {
     path_plan *plan = calloc(1, sizeof *plan);
     if (!plan)
-        return refuse_at(error, "materials", 0, 0, "there is no memory for %zu", s->material_count), NULL;
+        return refuse_at(error, "materials", 0, "there is no memory for %zu", s->material_count), NULL;
     for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
         vndf_description is = m->is;

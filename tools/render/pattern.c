@@ -75,9 +75,9 @@ int image_make_pattern(image *made, const char *name, int width, int height, vnd
     while (of < PATTERNS && strcmp(name, names[of]) != 0)
         of++;
     if (of == PATTERNS)
-        return refuse_at(error, name, 0, 0, "there is no such pattern, but tiles, grid and studio");
+        return refuse_at(error, name, 0, "there is no such pattern, but tiles, grid and studio");
     if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
-        return refuse_at(error, name, 0, 0, "there is no memory for %d x %d pixels", width, height);
+        return refuse_at(error, name, 0, "there is no memory for %d x %d pixels", width, height);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++)
             for (int i = 0; i < SIDE * SIDE; i++) {

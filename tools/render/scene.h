@@ -1,4 +1,4 @@
-/* A scene: the contents of a scene file, ready for rendering. scene_grammar has the language. */
+/* A scene: the contents of a scene file, ready for rendering. scene_print_grammar says how they are written. */
 #ifndef TOOLS_RENDER_SCENE_H
 #define TOOLS_RENDER_SCENE_H
 
@@ -6,13 +6,7 @@
 #include "render/image.h"
 #include "vndf_bsdf.h"
 
-enum {
-    SCENE_NAME = 65,
-    SCENE_MATERIALS_MAX = 1024,
-    SCENE_LIGHTS_MAX = 64,
-    SCENE_IMAGES_MAX = 64,
-    SCENE_TABLES_MAX = 64
-};
+enum { SCENE_MATERIALS_MAX = 1024, SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
 
 typedef enum material_kind {
     MATERIAL_ROUGH, /* vndf_bsdf.h */
@@ -21,7 +15,7 @@ typedef enum material_kind {
 } material_kind;
 
 typedef struct material {
-    char name[SCENE_NAME];
+    const char *name;
     material_kind kind;
     vndf_description is;                 /* ROUGH: the library takes it */
     float colour[3];                     /* LIGHT: radiance; others: multiplies what is scattered */
@@ -61,20 +55,22 @@ typedef struct scene {
     size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
     size_t table_count;
+    char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE:COLUMN: what is wrong, and what
- * would be right". Files that are not trusted are safe. */
+/* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE: what is wrong, and what would be
+ * right". Files that are not trusted are safe. */
 scene *scene_read(const char *path, vndf_error *error);
 void scene_free(scene *s);
 
-/* The same from `length` bytes with a 0 behind them, which it changes; messages call them `name`. */
-scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error);
+/* The same from text, which it takes over and frees; messages call it `name`. */
+scene *scene_read_text(const char *name, char *text, vndf_error *error);
 
 /* Sets the pixels across; the height follows. 0 and why if no row is left, or they are too many. */
 int scene_resize(scene *s, int width, vndf_error *error);
 
-extern const char scene_grammar[];
+/* How scenes are written. */
+void scene_print_grammar(FILE *file);
 
 /* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
 
