@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "render/lines.h"
+
 enum { TURNS = 16, PASS_PATHS = 32768, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,

@@ -9,13 +9,13 @@
 #include "render/image.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/files.h"
 #include "draw/png.h"
+#include "render/lines.h"
 
 int image_make(image *made, int width, int height)
 {
@@ -58,23 +58,6 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 }
 
 /* ---- reading ---- */
-
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
-{
-    char *text = error->message;
-    const size_t size = sizeof error->message;
-    size_t used = (size_t)snprintf(text, size, "%.360s:", name);
-    va_list list;
-    used += line ? (size_t)snprintf(text + used, size - used, "%llu:", line) : 0;
-    text[used++] = ' ';
-    va_start(list, format);
-    vsnprintf(text + used, size - used, format, list);
-    va_end(list);
-    for (; *text; text++)
-        *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
-    error->status = VNDF_ERROR_SYNTAX;
-    return 0;
-}
 
 enum { HEAD_MAX = 1024 }; /* bytes of the head, with its comments */
 
@@ -181,11 +164,10 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
 
 int image_read_pfm(image *made, const char *path, vndf_error *error)
 {
-    char reason[128];
     size_t size;
     *made = (image){0};
-    char *bytes = files_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, reason, sizeof reason);
-    int good = bytes ? image_read_bytes(made, path, bytes, size, error) : refuse_at(error, path, 0, "%s", reason);
+    char *bytes = bytes_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, error);
+    const int good = bytes && image_read_bytes(made, path, bytes, size, error);
     free(bytes);
     if (!good || made->quantum == 0)
         return good;

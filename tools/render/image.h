@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cli/arguments.h"
 #include "vndf.h"
 
 typedef struct image {
@@ -42,10 +41,5 @@ int image_make_pattern(image *made, const char *name, int width, int height, vnd
 /* Writes to an open file; 0 if that fails. In a PNG numbers are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image);
-
-/* What is wrong with a file, and where: "NAME:LINE: ...", less the line where it is 0. Control characters become '?'.
- * Returns 0. */
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
-    PRINTF_LIKE(4, 5);
 
 #endif

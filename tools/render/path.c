@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
+#include "render/lines.h"
 
 enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
 

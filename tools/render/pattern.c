@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "render/image.h"
+#include "render/lines.h"
 
 static void blend(float rgb[3], const float other[3], float part)
 {

@@ -6,13 +6,13 @@
 #include <string.h>
 
 #include "cli/files.h"
+#include "render/lines.h"
 #include "vndf_build.h"
 
 /* Against hostile files. */
 enum {
     BYTES_MAX = 1 << 22,
     PATH_BYTES = 4096,
-    LINE_WORDS = 64,
     FIELDS_MAX = 16,                  /* of a line */
     PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
 };
@@ -155,23 +155,17 @@ void scene_print_grammar(FILE *file)
     fputs("\n", file);
 }
 
-/* ---- words ---- */
+/* ---- lines ---- */
 
 typedef struct reader {
-    const char *name; /* of the file */
-    vndf_error *error;
+    lines in;
     scene *made;
-    unsigned long long line;
-    const char *word[LINE_WORDS]; /* of the line at hand */
-    size_t count;
     unsigned seen;                            /* a bit for each form */
     const char *images[SCENE_IMAGES_MAX + 1]; /* names, NULL at the end */
     const char *materials[SCENE_MATERIALS_MAX + 1];
     size_t pixels;                           /* of all images so far */
     const char *tables[SCENE_TABLES_MAX][2]; /* what those of the scene are made from */
 } reader;
-
-#define refuse(r, ...) refuse_at((r)->error, (r)->name, (r)->line, __VA_ARGS__)
 
 static size_t find(const char *const *list, const char *word)
 {
@@ -189,43 +183,17 @@ static int choose(reader *r, const char *word, const char *what, const char *con
         return 1;
     const char *near = did_you_mean(word, list, *chosen);
     const char *all = *near ? near : *list ? list_words(list, "") : "defined before";
-    return refuse(r, "'%.64s' is no %s%s%s", word, what, *near ? "" : "; it must be ", all);
+    return refuse(&r->in, "'%.64s' is no %s%s%s", word, what, *near ? "" : "; it must be ", all);
 }
 
-/* Cuts a line into words. */
-static int split(reader *r, char *at)
+static int read_within(reader *r, const field *f, const char *word, double *number)
 {
-    for (r->count = 0;;) {
-        at += strspn(at, " \t\r");
-        if (!*at || *at == '#')
-            return 1;
-        const int is_quoted = *at == '"';
-        at += is_quoted;
-        char *end = at + strcspn(at, is_quoted ? "\"" : " \t\r#");
-        if (is_quoted && !*end)
-            return refuse(r, "a quote does not end on its line");
-        if (r->count == LINE_WORDS)
-            return refuse(r, "there are more than %d words", LINE_WORDS);
-        r->word[r->count++] = at;
-        const int is_last = !*end || *end == '#';
-        *end = '\0';
-        if (is_last)
-            return 1;
-        at = end + 1;
-    }
-}
-
-/* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
-static int read_number(reader *r, const field *f, const char *word, double *number)
-{
-    char *end;
-    *number = strtod(word, &end);
-    if (!*word || *end || strspn(word, "+-.0123456789eE") < strlen(word))
-        return refuse(r, "'%.64s' is no number; it must be '%s %s'", word, f->name, f->takes);
+    if (!read_number(&r->in, word, number))
+        return 0;
     if (!(*number >= f->low && *number <= f->high))
-        return refuse(r, "%s is %.9g, it must be from %.9g to %.9g", f->name, *number, f->low, f->high);
+        return refuse(&r->in, "%s is %.9g, it must be from %.9g to %.9g", f->name, *number, f->low, f->high);
     return f->kind != WHOLE || *number == floor(*number) ||
-           refuse(r, "%s is %.9g, it must be a whole number", f->name, *number);
+           refuse(&r->in, "%s is %.9g, it must be a whole number", f->name, *number);
 }
 
 /* The values of a field, from word `at` on: 0, or how many. The name of another field ends what may be left out; values
@@ -234,12 +202,13 @@ static size_t read_values(reader *r, void *to, const field *f, const char *const
 {
     const size_t most = values_of(f), least = most - (strchr(f->takes, '[') != NULL);
     size_t count = 0;
-    for (; count < most && at < r->count && (count < least || !has[find(has, r->word[at])]); count++, at++)
+    for (; count < most && at < r->in.count && (count < least || !has[find(has, r->in.word[at])]); count++, at++)
         if (f->kind == TEXT)
-            ((const char **)to)[count] = r->word[at];
-        else if (!read_number(r, f, r->word[at], (double *)to + count))
+            ((const char **)to)[count] = r->in.word[at];
+        else if (!read_within(r, f, r->in.word[at], (double *)to + count))
             return 0;
-    return count >= least ? count : (size_t)refuse(r, "the line ends before all of '%s %s'", f->name, f->takes);
+    return count >= least ? count
+                          : (size_t)refuse(&r->in, "the line ends before all of '%s %s'", f->name, f->takes);
 }
 
 /* Reads the fields of a line or kind from word `at` on. */
@@ -254,18 +223,18 @@ static int read_fields(reader *r, given *g, size_t of, size_t at)
             has[count] = f->name;
             is[count++] = f;
         }
-    for (; at < r->count; at += 1 + values) {
-        if (!choose(r, r->word[at], "field here", has, &chosen))
+    for (; at < r->in.count; at += 1 + values) {
+        if (!choose(r, r->in.word[at], "field here", has, &chosen))
             return 0;
         if (seen >> chosen & 1u)
-            return refuse(r, "'%s' stands in this line twice", has[chosen]);
+            return refuse(&r->in, "'%s' stands in this line twice", has[chosen]);
         seen |= 1u << chosen;
         if (!(values = read_values(r, (char *)g + is[chosen]->at, is[chosen], has, at + 1)))
             return 0;
     }
     for (size_t i = 0; i < count; i++)
         if (is[i]->is_needed && !(seen >> i & 1u))
-            return refuse(r, "'%s' needs '%s %s'", names[of], has[i], is[i]->takes);
+            return refuse(&r->in, "'%s' needs '%s %s'", names[of], has[i], is[i]->takes);
     return 1;
 }
 
@@ -281,11 +250,11 @@ static void floats_of(vec3 v, float to[3])
 /* The path relative to the working folder. */
 static int path_of(reader *r, const char *file, char path[PATH_BYTES])
 {
-    const char *slash = strrchr(r->name, '/');
-    const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
-    const int letters = snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, file);
+    const char *slash = strrchr(r->in.name, '/');
+    const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->in.name) + 1;
+    const int letters = snprintf(path, PATH_BYTES, "%.*s%s", folder, r->in.name, file);
     return (file[0] && letters < PATH_BYTES) ||
-           refuse(r, "a path has 1 to %d letters, with the folder of the scene", PATH_BYTES - 1);
+           refuse(&r->in, "a path has 1 to %d letters, with the folder of the scene", PATH_BYTES - 1);
 }
 
 /* The image of this name, if there is a name: its first channels have to be within a range, since it is used as
@@ -302,8 +271,8 @@ static int find_image(reader *r, const char *name, const char *what, int channel
     for (int i = 0; i < map->width * map->height * 3; i++) {
         const double value = (double)map->rgb[i];
         if (i % 3 < channels && !(value >= low && value <= high))
-            return refuse(r, "as %s the image must be from %g to %g; it is %g in column %d of row %d", what, low,
-                          high, value, i / 3 % map->width, i / 3 / map->width);
+            return refuse(&r->in, "as %s the image must be from %g to %g; it is %g in column %d of row %d", what,
+                          low, high, value, i / 3 % map->width, i / 3 / map->width);
     }
     return 1;
 }
@@ -318,7 +287,7 @@ static int read_view(reader *r, const given *g, size_t of)
         s->width = (int)g->width;
         s->height = (int)g->height;
         return g->width * g->height <= IMAGE_PIXELS_MAX ||
-               refuse(r, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
+               refuse(&r->in, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
     }
     if (of == INTEGRATOR) {
         s->depth = (unsigned)g->depth;
@@ -331,9 +300,9 @@ static int read_view(reader *r, const given *g, size_t of)
     s->up = g->up;
     s->field = g->field * (PI / 180);
     if (!(length(forward) >= least_size))
-        return refuse(r, "'from' and 'to' are the same place");
+        return refuse(&r->in, "'from' and 'to' are the same place");
     return length(cross(forward, g->up)) >= 1e-6 * length(forward) * length(g->up) ||
-           refuse(r, "'up' is the direction of the view");
+           refuse(&r->in, "'up' is the direction of the view");
 }
 
 static int read_environment(reader *r, const given *g, size_t kind)
@@ -356,9 +325,9 @@ static int read_image(reader *r, const given *g, size_t kind)
         return 0;
     if (!(kind == FROM_FILE ? image_read_pfm(made, path, &error)
                             : image_make_pattern(made, g->pattern, (int)g->columns, (int)g->rows, &error)))
-        return refuse(r, "%s", error.message);
+        return refuse(&r->in, "%s", error.message);
     r->pixels += (size_t)made->width * (size_t)made->height;
-    return r->pixels <= PIXELS_MAX || refuse(r, "all images together have more than %d pixels", PIXELS_MAX);
+    return r->pixels <= PIXELS_MAX || refuse(&r->in, "all images together have more than %d pixels", PIXELS_MAX);
 }
 
 enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF };
@@ -389,20 +358,20 @@ static int read_distribution(reader *r, const given *g, const vndf_distribution 
     if (!choose(r, word, "distribution", known, &form))
         return 0;
     if (!of != (form <= BECKMANN))
-        return refuse(r, "'distribution %s' %s", word,
+        return refuse(&r->in, "'distribution %s' %s", word,
                       of ? "takes nothing more" : "needs a file, family or formula");
     *found = form == GGX ? vndf_ggx() : vndf_beckmann();
     if (form <= BECKMANN)
-        return g->alpha[0] > 0 || refuse(r, "'distribution %s' needs 'alpha A [AY]'", word);
+        return g->alpha[0] > 0 || refuse(&r->in, "'distribution %s' needs 'alpha A [AY]'", word);
     while (i < s->table_count && (strcmp(r->tables[i][0], word) != 0 || strcmp(r->tables[i][1], of) != 0))
         i++;
     if (i == SCENE_TABLES_MAX)
-        return refuse(r, "these are more than %d tables", SCENE_TABLES_MAX);
+        return refuse(&r->in, "these are more than %d tables", SCENE_TABLES_MAX);
     if (i == s->table_count) {
         if (form == TABLE && !path_of(r, of, path))
             return 0;
         if (!(s->tables[i] = make_table(form, form == TABLE ? path : of, &error)))
-            return refuse(r, "%s", error.message);
+            return refuse(&r->in, "%s", error.message);
         r->tables[i][0] = word;
         r->tables[i][1] = of;
         s->table_count++;
@@ -437,7 +406,7 @@ static int read_rough(reader *r, const given *g, size_t kind, material *m)
         !read_distribution(r, g, &is->distribution))
         return 0;
     if (kind == CONDUCTOR && !g->metal == !(length(g->eta) + length(g->k) > 0))
-        return refuse(r, "'conductor' needs either 'of METAL' or 'eta R G B k R G B'");
+        return refuse(&r->in, "'conductor' needs either 'of METAL' or 'eta R G B k R G B'");
     floats_of(g->metal ? metals[metal][0] : g->eta, is->conductor_eta);
     floats_of(g->metal ? metals[metal][1] : g->k, is->conductor_k);
     is->alpha_x = g->alpha[0] > 0 ? (float)g->alpha[0] : 1.0f;
@@ -451,13 +420,13 @@ static int read_rough(reader *r, const given *g, size_t kind, material *m)
     const double least = 1e-6 / fmin((double)is->alpha_x, (double)is->alpha_y);
     const double most = 1e3 / fmax((double)is->alpha_x, (double)is->alpha_y);
     return find_image(r, g->alpha_map, "roughness", 1, least, most, &m->alpha_map) &&
-           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK || refuse(r, "%s", error.message));
+           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK || refuse(&r->in, "%s", error.message));
 }
 
 static int read_material(reader *r, const given *g, size_t kind)
 {
     material *made = &r->made->materials[r->made->material_count++];
-    made->name = r->word[1];
+    made->name = r->in.word[1];
     made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
     floats_of(g->colour, made->colour);
     return find_image(r, g->colour_map, "colour", 3, 0, 1, &made->colour_map) &&
@@ -473,11 +442,11 @@ static int read_mesh(reader *r, const given *g, size_t of)
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
-        return refuse(r, "a light is a sphere or a rectangle, not a mesh");
+        return refuse(&r->in, "a light is a sphere or a rectangle, not a mesh");
     if (!path_of(r, g->file, path))
         return 0;
     if (!obj_read(to, path, (int)of, &error))
-        return refuse(r, "%s", error.message);
+        return refuse(&r->in, "%s", error.message);
     geometry_place(to, first, g->scale, g->turn * (PI / 180), g->move);
     return 1;
 }
@@ -496,29 +465,29 @@ static int read_shape(reader *r, const given *g, size_t of)
     if (of == RECTANGLE) {
         const double cosine = dot(u, v) / (length(u) * length(v));
         if (!(length(u) >= least_size && length(v) >= least_size))
-            return refuse(r, "an edge of the rectangle has no length");
+            return refuse(&r->in, "an edge of the rectangle has no length");
         if (!(fabs(cosine) < 2e-3))
-            return refuse(r, "the edges of a rectangle must be at right angles; these are at %.4g degrees",
+            return refuse(&r->in, "the edges of a rectangle must be at right angles; these are at %.4g degrees",
                           acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
         made.kind = SHAPE_RECTANGLE;
         made.edge_u = u;
         made.edge_v = along(v, -dot(u, v) / dot(u, u), u);
     }
     made.material = (int)which;
-    return geometry_add(&r->made->geometry, &made) || refuse(r, "there is no memory for this shape");
+    return geometry_add(&r->made->geometry, &made) || refuse(&r->in, "there is no memory for this shape");
 }
 
-/* ---- lines ---- */
+/* ---- all of it ---- */
 
 /* The second word of a line, a name that none of the things before it has; there may be `most`. */
 static int read_name(reader *r, const char **list, size_t most)
 {
-    const char *what = r->word[0], *name = r->word[1];
+    const char *what = r->in.word[0], *name = r->in.word[1];
     const size_t count = find(list, name);
     if (list[count])
-        return refuse(r, "there is another %s '%.64s' already", what, name);
+        return refuse(&r->in, "there is another %s '%.64s' already", what, name);
     if (count == most)
-        return refuse(r, "these are more than %zu %ss", most, what);
+        return refuse(&r->in, "these are more than %zu %ss", most, what);
     list[count] = name;
     return 1;
 }
@@ -531,18 +500,19 @@ static int read_line(reader *r)
 {
     size_t of, kind = 0;
     given g = initial;
-    if (!choose(r, r->word[0], "word that begins a line", names, &of))
+    if (!choose(r, r->in.word[0], "word that begins a line", names, &of))
         return 0;
     if (of <= ENVIRONMENT && r->seen >> of & 1u)
-        return refuse(r, "'%s' stands in this scene twice", names[of]);
+        return refuse(&r->in, "'%s' stands in this scene twice", names[of]);
     r->seen |= 1u << of;
     if (!kinds[of])
         return read_fields(r, &g, of, 1) && readers[of](r, &g, of);
     const char *const *list = names + kinds[of];
     const size_t kind_at = of == ENVIRONMENT ? 1 : 2;
-    if (r->count <= kind_at)
-        return refuse(r, "'%s' needs %s%s", names[of], kind_at > 1 ? "a name and " : "", list_words(list, ""));
-    if (!choose(r, r->word[kind_at], "kind of it", list, &kind) ||
+    if (r->in.count <= kind_at)
+        return refuse(&r->in, "'%s' needs %s%s", names[of], kind_at > 1 ? "a name and " : "",
+                      list_words(list, ""));
+    if (!choose(r, r->in.word[kind_at], "kind of it", list, &kind) ||
         (of == IMAGE && !read_name(r, r->images, SCENE_IMAGES_MAX)) ||
         (of == MATERIAL && !read_name(r, r->materials, SCENE_MATERIALS_MAX)))
         return 0;
@@ -555,29 +525,25 @@ static int finish(reader *r)
 {
     scene *s = r->made;
     if (!(r->seen >> CAMERA & 1u))
-        return refuse(r, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
+        return refuse(&r->in, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
     if (!geometry_build(&s->geometry))
-        return refuse(r, "there is no memory for a hierarchy of its shapes");
+        return refuse(&r->in, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return refuse(r, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
+        return refuse(&r->in, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
-           refuse(r, "the scene ends without light: an environment, or a shape of a light");
+           refuse(&r->in, "the scene ends without light: an environment, or a shape of a light");
 }
 
-scene *scene_read_text(const char *name, char *text, vndf_error *error)
+scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
 {
     scene *s = calloc(1, sizeof *s);
-    reader r = {.name = name, .error = error, .made = s};
-    int good = s ? read_view(&r, &initial, FILM) && read_view(&r, &initial, INTEGRATOR)
-                 : refuse(&r, "there is no memory");
-    for (char *at = text, *end; good && *at; at = end) {
-        end = at + strcspn(at, "\n");
-        r.line++;
-        if (*end)
-            *end++ = '\0';
-        good = split(&r, at) && (!r.count || read_line(&r));
-    }
+    reader r = {.made = s};
+    int more, good = lines_begin(&r.in, name, text, length, error);
+    good = good && (s || refuse(&r.in, "there is no memory"));
+    good = good && read_view(&r, &initial, FILM) && read_view(&r, &initial, INTEGRATOR);
+    while (good && (more = lines_next(&r.in)))
+        good = more > 0 && read_line(&r);
     if (good && finish(&r))
         return s->text = text, s;
     free(text);
@@ -587,14 +553,9 @@ scene *scene_read_text(const char *name, char *text, vndf_error *error)
 
 scene *scene_read(const char *path, vndf_error *error)
 {
-    char reason[128];
     size_t length;
-    char *text = files_read(path, BYTES_MAX, &length, reason, sizeof reason);
-    if (text && strlen(text) == length)
-        return scene_read_text(path, text, error);
-    refuse_at(error, path, 0, "%s", text ? "the file has a byte 0: it is no text" : reason);
-    free(text);
-    return NULL;
+    char *text = bytes_read(path, BYTES_MAX, &length, error);
+    return text ? scene_read_text(path, text, length, error) : NULL;
 }
 
 void scene_free(scene *s)

@@ -63,8 +63,8 @@ typedef struct scene {
 scene *scene_read(const char *path, vndf_error *error);
 void scene_free(scene *s);
 
-/* The same from text, which it takes over and frees; messages call it `name`. */
-scene *scene_read_text(const char *name, char *text, vndf_error *error);
+/* The same from `length` bytes with a 0 behind them, which it takes over and frees; messages call them `name`. */
+scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error);
 
 /* Sets the pixels across; the height follows. 0 and why if no row is left, or they are too many. */
 int scene_resize(scene *s, int width, vndf_error *error);
