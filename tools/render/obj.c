@@ -81,14 +81,14 @@ static int read_corner(reader *r, const char *word, corner *c)
         const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
         const long long count = (long long)r->of[i].count;
         if (behind == at)
-            break;
+            return refuse(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
         if (given == 0 || given > count || given < -count)
             return refuse(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
                           given, count, table_names[i]);
         c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
         at = behind;
     }
-    return (c->of[V] && !*at) || refuse(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
+    return !*at || refuse(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
 }
 
 /* Normals of a mesh win over the order of its corners. */
