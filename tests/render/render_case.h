@@ -12,12 +12,8 @@ enum { CASE_TEXT = 8192 };
 static inline scene *case_scene(const char *text)
 {
     const size_t length = strlen(text);
-    vndf_error error;
-    scene *s = scene_read_text("x.scene", strcpy(malloc(length + 1), text), length, &error);
-    if (s)
-        return s;
-    fprintf(stderr, "%s\n", error.message);
-    exit(1);
+    scene *s = scene_read_text("x.scene", strcpy(malloc(length + 1), text), length);
+    return s ? s : (exit(1), NULL);
 }
 
 /* The same seen through a field so narrow that all 16 x 16 pixels see one point. */

@@ -15,31 +15,32 @@
 /* ---- the furnace ---- */
 
 static const char *const lossless[] = {
-    "material m matte colour 1 1 1\n",
-    "material m shape distribution ggx alpha 0.8 scattering multiple\n",
-    "material m shape distribution beckmann alpha 0.2 0.9 scattering multiple\n",
-    "material m dielectric index 1.5 distribution ggx alpha 0.4 scattering multiple\n",
+    "material m --matte 1,1,1\n",
+    "material m --shape --distribution ggx --alpha 0.8 --scattering multiple\n",
+    "material m --shape --distribution beckmann --alpha 0.2,0.9 --scattering multiple\n",
+    "material m --dielectric 1.5 --distribution ggx --alpha 0.4 --scattering multiple\n",
 };
 
-#define DOME "environment constant 1 1 1\n"
+#define DOME "environment --constant 1,1,1\n"
 /* Six rectangles that shine inwards: their light is drawn. */
-#define ROOM                                                              \
-  "material wall light radiance 1 1 1\n"                                  \
-  "rectangle corner -6 -6 -6 edge-u 0 0 12 edge-v 12 0 0 material wall\n" \
-  "rectangle corner -6 6 -6 edge-u 12 0 0 edge-v 0 0 12 material wall\n"  \
-  "rectangle corner -6 -6 -6 edge-u 0 12 0 edge-v 0 0 12 material wall\n" \
-  "rectangle corner 6 -6 -6 edge-u 0 0 12 edge-v 0 12 0 material wall\n"  \
-  "rectangle corner -6 -6 -6 edge-u 12 0 0 edge-v 0 12 0 material wall\n" \
-  "rectangle corner -6 -6 6 edge-u 0 12 0 edge-v 12 0 0 material wall\n"
+#define ROOM                                                                      \
+  "material wall --light 1,1,1\n"                                                 \
+  "rectangle --corner -6,-6,-6 --edge-u 0,0,12 --edge-v 12,0,0 --material wall\n" \
+  "rectangle --corner -6,6,-6 --edge-u 12,0,0 --edge-v 0,0,12 --material wall\n"  \
+  "rectangle --corner -6,-6,-6 --edge-u 0,12,0 --edge-v 0,0,12 --material wall\n" \
+  "rectangle --corner 6,-6,-6 --edge-u 0,0,12 --edge-v 0,12,0 --material wall\n"  \
+  "rectangle --corner -6,-6,-6 --edge-u 12,0,0 --edge-v 0,12,0 --material wall\n" \
+  "rectangle --corner -6,-6,6 --edge-u 0,12,0 --edge-v 12,0,0 --material wall\n"
 
 /* In a dome every sample is 1; in a room it is, on average. */
 static void test_furnace(const char *kind, const char *lit, double most)
 {
     char text[2048];
-    snprintf(text, sizeof text,
-             "film width 24 height 24\ncamera from 0 0 5 to 0 0 0 field 24\nintegrator depth 10000\n%s%s"
-             "sphere centre 0 0 0 radius 1 material m\n",
-             lit, kind);
+    snprintf(
+        text, sizeof text,
+        "film --width 24 --height 24\ncamera --from 0,0,5 --to 0,0,0 --field 24\nintegrator --depth 10000\n%s%s"
+        "sphere --centre 0,0,0 --radius 1 --material m\n",
+        lit, kind);
     scene *s = case_scene(text);
     film f = {.sum = NULL};
     double worst = 0;
@@ -54,9 +55,9 @@ static void test_furnace(const char *kind, const char *lit, double most)
 
 /* ---- closed forms ---- */
 
-#define FLOOR                                                                                 \
-  "camera from 0 1 3 to 0 0 0\nintegrator depth 1\nmaterial floor matte colour 0.5 0.5 0.5\n" \
-  "rectangle corner -9 0 9 edge-u 18 0 0 edge-v 0 0 -18 material floor\n"
+#define FLOOR                                                                                  \
+  "camera --from 0,1,3 --to 0,0,0\nintegrator --depth 1\nmaterial floor --matte 0.5,0.5,0.5\n" \
+  "rectangle --corner -9,0,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n"
 
 /* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel &
  * Howell). */
@@ -66,11 +67,11 @@ static double corner_factor(double a, double b)
     return (a / x * atan(b / x) + b / y * atan(a / y)) / (2 * PI);
 }
 
-#define LAMP "material lamp light radiance 8 8 8\n"
+#define LAMP "material lamp --light 8,8,8\n"
 
-#define PANEL "rectangle corner -1 2 -0.5 edge-u 2 0 0 edge-v 0 0 1 material lamp\n"
-#define ABOVE "sphere centre 0 2 0 radius 0.25 material lamp\n"
-#define ASIDE "sphere centre 4 3 0 radius 0.25 material lamp\n"
+#define PANEL "rectangle --corner -1,2,-0.5 --edge-u 2,0,0 --edge-v 0,0,1 --material lamp\n"
+#define ABOVE "sphere --centre 0,2,0 --radius 0.25 --material lamp\n"
+#define ASIDE "sphere --centre 4,3,0 --radius 0.25 --material lamp\n"
 
 static void test_floors(void)
 {
@@ -83,10 +84,12 @@ static void test_floors(void)
         {ABOVE, above},
         {ASIDE, aside},
         {PANEL, panel},
-        {"sphere centre 0 2.2 0 radius 0.1 material lamp\n" ASIDE PANEL, panel + aside}, /* the panel hides it */
-        {PANEL "rectangle corner -1 1.999999 -0.5 edge-u 1 0 0 edge-v 0 0 1 material floor\n", panel / 2},
-        {"rectangle corner -1 2 0.5 edge-u 2 0 0 edge-v 0 0 -1 material lamp\n" ASIDE, aside}, /* shines up */
-        {"sphere centre 0 0 0 radius 40 material lamp\n", 0}, /* all is inside, where it does not shine */
+        {"sphere --centre 0,2.2,0 --radius 0.1 --material lamp\n" ASIDE PANEL,
+         panel + aside}, /* the panel hides it */
+        {PANEL "rectangle --corner -1,1.999999,-0.5 --edge-u 1,0,0 --edge-v 0,0,1 --material floor\n", panel / 2},
+        {"rectangle --corner -1,2,0.5 --edge-u 2,0,0 --edge-v 0,0,-1 --material lamp\n" ASIDE,
+         aside},                                                    /* shines up */
+        {"sphere --centre 0,0,0 --radius 40 --material lamp\n", 0}, /* all is inside, where it does not shine */
     };
     for (size_t i = 0; i < sizeof floors / sizeof *floors; i++) {
         char text[2048];
@@ -106,10 +109,10 @@ static void test_sky(void)
 {
     enum { WIDTH = 24, HEIGHT = 14, FINER = 8 };
     scene *s =
-        case_point("camera from 3 0 0 to 0 0 0\nintegrator depth 1\nmaterial wall matte colour 0.5 0.5 0.5\n"
-                   "rectangle corner 0 -9 9 edge-u 0 0 -18 edge-v 0 18 0 material wall\n"
-                   "image sky pattern studio width 24 height 14\nenvironment image sky turn 40\n" LAMP
-                   "sphere centre 2 1.5 0 radius 0.05 material lamp\n");
+        case_point("camera --from 3,0,0 --to 0,0,0\nintegrator --depth 1\nmaterial wall --matte 0.5,0.5,0.5\n"
+                   "rectangle --corner 0,-9,9 --edge-u 0,0,-18 --edge-v 0,18,0 --material wall\n"
+                   "image sky --pattern studio --width 24 --height 14\nenvironment --image sky --turn 40\n" LAMP
+                   "sphere --centre 2,1.5,0 --radius 0.05 --material lamp\n");
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
     unsigned long long state = 4;
     TEST(s->environment.sums != NULL);
@@ -161,10 +164,10 @@ static void test_integral(double alpha, double size)
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "camera from 0 1 1 to 0 0 0\nintegrator depth 1\nmaterial lamp light radiance 3 3 3\n"
-             "material floor shape distribution ggx alpha %g\n"
-             "rectangle corner -2 0 2 edge-u 4 0 0 edge-v 0 0 -4 material floor\n"
-             "rectangle corner %g 2 %g edge-u %g 0 0 edge-v 0 0 %g material lamp\n",
+             "camera --from 0,1,1 --to 0,0,0\nintegrator --depth 1\nmaterial lamp --light 3,3,3\n"
+             "material floor --shape --distribution ggx --alpha %g\n"
+             "rectangle --corner -2,0,2 --edge-u 4,0,0 --edge-v 0,0,-4 --material floor\n"
+             "rectangle --corner %g,2,%g --edge-u %g,0,0 --edge-v 0,0,%g --material lamp\n",
              alpha, -0.3 * size, -2 - 0.5 * size, size, size);
     const double want =
         3 * integral((float)alpha, vec(-0.3 * size, 2, -2 - 0.5 * size), vec(size, 0, 0), vec(0, 0, size));
@@ -184,13 +187,14 @@ static void test_integral(double alpha, double size)
 static void test_samplers(const char *kind, double order[3])
 {
     char text[2048];
-    snprintf(text, sizeof text,
-             "camera from 0 0.25 3 to 0 0 0\nimage sky pattern studio width 64 height 32\nenvironment image sky\n"
-             "material m %s\nmaterial floor matte colour 0.5 0.5 0.5\n"
-             "rectangle corner -3 0 3 edge-u 6 0 0 edge-v 0 0 -6 material m\n"
-             "rectangle corner -3 -0.5 3 edge-u 6 0 0 edge-v 0 0 -6 material m\n"
-             "rectangle corner -9 -1 9 edge-u 18 0 0 edge-v 0 0 -18 material floor\n",
-             kind);
+    snprintf(
+        text, sizeof text,
+        "camera --from 0,0.25,3 --to 0,0,0\nimage sky --pattern studio --width 64 --height 32\nenvironment --image sky\n"
+        "material m %s\nmaterial floor --matte 0.5,0.5,0.5\n"
+        "rectangle --corner -3,0,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
+        "rectangle --corner -3,-0.5,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
+        "rectangle --corner -9,-1,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n",
+        kind);
     scene *s = case_point(text);
     case_mean visible = {0, 0, 0};
     for (int i = 0; i < SAMPLERS; i++) {
@@ -212,12 +216,12 @@ int main(void)
     for (size_t i = 0; i < 4; i++)
         for (size_t k = 0; k < 3; k++)
             test_integral(alphas[i], sizes[k]);
-    static const char *const kinds[] = {"conductor of gold distribution ggx alpha 0.1",
-                                        "dielectric index 1.5 distribution ggx alpha 0.3",
-                                        "dielectric index 1.5 distribution beckmann alpha 0.05 0.4",
-                                        "dielectric index 1 distribution ggx alpha 0.3",
-                                        "dielectric index 1.3 distribution ggx alpha 0.4 scattering multiple",
-                                        "shape distribution ggx alpha 0.5"};
+    static const char *const kinds[] = {"--conductor gold --distribution ggx --alpha 0.1",
+                                        "--dielectric 1.5 --distribution ggx --alpha 0.3",
+                                        "--dielectric 1.5 --distribution beckmann --alpha 0.05,0.4",
+                                        "--dielectric 1 --distribution ggx --alpha 0.3",
+                                        "--dielectric 1.3 --distribution ggx --alpha 0.4 --scattering multiple",
+                                        "--shape --distribution ggx --alpha 0.5"};
     double variance[3];
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         test_samplers(kinds[i], variance);

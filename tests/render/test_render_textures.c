@@ -23,8 +23,8 @@ static void test_upright(const char *shapes, const char *camera, const int want[
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "film width 4 height 4\n%s\nintegrator depth 1\nenvironment constant 1 1 1\n"
-             "image q file \"render_quarters.pfm\"\nmaterial m matte colour 1 1 1 colour-map q\n%s",
+             "film --width 4 --height 4\n%s\nintegrator --depth 1\nenvironment --constant 1,1,1\n"
+             "image q --file \"render_quarters.pfm\"\nmaterial m --matte 1,1,1 --colour-map q\n%s",
              camera, shapes);
     scene *s = case_scene(text);
     film f = {.sum = NULL};
@@ -43,15 +43,15 @@ static void test_upright(const char *shapes, const char *camera, const int want[
 /* A map of 1/2 halves the roughness. */
 static void test_roughness(void)
 {
-#define LIT_FLOOR(material)                                          \
-  "camera from 0 1 2 to 0 0 0\nmaterial lamp light radiance 9 9 9\n" \
-  "sphere centre 0 2 -2 radius 0.3 material lamp\n" material "\n"    \
-  "rectangle corner -1 0 1 edge-u 2 0 0 edge-v 0 0 -2 material m\n"
+#define LIT_FLOOR(material)                                             \
+  "camera --from 0,1,2 --to 0,0,0\nmaterial lamp --light 9,9,9\n"       \
+  "sphere --centre 0,2,-2 --radius 0.3 --material lamp\n" material "\n" \
+  "rectangle --corner -1,0,1 --edge-u 2,0,0 --edge-v 0,0,-2 --material m\n"
     static const float half[4][3] = {{0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}, {0.5f, 9, 9}};
     static const char *const texts[2] = {
-        LIT_FLOOR("material m conductor of gold distribution ggx alpha 0.2 0.1"),
-        LIT_FLOOR("image h file \"render_half.pfm\"\n"
-                  "material m conductor of gold distribution ggx alpha 0.4 0.2 alpha-map h")};
+        LIT_FLOOR("material m --conductor gold --distribution ggx --alpha 0.2,0.1"),
+        LIT_FLOOR("image h --file \"render_half.pfm\"\n"
+                  "material m --conductor gold --distribution ggx --alpha 0.4,0.2 --alpha-map h")};
     double light[2] = {0, 1};
     TEST(put_quarters("render_half.pfm", half));
     for (int i = 0; i < 2; i++) {
@@ -88,13 +88,14 @@ int main(void)
         return test_done();
     fputs("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n", mesh);
     fclose(mesh);
-    const char *camera = "camera from 0 0 5 to 0 0 0 field 22";
-    test_upright("rectangle corner -1 -1 0 edge-u 2 0 0 edge-v 0 2 0 material m\n", camera, upright);
-    test_upright("mesh file render_quarters.obj material m\n", camera, upright);
+    const char *camera = "camera --from 0,0,5 --to 0,0,0 --field 22";
+    test_upright("rectangle --corner -1,-1,0 --edge-u 2,0,0 --edge-v 0,2,0 --material m\n", camera, upright);
+    test_upright("mesh --file render_quarters.obj --material m\n", camera, upright);
     /* around the sphere u goes from +z by way of +x: seen from -x its first half is behind, the seam at -z left */
     static const int from_x[4] = {0, 0, 2, 2}, from_minus_x[4] = {1, 1, 3, 3};
-    test_upright("sphere centre 0 0 0 radius 1 material m\n", "camera from 5 0 0 to 0 0 0 field 18", from_x);
-    test_upright("sphere centre 0 0 0 radius 1 material m\n", "camera from -5 0 0 to 0 0 0 field 18",
+    test_upright("sphere --centre 0,0,0 --radius 1 --material m\n", "camera --from 5,0,0 --to 0,0,0 --field 18",
+                 from_x);
+    test_upright("sphere --centre 0,0,0 --radius 1 --material m\n", "camera --from -5,0,0 --to 0,0,0 --field 18",
                  from_minus_x);
     test_roughness();
     test_bilinear();

@@ -196,16 +196,17 @@ static int run(const arguments *given)
     render_work w;
     int status = STATUS_USE;
     if (option_value(given, "--grammar"))
-        return scene_print_grammar(stdout), STATUS_GOOD;
+        return scene_print_manual(), STATUS_GOOD;
     if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0], &error);
-    if (!s || (w.width && !scene_resize(s, (int)w.width, &error)) || !comparison_begin(&w.ways, s, &error))
+    scene *s = scene_read(given->positional.item[0]);
+    const int good = s && (!w.width || scene_resize(s, (int)w.width));
+    if (good && !comparison_begin(&w.ways, s, &error))
         complain(name, "%s", error.message);
-    else if (!w.path || output_open(&w.output, name, w.path)) {
-        w.ways.samples = w.samples ? w.samples : s->samples;
+    else if (good && (!w.path || output_open(&w.output, name, w.path))) {
+        w.ways.samples = w.samples ? (uint64_t)w.samples : (uint64_t)s->samples;
         w.exposure = w.exposure > 0 ? w.exposure : (double)s->exposure;
         status = render(&w);
     }

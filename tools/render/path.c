@@ -251,7 +251,7 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
             meet_light(&w, is_met ? &h : NULL);
             break;
         }
-        if (count > s->depth || !begin(&p, plan, &h, w.ray.direction))
+        if (count > (unsigned)s->depth || !begin(&p, plan, &h, w.ray.direction))
             break;
         if (lights_any(s))
             reach_light(&w, &p, &h);

@@ -1,4 +1,4 @@
-/* A scene: the contents of a scene file, ready for rendering. scene_print_grammar says how they are written. */
+/* A scene: the contents of a scene file, ready for rendering. scene_print_manual says how they are written. */
 #ifndef TOOLS_RENDER_SCENE_H
 #define TOOLS_RENDER_SCENE_H
 
@@ -43,7 +43,7 @@ typedef struct scene {
     vec3 from, to, up; /* of the camera */
     double field;      /* of view, radians, across the height of the film */
     int width, height;
-    unsigned depth, samples; /* the most surfaces on a path; a pixel */
+    int depth, samples; /* the most surfaces on a path; a pixel */
     float exposure;          /* of the PNG */
     environment environment;
     geometry geometry; /* owned, as are all below */
@@ -58,19 +58,19 @@ typedef struct scene {
     char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE: what is wrong, and what would be
- * right". Files that are not trusted are safe. */
-scene *scene_read(const char *path, vndf_error *error);
+/* Reads a scene file; paths in it are relative to its folder. NULL after a complaint. Files that are not trusted are
+ * safe. */
+scene *scene_read(const char *path);
 void scene_free(scene *s);
 
-/* The same from `length` bytes with a 0 behind them, which it takes over and frees; messages call them `name`. */
-scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error);
+/* The same from `length` bytes with a 0 behind them, which it takes over and frees; complaints call them `name`. */
+scene *scene_read_text(const char *name, char *text, size_t length);
 
-/* Sets the pixels across; the height follows. 0 and why if no row is left, or they are too many. */
-int scene_resize(scene *s, int width, vndf_error *error);
+/* Sets the pixels across; the height follows. 0 after a complaint if no row is left, or they are too many. */
+int scene_resize(scene *s, int width);
 
-/* How scenes are written. */
-void scene_print_grammar(FILE *file);
+/* How scenes are written, to stdout. */
+void scene_print_manual(void);
 
 /* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
 
