@@ -1,15 +1,11 @@
-/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
- * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
- * rectangles on a matte floor is that of closed forms: R^2/d^2 cos for a sphere, the form factor of a parallel
- * rectangle above its corner; and what stands before a light bars it. A wall shows the integral over a sky. A
- * rough metal shows the integral of f cos over lights, from narrow lobes and small lights to wide ones, for all
- * samplers: a sum over points of the light with vndf_bsdf_eval, which shares no code with paths. All samplers
- * show the same of metals and glass, also through refraction and walks; perfect sampling has no more variance
- * than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose or
- * gain: by rays that meet their own surface, by roulette, by weights of drawn light, at shading normals; rows
- * and pixels of a sky that are off by one or turned in the other sense, choices that forget a light; wrong
- * densities, areas, powers and cosines, lights that shine backwards, shadow rays that end too early or too late,
- * candidates that are not kept in proportion to their weight, and a sampler that is not used. */
+/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose none of it
+ * makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and rectangles on a matte
+ * floor is that of closed forms, and what stands before a light bars it. A wall shows the integral over a sky. All
+ * samplers show the same of metals and glass, also through refraction and walks; perfect sampling has no more variance
+ * than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose or gain: by
+ * rays that meet their own surface, by roulette, by weights of drawn light; rows and pixels of a sky that are off by
+ * one, choices that forget a light; wrong densities, areas, powers and cosines, lights that shine backwards, shadow rays
+ * that end too early or too late, candidates that are not kept in proportion to their weight. */
 #include "render_case.h"
 
 /* ---- the furnace ---- */
@@ -135,52 +131,6 @@ static void test_sky(void)
     scene_free(s);
 }
 
-/* ---- the integral over a light ---- */
-
-enum { SIDE = 400 };
-
-/* Seen from (0, 1, 1) towards the origin, a point of the plane y = 0 whose u goes along x. */
-static double integral(float alpha, vec3 corner, vec3 u, vec3 v)
-{
-    const vndf_description is = {.distribution = vndf_ggx(), .alpha_x = alpha, .alpha_y = alpha};
-    const vec3 n = cross(u, v);
-    vndf_material resolved;
-    vndf_bsdf bsdf;
-    double sum = 0;
-    if (!TEST(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK))
-        return 0;
-    vndf_bsdf_at(&bsdf, &resolved, (vndf_vec3){0.0f, -(float)sqrt(0.5), (float)sqrt(0.5)});
-    for (int i = 0; i < SIDE * SIDE; i++) {
-        const vec3 p = along(along(corner, (i % SIDE + 0.5) / SIDE, u), ((double)(i / SIDE) + 0.5) / SIDE, v);
-        const vec3 w = unit(p);
-        float f[3];
-        vndf_bsdf_eval(&bsdf, (vndf_vec3){(float)w.x, -(float)w.z, (float)w.y}, 0, f);
-        sum += (double)f[0] * w.y * -dot(w, n) / dot(p, p); /* n is the area, too */
-    }
-    return sum / (SIDE * SIDE);
-}
-
-static void test_integral(double alpha, double size)
-{
-    char text[2048];
-    snprintf(text, sizeof text,
-             "camera --from 0,1,1 --to 0,0,0\nintegrator --depth 1\nmaterial lamp --light 3,3,3\n"
-             "material floor --shape --distribution ggx --alpha %g\n"
-             "rectangle --corner -2,0,2 --edge-u 4,0,0 --edge-v 0,0,-4 --material floor\n"
-             "rectangle --corner %g,2,%g --edge-u %g,0,0 --edge-v 0,0,%g --material lamp\n",
-             alpha, -0.3 * size, -2 - 0.5 * size, size, size);
-    const double want =
-        3 * integral((float)alpha, vec(-0.3 * size, 2, -2 - 0.5 * size), vec(size, 0, 0), vec(0, 0, size));
-    scene *s = case_point(text);
-    for (int sampler = 0; sampler < SAMPLERS; sampler++) /* the perfect one is slow */
-        if (!case_agrees(
-                case_light(s, (path_sampler)sampler,
-                           sampler == SAMPLER_PERFECT ? test_amount(16, 32, 512) : test_amount(64, 256, 512)),
-                want, 1e-3))
-            fprintf(stderr, "    alpha %g, size %g, %s\n", alpha, size, path_sampler_names[sampler]);
-    scene_free(s);
-}
-
 /* ---- samplers ---- */
 
 /* Walks have no sampler by all normals. */
@@ -212,10 +162,6 @@ static void test_samplers(const char *kind, double order[3])
 
 int main(void)
 {
-    static const double alphas[] = {0.02, 0.1, 0.4, 1}, sizes[] = {0.05, 0.5, 3};
-    for (size_t i = 0; i < 4; i++)
-        for (size_t k = 0; k < 3; k++)
-            test_integral(alphas[i], sizes[k]);
     static const char *const kinds[] = {"--conductor gold --distribution ggx --alpha 0.1",
                                         "--dielectric 1.5 --distribution ggx --alpha 0.3",
                                         "--dielectric 1.5 --distribution beckmann --alpha 0.05,0.4",

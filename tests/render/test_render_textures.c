@@ -1,6 +1,5 @@
 /* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes as vt say;
- * a map of roughness multiplies alpha; look-ups blend four pixels and repeat. Notices u and v exchanged or
- * flipped, a map that is not read, and half a pixel. */
+ * a map of roughness multiplies alpha. Notices u and v exchanged or flipped, a map that is not read, and half a pixel. */
 #include "render_case.h"
 
 static const float quarters[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
@@ -64,22 +63,6 @@ static void test_roughness(void)
     remove("render_half.pfm");
 }
 
-static void test_bilinear(void)
-{
-    static const float want[][5] = {
-        {0.25f, 0.25f, 1, 0, 0}, {0.375f, 0.25f, 0.75f, 0.25f, 0}, {-2.75f, 7.75f, 0, 0, 1}};
-    image of;
-    float rgb[3];
-    if (!TEST(image_make(&of, 2, 2)))
-        return;
-    memcpy(of.rgb, quarters, sizeof quarters);
-    for (int i = 0; i < 9; i++) {
-        image_bilinear(&of, (double)want[i / 3][0], (double)want[i / 3][1], rgb);
-        TEST_NEAR((double)rgb[i % 3], (double)want[i / 3][2 + i % 3], 1e-6);
-    }
-    image_free(&of);
-}
-
 int main(void)
 {
     static const int upright[4] = {0, 1, 2, 3};
@@ -98,7 +81,6 @@ int main(void)
     test_upright("sphere --centre 0,0,0 --radius 1 --material m\n", "camera --from -5,0,0 --to 0,0,0 --field 18",
                  from_minus_x);
     test_roughness();
-    test_bilinear();
     remove("render_quarters.pfm");
     remove("render_quarters.obj");
     return test_done();
