@@ -42,7 +42,7 @@ static void test_scenes(void)
     } bad[] = {
         {"", 0, "the scene ends without a camera"},
         {SEEN, 1, "the scene ends without light"},
-        {SEEN "spere --centre 0,0,0\n", 2, "'spere' is no statement"},
+        {SEEN "spere\033 --centre 0,0,0\n", 2, "'spere?' is no statement"},
         {SEEN SEEN, 2, "'camera' stands in this scene twice"},
         {SEEN "sphere 1 --centre 0,0,0\n", 2, "'1' is not expected"},
         {"camera --from 0,0,5\n", 1, "--to X,Y,Z is missing"},
@@ -50,7 +50,7 @@ static void test_scenes(void)
         {"camera --from 0,0,5 --to 0,0,5\n", 1, "--from and --to are the same place"},
         {"camera --from 0,5,0 --to 0,0,0\n", 1, "--up is the direction of the view"},
         {"camera --from 0,0,5 --fild 3\n", 1, "there is no option '--fild'; did you mean '--field'?"},
-        {"camera \"--from\n", 1, "a quote does not end on its line"},
+        {"camera \"--from\n", 1, "'\"--from' is not expected"},
         {"film --width 1.5\n", 1, "--width '1.5'"},
         {"film --width 16384 --height 16384\n", 1, "16384 x 16384 pixels are more than"},
         {"environment --constant 1,1,1 --turn 3\n", 1, "--turn is for --image"},

@@ -90,10 +90,10 @@ static const struct {
     const char *says;
 } bad[] = {
     {IMAGE, BYTES("P4\n1 1\n255\n"), "this is no PFM, PGM or PPM image"},
-    {IMAGE, BYTES("PF\n1 1\n"), "the head of the image is not whole: after PF come width, height, a scale"},
-    {IMAGE, BYTES("P6\n1 1\n65536\n123"), "the largest value is '65536'; it must be from 1 to 65535"},
+    {IMAGE, BYTES("PF\n1 1\n"), "the head is not whole: after PF come width, height, a scale"},
+    {IMAGE, BYTES("P6\n1 1\n65536\n123"), "'65536' must be the largest value, from 1 to 65535"},
     {IMAGE, BYTES("P5\n1 2\n256\n\0\0\1"), "1 x 2 pixels take 4 bytes after the head, and there are 3"},
-    {IMAGE, BYTES("Pf\n0 1\n-1\n" PIXEL), "0 x 1 pixels: sides are whole numbers from 1 to 16384"},
+    {IMAGE, BYTES("Pf\n0 1\n-1\n" PIXEL), "0 x 1 pixels: sides are from 1 to 16384"},
     {IMAGE, BYTES("Pf\n16384 16384\n-1\n" PIXEL), "and there are 33554432 pixels at most"},
     {IMAGE, BYTES("Pf\n1 1\n0\n" PIXEL), "'0' must be a number other than 0"},
     {IMAGE, BYTES("Pf\n2 1\n-1\n" PIXEL "\0\0\x80\x7f"), "the pixel in column 1 of row 0 (from the top, from 0)"},

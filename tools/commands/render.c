@@ -207,7 +207,7 @@ static int run(const arguments *given)
         complain(name, "%s", error.message);
     else if (good && (!w.path || output_open(&w.output, name, w.path))) {
         w.ways.samples = w.samples ? (uint64_t)w.samples : (uint64_t)s->samples;
-        w.exposure = w.exposure > 0 ? w.exposure : (double)s->exposure;
+        w.exposure = w.exposure > 0 ? w.exposure : s->exposure;
         status = render(&w);
     }
     comparison_end(&w.ways);

@@ -69,56 +69,45 @@ typedef struct image_head {
     size_t size;
 } image_head;
 
-/* Four words and the blank behind them; 0 if they are not there. */
-static int read_words(const char *bytes, size_t size, image_head *head)
+/* A whole number from 1 to `most`, or 0. */
+static int read_side(const char *word, int most)
 {
-    char text[HEAD_MAX + 1] = "";
+    char *end;
+    const long value = strtol(word, &end, 10);
+    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
+}
+
+/* Four words and the blank behind them. */
+static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
+{
+    char text[HEAD_MAX + 1] = "", *behind;
+    const char *kind = head->word[0], *number = head->word[3];
     int end = 0;
     memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
     for (char *at = text; (at = strchr(at, '#')) != NULL;)
         memset(at, ' ', strcspn(at, "\n"));
     sscanf(text, " %31s %31s %31s %31s%n", head->word[0], head->word[1], head->word[2], head->word[3], &end);
-    head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
-    return end && text[end];
-}
-
-/* A whole number from 1 to `most`, or 0. */
-static int read_side(const char *word, int most)
-{
-    char *end;
-    long value = strtol(word, &end, 10);
-    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
-}
-
-static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
-{
-    const int is_whole = read_words(bytes, size, head);
-    const char *kind = head->word[0], *number = head->word[3];
-    char *end;
-    if (kind[0] != 'P' || !strchr("Ff56", kind[1]) || kind[1] == '\0' || kind[2] != '\0')
-        return refuse_at(error, name, 0, "this is no PFM, PGM or PPM image: it would begin with PF, Pf, P5 or P6");
+    if (strlen(kind) != 2 || kind[0] != 'P' || !strchr("Ff56", kind[1]))
+        return refuse_at(error, name, 0, "this is no PFM, PGM or PPM image, which begins with PF, Pf, P5 or P6");
     head->is_float = kind[1] == 'F' || kind[1] == 'f';
+    if (!end || !text[end])
+        return refuse_at(error, name, 0, "the head is not whole: after %s come width, height, %s and a blank",
+                         kind, head->is_float ? "a scale" : "the largest value");
+    const double order = strtod(number, &behind);
     head->channels = kind[1] == 'F' || kind[1] == '6' ? 3 : 1;
-    if (!is_whole)
-        return refuse_at(error, name, 0,
-                         "the head of the image is not whole: after %s come width, height, %s and a blank", kind,
-                         head->is_float ? "a scale" : "the largest value");
     head->width = read_side(head->word[1], IMAGE_SIDE_MAX);
     head->height = read_side(head->word[2], IMAGE_SIDE_MAX);
-    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
-        return refuse_at(error, name, 0,
-                         "%s x %s pixels: sides are whole numbers from 1 to %d, and there are %d pixels at most",
-                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
-    const double order = strtod(number, &end);
     head->most = read_side(number, 65535);
-    if (head->is_float && (*end || !(fabs(order) > 0.0)))
-        return refuse_at(error, name, 0,
-                         "'%s' must be a number other than 0; negative: the least byte comes first", number);
-    if (!head->is_float && !(head->most > 0))
-        return refuse_at(error, name, 0, "the largest value is '%s'; it must be from 1 to 65535", number);
     head->is_little = head->is_float && order < 0.0;
     head->each = head->is_float ? 4 : head->most > 255 ? 2 : 1;
-    return 1;
+    head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
+    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
+        return refuse_at(error, name, 0, "%s x %s pixels: sides are from 1 to %d, and there are %d pixels at most",
+                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+    return (head->is_float ? !*behind && fabs(order) > 0.0 : head->most > 0) ||
+           refuse_at(error, name, 0, "'%s' must be %s", number,
+                     head->is_float ? "a number other than 0; negative: the least byte comes first"
+                                    : "the largest value, from 1 to 65535");
 }
 
 static float number_at(const unsigned char *b, const image_head *head)

@@ -39,6 +39,8 @@ int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_err
     return strlen(text) == length || refuse(in, "the file has a byte 0: it is no text");
 }
 
+static const char blanks[] = " \t\r\v\f";
+
 int lines_next(lines *in)
 {
     const size_t most = sizeof in->word / sizeof *in->word;
@@ -47,12 +49,12 @@ int lines_next(lines *in)
         in->line++;
         in->at = *end ? end + 1 : end;
         *end = '\0';
-        for (at += strspn(at, " \t\r\v\f"); *at && *at != '#'; at += strspn(at, " \t\r\v\f")) {
-            const int is_quoted = *at == '"';
+        for (char *c = at; *c; c++) /* words may be printed */
+            *c = ((unsigned char)*c < ' ' && !strchr(blanks, *c)) || *c == 127 ? '?' : *c;
+        for (at += strspn(at, blanks); *at && *at != '#'; at += strspn(at, blanks)) {
+            const int is_quoted = *at == '"' && strchr(at + 1, '"');
             in->word[in->count++] = at += is_quoted;
             end = at + strcspn(at, is_quoted ? "\"" : " \t\r\v\f#");
-            if (is_quoted && !*end)
-                return refuse(in, "a quote does not end on its line") - 1;
             if (in->count == most)
                 return refuse(in, "there are %zu words or more in this line", most) - 1;
             if (*end == '#') /* the comment goes */

@@ -12,7 +12,7 @@ typedef struct lines {
     vndf_error *error;
     char *at; /* the rest of the text */
     unsigned long long line;
-    const char *word[256]; /* of the line at hand */
+    char *word[4096]; /* of the line at hand */
     size_t count;
 } lines;
 

@@ -206,13 +206,12 @@ static int read_film(reader *r)
 static int read_camera(reader *r)
 {
     scene *s = r->made;
-    double field = 40;
     if (!read_place(r, "--from", &s->from) || !read_place(r, "--to", &s->to) ||
         !read_three(r, "--up", -far_away, far_away, &s->up.x) ||
-        !option_number(&r->given, "--field", 1, 170, &field))
+        !option_number(&r->given, "--field", 1, 170, &s->field))
         return 0;
     const vec3 forward = subtract(s->to, s->from);
-    s->field = field * (PI / 180);
+    s->field *= PI / 180;
     if (!(length(forward) >= least_size))
         return wrong(r, "--from and --to are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
@@ -221,25 +220,20 @@ static int read_camera(reader *r)
 
 static int read_integrator(reader *r)
 {
-    double exposure = 1;
-    const int good = read_whole(r, "--depth", 10000, &r->made->depth) &&
-                     read_whole(r, "--samples", 1e9, &r->made->samples) &&
-                     option_number(&r->given, "--exposure", 1e-6, 1e6, &exposure);
-    r->made->exposure = (float)exposure;
-    return good;
+    scene *s = r->made;
+    return read_whole(r, "--depth", 10000, &s->depth) && read_whole(r, "--samples", 1e9, &s->samples) &&
+           option_number(&r->given, "--exposure", 1e-6, 1e6, &s->exposure);
 }
 
 static int read_environment(reader *r)
 {
-    static const char *const kinds[] = {"--constant", "--image", NULL};
+    static const char *const ways[] = {"--constant", "--image", NULL};
     environment *e = &r->made->environment;
-    double by = 1, turn = 0;
-    const int good = option_alone(&r->given, kinds) && read_colour(r, "--constant", brightest, e->constant) &&
-                     option_number(&r->given, "--scale", 0, 1e6, &by) &&
-                     option_number(&r->given, "--turn", -360, 360, &turn) &&
+    const int good = option_alone(&r->given, ways) && read_colour(r, "--constant", brightest, e->constant) &&
+                     option_number(&r->given, "--scale", 0, 1e6, &e->scale) &&
+                     option_number(&r->given, "--turn", -360, 360, &e->turn) &&
                      find_image(r, "--image", 3, 0, brightest, &e->map);
-    e->scale = (float)by;
-    e->turn = turn / 360;
+    e->turn /= 360;
     return good;
 }
 
@@ -247,12 +241,12 @@ static int read_environment(reader *r)
 
 static int read_image(reader *r)
 {
-    static const char *const kinds[] = {"--file", "--pattern", NULL};
+    static const char *const ways[] = {"--file", "--pattern", NULL};
     const char *file = value_of(r, "--file");
     int width = 512, height = 512;
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    if (!new_name(r, "image", r->images, SCENE_IMAGES_MAX) || !option_alone(&r->given, kinds) ||
+    if (!new_name(r, "image", r->images, SCENE_IMAGES_MAX) || !option_alone(&r->given, ways) ||
         !read_whole(r, "--width", IMAGE_SIDE_MAX, &width) || !read_whole(r, "--height", IMAGE_SIDE_MAX, &height) ||
         (file && !path_of(r, file, path)))
         return 0;
@@ -356,12 +350,11 @@ static int read_rough(reader *r, size_t kind, material *m)
 
 static int read_material(reader *r)
 {
-    material *made = &r->made->materials[r->made->material_count++];
-    *made = (material){.colour = {1.0f, 1.0f, 1.0f}};
     if (!new_name(r, "material", r->materials, SCENE_MATERIALS_MAX) || !option_alone(&r->given, kinds))
         return 0;
     const size_t kind = find(kinds, option_among(&r->given, kinds));
-    made->name = r->given.positional.item[0];
+    material *made = &r->made->materials[r->made->material_count++];
+    *made = (material){.name = r->given.positional.item[0], .colour = {1.0f, 1.0f, 1.0f}};
     made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
     if (!value_of(r, "--distribution") != (kind > SHAPE))
         return wrong(r, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
@@ -442,7 +435,7 @@ static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_cam
                                                       read_environment, read_image,     read_material,
                                                       read_sphere,      read_rectangle, read_mesh};
 
-static int read_statement(reader *r, const lines *in)
+static int read_statement(reader *r, lines *in)
 {
     const size_t of = find(statements, in->word[0]);
     snprintf(r->command, sizeof r->command, "vndf render: %.3000s:%llu", r->name, in->line);
@@ -452,7 +445,7 @@ static int read_statement(reader *r, const lines *in)
     if (of <= ENVIRONMENT && r->seen >> of & 1u)
         return wrong(r, "'%s' stands in this scene twice", in->word[0]);
     r->seen |= 1u << of;
-    if (!arguments_read(&r->given, r->command, manual[of], (int)in->count - 1, (char **)in->word + 1))
+    if (!arguments_read(&r->given, r->command, manual[of], (int)in->count - 1, in->word + 1))
         return 0;
     if (r->given.positional.count && of != IMAGE && of != MATERIAL)
         return wrong(r, "'%s' is not expected", r->given.positional.item[0]);
@@ -482,7 +475,9 @@ scene *scene_read_text(const char *name, char *text, size_t length)
     lines in;
     int more = 0, good = lines_begin(&in, name, text, length, &error);
     if (r && s) {
-        *s = (scene){.up = {0, 1, 0}, .width = 640, .height = 360, .depth = 12, .samples = 64, .exposure = 1.0f};
+        *s = (scene){.up = {0, 1, 0}, .field = 40, .exposure = 1, .width = 640, .height = 360, .depth = 12};
+        s->samples = 64;
+        s->environment.scale = 1;
         s->text = text;
         r->name = name;
         r->made = s;

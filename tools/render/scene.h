@@ -32,19 +32,17 @@ typedef struct emitter {
  * drawn from its pixels, by their light, of which `sums` has the sum up to each, the last one 1. */
 typedef struct environment {
     float constant[3];
-    const image *map; /* NULL: the constant */
-    float scale;
-    double turn;  /* a part of a full turn */
-    double *sums; /* NULL: it is not drawn */
-    double part;  /* how likely it is */
+    const image *map;   /* NULL: the constant */
+    double scale, turn; /* turn: a part of a full turn */
+    double *sums;       /* NULL: it is not drawn */
+    double part;        /* how likely it is */
 } environment;
 
 typedef struct scene {
-    vec3 from, to, up; /* of the camera */
-    double field;      /* of view, radians, across the height of the film */
+    vec3 from, to, up;      /* of the camera */
+    double field, exposure; /* of view, radians, across the height of the film; of the PNG */
     int width, height;
     int depth, samples; /* the most surfaces on a path; a pixel */
-    float exposure;          /* of the PNG */
     environment environment;
     geometry geometry; /* owned, as are all below */
     emitter lights[SCENE_LIGHTS_MAX];
