@@ -1,5 +1,5 @@
-/* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes as vt say;
- * a map of roughness multiplies alpha. Notices u and v exchanged or flipped, a map that is not read, and half a pixel. */
+/* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes as vt say,
+ * which are scaled, turned and moved; a map of roughness multiplies alpha. Notices u and v exchanged or flipped, a map that is not read, and half a pixel. */
 #include "render_case.h"
 
 static const float quarters[4][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 0}};
@@ -69,11 +69,14 @@ int main(void)
     FILE *mesh = fopen("render_quarters.obj", "w");
     if (!TEST(mesh && put_quarters("render_quarters.pfm", quarters)))
         return test_done();
-    fputs("v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n", mesh);
+    fputs(
+        "v 0 -1 2\nv 0 -1 1\nv 0 0 1\nv 0 0 2\nvn 2 0 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1/1 2/2/1 3/3/1 4/4/1\n",
+        mesh);
     fclose(mesh);
     const char *camera = "camera --from 0,0,5 --to 0,0,0 --field 22";
     test_upright("rectangle --corner -1,-1,0 --edge-u 2,0,0 --edge-v 0,2,0 --material m\n", camera, upright);
-    test_upright("mesh --file render_quarters.obj --material m\n", camera, upright);
+    test_upright("\tmesh --file \"render_quarters.obj\" --scale 2 --turn -90 --move 3,1,0 --material m#\r\n",
+                 camera, upright);
     /* around the sphere u goes from +z by way of +x: seen from -x its first half is behind, the seam at -z left */
     static const int from_x[4] = {0, 0, 2, 2}, from_minus_x[4] = {1, 1, 3, 3};
     test_upright("sphere --centre 0,0,0 --radius 1 --material m\n", "camera --from 5,0,0 --to 0,0,0 --field 18",
