@@ -469,27 +469,23 @@ static int finish(reader *r)
 
 scene *scene_read_text(const char *name, char *text, size_t length)
 {
-    vndf_error error = {VNDF_OK, ""};
-    reader *r = calloc(1, sizeof *r);
     scene *s = calloc(1, sizeof *s);
+    reader r = {.name = name, .made = s};
+    vndf_error error = {VNDF_OK, ""};
     lines in;
-    int more = 0, good = lines_begin(&in, name, text, length, &error);
-    if (r && s) {
-        *s = (scene){.up = {0, 1, 0}, .field = 40, .exposure = 1, .width = 640, .height = 360, .depth = 12};
-        s->samples = 64;
-        s->environment.scale = 1;
-        s->text = text;
-        r->name = name;
-        r->made = s;
-        snprintf(r->command, sizeof r->command, "vndf render: %.3000s", name);
-        while (good && (more = lines_next(&in)))
-            good = more > 0 && read_statement(r, &in);
-        good = good && finish(r);
-    }
+    int more, good = lines_begin(&in, name, text, length, &error);
+    snprintf(r.command, sizeof r.command, "vndf render: %.3000s", name);
+    if (!s)
+        return free(text), complain(r.command, "there is no memory"), NULL;
+    *s = (scene){
+        .up = {0, 1, 0}, .field = 40, .exposure = 1, .width = 640, .height = 360, .depth = 12, .samples = 64};
+    s->environment.scale = 1;
+    s->text = text;
+    while (good && (more = lines_next(&in)))
+        good = more > 0 && read_statement(&r, &in);
     if (error.message[0])
         complain("vndf render", "%s", error.message);
-    free(r);
-    if (good && r && s)
+    else if (good && finish(&r))
         return s;
     scene_free(s);
     return NULL;
