@@ -106,7 +106,7 @@ int main(void)
     TEST(o->text[0] == '[' && strcmp(o->text + strlen(o->text) - 4, "}\n]\n") == 0);
     for (size_t i = 0; i < sizeof has / sizeof *has; i++)
         TEST_HAS(o->text, has[i]);
-    run_line(0, "no variance", "vndf render ball.scene --compare visible,all --spp 1 --equal samples");
+    run_line(0, " unknown", "vndf render ball.scene --compare visible,all --spp 1 --equal samples");
     run_line(0, "--distribution D ", "vndf render --grammar");
     TEST(system("rm *.scene *.pfm *.png") == 0);
     return run_end(folder);

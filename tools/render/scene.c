@@ -251,9 +251,10 @@ static int read_image(reader *r)
         (file && !path_of(r, file, path)))
         return 0;
     image *made = &r->made->images[r->made->image_count++];
-    if (!(file ? image_read_pfm(made, path, &error)
-               : image_make_pattern(made, value_of(r, "--pattern"), width, height, &error)))
+    if (file && !image_read_pfm(made, path, &error))
         return wrong(r, "%s", error.message);
+    if (!file && !image_make_pattern(made, (image_pattern)option_choice(&r->given, "--pattern", 0), width, height))
+        return wrong(r, "there is no memory for %d x %d pixels", width, height);
     r->pixels += (size_t)made->width * (size_t)made->height;
     return r->pixels <= PIXELS_MAX || wrong(r, "all images together have more than %d pixels", PIXELS_MAX);
 }
