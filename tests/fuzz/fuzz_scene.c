@@ -1,5 +1,5 @@
-/* No bytes crash the reader of scenes. Left out are texts that could ask for what only takes long: images of more than
- * three digits a side, and tables that are built. */
+/* No bytes crash the reader of scenes. Left out are texts that could ask for what only takes long: images of more
+ * than three digits a side, and tables that are built. */
 #include "fuzz/fuzz.h"
 #include "render/scene.h"
 

@@ -8,17 +8,19 @@
 static scene *scene_of(double lamp, double alpha)
 {
     char text[2048];
-    snprintf(
-        text, sizeof text,
-        "film --width 96 --height 64\ncamera --from 0,0,8 --to 0,0,0 --field 30\n"
-        "environment --constant 0.2,0.2,0.2\nmaterial lamp --light %g,%g,%g\n"
-        "material gold --conductor gold --distribution ggx --alpha 0.2\n"
-        "material odd --conductor gold --distribution ggx --alpha %g\n"
-        "sphere --centre 2,4,4 --radius 0.3 --material lamp\n"
-        "sphere --centre -2,1,0 --radius 0.9 --material gold\nsphere --centre 0,1,0 --radius 0.9 --material gold\n"
-        "sphere --centre 2,1,0 --radius 0.9 --material gold\nsphere --centre -2,-1,0 --radius 0.9 --material gold\n"
-        "sphere --centre 0,-1,0 --radius 0.9 --material gold\nsphere --centre 2,-1,0 --radius 0.9 --material odd\n",
-        lamp, lamp, lamp, alpha);
+    snprintf(text, sizeof text,
+             "film --width 96 --height 64\ncamera --from 0,0,8 --to 0,0,0 --field 30\n"
+             "environment --constant 0.2,0.2,0.2\nmaterial lamp --light %g,%g,%g\n"
+             "material gold --conductor gold --distribution ggx --alpha 0.2\n"
+             "material odd --conductor gold --distribution ggx --alpha %g\n"
+             "sphere --centre 2,4,4 --radius 0.3 --material lamp\n"
+             "sphere --centre -2,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 0,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 2,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre -2,-1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 0,-1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 2,-1,0 --radius 0.9 --material odd\n",
+             lamp, lamp, lamp, alpha);
     return case_scene(text);
 }
 

@@ -1,11 +1,12 @@
-/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose none of it
- * makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and rectangles on a matte
- * floor is that of closed forms, and what stands before a light bars it. A wall shows the integral over a sky. All
- * samplers show the same of metals and glass, also through refraction and walks; perfect sampling has no more variance
- * than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose or gain: by
- * rays that meet their own surface, by roulette, by weights of drawn light; rows and pixels of a sky that are off by
- * one, choices that forget a light; wrong densities, areas, powers and cosines, lights that shine backwards, shadow rays
- * that end too early or too late, candidates that are not kept in proportion to their weight. */
+/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
+ * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
+ * rectangles on a matte floor is that of closed forms, and what stands before a light bars it. A wall shows the
+ * integral over a sky. All samplers show the same of metals and glass, also through refraction and walks; perfect
+ * sampling has no more variance than visible normals, which have less than all normals at a grazing angle.
+ * Notices light that paths lose or gain: by rays that meet their own surface, by roulette, by weights of drawn
+ * light; rows and pixels of a sky that are off by one, choices that forget a light; wrong densities, areas,
+ * powers and cosines, lights that shine backwards, shadow rays that end too early or too late, candidates that
+ * are not kept in proportion to their weight. */
 #include "render_case.h"
 
 /* ---- the furnace ---- */
@@ -137,14 +138,14 @@ static void test_sky(void)
 static void test_samplers(const char *kind, double order[3])
 {
     char text[2048];
-    snprintf(
-        text, sizeof text,
-        "camera --from 0,0.25,3 --to 0,0,0\nimage sky --pattern studio --width 64 --height 32\nenvironment --image sky\n"
-        "material m %s\nmaterial floor --matte 0.5,0.5,0.5\n"
-        "rectangle --corner -3,0,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
-        "rectangle --corner -3,-0.5,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
-        "rectangle --corner -9,-1,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n",
-        kind);
+    snprintf(text, sizeof text,
+             "camera --from 0,0.25,3 --to 0,0,0\n"
+             "image sky --pattern studio --width 64 --height 32\nenvironment --image sky\n"
+             "material m %s\nmaterial floor --matte 0.5,0.5,0.5\n"
+             "rectangle --corner -3,0,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
+             "rectangle --corner -3,-0.5,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
+             "rectangle --corner -9,-1,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n",
+             kind);
     scene *s = case_point(text);
     case_mean visible = {0, 0, 0};
     for (int i = 0; i < SAMPLERS; i++) {

@@ -1,5 +1,5 @@
-/* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes, which are scaled,
- * turned and moved, as vt say. Notices u and v exchanged or flipped, and half a pixel. */
+/* Images lie as they are meant to: upright on rectangles, around spheres with the top at +y, on meshes, which are
+ * scaled, turned and moved, as vt say. Notices u and v exchanged or flipped, and half a pixel. */
 #include "render_case.h"
 
 /* A PFM of red and green above blue and black. */

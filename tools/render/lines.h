@@ -16,7 +16,8 @@ typedef struct lines {
     size_t count;
 } lines;
 
-/* What is wrong, and where: "NAME:LINE: ...", less the line where it is 0. Control characters become '?'. Returns 0. */
+/* What is wrong, and where: "NAME:LINE: ...", less the line where it is 0. Control characters become '?'. Returns
+ * 0. */
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
     PRINTF_LIKE(4, 5);
 #define refuse(in, ...) refuse_at((in)->error, (in)->name, (in)->line, __VA_ARGS__)
@@ -27,8 +28,8 @@ char *bytes_read(const char *path, size_t most, size_t *size, vndf_error *error)
 /* Text of so many bytes, with a 0 behind them, which reading changes. 0 after a refusal. */
 int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_error *error);
 
-/* Reads the next line that has words. Blanks separate them, # begins a comment, "quotes" hold blanks. 0 at the end, -1
- * after a refusal. */
+/* Reads the next line that has words. Blanks separate them, # begins a comment, "quotes" hold blanks. 0 at the
+ * end, -1 after a refusal. */
 int lines_next(lines *in);
 
 /* A decimal number; 0 after a refusal. */

@@ -1,5 +1,5 @@
-/* Reads a scene: a line is written as a command with options, and is read as those of the program are. Everything that
- * reads returns 1, or 0 after a complaint that names the line. */
+/* Reads a scene: a line is written as a command with options, and is read as those of the program are. Everything
+ * that reads returns 1, or 0 after a complaint that names the line. */
 #include "render/scene.h"
 
 #include <stdlib.h>
@@ -310,9 +310,9 @@ static int read_distribution(reader *r, vndf_description *is)
 /* ---- materials ---- */
 
 /* Indices of refraction of the metals of --conductor for red, green and blue: measured spectra weighed by the
- * sensitivities of the three colours. They agree to three digits with the lists of the renderers Tungsten and Yocto/GL
- * for Au, Ag, Cu and Al. (Indices at single wavelengths fail: at 550 nm copper is on the slope of its reflectance, and
- * looks tan.) */
+ * sensitivities of the three colours. They agree to three digits with the lists of the renderers Tungsten and
+ * Yocto/GL for Au, Ag, Cu and Al. (Indices at single wavelengths fail: at 550 nm copper is on the slope of its
+ * reflectance, and looks tan.) */
 static const float metals[][2][3] = {
     {{0.143f, 0.375f, 1.442f}, {3.983f, 2.386f, 1.603f}},
     {{0.155f, 0.117f, 0.138f}, {4.828f, 3.122f, 2.147f}},

@@ -56,12 +56,13 @@ typedef struct scene {
     char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. NULL after a complaint. Files that are not trusted are
- * safe. */
+/* Reads a scene file; paths in it are relative to its folder. NULL after a complaint. Files that are not trusted
+ * are safe. */
 scene *scene_read(const char *path);
 void scene_free(scene *s);
 
-/* The same from `length` bytes with a 0 behind them, which it takes over and frees; complaints call them `name`. */
+/* The same from `length` bytes with a 0 behind them, which it takes over and frees; complaints call them `name`.
+ */
 scene *scene_read_text(const char *name, char *text, size_t length);
 
 /* Sets the pixels across; the height follows. 0 after a complaint if no row is left, or they are too many. */
@@ -89,7 +90,8 @@ int lights_any(const scene *s);
 /* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment. */
+/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment.
+ */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
