@@ -1,12 +1,12 @@
 /* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
  * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
  * rectangles on a matte floor is that of closed forms, and what stands before a light bars it. A wall shows the
- * integral over a sky. All samplers show the same of metals and glass, also through refraction and walks; perfect
- * sampling has no more variance than visible normals, which have less than all normals at a grazing angle.
- * Notices light that paths lose or gain: by rays that meet their own surface, by roulette, by weights of drawn
- * light; rows and pixels of a sky that are off by one, choices that forget a light; wrong densities, areas,
- * powers and cosines, lights that shine backwards, shadow rays that end too early or too late, candidates that
- * are not kept in proportion to their weight. */
+ * integral over a sky, a rough floor f of the library under a small lamp. All samplers show the same of metals
+ * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
+ * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
+ * own surface, by roulette, by weights of drawn light; rows and pixels of a sky that are off by one, choices that
+ * forget a light; wrong densities, areas, powers and cosines, lights that shine backwards, shadow rays that end
+ * too early or too late, candidates that are not kept in proportion to their weight. */
 #include "render_case.h"
 
 /* ---- the furnace ---- */
@@ -132,6 +132,33 @@ static void test_sky(void)
     scene_free(s);
 }
 
+/* ---- gloss ---- */
+
+/* A rough floor under a lamp so small that f is the same all over it. */
+static void test_gloss(float alpha)
+{
+    const vndf_description is = {.distribution = vndf_ggx(), .alpha_x = alpha, .alpha_y = alpha};
+    const vec3 lamp = vec(0.3, 2, -2.5), to = unit(lamp);
+    vndf_material resolved;
+    vndf_bsdf bsdf;
+    float f[3];
+    char text[2048];
+    snprintf(text, sizeof text,
+             "camera --from 0,1,1 --to 0,0,0\nintegrator --depth 1\n" LAMP
+             "material floor --shape --distribution ggx --alpha %g\n"
+             "rectangle --corner -2,0,2 --edge-u 4,0,0 --edge-v 0,0,-4 --material floor\n"
+             "sphere --centre 0.3,2,-2.5 --radius 0.01 --material lamp\n",
+             (double)alpha);
+    scene *s = case_point(text);
+    TEST(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK);
+    vndf_bsdf_at(&bsdf, &resolved, (vndf_vec3){0.0f, -(float)sqrt(0.5), (float)sqrt(0.5)});
+    vndf_bsdf_eval(&bsdf, (vndf_vec3){(float)to.x, -(float)to.z, (float)to.y}, 0, f);
+    const double want = 8 * (double)f[0] * to.y * PI * 1e-4 / dot(lamp, lamp);
+    for (int sampler = 0; sampler < SAMPLERS; sampler++)
+        case_agrees(case_light(s, (path_sampler)sampler, test_amount(16, 32, 256)), want, 2e-3);
+    scene_free(s);
+}
+
 /* ---- samplers ---- */
 
 /* Walks have no sampler by all normals. */
@@ -179,6 +206,8 @@ int main(void)
         test_furnace(lossless[i], ROOM, 0.5);
     }
     test_floors();
+    test_gloss(0.1f);
+    test_gloss(0.5f);
     test_sky();
     return test_done();
 }
