@@ -22,15 +22,14 @@ static const char preface[] =
     "A scene is text. A line is written as a command with options, whose values have no blanks or are\n"
     "\"between quotes\"; # begins a comment. Images and materials are defined before they are used.\n"
     "Colours are linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
+    "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
+    "back is black. An image stands upright on rectangles, along edge-u and edge-v; goes around spheres from\n"
+    "+z by way of +x, its top at +y; lies on meshes as vt say.\n"
     "\n"
     "camera --from 0,1,5 --to 0,0.5,0 --field 35\n"
     "environment --constant 1,1,1\n"
     "material red-gold --conductor gold --distribution ggx --alpha 0.2\n"
-    "sphere --centre 0,0.5,0 --radius 0.5 --material red-gold\n"
-    "\n"
-    "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
-    "back is black. An image stands upright on rectangles, along edge-u and edge-v; goes around spheres from\n"
-    "+z by way of +x, its top at +y; lies on meshes as vt say.\n";
+    "sphere --centre 0,0.5,0 --radius 0.5 --material red-gold\n";
 
 static const char *const manual[STATEMENTS] = {
     "film                               once at most, as camera, integrator and environment\n"
@@ -97,15 +96,10 @@ typedef struct reader {
 
 /* ---- what options hold ---- */
 
-static const char *value_of(const reader *r, const char *option)
-{
-    return option_value(&r->given, option);
-}
-
 /* Three numbers; what is not given stays. */
 static int read_three(reader *r, const char *option, double low, double high, double *three)
 {
-    const char *text = value_of(r, option);
+    const char *text = option_value(&r->given, option);
     return !text || parse_numbers(r->command, option, text, low, high, 3, 3, three);
 }
 
@@ -121,8 +115,8 @@ static int read_colour(reader *r, const char *option, double high, float rgb[3])
 /* A place or an edge, which has to be there. */
 static int read_place(reader *r, const char *option, vec3 *place)
 {
-    return value_of(r, option) ? read_three(r, option, -far_away, far_away, &place->x)
-                               : wrong(r, "%s X,Y,Z is missing", option);
+    return option_value(&r->given, option) ? read_three(r, option, -far_away, far_away, &place->x)
+                                           : wrong(r, "%s X,Y,Z is missing", option);
 }
 
 static int read_whole(reader *r, const char *option, double high, int *number)
@@ -144,7 +138,7 @@ static size_t find(const char *const *list, const char *word)
 /* Which of the names an option has: `what` were defined before. */
 static int read_name(reader *r, const char *option, const char *what, const char *const *list, size_t *chosen)
 {
-    const char *name = value_of(r, option);
+    const char *name = option_value(&r->given, option);
     if (!name)
         return wrong(r, "%s NAME is missing", option);
     *chosen = find(list, name);
@@ -178,7 +172,7 @@ static int path_of(reader *r, const char *file, char path[PATH_BYTES])
 static int find_image(reader *r, const char *option, int channels, double low, double high, const image **found)
 {
     size_t chosen;
-    if (!value_of(r, option))
+    if (!option_value(&r->given, option))
         return 1;
     if (!read_name(r, option, "image", r->images, &chosen))
         return 0;
@@ -242,7 +236,7 @@ static int read_environment(reader *r)
 static int read_image(reader *r)
 {
     static const char *const ways[] = {"--file", "--pattern", NULL};
-    const char *file = value_of(r, "--file");
+    const char *file = option_value(&r->given, "--file");
     int width = 512, height = 512;
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
@@ -283,7 +277,7 @@ static vndf_distribution *make_table(reader *r, const char *text)
 /* Materials with the same text share a table. */
 static int read_distribution(reader *r, vndf_description *is)
 {
-    const char *text = value_of(r, "--distribution"), *alpha = value_of(r, "--alpha");
+    const char *text = option_value(&r->given, "--distribution"), *alpha = option_value(&r->given, "--alpha");
     const int is_ggx = strcmp(text, "ggx") == 0, is_closed = is_ggx || strcmp(text, "beckmann") == 0;
     double both[2] = {1, 1};
     const size_t count = alpha ? parse_numbers(r->command, "--alpha", alpha, 1e-6, 1e3, 1, 2, both) : 1;
@@ -357,9 +351,9 @@ static int read_material(reader *r)
     material *made = &r->made->materials[r->made->material_count++];
     *made = (material){.name = r->given.positional.item[0], .colour = {1.0f, 1.0f, 1.0f}};
     made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
-    if (!value_of(r, "--distribution") != (kind > SHAPE))
+    if (!option_value(&r->given, "--distribution") != (kind > SHAPE))
         return wrong(r, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
-    if (kind == LIGHT && value_of(r, "--colour-map"))
+    if (kind == LIGHT && option_value(&r->given, "--colour-map"))
         return wrong(r, "--light has no --colour-map");
     return read_colour(r, "--matte", 1, made->colour) && read_colour(r, "--light", brightest, made->colour) &&
            read_colour(r, "--colour", 1, made->colour) &&
@@ -372,10 +366,9 @@ static int read_material(reader *r)
 static int add_shape(reader *r, shape made)
 {
     size_t of;
-    if (!read_name(r, "--material", "material", r->materials, &of))
-        return 0;
-    made.material = (int)of;
-    return geometry_add(&r->made->geometry, &made) || wrong(r, "there is no memory for this shape");
+    made.material = read_name(r, "--material", "material", r->materials, &of) ? (int)of : -1;
+    return made.material >= 0 &&
+           (geometry_add(&r->made->geometry, &made) || wrong(r, "there is no memory for this shape"));
 }
 
 static int read_sphere(reader *r)
@@ -409,7 +402,7 @@ static int read_mesh(reader *r)
 {
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
-    const char *file = value_of(r, "--file");
+    const char *file = option_value(&r->given, "--file");
     double by = 1, turn = 0;
     vec3 move = {0, 0, 0};
     vndf_error error = {VNDF_OK, ""};
@@ -422,10 +415,8 @@ static int read_mesh(reader *r)
         return 0;
     if (!file || r->made->materials[of].kind == MATERIAL_LIGHT)
         return wrong(r, file ? "a light is a sphere or a rectangle, not a mesh" : "--file FILE.obj is missing");
-    if (!path_of(r, file, path))
-        return 0;
-    if (!obj_read(g, path, (int)of, &error))
-        return wrong(r, "%s", error.message);
+    if (!path_of(r, file, path) || !obj_read(g, path, (int)of, &error))
+        return *error.message ? wrong(r, "%s", error.message) : 0;
     geometry_place(g, first, by, turn * (PI / 180), move);
     return 1;
 }
