@@ -10,11 +10,9 @@
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
 {
     char *text = error->message;
-    const size_t size = sizeof error->message;
-    size_t used = (size_t)snprintf(text, size, "%.360s:", name);
+    const size_t size = sizeof error->message,
+                 used = (size_t)snprintf(text, size, "%.360s:%.0llu%s ", name, line, line ? ":" : "");
     va_list list;
-    used += line ? (size_t)snprintf(text + used, size - used, "%llu:", line) : 0;
-    text[used++] = ' ';
     va_start(list, format);
     vsnprintf(text + used, size - used, format, list);
     va_end(list);
