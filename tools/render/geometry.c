@@ -219,7 +219,8 @@ static int walk(const geometry *g, const ray *r, int any, hit *h)
         other.node = n->at;
         one.near = entry(&n[1].box, &s, h->distance);
         other.near = entry(&g->nodes[other.node].box, &s, h->distance);
-        stack[height++] = one.near <= other.near ? other : one; /* the nearer child first */
+        stack[height] = one.near <= other.near ? other : one; /* the nearer child first */
+        height += stack[height].near < HUGE_VAL;
         stack[height++] = one.near <= other.near ? one : other;
     }
     return is_met;
