@@ -49,16 +49,15 @@ static double level(float x)
     return floor(255.0 * (c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055) + 0.5);
 }
 
-static void test_png(const char *pattern, int width, int height)
+static void test_png(image_pattern pattern, int width, int height)
 {
     static unsigned char bytes[ROOM];
     const unsigned char *at = bytes + 8;
     const size_t row = 3 * (size_t)width + 1, all = row * (size_t)height;
     size_t length;
     image made;
-    vndf_error error;
     FILE *file = tmpfile(), *full = fopen("/dev/full", "wb");
-    if (!TEST(file && image_make_pattern(&made, pattern, width, height, &error)))
+    if (!TEST(file && image_make_pattern(&made, pattern, width, height)))
         return;
     made.rgb[0] = NAN, made.rgb[1] = -INFINITY, made.rgb[2] = INFINITY;
     TEST(image_write_png(file, &made));
@@ -91,8 +90,8 @@ static void test_png(const char *pattern, int width, int height)
 
 int main(void)
 {
-    test_png("studio", 300, 200); /* three blocks */
-    test_png("grid", 131, 77);
-    test_png("tiles", 1, 1);
+    test_png(IMAGE_STUDIO, 300, 200); /* three blocks */
+    test_png(IMAGE_GRID, 131, 77);
+    test_png(IMAGE_TILES, 1, 1);
     return test_done();
 }

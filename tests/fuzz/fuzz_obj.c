@@ -3,32 +3,18 @@
 #include "fuzz/fuzz.h"
 #include "render/geometry.h"
 
-static int is_finite(vec3 a)
-{
-    return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
-}
-
-static void require_hit(const hit *h)
-{
-    fuzz_require(is_finite(h->place) && is_finite(h->normal), "place and normal are finite");
-    fuzz_require(is_finite(h->shading.x) && is_finite(h->shading.y), "the frame is finite");
-    fuzz_require(isfinite(h->u) && isfinite(h->v) && h->distance >= 0, "u, v and the distance are finite");
-    fuzz_require(fabs(length(h->shading.z) - 1) < 1e-6, "normals have length 1");
-}
-
 /* At the corners' middle, from near and far. */
 static void shoot(const geometry *g, const shape *t)
 {
     const vec3 middle = along(along(t->corner, 1.0 / 3, t->edge_u), 1.0 / 3, t->edge_v);
-    const vec3 from[3] = {vec(1, 2, 3), vec(-1e3, 0, 0), add(middle, vec(0, 1e-3, 0))};
-    for (int i = 0; i < 3; i++) {
-        const ray r = {from[i], unit(subtract(middle, from[i])), HUGE_VAL};
+    const vec3 from[2] = {vec(1, 2, 3), add(middle, vec(0, 1e-3, 0))};
+    for (int i = 0; i < 2; i++) {
         hit h;
-        if (!geometry_hit(g, &r, &h))
+        if (!geometry_hit(g, &(ray){from[i], unit(subtract(middle, from[i])), HUGE_VAL}, &h))
             continue;
-        require_hit(&h);
-        const ray next = ray_from(&h, h.shading.x);
-        (void)geometry_blocked(g, &next);
+        fuzz_require(isfinite(length(h.place)) && isfinite(length(h.shading.x)), "place and frame are finite");
+        fuzz_require(isfinite(h.u) && isfinite(h.v) && h.distance >= 0, "u, v and the distance are finite");
+        fuzz_require(fabs(length(h.shading.z) - 1) < 1e-6, "normals have length 1");
     }
 }
 

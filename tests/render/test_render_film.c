@@ -9,14 +9,17 @@ static scene *scene_of(double lamp, double alpha)
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "film width 96 height 64\ncamera from 0 0 8 to 0 0 0 field 30\n"
-             "environment constant 0.2 0.2 0.2\nmaterial lamp light radiance %g %g %g\n"
-             "material gold conductor of gold distribution ggx alpha 0.2\n"
-             "material odd conductor of gold distribution ggx alpha %g\n"
-             "sphere centre 2 4 4 radius 0.3 material lamp\n"
-             "sphere centre -2 1 0 radius 0.9 material gold\nsphere centre 0 1 0 radius 0.9 material gold\n"
-             "sphere centre 2 1 0 radius 0.9 material gold\nsphere centre -2 -1 0 radius 0.9 material gold\n"
-             "sphere centre 0 -1 0 radius 0.9 material gold\nsphere centre 2 -1 0 radius 0.9 material odd\n",
+             "film --width 96 --height 64\ncamera --from 0,0,8 --to 0,0,0 --field 30\n"
+             "environment --constant 0.2,0.2,0.2\nmaterial lamp --light %g,%g,%g\n"
+             "material gold --conductor gold --distribution ggx --alpha 0.2\n"
+             "material odd --conductor gold --distribution ggx --alpha %g\n"
+             "sphere --centre 2,4,4 --radius 0.3 --material lamp\n"
+             "sphere --centre -2,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 0,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 2,1,0 --radius 0.9 --material gold\n"
+             "sphere --centre -2,-1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 0,-1,0 --radius 0.9 --material gold\n"
+             "sphere --centre 2,-1,0 --radius 0.9 --material odd\n",
              lamp, lamp, lamp, alpha);
     return case_scene(text);
 }
@@ -65,23 +68,15 @@ static void test_figures(void)
     TEST(isnan(first->noise.value) && isnan(first->noise.spread));
 }
 
-/* Pixels of light 1 whose samples have a variance of 1/4: that of the mean of 26 is 1/100. */
+/* A pixel of light 1 whose samples have a variance of 1/4: that of the mean of 26 is 1/100. */
 static void test_noise(void)
 {
-    comparison c = {.count = 1};
-    film *f = &c.way[0].film;
+    double sum[3] = {26, 26, 26}, square = 26 * 1.25;
+    const comparison c = {.count = 1, .way = {{.film = {1, 1, sum, &square, .samples = 26}}}};
     finding found[SAMPLERS];
-    if (!TEST(film_make(f, 8, 8)))
-        return;
-    f->samples = 26;
-    for (size_t i = 0; i < 3 * film_pixels(f); i++) {
-        f->sum[i] = 26;
-        f->square[i / 3] = 26 * 1.25;
-    }
     comparison_find(&c, found);
     TEST_RELATIVE(found->noise.value, 0.01 / (1 + 0.05 * 0.05), 1e-9);
     TEST(found->noise.spread < 1e-9 && found->ratio == 1);
-    film_free(f);
 }
 
 /* Two ways by one sampler, which have numbers of their own; by a slow one fewer samples take the same time. */

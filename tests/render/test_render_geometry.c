@@ -5,7 +5,7 @@
 #include "harness/test.h"
 #include "render/geometry.h"
 
-enum { SHAPES = 600, ROWS = 24 };
+enum { SHAPES = 600 };
 
 static double between(unsigned long long *state, double low, double high)
 {
@@ -62,32 +62,19 @@ static void test_nearest(vec3 origin, double exactness)
     geometry_free(&g);
 }
 
-/* A corner of a globe about the origin. */
-static vec3 globe(int row, int column)
-{
-    const double theta = PI * row / ROWS, phi = PI * (column % (2 * ROWS)) / ROWS;
-    const double s = row % ROWS ? sin(theta) : 0;
-    return vec(s * sin(phi), cos(theta), s * cos(phi));
-}
-
 /* From inside, at edges too; then on from what was met to both sides. */
 static void test_closed(void)
 {
     unsigned long long state = 8;
     geometry g = {0};
+    vndf_error error;
     int left = 0, met_again = 0;
-    for (int i = 0; i < 4 * ROWS * ROWS; i++) { /* two triangles a part of a ring, of which the poles have one */
-        const int row = i / 2 / (2 * ROWS), k = i / 2 % (2 * ROWS);
-        const vec3 a = globe(row, k), b = globe(row + 1, k), c = globe(row + 1, k + 1), d = globe(row, k + 1);
-        const shape s = {.kind = SHAPE_TRIANGLE,
-                         .corner = a,
-                         .edge_u = subtract(i % 2 ? c : b, a),
-                         .edge_v = subtract(i % 2 ? d : c, a)};
-        TEST((i % 2 ? row == 0 : row == ROWS - 1) || geometry_add(&g, &s));
-    }
-    TEST(geometry_build(&g));
+    if (!TEST(obj_read(&g, VNDF_SOURCE_DIR "/tools/scenes/gem.obj", 0, &error) && geometry_build(&g)))
+        return;
     for (int i = 0; i < 100000; i++) {
-        const vec3 from = place(&state, 0.2), edge = globe(i % ROWS, i / ROWS), on = direction(&state);
+        const shape *s = &g.shapes[(size_t)i / 2 % g.count];
+        const vec3 from = place(&state, 0.2), on = direction(&state);
+        const vec3 edge = along(s->corner, test_uniform_double(&state), s->edge_u);
         const ray r = {from, i % 2 ? direction(&state) : unit(subtract(edge, from)), HUGE_VAL};
         hit h, next;
         if (!geometry_hit(&g, &r, &h))

@@ -143,8 +143,7 @@ static int refuse_option(const arguments *given, const char *word, size_t length
     else if (hint)
         complain(given->command, "there is no option '%.*s'; did you mean '%s'?", (int)length, word, hint);
     else
-        complain(given->command, "there is no option '%.*s'; `%s --help` lists them", (int)length, word,
-                 given->command);
+        complain(given->command, "there is no option '%.*s'; --help lists them", (int)length, word);
     return 0;
 }
 
@@ -254,8 +253,7 @@ const char *option_alone(const arguments *given, const char *const *names)
         complain(given->command, "%s and %s are given; only one is possible of %s", one, other,
                  list_words(names, ""));
     else if (!one)
-        complain(given->command, "exactly one is needed of %s; `%s --help` has an example", list_words(names, ""),
-                 given->command);
+        complain(given->command, "exactly one is needed of %s; --help has an example", list_words(names, ""));
     return other ? NULL : one;
 }
 

@@ -32,7 +32,7 @@ static const char *const help[] = {
     "                  squared noise and seconds), and whether all show the same (unknown of fewer than 16\n"
     "                  samples a pixel); OUT has the pictures side by side, their noise below\n"
     "    --equal time|samples  the others get the time of the first, or its samples (default: time)\n"
-    "  --grammar       prints the language of scene files\n"
+    "  --grammar       prints how scenes are written\n"
     "\n"
     "The exit status is 1 where pictures differ by more than chance.\n"
     "\n"
@@ -81,24 +81,12 @@ static int read_words(const arguments *given, render_work *w)
     return w->is_pfm >= 0;
 }
 
-/* For people "1.32+-0.01" under the first heading; in JSON two numbers. */
-static void add_measured(figures *t, const char *heading, const char *spread, const measured *m, int has_json)
-{
-    char text[64];
-    snprintf(text, sizeof text, "%.3g+-%.2g", m->value, m->spread);
-    if (!has_json) {
-        figures_add(t, FIGURE_NUMBER, heading, isfinite(m->value) ? text : "no variance");
-        return;
-    }
-    figures_number(t, heading, "%.9g", m->value, "");
-    figures_number(t, spread, "%.9g", m->spread, "");
-}
-
 /* A row for each way. */
 static int print_rows(const render_work *w, const finding *found, int is_whole)
 {
     const comparison *c = &w->ways;
     const int has_json = w->form == FIGURES_JSON;
+    const char *digits = has_json ? "%.9g" : "%.3g";
     figures t = {.rows = 0};
     for (size_t i = 0; i < c->count; i++) {
         const film *f = &c->way[i].film;
@@ -108,10 +96,12 @@ static int print_rows(const render_work *w, const finding *found, int is_whole)
         figures_add(&t, FIGURE_WORD, "sampler", path_sampler_names[c->way[i].sampler]);
         figures_number(&t, "samples", "%.0f", (double)f->samples, "");
         figures_number(&t, "seconds", "%.3g", f->processor, "");
-        figures_number(&t, "noise", has_json ? "%.9g" : "%.3g", sqrt(a->noise.value), "");
-        add_measured(&t, "samples_needed", "samples_needed_spread", &a->samples, has_json);
-        add_measured(&t, "efficiency", "efficiency_spread", &a->efficiency, has_json);
-        figures_number(&t, "light", has_json ? "%.9g" : "%.5f", a->ratio, "");
+        figures_number(&t, "noise", digits, sqrt(a->noise.value), "");
+        figures_number(&t, "samples_needed", digits, a->samples.value, "");
+        figures_number(&t, "samples_needed_spread", digits, a->samples.spread, "");
+        figures_number(&t, "efficiency", digits, a->efficiency.value, "");
+        figures_number(&t, "efficiency_spread", digits, a->efficiency.spread, "");
+        figures_number(&t, "light", has_json ? digits : "%.5f", a->ratio, "");
         figures_add(&t, FIGURE_WORD, "verdict", i ? verdict_names[a->is] : "");
         if (has_json) {
             figures_number(&t, "deviations", "%.9g", a->whole, "");
@@ -198,17 +188,18 @@ static int run(const arguments *given)
     render_work w;
     int status = STATUS_USE;
     if (option_value(given, "--grammar"))
-        return fputs(scene_grammar, stdout) < 0 ? STATUS_USE : STATUS_GOOD;
+        return scene_print_manual(), STATUS_GOOD;
     if (!given->positional.count)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0], &error);
-    if (!s || (w.width && !scene_resize(s, (int)w.width, &error)) || !comparison_begin(&w.ways, s, &error))
+    scene *s = scene_read(given->positional.item[0]);
+    const int good = s && (!w.width || scene_resize(s, (int)w.width));
+    if (good && !comparison_begin(&w.ways, s, &error))
         complain(name, "%s", error.message);
-    else if (!w.path || output_open(&w.output, name, w.path)) {
-        w.ways.samples = w.samples ? w.samples : s->samples;
-        w.exposure = w.exposure > 0 ? w.exposure : (double)s->exposure;
+    else if (good && (!w.path || output_open(&w.output, name, w.path))) {
+        w.ways.samples = w.samples ? (uint64_t)w.samples : (uint64_t)s->samples;
+        w.exposure = w.exposure > 0 ? w.exposure : s->exposure;
         status = render(&w);
     }
     comparison_end(&w.ways);

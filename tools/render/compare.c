@@ -2,6 +2,8 @@
 
 #include <stdlib.h>
 
+#include "render/lines.h"
+
 enum { TURNS = 16, PASS_PATHS = 32768, BLOCK = 16, GAP = 4 };
 
 /* Deviations that chance does not bring: 1 in 3e5 for all light; for the worst block, 1 in 5e8 times the blocks,
@@ -18,7 +20,7 @@ int comparison_begin(comparison *c, const scene *s, vndf_error *error)
         if (!(c->way[i].plan = path_prepare(s, c->way[i].sampler, error)))
             return 0;
         if (!film_make(&c->way[i].film, s->width, s->height))
-            return refuse_at(error, "film", 0, 0, "there is no memory for %d x %d pixels", s->width, s->height);
+            return refuse_at(error, "film", 0, "there is no memory for %d x %d pixels", s->width, s->height);
     }
     return 1;
 }

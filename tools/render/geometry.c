@@ -204,28 +204,24 @@ static int walk(const geometry *g, const ray *r, int any, hit *h)
     struct {
         uint32_t node;
         double near;
-    } stack[DEPTH_MAX];
-    int height = 0, is_met = 0;
+    } stack[DEPTH_MAX] = {{0, 0}}, one, other;
+    int height = g->nodes != NULL, is_met = 0;
     h->distance = r->to;
-    if (!g->nodes)
-        return 0;
-    stack[height].near = entry(&g->nodes[0].box, &s, r->to);
-    stack[height++].node = 0;
     while (height && !(is_met && any)) {
-        uint32_t at = stack[--height].node;
-        double near = stack[height].near;
-        while (near < h->distance && !g->nodes[at].count) { /* goes down to a leaf, the nearer child first */
-            const uint32_t one = at + 1, other = g->nodes[at].at;
-            const double to_one = entry(&g->nodes[one].box, &s, h->distance);
-            const double to_other = entry(&g->nodes[other].box, &s, h->distance);
-            at = to_one <= to_other ? one : other;
-            near = fmin(to_one, to_other);
-            stack[height].node = to_one <= to_other ? other : one;
-            stack[height].near = fmax(to_one, to_other);
-            height += stack[height].near < HUGE_VAL;
-        }
-        for (uint32_t i = 0; near < h->distance && i < g->nodes[at].count; i++)
-            is_met |= meets(&g->shapes[g->nodes[at].at + i], r, h);
+        const bvh_node *n = &g->nodes[stack[--height].node];
+        if (!(stack[height].near < h->distance))
+            continue;
+        for (uint32_t i = 0; i < n->count; i++)
+            is_met |= meets(&g->shapes[n->at + i], r, h);
+        if (n->count)
+            continue;
+        one.node = stack[height].node + 1;
+        other.node = n->at;
+        one.near = entry(&n[1].box, &s, h->distance);
+        other.near = entry(&g->nodes[other.node].box, &s, h->distance);
+        stack[height] = one.near <= other.near ? other : one; /* the nearer child first */
+        height += stack[height].near < HUGE_VAL;
+        stack[height++] = one.near <= other.near ? one : other;
     }
     return is_met;
 }

@@ -9,13 +9,13 @@
 #include "render/image.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/files.h"
 #include "draw/png.h"
+#include "render/lines.h"
 
 int image_make(image *made, int width, int height)
 {
@@ -59,25 +59,6 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 
 /* ---- reading ---- */
 
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
-              ...)
-{
-    char *text = error->message;
-    const size_t size = sizeof error->message;
-    size_t used = (size_t)snprintf(text, size, "%.360s:", name);
-    va_list list;
-    used += line ? (size_t)snprintf(text + used, size - used, "%llu:", line) : 0;
-    used += column ? (size_t)snprintf(text + used, size - used, "%u:", column) : 0;
-    text[used++] = ' ';
-    va_start(list, format);
-    vsnprintf(text + used, size - used, format, list);
-    va_end(list);
-    for (; *text; text++)
-        *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
-    error->status = VNDF_ERROR_SYNTAX;
-    return 0;
-}
-
 enum { HEAD_MAX = 1024 }; /* bytes of the head, with its comments */
 
 typedef struct image_head {
@@ -88,57 +69,45 @@ typedef struct image_head {
     size_t size;
 } image_head;
 
-/* Four words and the blank behind them; 0 if they are not there. */
-static int read_words(const char *bytes, size_t size, image_head *head)
+/* A whole number from 1 to `most`, or 0. */
+static int read_side(const char *word, int most)
 {
-    char text[HEAD_MAX + 1] = "";
+    char *end;
+    const long value = strtol(word, &end, 10);
+    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
+}
+
+/* Four words and the blank behind them. */
+static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
+{
+    char text[HEAD_MAX + 1] = "", *behind;
+    const char *kind = head->word[0], *number = head->word[3];
     int end = 0;
     memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
     for (char *at = text; (at = strchr(at, '#')) != NULL;)
         memset(at, ' ', strcspn(at, "\n"));
     sscanf(text, " %31s %31s %31s %31s%n", head->word[0], head->word[1], head->word[2], head->word[3], &end);
-    head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
-    return end && text[end];
-}
-
-/* A whole number from 1 to `most`, or 0. */
-static int read_side(const char *word, int most)
-{
-    char *end;
-    long value = strtol(word, &end, 10);
-    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
-}
-
-static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
-{
-    const int is_whole = read_words(bytes, size, head);
-    const char *kind = head->word[0], *number = head->word[3];
-    char *end;
-    if (kind[0] != 'P' || !strchr("Ff56", kind[1]) || kind[1] == '\0' || kind[2] != '\0')
-        return refuse_at(error, name, 0, 0,
-                         "this is no PFM, PGM or PPM image: it would begin with PF, Pf, P5 or P6");
+    if (strlen(kind) != 2 || kind[0] != 'P' || !strchr("Ff56", kind[1]))
+        return refuse_at(error, name, 0, "this is no PFM, PGM or PPM image, which begins with PF, Pf, P5 or P6");
     head->is_float = kind[1] == 'F' || kind[1] == 'f';
+    if (!end || !text[end])
+        return refuse_at(error, name, 0, "the head is not whole: after %s come width, height, %s and a blank",
+                         kind, head->is_float ? "a scale" : "the largest value");
+    const double order = strtod(number, &behind);
     head->channels = kind[1] == 'F' || kind[1] == '6' ? 3 : 1;
-    if (!is_whole)
-        return refuse_at(error, name, 0, 0,
-                         "the head of the image is not whole: after %s come width, height, %s and a blank", kind,
-                         head->is_float ? "a scale" : "the largest value");
     head->width = read_side(head->word[1], IMAGE_SIDE_MAX);
     head->height = read_side(head->word[2], IMAGE_SIDE_MAX);
-    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
-        return refuse_at(error, name, 0, 0,
-                         "%s x %s pixels: sides are whole numbers from 1 to %d, and there are %d pixels at most",
-                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
-    const double order = strtod(number, &end);
     head->most = read_side(number, 65535);
-    if (head->is_float && (*end || !(fabs(order) > 0.0)))
-        return refuse_at(error, name, 0, 0,
-                         "'%s' must be a number other than 0; negative: the least byte comes first", number);
-    if (!head->is_float && !(head->most > 0))
-        return refuse_at(error, name, 0, 0, "the largest value is '%s'; it must be from 1 to 65535", number);
     head->is_little = head->is_float && order < 0.0;
     head->each = head->is_float ? 4 : head->most > 255 ? 2 : 1;
-    return 1;
+    head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
+    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
+        return refuse_at(error, name, 0, "%s x %s pixels: sides are from 1 to %d, and there are %d pixels at most",
+                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+    return (head->is_float ? !*behind && fabs(order) > 0.0 : head->most > 0) ||
+           refuse_at(error, name, 0, "'%s' must be %s", number,
+                     head->is_float ? "a number other than 0; negative: the least byte comes first"
+                                    : "the largest value, from 1 to 65535");
 }
 
 static float number_at(const unsigned char *b, const image_head *head)
@@ -160,10 +129,10 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
     const size_t pixel = (size_t)head.channels * head.each,
                  want = (size_t)head.width * (size_t)head.height * pixel;
     if (size - head.size != want)
-        return refuse_at(error, name, 0, 0, "%d x %d pixels take %zu bytes after the head, and there are %zu",
+        return refuse_at(error, name, 0, "%d x %d pixels take %zu bytes after the head, and there are %zu",
                          head.width, head.height, want, size - head.size);
     if (!image_make(made, head.width, head.height))
-        return refuse_at(error, name, 0, 0, "there is no memory for %d x %d pixels", head.width, head.height);
+        return refuse_at(error, name, 0, "there is no memory for %d x %d pixels", head.width, head.height);
     made->channels = head.channels;
     made->quantum = head.is_float ? 0 : 1 / head.most;
     const unsigned char *at = (const unsigned char *)bytes + head.size;
@@ -176,7 +145,7 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
                 if (isfinite(value))
                     continue;
                 image_free(made);
-                return refuse_at(error, name, 0, 0,
+                return refuse_at(error, name, 0,
                                  "the pixel in column %d of row %d (from the top, from 0) is not finite", x, y);
             }
     return 1;
@@ -184,17 +153,15 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
 
 int image_read_pfm(image *made, const char *path, vndf_error *error)
 {
-    char reason[128];
     size_t size;
     *made = (image){0};
-    char *bytes = files_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, reason, sizeof reason);
-    int good =
-        bytes ? image_read_bytes(made, path, bytes, size, error) : refuse_at(error, path, 0, 0, "%s", reason);
+    char *bytes = bytes_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, error);
+    const int good = bytes && image_read_bytes(made, path, bytes, size, error);
     free(bytes);
     if (!good || made->quantum == 0)
         return good;
     image_free(made);
-    return refuse_at(error, path, 0, 0, "these are whole numbers, which are no linear light; a PFM is needed");
+    return refuse_at(error, path, 0, "these are whole numbers, which are no linear light; a PFM is needed");
 }
 
 /* ---- writing ---- */

@@ -6,7 +6,6 @@
 #include <stddef.h>
 #include <stdio.h>
 
-#include "cli/arguments.h"
 #include "vndf.h"
 
 typedef struct image {
@@ -36,16 +35,12 @@ void image_bilinear(const image *of, double u, double v, float rgb[3]);
 int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, vndf_error *error);
 int image_read_pfm(image *made, const char *path, vndf_error *error);
 
-/* A pattern by name; scene_grammar lists them. 0 and an error for an unknown name, or if there is no memory. */
-int image_make_pattern(image *made, const char *name, int width, int height, vndf_error *error);
+/* 0 if there are too many pixels, or there is no memory. */
+typedef enum image_pattern { IMAGE_TILES, IMAGE_GRID, IMAGE_STUDIO } image_pattern;
+int image_make_pattern(image *made, image_pattern of, int width, int height);
 
 /* Writes to an open file; 0 if that fails. In a PNG numbers are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image);
-
-/* What is wrong with a file, and where: "NAME:LINE:COLUMN: ...", less line and column where they are 0. Control
- * characters become '?'. Returns 0. */
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, unsigned column, const char *format,
-              ...) PRINTF_LIKE(5, 6);
 
 #endif

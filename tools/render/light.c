@@ -29,7 +29,7 @@ void environment_radiance(const environment *e, vec3 direction, float rgb[3])
     place_in_image(e, direction, &u, &v);
     image_bilinear(e->map, u, fmin(fmax(v, half), 1 - half), rgb); /* not across the poles */
     for (int i = 0; i < 3; i++)
-        rgb[i] *= e->scale;
+        rgb[i] *= (float)e->scale;
 }
 
 static double pixel_light(const image *map, int x, int y)

@@ -14,6 +14,7 @@
 #include <stdlib.h>
 
 #include "cli/random.h"
+#include "render/lines.h"
 
 enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
 
@@ -250,7 +251,7 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
             meet_light(&w, is_met ? &h : NULL);
             break;
         }
-        if (count > s->depth || !begin(&p, plan, &h, w.ray.direction))
+        if (count > (unsigned)s->depth || !begin(&p, plan, &h, w.ray.direction))
             break;
         if (lights_any(s))
             reach_light(&w, &p, &h);
@@ -269,7 +270,7 @@ path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error)
 {
     path_plan *plan = calloc(1, sizeof *plan);
     if (!plan)
-        return refuse_at(error, "materials", 0, 0, "there is no memory for %zu", s->material_count), NULL;
+        return refuse_at(error, "materials", 0, "there is no memory for %zu", s->material_count), NULL;
     for (size_t i = 0; i < s->material_count; i++) {
         const material *m = &s->materials[i];
         vndf_description is = m->is;

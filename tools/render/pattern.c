@@ -65,19 +65,12 @@ static void shade_studio(float u, float v, float rgb[3])
 }
 
 /* A pixel is the mean of SIDE x SIDE points. */
-int image_make_pattern(image *made, const char *name, int width, int height, vndf_error *error)
+int image_make_pattern(image *made, image_pattern of, int width, int height)
 {
-    enum { SIDE = 3, PATTERNS = 3 };
-    static const char *const names[PATTERNS] = {"tiles", "grid", "studio"};
-    static void (*const shade[PATTERNS])(float u, float v, float rgb[3]) = {shade_tiles, shade_grid, shade_studio};
-    int of = 0;
-    *made = (image){0};
-    while (of < PATTERNS && strcmp(name, names[of]) != 0)
-        of++;
-    if (of == PATTERNS)
-        return refuse_at(error, name, 0, 0, "there is no such pattern, but tiles, grid and studio");
+    enum { SIDE = 3 };
+    static void (*const shade[])(float u, float v, float rgb[3]) = {shade_tiles, shade_grid, shade_studio};
     if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
-        return refuse_at(error, name, 0, 0, "there is no memory for %d x %d pixels", width, height);
+        return 0;
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++)
             for (int i = 0; i < SIDE * SIDE; i++) {

@@ -1,721 +1,496 @@
-/* Reads a scene: statement after statement, its clauses by the table of keys, then a look at the whole.
- *
- * Blanks, tabs and ends of lines separate the words; # outside quotes begins a comment; "quotes" hold blanks. A word
- * in the first column of a line begins a statement; a line that begins with a blank continues it. Everything that
- * reads returns 1, or 0 after a refusal that names the place. */
+/* Reads a scene: a line is written as a command with options, and is read as those of the program are. Everything
+ * that reads returns 1, or 0 after a complaint that names the line. */
 #include "render/scene.h"
 
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "cli/files.h"
-#include "vndf_build.h"
-
-const char scene_grammar[] =
-    "A scene file is text: statements, each a word and then clauses - a keyword and what it takes.\n"
-    "\n"
-    "  camera from 0 1 5 to 0 0.5 0 field 35\n"
-    "  environment constant 1 1 1\n"
-    "  material red-gold conductor of gold\n"
-    "      distribution ggx alpha 0.2   # a line that begins with a blank goes on with the statement\n"
-    "  sphere centre 0 0.5 0 radius 0.5 material red-gold\n"
-    "\n"
-    "(Its lines begin two columns further left.) Clauses stand in any order, each at most once; those in\n"
-    "[ ] may be left out and have what stands in ( ) then. \"Quotes\" hold blanks, # begins a comment.\n"
-    "Images and materials are defined before they are used. Colours are linear red, green and blue; +y is\n"
-    "the zenith. Paths are relative to the scene file.\n"
-    "\n"
-    "Once in a scene; a camera and some light are needed:\n"
-    "  film width PIXELS height PIXELS (640 360)\n"
-    "  camera from X Y Z to X Y Z [up X Y Z] [field DEGREES]    of view, of the height (0 1 0, 40)\n"
-    "  integrator [depth N] [samples N] [exposure F]\n"
-    "                          surfaces on a path at most, samples a pixel, brightness of PNG (12, 64, 1)\n"
-    "  environment constant R G B | image NAME [scale F] [turn DEGREES]\n"
-    "                          light from far away; the image is longitude over latitude as seen from\n"
-    "                          inside: its top row the zenith, its middle column -z, +x at its right;\n"
-    "                          turned about y (1, 0)\n"
-    "\n"
-    "Images:\n"
-    "  image NAME file FILE.pfm\n"
-    "  image NAME pattern PATTERN [width PIXELS] [height PIXELS] (512 512)\n"
-    "      tiles, grid      16 x 16 checks, two greys; 48 x 24 black lines on white, some red\n"
-    "      studio           an environment: soft boxes in a grey room\n"
-    "\n"
-    "Materials:\n"
-    "  material NAME conductor of gold|silver|copper|aluminium ROUGH    or: eta R G B k R G B\n"
-    "  material NAME dielectric index N ROUGH           inside over outside\n"
-    "  material NAME shape ROUGH                        the microsurface alone: all is reflected\n"
-    "  material NAME matte colour R G B [colour-map IMAGE]\n"
-    "  material NAME light radiance R G B               from the front of a sphere or a rectangle\n"
-    "with for ROUGH:\n"
-    "  distribution ggx | beckmann | table FILE.vndf | family NAME:PARAMETERS | slope \"P22(r)\"\n"
-    "               | ndf \"D(c, theta, t)\"    the last three are built here, see `vndf build --help`\n"
-    "  [alpha A | alpha AX AY]                stretches the slopes; ggx and beckmann need it (1)\n"
-    "  [alpha-map IMAGE]                      alpha times the image's red, which is above 0\n"
-    "  [scattering single|multiple]           multiple: light goes on between microfacets (single)\n"
-    "  [colour R G B] [colour-map IMAGE]      multiply (1 1 1)\n"
-    "\n"
-    "Shapes. Those of dielectrics are to be closed; of others, lights too, the back is black. An image\n"
-    "stands upright on rectangles, along edge-u and edge-v; goes around spheres from +z by way of +x, its\n"
-    "top at +y; lies on meshes as vt say:\n"
-    "  sphere centre X Y Z radius R material NAME\n"
-    "  rectangle corner X Y Z edge-u X Y Z edge-v X Y Z material NAME\n"
-    "                          edges at right angles; from the front, edge-v is left of edge-u\n"
-    "  mesh file FILE.obj [scale F] [turn DEGREES] [move X Y Z] material NAME\n"
-    "                          scaled, then turned about y, then moved (1, 0, 0 0 0)\n"
-    "\n"
-    "Numbers: places and sizes up to 1e6, sizes from 1e-6; alpha 1e-6 to 1e3, with its map; colours 0 to\n"
-    "1, maps of them too; radiance 0 to 1e6; index 0.01 to 100; field 1 to 170; depth 1 to 10000.\n";
+#include "cli/subject.h"
+#include "render/lines.h"
 
 /* Against hostile files. */
-enum {
-    BYTES_MAX = 1 << 22,
-    PATH_BYTES = 4096,
-    STATEMENT_MAX = 64,               /* words */
-    PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */
-};
+enum { BYTES_MAX = 1 << 22, PATH_BYTES = 4096, PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */ };
 
-static const double least_size = 1e-6;
+static const double far_away = 1e6, least_size = 1e-6, brightest = 1e6;
 
-typedef struct word {
-    char *text;            /* without its quotes; into the text of the file */
-    unsigned line, column; /* from 1; in the first column begins a statement */
-    int is_quoted;
-} word;
+enum { FILM, CAMERA, INTEGRATOR, ENVIRONMENT, IMAGE, MATERIAL, SPHERE, RECTANGLE, MESH, STATEMENTS };
+static const char *const statements[] = {"film",     "camera", "integrator", "environment", "image",
+                                         "material", "sphere", "rectangle",  "mesh",        NULL};
 
-typedef enum key_kind { WORDS, NUMBERS, WHOLE } key_kind;
-/* OR: one of it and `other`; BESIDE: only with that. */
-typedef enum key_rule { MAY_BE, NEEDED, OR, BESIDE } key_rule;
+static const char preface[] =
+    "A scene is text. A line is written as a command with options, whose values have no blanks or are\n"
+    "\"between quotes\"; # begins a comment. Images and materials are defined before they are used.\n"
+    "Colours are linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
+    "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
+    "back is black. An image stands upright on rectangles, along edge-u and edge-v; goes around spheres from\n"
+    "+z by way of +x, its top at +y; lies on meshes as vt say.\n"
+    "\n"
+    "camera --from 0,1,5 --to 0,0.5,0 --field 35\n"
+    "environment --constant 1,1,1\n"
+    "material red-gold --conductor gold --distribution ggx --alpha 0.2\n"
+    "sphere --centre 0,0.5,0 --radius 0.5 --material red-gold\n";
 
-/* A keyword of a statement, with `least` to `most` words, or up to three numbers from `low` to `high`, behind it. */
-typedef struct key {
-    const char *of, *name, *takes;
-    key_kind kind;
-    size_t least, most;
-    double low, high;
-    key_rule rule;
-    const char *other;
-} key;
+static const char *const manual[STATEMENTS] = {
+    "film                               once at most, as camera, integrator and environment\n"
+    "  --width PIXELS, --height PIXELS  1 to 16384 (640, 360)\n",
+    "camera\n"
+    "  --from X,Y,Z, --to X,Y,Z, --up X,Y,Z  (up: 0,1,0)\n"
+    "  --field DEGREES                  of view, across the height, 1 to 170 (40)\n",
+    "integrator\n"
+    "  --depth N                        surfaces on a path at most, 1 to 10000 (12)\n"
+    "  --samples N                      a pixel (64)\n"
+    "  --exposure F                     brightness of a PNG (1)\n",
+    "environment                        light from far away, 0 to 1e6\n"
+    "  --constant R,G,B\n"
+    "  --image NAME                     longitude over latitude as seen from inside: its top row the\n"
+    "                                   zenith, its middle column -z, +x at its right\n"
+    "    --scale F, --turn DEGREES      times F, turned about y (1, 0)\n",
+    "image NAME\n"
+    "  --file FILE.pfm\n"
+    "  --pattern tiles|grid|studio      checks; lines; soft boxes in a grey room, an environment\n"
+    "    --width PIXELS, --height PIXELS  (512, 512)\n",
+    "material NAME\n"
+    "  --conductor gold|silver|copper|aluminium\n"
+    "  --eta R,G,B                      another conductor, 0 to 1000\n"
+    "    --k R,G,B                      the imaginary part (0,0,0)\n"
+    "  --dielectric N                   index of refraction inside over outside, 0.01 to 100\n"
+    "  --shape                          the microsurface alone: all is reflected\n"
+    "  --matte R,G,B                    0 to 1\n"
+    "  --light R,G,B                    radiance from the front of a sphere or a rectangle, 0 to 1e6\n"
+    "  --distribution D                 of the first four: ggx, beckmann, FILE.vndf, or built here as by\n"
+    "                                   `vndf build`: family=NAME:PARAMETERS, slope=EXPR, ndf=EXPR\n"
+    "    --alpha A[,AY]                 stretches its slopes, 1e-6 to 1e3; ggx and beckmann need it (1)\n"
+    "    --alpha-map IMAGE              alpha times the image's red, which is above 0\n"
+    "    --scattering single|multiple   multiple: light goes on between microfacets (single)\n"
+    "    --colour R,G,B                 multiplies, 0 to 1 (1,1,1)\n"
+    "  --colour-map IMAGE               multiplies, 0 to 1; not of lights\n",
+    "sphere\n"
+    "  --centre X,Y,Z, --radius R, --material NAME\n",
+    "rectangle\n"
+    "  --corner X,Y,Z, --edge-u X,Y,Z, --edge-v X,Y,Z, --material NAME\n"
+    "                                   edges at right angles; from the front, edge-v is left of edge-u\n",
+    "mesh\n"
+    "  --file FILE.obj, --material NAME\n"
+    "  --scale F, --turn DEGREES, --move X,Y,Z  scaled, then turned about y, then moved (1, 0, 0,0,0)\n"};
 
-typedef struct clause {
-    const key *is;
-    const word *at, *value; /* the keyword and what is behind it; NULL if it is not there */
-    size_t count;
-    double number[3];
-} clause;
-
-enum { CLAUSES_MAX = 16 };
-
-#define PLACE "X Y Z", NUMBERS, 3, 3, -1e6, 1e6
-#define NAME WORDS, 1, 1, 0, 0
-
-/* Of every statement, or of its kind; those of the three kinds of rough materials are of "rough", that of all shapes
- * of "body". */
-static const key keys[] = {
-    {"film", "width", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
-    {"film", "height", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, NEEDED, NULL},
-    {"camera", "from", PLACE, NEEDED, NULL},
-    {"camera", "to", PLACE, NEEDED, NULL},
-    {"camera", "up", PLACE, MAY_BE, NULL},
-    {"camera", "field", "DEGREES", NUMBERS, 1, 1, 1, 170, MAY_BE, NULL},
-    {"integrator", "depth", "N", WHOLE, 1, 1, 1, 10000, MAY_BE, NULL},
-    {"integrator", "samples", "N", WHOLE, 1, 1, 1, 1e9, MAY_BE, NULL},
-    {"integrator", "exposure", "F", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
-    {"environment", "constant", "R G B", NUMBERS, 3, 3, 0, 1e6, OR, "image"},
-    {"environment", "image", "NAME", NAME, MAY_BE, NULL},
-    {"environment", "scale", "F", NUMBERS, 1, 1, 0, 1e6, BESIDE, "image"},
-    {"environment", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, BESIDE, "image"},
-    {"image", "file", "PATH", NAME, OR, "pattern"},
-    {"image", "pattern", "NAME", NAME, MAY_BE, NULL},
-    {"image", "width", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, BESIDE, "pattern"},
-    {"image", "height", "PIXELS", WHOLE, 1, 1, 1, IMAGE_SIDE_MAX, BESIDE, "pattern"},
-    {"conductor", "of", "METAL", NAME, OR, "eta"},
-    {"conductor", "eta", "R G B", NUMBERS, 3, 3, 0, 1000, MAY_BE, NULL},
-    {"conductor", "k", "R G B", NUMBERS, 3, 3, 0, 1000, OR, "of"},
-    {"dielectric", "index", "N", NUMBERS, 1, 1, 0.01, 100, NEEDED, NULL},
-    {"rough", "distribution", "ggx|beckmann|table FILE|family NAME|slope FORMULA|ndf FORMULA", WORDS, 1, 2, 0, 0,
-     NEEDED, NULL},
-    {"rough", "alpha", "A or AX AY", NUMBERS, 1, 2, 1e-6, 1e3, MAY_BE, NULL},
-    {"rough", "alpha-map", "IMAGE", NAME, MAY_BE, NULL},
-    {"rough", "scattering", "single|multiple", NAME, MAY_BE, NULL},
-    {"rough", "colour", "R G B", NUMBERS, 3, 3, 0, 1, MAY_BE, NULL},
-    {"rough", "colour-map", "IMAGE", NAME, MAY_BE, NULL},
-    {"matte", "colour", "R G B", NUMBERS, 3, 3, 0, 1, NEEDED, NULL},
-    {"matte", "colour-map", "IMAGE", NAME, MAY_BE, NULL},
-    {"light", "radiance", "R G B", NUMBERS, 3, 3, 0, 1e6, NEEDED, NULL},
-    {"sphere", "centre", PLACE, NEEDED, NULL},
-    {"sphere", "radius", "R", NUMBERS, 1, 1, 1e-6, 1e6, NEEDED, NULL},
-    {"rectangle", "corner", PLACE, NEEDED, NULL},
-    {"rectangle", "edge-u", PLACE, NEEDED, NULL},
-    {"rectangle", "edge-v", PLACE, NEEDED, NULL},
-    {"mesh", "file", "PATH", NAME, NEEDED, NULL},
-    {"mesh", "scale", "FACTOR", NUMBERS, 1, 1, 1e-6, 1e6, MAY_BE, NULL},
-    {"mesh", "turn", "DEGREES", NUMBERS, 1, 1, -360, 360, MAY_BE, NULL},
-    {"mesh", "move", PLACE, MAY_BE, NULL},
-    {"body", "material", "NAME", NAME, NEEDED, NULL},
-};
+void scene_print_manual(void)
+{
+    fputs(preface, stdout);
+    for (size_t i = 0; i < STATEMENTS; i++)
+        printf("\n%s", manual[i]);
+}
 
 typedef struct reader {
     const char *name; /* of the file */
-    vndf_error *error;
     scene *made;
-    char *at, *start, *end; /* the rest of the text, its first line, and where it ends */
-    unsigned line;
-    word list[STATEMENT_MAX]; /* the statement at hand; list[0] names it */
-    size_t count;
-    clause clause[CLAUSES_MAX]; /* of all its keys */
-    size_t clauses;
-    unsigned seen;                                                         /* a bit for each statement */
-    size_t material;                                                       /* of a shape */
-    const char *images[SCENE_IMAGES_MAX], *materials[SCENE_MATERIALS_MAX]; /* their names */
-    size_t pixels;                                                         /* of all images so far */
-    struct made_table {
-        size_t form;
-        const char *text;
-    } tables[SCENE_TABLES_MAX]; /* what those of the scene are made from */
+    char command[PATH_BYTES]; /* "vndf render: NAME:LINE", which opens every complaint */
+    arguments given;          /* what the line says */
+    unsigned seen;            /* a bit for each statement */
+    const char *images[SCENE_IMAGES_MAX + 1], *materials[SCENE_MATERIALS_MAX + 1]; /* names, NULL at the end */
+    const char *tables[SCENE_TABLES_MAX + 1]; /* what those of the scene are made from */
+    size_t pixels;                            /* of all images so far */
 } reader;
 
-/* "NAME:LINE:COLUMN: ..."; returns 0. */
-PRINTF_LIKE(3, 4) static int refuse(reader *r, const word *at, const char *format, ...)
+#define wrong(r, ...) (complain((r)->command, __VA_ARGS__), 0)
+
+/* ---- what options hold ---- */
+
+/* Three numbers; what is not given stays. */
+static int read_three(reader *r, const char *option, double low, double high, double *three)
 {
-    char text[sizeof r->error->message];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
-    va_end(list);
-    return refuse_at(r->error, r->name, at->line, at->column, "%s", text);
+    const char *text = option_value(&r->given, option);
+    return !text || parse_numbers(r->command, option, text, low, high, 3, 3, three);
 }
 
-/* Which of the names a word is; a refusal offers the nearest one, or all of them. `what`: "pattern". */
-static int read_choice(reader *r, const word *at, const char *what, const char *const *names, size_t count,
-                       size_t *chosen)
+static int read_colour(reader *r, const char *option, double high, float rgb[3])
 {
-    char all[512] = "";
-    size_t used = 0;
-    for (*chosen = 0; *chosen < count; ++*chosen)
-        if (strcmp(at->text, names[*chosen]) == 0)
-            return 1;
-    const char *near = nearest_word(at->text, names, count);
-    if (near)
-        return refuse(r, at, "'%.64s' is no %s; did you mean '%s'?", at->text, what, near);
-    for (size_t i = 0; i < count && used < sizeof all; i++)
-        used += (size_t)snprintf(all + used, sizeof all - used, "%s%s", i ? ", " : "", names[i]);
-    return refuse(r, at, "'%.64s' is no %s; it must be one of: %s", at->text, what, count ? all : "(none yet)");
+    double three[3] = {(double)rgb[0], (double)rgb[1], (double)rgb[2]};
+    const int good = read_three(r, option, 0, high, three);
+    for (int i = 0; i < 3; i++)
+        rgb[i] = (float)three[i];
+    return good;
 }
 
-/* ---- words ---- */
-
-/* The next word, without text where there is no more. The 0 behind the word before is put only now, since its place
- * may be the end of a line. */
-static int next_word(reader *r, word *w)
+/* A place or an edge, which has to be there. */
+static int read_place(reader *r, const char *option, vec3 *place)
 {
-    char *behind = r->at;
-    for (; *r->at && strchr(" \t\r\n#", *r->at); r->at++) {
-        r->at += *r->at == '#' ? strcspn(r->at, "\n") : 0;
-        if (*r->at == '\n') {
-            r->line++;
-            r->start = r->at + 1;
-        } else if (!*r->at)
-            break;
-    }
-    const int is_quoted = *r->at == '"';
-    char *text = r->at + is_quoted, *end = text;
-    *w = (word){text, r->line, (unsigned)(r->at - r->start) + 1, is_quoted};
-    if (r->at > behind)
-        *behind = '\0';
-    if (r->at == r->end) {
-        w->text = NULL;
-        return 1;
-    }
-    while (is_quoted ? *end && !strchr("\"\n", *end) : (unsigned char)*end > ' ' && !strchr("\"#\177", *end))
-        end++;
-    if (is_quoted && *end != '"')
-        return refuse(r, w, "the quote that begins here does not end on its line");
-    if (end == text && !is_quoted)
-        return refuse(r, w, "a byte %u, which is no text", (unsigned)(unsigned char)*end);
-    r->at = end + is_quoted;
-    if (*r->at && !strchr(" \t\r\n#", *r->at))
-        return refuse(r, &(word){NULL, r->line, (unsigned)(r->at - r->start) + 1, 0},
-                      "a blank is missing before this");
-    if (is_quoted)
-        *end = '\0';
-    return 1;
+    return option_value(&r->given, option) ? read_three(r, option, -far_away, far_away, &place->x)
+                                           : wrong(r, "%s X,Y,Z is missing", option);
 }
 
-/* ---- clauses ---- */
-
-/* The clause with this name, with at == NULL if it is not there. */
-static const clause *clause_of(const reader *r, const char *name)
+static int read_whole(reader *r, const char *option, double high, int *number)
 {
-    static const clause none = {.at = NULL};
-    for (size_t i = 0; i < r->clauses; i++)
-        if (strcmp(r->clause[i].is->name, name) == 0)
-            return &r->clause[i];
-    return &none;
+    unsigned long long whole = (unsigned long long)*number;
+    const int good = option_count(&r->given, option, 1, high, &whole);
+    *number = (int)whole;
+    return good;
 }
 
-/* strtod alone would also accept nan, inf, hexadecimal numbers and leading blanks. */
-static int read_number(reader *r, const key *k, const word *at, double *number)
+static size_t find(const char *const *list, const char *word)
 {
-    char *end = at->text;
-    if (strspn(at->text, "+-.0123456789eE") == strlen(at->text))
-        *number = strtod(at->text, &end);
-    if (end == at->text || *end)
-        return refuse(r, at, "'%.64s' is no number; it must be '%s %s'", at->text, k->name, k->takes);
-    if (!(*number >= k->low && *number <= k->high))
-        return refuse(r, at, "%s is %.9g, it must be from %.9g to %.9g", k->name, *number, k->low, k->high);
-    return k->kind != WHOLE || *number == floor(*number) ||
-           refuse(r, at, "%s is %.9g, it must be a whole number", k->name, *number);
+    size_t i = 0;
+    while (list[i] && strcmp(list[i], word) != 0)
+        i++;
+    return i;
 }
 
-/* Finds the clauses of the keys of `of` and `also` in the words of the statement from `at` on. A keyword ends what may
- * be left out; values that have to be there are taken as they are, since a name may look like a keyword. */
-static int read_clauses(reader *r, size_t at, const char *of, const char *also)
+/* Which of the names an option has: `what` were defined before. */
+static int read_name(reader *r, const char *option, const char *what, const char *const *list, size_t *chosen)
 {
-    const word *const begin = &r->list[at - 1], *const end = &r->list[r->count];
-    const char *names[CLAUSES_MAX];
-    size_t chosen;
-    r->clauses = 0;
-    for (const key *k = keys; k < keys + sizeof keys / sizeof *keys; k++)
-        if (strcmp(k->of, of) == 0 || strcmp(k->of, also) == 0) {
-            names[r->clauses] = k->name;
-            r->clause[r->clauses++] = (clause){.is = k};
-        }
-    for (const word *w = begin + 1; w < end;) {
-        if (w->is_quoted)
-            return refuse(r, w, "'%.64s' is no clause here, since it has quotes", w->text);
-        if (!read_choice(r, w, "clause here", names, r->clauses, &chosen))
-            return 0;
-        clause *c = &r->clause[chosen];
-        if (c->at)
-            return refuse(r, w, "'%s' stands in this statement twice", c->is->name);
-        c->at = w;
-        c->value = ++w;
-        for (; w < end && c->count < c->is->most; w++, c->count++) {
-            if (c->count >= c->is->least && !w->is_quoted && clause_of(r, w->text)->is)
-                break;
-            if (c->is->kind != WORDS && !read_number(r, c->is, w, &c->number[c->count]))
-                return 0;
-        }
-        if (c->count < c->is->least)
-            return refuse(r, c->at, "the statement ends before all of '%s %s' was there", c->is->name,
-                          c->is->takes);
-    }
-    for (const clause *c = r->clause; c < r->clause + r->clauses; c++) {
-        const key *k = c->is;
-        const clause *other = k->other ? clause_of(r, k->other) : NULL;
-        if (k->rule == NEEDED && !c->at)
-            return refuse(r, begin, "'%s' needs '%s %s'", of, k->name, k->takes);
-        if (k->rule == OR && !c->at == !other->at)
-            return refuse(r, begin, "'%s' needs one of '%s %s' and '%s %s'", of, k->name, k->takes, k->other,
-                          other->is->takes);
-        if (k->rule == BESIDE && c->at && !other->at)
-            return refuse(r, c->at, "'%s' stands beside '%s' only", k->name, k->other);
-    }
-    return 1;
+    const char *name = option_value(&r->given, option);
+    if (!name)
+        return wrong(r, "%s NAME is missing", option);
+    *chosen = find(list, name);
+    return list[*chosen] || wrong(r, "%s '%s' is no %s that is defined before this%s", option, name, what,
+                                  did_you_mean(name, list, *chosen));
 }
 
-/* ---- what clauses hold ---- */
-
-static double number_of(const reader *r, const char *name, double otherwise)
+/* A name that none of the things before it has; there may be `most`. */
+static int new_name(reader *r, const char *what, const char **list, size_t most)
 {
-    const clause *c = clause_of(r, name);
-    return c->at ? c->number[0] : otherwise;
-}
-
-static vec3 vector_of(const reader *r, const char *name)
-{
-    const double *n = clause_of(r, name)->number;
-    return vec(n[0], n[1], n[2]);
-}
-
-static void set_three(const reader *r, const char *name, float to[3])
-{
-    const clause *c = clause_of(r, name);
-    for (int i = 0; i < 3 && c->at; i++)
-        to[i] = (float)c->number[i];
+    const char *name = r->given.positional.count == 1 ? r->given.positional.item[0] : NULL;
+    const size_t count = name ? find(list, name) : 0;
+    if (!name)
+        return wrong(r, "'%s' needs one name", what);
+    if (list[count])
+        return wrong(r, "there is another %s '%s' already", what, name);
+    list[count] = name;
+    return count < most || wrong(r, "these are more than %zu %ss", most, what);
 }
 
 /* The path relative to the working folder. */
-static int path_of(reader *r, const word *at, char path[PATH_BYTES])
+static int path_of(reader *r, const char *file, char path[PATH_BYTES])
 {
     const char *slash = strrchr(r->name, '/');
-    const int folder = at->text[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
-    const int letters = snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, at->text);
-    return (at->text[0] && letters < PATH_BYTES) ||
-           refuse(r, at, "a path has 1 to %d letters, with the folder of the scene", PATH_BYTES - 1);
+    const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
+    return snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, file) < PATH_BYTES ||
+           wrong(r, "a path has at most %d letters, with the folder of the scene", PATH_BYTES - 1);
 }
 
-/* The second word of a statement, a name that none of the `count` things before it has; there may be `most`. */
-static int new_name(reader *r, const char **names, size_t count, size_t most, const char *example)
+/* The image that an option names, if it is there: its first channels have to be within a range. */
+static int find_image(reader *r, const char *option, int channels, double low, double high, const image **found)
 {
-    const char *what = r->list[0].text;
-    if (r->count < 3)
-        return refuse(r, &r->list[0], "'%s' needs a name and what it is, as in '%s'", what, example);
-    const word *name = &r->list[1];
-    const size_t letters = strlen(name->text);
-    if (!letters || letters >= SCENE_NAME)
-        return refuse(r, name, "a name has 1 to %d letters", SCENE_NAME - 1);
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(names[i], name->text) == 0)
-            return refuse(r, name, "there is another %s '%s' already", what, name->text);
-    if (count == most)
-        return refuse(r, name, "these are more than %zu %ss", most, what);
-    names[count] = name->text;
-    return 1;
-}
-
-/* The image that a clause names, if it is there: its first channels have to be within a range, since it is used as
- * `what`. */
-static int find_image(reader *r, const char *name, const char *what, int channels, double low, double high,
-                      const image **found)
-{
-    const clause *c = clause_of(r, name);
     size_t chosen;
-    if (!c->at)
+    if (!option_value(&r->given, option))
         return 1;
-    if (!read_choice(r, c->value, "image that is defined before this", r->images, r->made->image_count, &chosen))
+    if (!read_name(r, option, "image", r->images, &chosen))
         return 0;
     const image *map = *found = &r->made->images[chosen];
     for (int i = 0; i < map->width * map->height * 3; i++) {
         const double value = (double)map->rgb[i];
         if (i % 3 < channels && !(value >= low && value <= high))
-            return refuse(r, c->value, "as %s the image must be from %g to %g; it is %g in column %d of row %d",
-                          what, low, high, value, i / 3 % map->width, i / 3 / map->width);
+            return wrong(r, "as %s the image must be from %g to %g; it is %g in column %d of row %d", option, low,
+                         high, value, i / 3 % map->width, i / 3 / map->width);
     }
     return 1;
 }
 
 /* ---- once in a scene ---- */
 
-/* The film, the camera or the integrator: what the others set stays. */
-static int read_view(reader *r)
+static int read_film(reader *r)
 {
     scene *s = r->made;
-    const clause *to = clause_of(r, "to"), *up = clause_of(r, "up");
-    s->width = (int)number_of(r, "width", s->width);
-    s->height = (int)number_of(r, "height", s->height);
-    s->depth = (unsigned)number_of(r, "depth", s->depth);
-    s->samples = (unsigned)number_of(r, "samples", s->samples);
-    s->exposure = (float)number_of(r, "exposure", (double)s->exposure);
-    if ((int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
-        return refuse(r, &r->list[0], "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
-    if (!to->at)
-        return 1;
-    s->from = vector_of(r, "from");
-    s->to = vector_of(r, "to");
-    s->up = up->at ? vector_of(r, "up") : s->up;
-    s->field = number_of(r, "field", 40) * (PI / 180);
+    return read_whole(r, "--width", IMAGE_SIDE_MAX, &s->width) &&
+           read_whole(r, "--height", IMAGE_SIDE_MAX, &s->height) &&
+           ((int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
+            wrong(r, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX));
+}
+
+static int read_camera(reader *r)
+{
+    scene *s = r->made;
+    if (!read_place(r, "--from", &s->from) || !read_place(r, "--to", &s->to) ||
+        !read_three(r, "--up", -far_away, far_away, &s->up.x) ||
+        !option_number(&r->given, "--field", 1, 170, &s->field))
+        return 0;
     const vec3 forward = subtract(s->to, s->from);
+    s->field *= PI / 180;
     if (!(length(forward) >= least_size))
-        return refuse(r, to->at, "'from' and 'to' are the same place");
+        return wrong(r, "--from and --to are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
-           refuse(r, up->at ? up->at : &r->list[0], "'up' is the direction of the view");
+           wrong(r, "--up is the direction of the view");
+}
+
+static int read_integrator(reader *r)
+{
+    scene *s = r->made;
+    return read_whole(r, "--depth", 10000, &s->depth) && read_whole(r, "--samples", 1e9, &s->samples) &&
+           option_number(&r->given, "--exposure", 1e-6, 1e6, &s->exposure);
 }
 
 static int read_environment(reader *r)
 {
+    static const char *const ways[] = {"--constant", "--image", NULL};
     environment *e = &r->made->environment;
-    set_three(r, "constant", e->constant);
-    e->scale = (float)number_of(r, "scale", 1);
-    e->turn = number_of(r, "turn", 0) / 360;
-    return find_image(r, "image", "light from far away", 3, 0, 1e6, &e->map);
+    const int good = option_alone(&r->given, ways) && read_colour(r, "--constant", brightest, e->constant) &&
+                     option_number(&r->given, "--scale", 0, 1e6, &e->scale) &&
+                     option_number(&r->given, "--turn", -360, 360, &e->turn) &&
+                     find_image(r, "--image", 3, 0, brightest, &e->map);
+    e->turn /= 360;
+    return good;
 }
+
+/* ---- images and distributions ---- */
 
 static int read_image(reader *r)
 {
-    scene *s = r->made;
-    if (!new_name(r, r->images, s->image_count, SCENE_IMAGES_MAX, "image sky file sky.pfm") ||
-        !read_clauses(r, 2, "image", ""))
-        return 0;
-    const word *file = clause_of(r, "file")->value, *pattern = clause_of(r, "pattern")->value;
-    const int width = (int)number_of(r, "width", 512), height = (int)number_of(r, "height", 512);
-    image *made = &s->images[s->image_count++];
+    static const char *const ways[] = {"--file", "--pattern", NULL};
+    const char *file = option_value(&r->given, "--file");
+    int width = 512, height = 512;
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    if (file && !path_of(r, file, path))
+    if (!new_name(r, "image", r->images, SCENE_IMAGES_MAX) || !option_alone(&r->given, ways) ||
+        !read_whole(r, "--width", IMAGE_SIDE_MAX, &width) || !read_whole(r, "--height", IMAGE_SIDE_MAX, &height) ||
+        (file && !path_of(r, file, path)))
         return 0;
-    if (!(file ? image_read_pfm(made, path, &error)
-               : image_make_pattern(made, pattern->text, width, height, &error)))
-        return refuse(r, file ? file : pattern, "%s", error.message);
+    image *made = &r->made->images[r->made->image_count++];
+    if (file && !image_read_pfm(made, path, &error))
+        return wrong(r, "%s", error.message);
+    if (!file && !image_make_pattern(made, (image_pattern)option_choice(&r->given, "--pattern", 0), width, height))
+        return wrong(r, "there is no memory for %d x %d pixels", width, height);
     r->pixels += (size_t)made->width * (size_t)made->height;
-    return r->pixels <= PIXELS_MAX ||
-           refuse(r, &r->list[1], "all images together have more than %d pixels", PIXELS_MAX);
+    return r->pixels <= PIXELS_MAX || wrong(r, "all images together have more than %d pixels", PIXELS_MAX);
 }
 
-/* ---- distributions ---- */
-
-enum { GGX, BECKMANN, TABLE, FAMILY, SLOPE, NDF, FORMS };
-
-static vndf_distribution *make_table(size_t form, const char *text, vndf_error *error)
+/* From the text of --distribution, which is no closed form. */
+static vndf_distribution *make_table(reader *r, const char *text)
 {
-    if (form == TABLE) {
-        (void)files_note(text, 0); /* which no output replaces then */
-        return vndf_load(text, error);
-    }
-    vndf_source *source = form == FAMILY  ? vndf_source_family(text, error)
-                          : form == SLOPE ? vndf_source_slope_expression(text, NULL, 0, error)
-                                          : vndf_source_ndf_expression(text, NULL, 0, error);
-    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, error) : NULL;
-    vndf_source_free(source);
-    return built;
-}
-
-/* Materials with the same form and text share a table. */
-static int read_distribution(reader *r, const vndf_distribution **found)
-{
-    static const char *const names[FORMS] = {"ggx", "beckmann", "table", "family", "slope", "ndf"};
-    static const char *const takes[FORMS] = {
-        "", "", "a file", "a family, as in student-t:2.5", "a formula between quotes", "a formula between quotes"};
-    const clause *c = clause_of(r, "distribution");
-    const word *of = &c->value[1];
-    scene *s = r->made;
+    static const char *const forms[] = {"family=", "slope=", "ndf="};
+    chosen_distribution chosen;
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    size_t form, i = 0;
-    if (!read_choice(r, c->value, "distribution", names, FORMS, &form))
+    size_t form = 0;
+    while (form < 3 && strncmp(text, forms[form], strlen(forms[form])) != 0)
+        form++;
+    if (form == 3)
+        return path_of(r, text, path) && distribution_open(&chosen, r->command, path, 0) ? chosen.owned : NULL;
+    text += strlen(forms[form]);
+    vndf_source *source = form == 0   ? vndf_source_family(text, &error)
+                          : form == 1 ? vndf_source_slope_expression(text, NULL, 0, &error)
+                                      : vndf_source_ndf_expression(text, NULL, 0, &error);
+    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
+    vndf_source_free(source);
+    return built ? built : (complain(r->command, "%s", error.message), NULL);
+}
+
+/* Materials with the same text share a table. */
+static int read_distribution(reader *r, vndf_description *is)
+{
+    const char *text = option_value(&r->given, "--distribution"), *alpha = option_value(&r->given, "--alpha");
+    const int is_ggx = strcmp(text, "ggx") == 0, is_closed = is_ggx || strcmp(text, "beckmann") == 0;
+    double both[2] = {1, 1};
+    const size_t count = alpha ? parse_numbers(r->command, "--alpha", alpha, 1e-6, 1e3, 1, 2, both) : 1;
+    is->alpha_x = (float)both[0];
+    is->alpha_y = (float)both[count == 2];
+    is->distribution = is_ggx ? vndf_ggx() : vndf_beckmann();
+    if (!count)
         return 0;
-    if (c->count > 1 && form <= BECKMANN)
-        return refuse(r, of, "'distribution %s' takes nothing more", names[form]);
-    if (c->count < 2 && form > BECKMANN)
-        return refuse(r, c->value, "'distribution %s' needs %s", names[form], takes[form]);
-    if (form <= BECKMANN) {
-        *found = form == GGX ? vndf_ggx() : vndf_beckmann();
-        return clause_of(r, "alpha")->at ||
-               refuse(r, c->at, "'distribution %s' needs 'alpha A' or 'alpha AX AY'", names[form]);
-    }
-    while (i < s->table_count && (r->tables[i].form != form || strcmp(r->tables[i].text, of->text) != 0))
-        i++;
+    if (is_closed)
+        return alpha || wrong(r, "%s needs --alpha A or --alpha AX,AY", text);
+    const size_t i = find(r->tables, text);
     if (i == SCENE_TABLES_MAX)
-        return refuse(r, of, "these are more than %d tables", SCENE_TABLES_MAX);
-    if (i == s->table_count) {
-        if (form == TABLE && !path_of(r, of, path))
+        return wrong(r, "these are more than %d tables", SCENE_TABLES_MAX);
+    if (!r->tables[i]) {
+        if (!(r->made->tables[i] = make_table(r, text)))
             return 0;
-        if (!(s->tables[i] = make_table(form, form == TABLE ? path : of->text, &error)))
-            return refuse(r, of, "%s", error.message);
-        r->tables[s->table_count++] = (struct made_table){form, of->text};
+        r->tables[i] = text;
+        r->made->table_count++;
     }
-    *found = s->tables[i];
+    is->distribution = r->made->tables[i];
     return 1;
 }
 
 /* ---- materials ---- */
 
-/* Indices of refraction of metals for red, green and blue: measured spectra weighed by the sensitivities of the
- * three colours. They agree to three digits with the lists of the renderers Tungsten and Yocto/GL for Au, Ag, Cu
- * and Al. (Indices at single wavelengths fail: at 550 nm copper is on the slope of its reflectance, and looks
- * tan.) */
-enum { METALS = 4 };
-static const char *const metal_names[METALS] = {"gold", "silver", "copper", "aluminium"};
-static const float metals[METALS][2][3] = {
+/* Indices of refraction of the metals of --conductor for red, green and blue: measured spectra weighed by the
+ * sensitivities of the three colours. They agree to three digits with the lists of the renderers Tungsten and
+ * Yocto/GL for Au, Ag, Cu and Al. (Indices at single wavelengths fail: at 550 nm copper is on the slope of its
+ * reflectance, and looks tan.) */
+static const float metals[][2][3] = {
     {{0.143f, 0.375f, 1.442f}, {3.983f, 2.386f, 1.603f}},
     {{0.155f, 0.117f, 0.138f}, {4.828f, 3.122f, 2.147f}},
     {{0.200f, 0.924f, 1.102f}, {3.912f, 2.452f, 2.142f}},
     {{1.657f, 0.880f, 0.521f}, {9.224f, 6.270f, 4.837f}},
 };
 
-enum { CONDUCTOR, DIELECTRIC, SHAPE, MATTE, LIGHT, KINDS };
-static const char *const kinds[KINDS] = {"conductor", "dielectric", "shape", "matte", "light"};
+enum { METAL, ETA, DIELECTRIC, SHAPE, MATTE, LIGHT };
+static const char *const kinds[] = {"--conductor", "--eta", "--dielectric", "--shape", "--matte", "--light", NULL};
 
 static int read_rough(reader *r, size_t kind, material *m)
 {
-    static const char *const scatterings[] = {"single", "multiple"};
-    static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_DIELECTRIC, VNDF_FRESNEL_NONE};
-    const clause *of = clause_of(r, "of"), *alpha = clause_of(r, "alpha");
-    const clause *scattering = clause_of(r, "scattering");
     vndf_description *is = &m->is;
     vndf_material resolved;
     vndf_error error = {VNDF_OK, ""};
-    size_t metal = 0, order = 0;
-    if ((of->at && !read_choice(r, of->value, "metal", metal_names, METALS, &metal)) ||
-        (scattering->at && !read_choice(r, scattering->value, "scattering", scatterings, 2, &order)) ||
-        !read_distribution(r, &is->distribution))
+    const int metal = option_choice(&r->given, "--conductor", 0);
+    double index = 0;
+    memcpy(is->conductor_eta, metals[metal][0], sizeof metals[metal][0]);
+    if (kind == METAL)
+        memcpy(is->conductor_k, metals[metal][1], sizeof metals[metal][1]);
+    if (!read_colour(r, "--eta", 1000, is->conductor_eta) || !read_colour(r, "--k", 1000, is->conductor_k) ||
+        !option_number(&r->given, "--dielectric", 0.01, 100, &index) || !read_distribution(r, is))
         return 0;
-    memcpy(is->conductor_eta, metals[metal][0], sizeof is->conductor_eta[0] * 3);
-    memcpy(is->conductor_k, metals[metal][1], sizeof is->conductor_k[0] * 3);
-    set_three(r, "eta", is->conductor_eta);
-    set_three(r, "k", is->conductor_k);
-    is->alpha_x = (float)number_of(r, "alpha", 1);
-    is->alpha_y = alpha->count > 1 ? (float)alpha->number[1] : is->alpha_x;
-    is->eta = (float)number_of(r, "index", 0);
-    is->effects.fresnel = fresnel[kind];
+    is->eta = (float)index;
+    is->effects.fresnel = kind <= ETA          ? VNDF_FRESNEL_CONDUCTOR
+                          : kind == DIELECTRIC ? VNDF_FRESNEL_DIELECTRIC
+                                               : VNDF_FRESNEL_NONE;
     is->effects.lobes = kind == DIELECTRIC ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
-    is->effects.scattering = order ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
+    is->effects.scattering =
+        option_choice(&r->given, "--scattering", 0) ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
     const double least = 1e-6 / fmin((double)is->alpha_x, (double)is->alpha_y);
     const double most = 1e3 / fmax((double)is->alpha_x, (double)is->alpha_y);
-    return find_image(r, "alpha-map", "roughness", 1, least, most, &m->alpha_map) &&
-           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK ||
-            refuse(r, &r->list[1], "%s", error.message));
+    return find_image(r, "--alpha-map", 1, least, most, &m->alpha_map) &&
+           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK || wrong(r, "%s", error.message));
 }
 
 static int read_material(reader *r)
 {
-    scene *s = r->made;
-    material made = {.colour = {1.0f, 1.0f, 1.0f}};
-    size_t kind;
-    if (!new_name(r, r->materials, s->material_count, SCENE_MATERIALS_MAX,
-                  "material wall matte colour 0.5 0.5 0.5") ||
-        !read_choice(r, &r->list[2], "kind of material", kinds, KINDS, &kind) ||
-        !read_clauses(r, 3, kinds[kind], kind <= SHAPE ? "rough" : ""))
+    if (!new_name(r, "material", r->materials, SCENE_MATERIALS_MAX) || !option_alone(&r->given, kinds))
         return 0;
-    made.kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
-    set_three(r, kind == LIGHT ? "radiance" : "colour", made.colour);
-    if (!find_image(r, "colour-map", "colour", 3, 0, 1, &made.colour_map) ||
-        (kind <= SHAPE && !read_rough(r, kind, &made)))
-        return 0;
-    strcpy(made.name, r->list[1].text);
-    s->materials[s->material_count++] = made;
-    return 1;
+    const size_t kind = find(kinds, option_among(&r->given, kinds));
+    material *made = &r->made->materials[r->made->material_count++];
+    *made = (material){.name = r->given.positional.item[0], .colour = {1.0f, 1.0f, 1.0f}};
+    made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
+    if (!option_value(&r->given, "--distribution") != (kind > SHAPE))
+        return wrong(r, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
+    if (kind == LIGHT && option_value(&r->given, "--colour-map"))
+        return wrong(r, "--light has no --colour-map");
+    return read_colour(r, "--matte", 1, made->colour) && read_colour(r, "--light", brightest, made->colour) &&
+           read_colour(r, "--colour", 1, made->colour) &&
+           find_image(r, "--colour-map", 3, 0, 1, &made->colour_map) &&
+           (kind > SHAPE || read_rough(r, kind, made));
 }
 
 /* ---- shapes ---- */
 
-/* Adds a shape of the material that the statement names. */
 static int add_shape(reader *r, shape made)
 {
-    made.material = (int)r->material;
-    return geometry_add(&r->made->geometry, &made) || refuse(r, &r->list[0], "there is no memory for this shape");
+    size_t of;
+    made.material = read_name(r, "--material", "material", r->materials, &of) ? (int)of : -1;
+    return made.material >= 0 &&
+           (geometry_add(&r->made->geometry, &made) || wrong(r, "there is no memory for this shape"));
 }
 
 static int read_sphere(reader *r)
 {
-    return add_shape(r, (shape){.corner = vector_of(r, "centre"), .radius = number_of(r, "radius", 0)});
+    shape made = {.kind = SHAPE_SPHERE};
+    if (!read_place(r, "--centre", &made.corner) ||
+        !option_number(&r->given, "--radius", least_size, far_away, &made.radius))
+        return 0;
+    return made.radius > 0 ? add_shape(r, made) : wrong(r, "--radius R is missing");
 }
 
 /* The text has few digits, so that edges that are meant to be at right angles may be a little off: the second one
  * is corrected. */
 static int read_rectangle(reader *r)
 {
-    const vec3 corner = vector_of(r, "corner"), u = vector_of(r, "edge-u"), v = vector_of(r, "edge-v");
-    const double cosine = dot(u, v) / (length(u) * length(v));
-    for (int i = 0; i < 2; i++)
-        if (!(length(i ? v : u) >= least_size))
-            return refuse(r, clause_of(r, i ? "edge-v" : "edge-u")->at, "this edge has no length");
+    shape made = {.kind = SHAPE_RECTANGLE};
+    vec3 *u = &made.edge_u, *v = &made.edge_v;
+    if (!read_place(r, "--corner", &made.corner) || !read_place(r, "--edge-u", u) || !read_place(r, "--edge-v", v))
+        return 0;
+    const double cosine = dot(*u, *v) / (length(*u) * length(*v));
+    if (!(length(*u) >= least_size && length(*v) >= least_size))
+        return wrong(r, "an edge has no length");
     if (!(fabs(cosine) < 2e-3))
-        return refuse(r, clause_of(r, "edge-v")->at,
-                      "the edges of a rectangle must be at right angles; these are at %.4g degrees",
-                      acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
-    return add_shape(r, (shape){SHAPE_RECTANGLE, 0, corner, u, along(v, -dot(u, v) / dot(u, u), u), .radius = 0});
+        return wrong(r, "the edges of a rectangle must be at right angles; these are at %.4g degrees",
+                     acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
+    *v = along(*v, -dot(*u, *v) / dot(*u, *u), *u);
+    return add_shape(r, made);
 }
 
 static int read_mesh(reader *r)
 {
-    const word *file = clause_of(r, "file")->value;
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
+    const char *file = option_value(&r->given, "--file");
+    double by = 1, turn = 0;
+    vec3 move = {0, 0, 0};
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    if (r->made->materials[r->material].kind == MATERIAL_LIGHT)
-        return refuse(r, clause_of(r, "material")->value, "a light is a sphere or a rectangle, not a mesh");
-    if (!path_of(r, file, path))
+    size_t of;
+    if (!read_name(r, "--material", "material", r->materials, &of) ||
+        !option_number(&r->given, "--scale", least_size, 1e6, &by) ||
+        !option_number(&r->given, "--turn", -360, 360, &turn) ||
+        !read_three(r, "--move", -far_away, far_away, &move.x))
         return 0;
-    if (!obj_read(g, path, (int)r->material, &error))
-        return refuse(r, file, "%s", error.message);
-    geometry_place(g, first, number_of(r, "scale", 1), number_of(r, "turn", 0) * (PI / 180), vector_of(r, "move"));
+    if (!file || r->made->materials[of].kind == MATERIAL_LIGHT)
+        return wrong(r, file ? "a light is a sphere or a rectangle, not a mesh" : "--file FILE.obj is missing");
+    if (!path_of(r, file, path) || !obj_read(g, path, (int)of, &error))
+        return *error.message ? wrong(r, "%s", error.message) : 0;
+    geometry_place(g, first, by, turn * (PI / 180), move);
     return 1;
 }
 
-/* ---- statements ---- */
+/* ---- all of it ---- */
 
-/* Those before ONCE stand once in a scene; those before NAMED are not, and read the words behind their name themselves;
- * those after it are shapes, which have a material. */
-enum { CAMERA = 1, ONCE = 4, NAMED = 6, STATEMENTS = 9 };
-static const char *const names[STATEMENTS] = {"film",     "camera", "integrator", "environment", "image",
-                                              "material", "sphere", "rectangle",  "mesh"};
-static int (*const readers[STATEMENTS])(reader *r) = {read_view,        read_view,      read_view,
+static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_camera,    read_integrator,
                                                       read_environment, read_image,     read_material,
                                                       read_sphere,      read_rectangle, read_mesh};
 
-static int read_statement(reader *r)
+static int read_statement(reader *r, lines *in)
 {
-    const word *w = &r->list[0];
-    size_t i;
-    if (!read_choice(r, w, "statement", names, STATEMENTS, &i))
+    const size_t of = find(statements, in->word[0]);
+    snprintf(r->command, sizeof r->command, "vndf render: %.3000s:%llu", r->name, in->line);
+    if (of == STATEMENTS)
+        return wrong(r, "'%s' is no statement, as are %s%s", in->word[0], list_words(statements, ""),
+                     did_you_mean(in->word[0], statements, STATEMENTS));
+    if (of <= ENVIRONMENT && r->seen >> of & 1u)
+        return wrong(r, "'%s' stands in this scene twice", in->word[0]);
+    r->seen |= 1u << of;
+    if (!arguments_read(&r->given, r->command, manual[of], (int)in->count - 1, in->word + 1))
         return 0;
-    const int is_shape = i >= NAMED;
-    if (i < ONCE && r->seen >> i & 1u)
-        return refuse(r, w, "'%s' stands in this scene twice", w->text);
-    r->seen |= 1u << i;
-    if ((i < ONCE || is_shape) && !read_clauses(r, 1, names[i], is_shape ? "body" : ""))
-        return 0;
-    if (is_shape && !read_choice(r, clause_of(r, "material")->value, "material that is defined before this",
-                                 r->materials, r->made->material_count, &r->material))
-        return 0;
-    return readers[i](r);
-}
-
-static int read_statements(reader *r)
-{
-    word next;
-    if (!next_word(r, &next))
-        return 0;
-    while (next.text) {
-        if (next.column > 1)
-            return refuse(
-                r, &next,
-                "a statement begins in the first column; lines that begin with a blank go on with the one "
-                "before");
-        for (r->count = 0; next.text && (r->count == 0 || next.column > 1);) {
-            if (r->count == STATEMENT_MAX)
-                return refuse(r, &next, "a statement has more than %d words", STATEMENT_MAX);
-            r->list[r->count++] = next;
-            if (!next_word(r, &next))
-                return 0;
-        }
-        if (!read_statement(r))
-            return 0;
-    }
-    return 1;
+    if (r->given.positional.count && of != IMAGE && of != MATERIAL)
+        return wrong(r, "'%s' is not expected", r->given.positional.item[0]);
+    return readers[of](r);
 }
 
 /* Without light a scene is black, which nobody means. */
 static int finish(reader *r)
 {
     scene *s = r->made;
-    const word first = {NULL, 1, 1, 0}, *end = r->count ? &r->list[r->count - 1] : &first;
     if (!(r->seen >> CAMERA & 1u))
-        return refuse(r, end, "the scene ends without a camera, as in 'camera from 0 1 5 to 0 0 0'");
+        return wrong(r, "the scene ends without a camera, as in 'camera --from 0,1,5 --to 0,0,0'");
     if (!geometry_build(&s->geometry))
-        return refuse(r, end, "there is no memory for a hierarchy of its shapes");
+        return wrong(r, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return refuse(r, end, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
+        return wrong(r, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
-           refuse(r, end, "the scene ends without light: an environment, or a shape of a light");
+           wrong(r, "the scene ends without light: an environment, or a shape of a light");
 }
 
-scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error)
+scene *scene_read_text(const char *name, char *text, size_t length)
 {
     scene *s = calloc(1, sizeof *s);
-    reader r = {
-        .name = name, .error = error, .made = s, .at = text, .start = text, .end = text + length, .line = 1};
+    reader r = {.name = name, .made = s};
+    vndf_error error = {VNDF_OK, ""};
+    lines in;
+    int more, good = lines_begin(&in, name, text, length, &error);
+    snprintf(r.command, sizeof r.command, "vndf render: %.3000s", name);
     if (!s)
-        return refuse_at(error, name, 0, 0, "there is no memory"), NULL;
-    s->up = vec(0, 1, 0);
-    s->width = 640;
-    s->height = 360;
-    s->depth = 12;
-    s->samples = 64;
-    s->exposure = s->environment.scale = 1.0f;
-    if (read_statements(&r) && finish(&r))
+        return free(text), complain(r.command, "there is no memory"), NULL;
+    *s = (scene){
+        .up = {0, 1, 0}, .field = 40, .exposure = 1, .width = 640, .height = 360, .depth = 12, .samples = 64};
+    s->environment.scale = 1;
+    s->text = text;
+    while (good && (more = lines_next(&in)))
+        good = more > 0 && read_statement(&r, &in);
+    if (error.message[0])
+        complain("vndf render", "%s", error.message);
+    else if (good && finish(&r))
         return s;
     scene_free(s);
     return NULL;
 }
 
-scene *scene_read(const char *path, vndf_error *error)
+scene *scene_read(const char *path)
 {
-    char reason[128];
+    vndf_error error;
     size_t length;
-    char *text = files_read(path, BYTES_MAX, &length, reason, sizeof reason);
+    char *text = bytes_read(path, BYTES_MAX, &length, &error);
     if (!text)
-        refuse_at(error, path, 0, 0, "%s", reason);
-    scene *s = text ? scene_read_text(path, text, length, error) : NULL;
-    free(text);
-    return s;
+        complain("vndf render", "%s", error.message);
+    return text ? scene_read_text(path, text, length) : NULL;
 }
 
 void scene_free(scene *s)
@@ -727,16 +502,18 @@ void scene_free(scene *s)
     for (size_t i = 0; i < s->table_count; i++)
         vndf_free(s->tables[i]);
     free(s->environment.sums);
+    free(s->text);
     geometry_free(&s->geometry);
     free(s);
 }
 
-int scene_resize(scene *s, int width, vndf_error *error)
+int scene_resize(scene *s, int width)
 {
     const double height = floor((double)width * s->height / s->width + 0.5);
     if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX))
-        return refuse_at(error, "--width", 0, 0, "%d x %.0f pixels: a film has 1 to %d rows and at most %d pixels",
-                         width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+        return complain("vndf render", "--width: %d x %.0f pixels: a film has 1 to %d rows and at most %d pixels",
+                        width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX),
+               0;
     s->width = width;
     s->height = (int)height;
     return 1;

@@ -1,4 +1,4 @@
-/* A scene: the contents of a scene file, ready for rendering. scene_grammar has the language. */
+/* A scene: the contents of a scene file, ready for rendering. scene_print_manual says how they are written. */
 #ifndef TOOLS_RENDER_SCENE_H
 #define TOOLS_RENDER_SCENE_H
 
@@ -6,13 +6,7 @@
 #include "render/image.h"
 #include "vndf_bsdf.h"
 
-enum {
-    SCENE_NAME = 65,
-    SCENE_MATERIALS_MAX = 1024,
-    SCENE_LIGHTS_MAX = 64,
-    SCENE_IMAGES_MAX = 64,
-    SCENE_TABLES_MAX = 64
-};
+enum { SCENE_MATERIALS_MAX = 1024, SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
 
 typedef enum material_kind {
     MATERIAL_ROUGH, /* vndf_bsdf.h */
@@ -21,7 +15,7 @@ typedef enum material_kind {
 } material_kind;
 
 typedef struct material {
-    char name[SCENE_NAME];
+    const char *name;
     material_kind kind;
     vndf_description is;                 /* ROUGH: the library takes it */
     float colour[3];                     /* LIGHT: radiance; others: multiplies what is scattered */
@@ -38,19 +32,17 @@ typedef struct emitter {
  * drawn from its pixels, by their light, of which `sums` has the sum up to each, the last one 1. */
 typedef struct environment {
     float constant[3];
-    const image *map; /* NULL: the constant */
-    float scale;
-    double turn;  /* a part of a full turn */
-    double *sums; /* NULL: it is not drawn */
-    double part;  /* how likely it is */
+    const image *map;   /* NULL: the constant */
+    double scale, turn; /* turn: a part of a full turn */
+    double *sums;       /* NULL: it is not drawn */
+    double part;        /* how likely it is */
 } environment;
 
 typedef struct scene {
-    vec3 from, to, up; /* of the camera */
-    double field;      /* of view, radians, across the height of the film */
+    vec3 from, to, up;      /* of the camera */
+    double field, exposure; /* of view, radians, across the height of the film; of the PNG */
     int width, height;
-    unsigned depth, samples; /* the most surfaces on a path; a pixel */
-    float exposure;          /* of the PNG */
+    int depth, samples; /* the most surfaces on a path; a pixel */
     environment environment;
     geometry geometry; /* owned, as are all below */
     emitter lights[SCENE_LIGHTS_MAX];
@@ -61,20 +53,23 @@ typedef struct scene {
     size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
     size_t table_count;
+    char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. NULL and "FILE:LINE:COLUMN: what is wrong, and what
- * would be right". Files that are not trusted are safe. */
-scene *scene_read(const char *path, vndf_error *error);
+/* Reads a scene file; paths in it are relative to its folder. NULL after a complaint. Files that are not trusted
+ * are safe. */
+scene *scene_read(const char *path);
 void scene_free(scene *s);
 
-/* The same from `length` bytes with a 0 behind them, which it changes; messages call them `name`. */
-scene *scene_read_text(const char *name, char *text, size_t length, vndf_error *error);
+/* The same from `length` bytes with a 0 behind them, which it takes over and frees; complaints call them `name`.
+ */
+scene *scene_read_text(const char *name, char *text, size_t length);
 
-/* Sets the pixels across; the height follows. 0 and why if no row is left, or they are too many. */
-int scene_resize(scene *s, int width, vndf_error *error);
+/* Sets the pixels across; the height follows. 0 after a complaint if no row is left, or they are too many. */
+int scene_resize(scene *s, int width);
 
-extern const char scene_grammar[];
+/* How scenes are written, to stdout. */
+void scene_print_manual(void);
 
 /* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
 
@@ -95,7 +90,8 @@ int lights_any(const scene *s);
 /* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment. */
+/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment.
+ */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
