@@ -91,14 +91,6 @@ static inline void bsdf_numbers(unsigned long long *state, float u[3])
         u[i] = test_uniform(state);
 }
 
-/* Beside total reflection F hangs on the last digits of wi and wo, whose lengths are not quite 1. */
-static inline int bsdf_is_beside_total(float eta, vndf_vec3 wi, vndf_vec3 wo)
-{
-    double square = 0.5 * (1 + (double)wi.x * wo.x + (double)wi.y * wo.y + (double)wi.z * wo.z);
-    double index = wi.z > 0 ? (double)eta : 1 / (double)eta;
-    return (wi.z > 0) == (wo.z > 0) && eta > 0 && fabs(1 - (1 - square) / (index * index)) < 0.01;
-}
-
 /* f |cos_o| over the density, and that density. */
 typedef struct bsdf_look {
     double pdf, weight[VNDF_WAVELENGTHS];

@@ -4,8 +4,7 @@
  * retroreflection; level 1e-3 for all together. With the mean weight it makes the estimator: the weight
  * is f cos/pdf (test_bsdf_values), and that pdf is the one of the samples. */
 #include "bsdf/bsdf_case.h"
-#include "evidence/measure/statistics.h"
-#include "statistics/grid.h"
+#include "bsdf/sphere.h"
 
 /* ---- subjects ---- */
 
@@ -44,29 +43,24 @@ static void shape_of(vndf_description *is, vndf_vec3 wi, vndf_mixture *lobes)
     is->mixture = lobes;
 }
 
-static double pdf_towards(double z, double phi, const void *bsdf)
-{
-    return (double)vndf_bsdf_pdf(bsdf, oracle_toward(z, phi));
-}
-
 /* Lost samples, and those that go straight on, are elsewhere: what the integral of the pdf leaves of 1. */
 static void test_hit(const vndf_bsdf *bsdf, vndf_vec3 wi, unsigned long long seed, double samples, double level)
 {
-    static grid g;
+    double expected[SPHERE_BINS + 1], observed[SPHERE_BINS + 1] = {0};
     unsigned long long state = seed * 2654435761u + 99;
-    grid_even(&g, 24, -1, 1, 40, -PI, PI);
-    double mass = grid_expect(&g, pdf_towards, bsdf, samples, 0.02 / samples);
+    const double mass = sphere_integrate(bsdf, 0.02 / samples, expected);
+    for (size_t i = 0; i <= SPHERE_BINS; i++)
+        expected[i] *= samples;
     for (double i = 0; i < samples; i++) {
         vndf_scattered s;
         float u[3];
         bsdf_numbers(&state, u);
         vndf_bsdf_sample(bsdf, u, &s);
-        size_t bin = grid_bin(&g, (double)s.wo.z, atan2((double)s.wo.y, (double)s.wo.x));
         int kept = s.lobe == VNDF_LOBE_REFLECTION || s.lobe == VNDF_LOBE_TRANSMISSION;
-        g.observed[kept ? bin : g.elsewhere] += 1;
+        observed[kept ? sphere_bin(s.wo) : SPHERE_BINS] += 1;
     }
-    pearson found = grid_test(&g);
-    double lost = g.observed[g.elsewhere] / samples, noise = 5 * sqrt(lost * (1 - lost) / samples) + 2e-4;
+    pearson found = pearson_of(expected, observed, SPHERE_BINS + 1);
+    double lost = observed[SPHERE_BINS] / samples, noise = 5 * sqrt(lost * (1 - lost) / samples) + 2e-4;
     if (TEST(lost == 1 || (found.classes > 1 && found.p > level)) & TEST_NEAR(mass, 1 - lost, noise))
         return;
     bsdf_describe(&bsdf->material->is, "", wi, wi);

@@ -18,17 +18,17 @@ static void check(float got, float other_side, double want, float cosine, float 
         fprintf(stderr, "  cos %.9g, eta or f0 %.9g, k %.9g\n", (double)cosine, (double)eta, (double)k);
 }
 
+/* Without absorption by both functions. */
 static void check_all(float cosine, float eta)
 {
-    for (int i = -1; i < ABSORPTION_COUNT; i++) {
-        float k = i < 0 ? 0 : ABSORPTIONS[i];
+    for (int i = 0; i < ABSORPTION_COUNT; i++) {
+        const float k = ABSORPTIONS[i];
         double want = (double)oracle_fresnel((long double)cosine, (long double)eta, (long double)k);
-        if (i < 0)
+        check(vndf_fresnel_conductor(cosine, eta, k), vndf_fresnel_conductor(-cosine, eta, k), want, cosine, eta,
+              k);
+        if (k <= 0)
             check(vndf_fresnel_dielectric(cosine, eta), vndf_fresnel_dielectric(-cosine, eta), want, cosine, eta,
-                  k);
-        else
-            check(vndf_fresnel_conductor(cosine, eta, k), vndf_fresnel_conductor(-cosine, eta, k), want, cosine,
-                  eta, k);
+                  0);
     }
 }
 

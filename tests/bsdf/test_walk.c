@@ -13,7 +13,7 @@
  *   one event cut after it, eval is single scattering with height-correlated masking, to 3e-5; radiance is over that
  *             square */
 #include "bsdf/bsdf_case.h"
-#include "statistics/grid.h"
+#include "bsdf/sphere.h"
 
 enum { HEIGHTS = 12, TURNS = 8, BINS = HEIGHTS * TURNS }; /* of the sphere, of equal areas */
 
@@ -111,12 +111,10 @@ static int is_known(const mean *m)
     return m->hits >= 100 && m->largest < 0.1 * m->sum;
 }
 
-static size_t bin_of(vndf_vec3 w)
+/* Of the bin of sphere.h. */
+static size_t bin_of(size_t fine)
 {
-    static grid g;
-    if (!g.rows)
-        grid_even(&g, HEIGHTS, -1, 1, TURNS, -PI, PI);
-    return grid_bin(&g, (double)w.z, atan2((double)w.y, (double)w.x));
+    return fine / SPHERE_COLUMNS * HEIGHTS / SPHERE_ROWS * TURNS + fine % SPHERE_COLUMNS * TURNS / SPHERE_COLUMNS;
 }
 
 /* ---- samples ---- */
@@ -154,7 +152,7 @@ static int check_samples(const hit *h, size_t count, int is_closed, mean bins[BI
             good &= TEST(is_same(&h->once, u, &s, 1)) & TEST(is_same(&h->radiant, u, &s, s.wo.z > 0 ? 1 : index2));
         if (!is_lost) {
             add(&all, (double)s.weight[0]);
-            add(&bins[bin_of(s.wo)], (double)s.weight[0]);
+            add(&bins[bin_of(sphere_bin(s.wo))], (double)s.weight[0]);
         }
     }
     double lost = 1 - all.hits / (double)count, noise = 4.5 * sqrt(most_lost / (double)count);
@@ -195,7 +193,7 @@ static int check_eval(const hit *h, size_t count, double least, const mean sampl
             continue;
         double value = eval(&h->walk, wo, i), even = 0.5 / PI * (h->passes ? 0.5 : 1);
         good &= TEST(value >= 0 && value < HUGE_VAL);
-        add(&evaluated[bin_of(wo)], value / (0.5 * ((double)vndf_bsdf_pdf(&h->single, wo) + even)));
+        add(&evaluated[bin_of(sphere_bin(wo))], value / (0.5 * ((double)vndf_bsdf_pdf(&h->single, wo) + even)));
     }
     for (int b = 0; b < BINS; b++) {
         const mean *s = &sampled[b], *e = &evaluated[b];
@@ -218,26 +216,12 @@ static int check_eval(const hit *h, size_t count, double least, const mean sampl
 
 /* ---- the density ---- */
 
-static double density_towards(double z, double phi, const void *of)
-{
-    const hit *h = of;
-    double pdf = (double)vndf_bsdf_pdf(&h->walk, oracle_toward(z, phi));
-    TEST(pdf > 0 || (float)z == 0 || (!h->passes && z < 0));
-    return pdf;
-}
-
 static int check_density(const hit *h, double most, const mean sampled[BINS])
 {
-    enum { ACROSS = 2, ALONG = 5 }; /* bins of the integral to a bin of samples */
-    static const double NARROW = 0.01;
-    static grid fine;
-    double expected[BINS] = {0}, distance = 0;
-    grid_even(&fine, ACROSS * HEIGHTS, -1, 1, ALONG * TURNS, -PI, PI);
-    fine.x[HEIGHTS - 1] = -NARROW; /* next to the horizon rough grazing facets gather what they scatter */
-    fine.x[HEIGHTS + 1] = NARROW;
-    double mass = grid_expect(&fine, density_towards, h, 1, 1e-7);
-    for (size_t b = 0; b < fine.rows * fine.columns; b++)
-        expected[b / fine.columns / ACROSS * TURNS + b % fine.columns / ALONG] += fine.expected[b];
+    double fine[SPHERE_BINS + 1], expected[BINS] = {0}, distance = 0;
+    const double mass = sphere_integrate(&h->walk, 1e-7, fine);
+    for (size_t b = 0; b < SPHERE_BINS; b++)
+        expected[bin_of(b)] += fine[b];
     for (int b = 0; b < BINS; b++)
         distance += 0.5 * fabs(sampled[b].hits / sampled[b].count - expected[b]);
     if (TEST_NEAR(mass, 1, 1e-4) & TEST(distance < most))
@@ -255,6 +239,7 @@ static int check_single(const hit *h)
     for (int k = 0; k < 1000; k++) {
         vndf_vec3 wo = bsdf_direction(&state);
         double want = eval(&h->single, wo, 0);
+        good &= TEST(vndf_bsdf_pdf(&h->walk, wo) > 0 || (!h->passes && wo.z < 0));
         good &= TEST_NEAR(eval(&h->once, wo, 1), want, 3e-5 * want + 1e-12);
         want = eval(&h->walk, wo, 1) / (wo.z < 0 ? (double)h->is.eta * (double)h->is.eta : 1);
         good &= TEST_NEAR(eval(&h->radiant, wo, 1), want, 1e-6 * want + 1e-12);

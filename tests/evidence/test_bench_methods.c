@@ -5,6 +5,7 @@
 #include "evidence/evidence.h"
 #include "evidence/measure/bins.h"
 #include "harness/test.h"
+#include "oracle/oracle.h"
 
 static const double level = 1e-6;
 
@@ -182,16 +183,10 @@ static void test_verify_material(void)
     method_release(&m);
 }
 
-static vndf_distribution *table_of(const vndf_source *source, size_t bytes)
-{
-    vndf_build_options options = {.max_bytes = bytes};
-    return vndf_build(source, &options, NULL, NULL);
-}
-
 static void test_any(void)
 {
-    vndf_source *source = vndf_source_family("student-t:2.5", NULL);
-    vndf_distribution *fine = table_of(source, 32768), *small = table_of(source, 2048);
+    vndf_distribution *fine = oracle_build("student-t:2.5", 32768, NULL, NULL),
+                      *small = oracle_build("student-t:2.5", 2048, NULL, NULL);
     if (TEST(fine && small)) {
         method_reference reference = method_reference_of(fine, "fine");
         test_unbiased(method_all_normals(&reference), &reference);
@@ -200,7 +195,6 @@ static void test_any(void)
     }
     vndf_free(fine);
     vndf_free(small);
-    vndf_source_free(source);
 }
 
 int main(void)

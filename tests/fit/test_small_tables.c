@@ -12,6 +12,7 @@ static const char *const SUBJECTS[] = {
     "abc:two-layer-gold", "exp(-r)", "step(1-r)", "exp(-3*r)*(1+0.8*cos(6*r))", "exp(-((r-1)/0.01)^2)",
     "exp(-((r-1)/1e-4)^2)", "exp(-((r-1)/1e-9)^2)", "exp(-r)+1e5*exp(-((r-1.2345)/1e-6)^2)",
     "abs(r-0.5)^-0.3*exp(-2*r)", "max(0,-log(abs(r-0.8)))", "0.5*exp(-r*r)+5e5*exp(-(1000*r)^2)",
+    "charlie:0.1", "charlie:0.3", "charlie:1",
 };
 /* clang-format on */
 

@@ -13,16 +13,6 @@ enum { DAMAGE_BYTES_MAX = 1 << 17 };
 
 /* ---- bytes ---- */
 
-/* The whole of a small file; its size, or 0. */
-static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t most)
-{
-    FILE *file = fopen(path, "rb");
-    size_t size = file ? fread(bytes, 1, most, file) : 0;
-    if (file)
-        fclose(file);
-    return size;
-}
-
 static inline unsigned long get_u32(const unsigned char *bytes)
 {
     return bytes[0] | (unsigned long)bytes[1] << 8 | (unsigned long)bytes[2] << 16 | (unsigned long)bytes[3] << 24;
@@ -41,39 +31,53 @@ static inline void mend_checksum(unsigned char *bytes, size_t size)
 
 /* ---- tables ---- */
 
-/* Where next to nothing is seen densities may be 0. */
-static inline int is_density(float pdf, float area)
+/* Where next to nothing is seen densities may be 0. What somebody forged may overflow to an infinite one. */
+static inline int is_density(float pdf, float area, int forged)
 {
-    return isfinite(pdf) && (pdf > 0 || (pdf == 0 && area < 1e-25f));
+    return forged ? pdf >= 0 : isfinite(pdf) && (pdf > 0 || (pdf == 0 && area < 1e-25f));
 }
 
-static inline int is_safe_at(const vndf_surface *surface, vndf_vec3 wi, float u1, float u2)
+/* By the calls of mixtures and, of a first lobe, those that draw for one. */
+static inline int is_safe_at(const vndf_mixture *of, vndf_vec3 wi, float u1, float u2, int forged)
 {
-    float pdf = -1, v1 = -1, v2 = -1;
-    vndf_view view = vndf_view_from(surface, wi);
-    vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
-    float again = vndf_pdf(&view, wm), ndf = vndf_ndf(surface, wm), area = vndf_projected_area(surface, wi);
-    double length = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y + (double)wm.z * wm.z);
-    vndf_invert(&view, wm, &v1, &v2);
-    return fabs(length - 1) < 1e-6 && wm.z >= 0 && is_density(pdf, area) && is_density(again, area) && ndf >= 0 &&
-           isfinite(area) && area >= 0 && v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1 && vndf_g1(surface, wi) >= 0;
+    float pdf = -1, own = -1, v1 = -1, v2 = -1;
+    const vndf_affine *first = &of->lobe[0].surface;
+    const vndf_view view_of_first = vndf_affine_view_from(first, wi);
+    const vndf_mixture_view view = vndf_mixture_view_from(of, wi);
+    const vndf_vec3 wm = vndf_mixture_sample(&view, u1, u2, &pdf, NULL);
+    const float again = vndf_mixture_pdf(&view, wm), area = vndf_mixture_projected_area(of, wi);
+    const double length = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y + (double)wm.z * wm.z);
+    vndf_mixture_invert(&view, wm, -1, &v1, &v2);
+    vndf_sample(&view_of_first, u1, u2, &own);
+    return is_density(own, vndf_affine_projected_area(first, wi), forged) &&
+           (forged ? isfinite(length) : fabs(length - 1) < 1e-6) && wm.z >= 0 && is_density(pdf, area, forged) &&
+           is_density(again, area, forged) && vndf_mixture_ndf(of, wm) >= 0 && area >= 0 &&
+           (forged || isfinite(area)) && v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1 &&
+           !isnan(vndf_mixture_lambda(of, wi)) && vndf_mixture_g1(of, wi) >= 0;
 }
 
-/* Samples are finite, unit and not below the surface, densities finite and positive, from all sides. */
-static inline int is_safe(const vndf_distribution *table)
+/* Samples are unit and not below the surface, densities finite and positive, from all sides. */
+static inline int is_safe_mixture(const vndf_mixture *of, int forged)
 {
     static const float heights[] = {1, 0.5f, 1e-3f, 0, -1e-3f, -0.6f, -1};
     static unsigned long long state = 29;
     int safe = 1;
     for (int i = 0; i < 42; i++) {
         const float height = heights[i / 6], across = sqrtf(1 - height * height);
-        vndf_surface surface = {table, i / 6 % 2 ? 0.5f : 1e-3f, 0.5f};
-        vndf_vec3 wi = {0.6f * across, 0.8f * across, height};
+        const vndf_vec3 wi = {0.6f * across, 0.8f * across, height};
         float u1 = i % 6 < 4 ? test_uniform(&state) : i % 6 == 4,
               u2 = i % 6 < 4 ? test_uniform(&state) : i % 6 == 5;
-        safe &= is_safe_at(&surface, wi, u1, u2);
+        safe &= is_safe_at(of, wi, u1, u2, forged);
     }
     return safe;
+}
+
+/* The same of a table, smooth along x and rough. */
+static inline int is_safe(const vndf_distribution *table, int forged)
+{
+    const vndf_mixture smooth = {1, {{{table, 1e-3f, 0, 0, 0.5f, 0, 0}, 1}}};
+    const vndf_mixture rough = {1, {{{table, 0.5f, 0, 0, 0.5f, 0, 0}, 1}}};
+    return is_safe_mixture(&smooth, forged) && is_safe_mixture(&rough, forged);
 }
 
 /* ---- every truncation, every flip ---- */

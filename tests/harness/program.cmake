@@ -1,4 +1,4 @@
-# What scripts that run the program share: run, has, expect, answers, split. What fails is told, and the script goes on,
+# What scripts that run the program share: run, has, expect, answers. What fails is told, and the script goes on,
 # to end with a failure; OUT is a fresh folder.
 file(REMOVE_RECURSE ${OUT})
 file(MAKE_DIRECTORY ${OUT})
@@ -40,10 +40,3 @@ function(answers expected text)
     set(printed "${output}${errors}")
     has(printed "${text}")
 endfunction()
-
-# Lines of a text, with what would change how CMake splits it replaced.
-macro(split text lines)
-    string(REGEX REPLACE "[][;\\]" " " clean "${text}")
-    string(REGEX REPLACE "\n$" "" clean "${clean}")
-    string(REPLACE "\n" ";" ${lines} "${clean}")
-endmacro()

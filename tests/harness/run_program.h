@@ -53,15 +53,7 @@ static inline const run_outcome *run_line(int status, const char *says, const ch
 }
 
 /* What a line prints that has to end with 0. */
-static inline char *run_said(char into[RUN_TEXT], const char *format, ...)
-{
-    char line[4096];
-    va_list list;
-    va_start(list, format);
-    vsnprintf(line, sizeof line, format, list);
-    va_end(list);
-    return strcpy(into, run_line(0, "", "%s", line)->text);
-}
+#define run_said(into, ...) strcpy(into, run_line(0, "", __VA_ARGS__)->text)
 
 /* A new folder to work in, which has to be empty at the end; signals are as a shell in the foreground leaves them. */
 static inline int run_begin(char folder[])

@@ -64,6 +64,16 @@ static inline size_t test_amount(size_t quick, size_t usual, size_t whole)
     return test_quick() ? quick : test_long() ? whole : usual;
 }
 
+/* The whole of a small file; its size, or 0. */
+static inline size_t read_bytes(const char *path, unsigned char *bytes, size_t most)
+{
+    FILE *file = fopen(path, "rb");
+    size_t size = file ? fread(bytes, 1, most, file) : 0;
+    if (file)
+        fclose(file);
+    return size;
+}
+
 /* xorshift64*: reproducible uniform numbers on [0, 1) with 24 or 53 bits; the state must not be 0. */
 static inline unsigned long long test_random_bits(unsigned long long *state)
 {

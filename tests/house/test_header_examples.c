@@ -83,14 +83,11 @@ enum { TEXT_MOST = 1 << 18 };
 /* The file without blanks, and without stars, which open lines of a comment. */
 static int read_bare(const char *path, char *text)
 {
-    FILE *file = fopen(path, "rb");
-    size_t size = file ? fread(text, 1, TEXT_MOST - 1, file) : 0, kept = 0;
+    size_t size = read_bytes(path, (unsigned char *)text, TEXT_MOST - 1), kept = 0;
     for (size_t i = 0; i < size; i++)
         if (!isspace((unsigned char)text[i]) && text[i] != '*')
             text[kept++] = text[i];
     text[kept] = '\0';
-    if (file)
-        fclose(file);
     return TEST(size > 0 && size < TEXT_MOST - 1);
 }
 

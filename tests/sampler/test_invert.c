@@ -3,11 +3,8 @@
  * for any between two of them, so the map has no jump; for mixtures it names the lobe, among others of weight 0. The
  * map is monotone in each number but for rounding: of tables u1 turns the azimuth of the stretched normal and u2 moves
  * its slope, of GGX they do so with the mirrored direction, of Beckmann u1 moves the slope along wi and u2 that
- * across. And the density that comes with a sample is that of vndf_pdf at the normal returned: above the horizon
- * within 1e-5 for 99.9% of the samples and 1e-4 for 99.99%, below it 1e-4 and 1e-3, where roughness is at least 0.02
- * and no lobe of D is narrower than a tenth of its slope. It notices an inverse that is not that of the map, Kepler's
- * equation solved too coarsely, a wrong half turn, a cell's neighbour, a jump where two cells or formulas meet, lobes
- * that are counted without those of weight 0, and a density that is formed another way where a sample is drawn. */
+ * across. It notices an inverse that is not that of the map, Kepler's equation solved too coarsely, a wrong half turn,
+ * a cell's neighbour, a jump where two cells or formulas meet, and lobes that are counted without those of weight 0. */
 #include "sampler/seen.h"
 
 static float moved(float u, int steps)
@@ -142,38 +139,11 @@ static void test_monotone(const subject *of, size_t count, unsigned long long *s
     }
 }
 
-/* Every fifth view is of a mixture; of views that see at least 1e-8 of what is seen at grazing incidence. */
-static void test_density(const subject *of, int below, size_t count, unsigned long long *state)
-{
-    static const float alphas[] = {0.02f, 0.1f, 0.3f, 1};
-    const double limit = (below ? 1e-4 : 1e-5) * (of->shape.breaks[0] > 0 ? 3 : 1); /* a jump is narrow */
-    size_t measured = 0, apart[2] = {0, 0};
-    for (size_t i = 0; i < count; i++) {
-        float ax = alphas[i % 4], ay = i / 4 % 2 ? ax : alphas[i / 8 % 4], pdf;
-        vndf_vec3 wi = random_direction(state, 0);
-        wi.z = below ? -wi.z : wi.z;
-        const vndf_mixture two = {2, {{seen_straight(of->d, ax, ay), 0.3f}, {seen_straight(of->d, 1, 1), 0.7f}}};
-        seen s = i % 5 == 4 ? seen_from(SEEN_MIXTURE, &two, wi) : seen_surface(of->d, ax, ay, wi);
-        if (!seen_at_all(&s, 1e-8f))
-            continue;
-        vndf_vec3 wm = seen_draw(&s, test_uniform(state), test_uniform(state), &pdf);
-        double error = fabs((double)seen_pdf(&s, wm) / (double)pdf - 1);
-        measured++;
-        apart[0] += !(error <= limit), apart[1] += !(error <= 10 * limit);
-    }
-    if (!(TEST(apart[0] <= measured / 1000) & TEST(apart[1] <= measured / 10000)))
-        fprintf(stderr, "  %s %s: of %lu densities %lu are apart by %g, %lu by %g\n", of->name,
-                below ? "below" : "above", (unsigned long)measured, (unsigned long)apart[0], limit,
-                (unsigned long)apart[1], 10 * limit);
-}
-
 static void test_subject(const subject *of, size_t index)
 {
     unsigned long long state = 9 + index;
     test_inverse(of, test_amount(3000, 20000, 1000000), &state);
     test_monotone(of, test_amount(100, 400, 5000), &state);
-    for (int below = 0; below < 2; below++)
-        test_density(of, below, test_amount(20000, 100000, 400000), &state);
 }
 
 int main(int arguments, char **argument)

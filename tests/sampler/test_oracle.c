@@ -1,20 +1,23 @@
 /* Densities, D, areas, Lambda, G1 and G2 are what the numbers of the file define, by the oracle, which reads its bytes,
- * in double, and the weight of a sample is the true density there over the one drawn: within 1e-5, below the horizon
- * 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart, matrices of condition
- * up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror - the values at
- * inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
+ * in double; the density that comes with a sample is that of the normal returned (but of matrices, which may be so
+ * flat that a normal's rounding leaves it no digits), and its weight the true density there over that: within 1e-5,
+ * below the horizon 1e-4, for 99.9% of the points of each kind of surface, roughness 1e-4 to 1e4, also 1e4 apart,
+ * matrices of condition up to 1e8, mean slopes, mixtures. Where inputs have no such digits - leaning surfaces, a mirror
+ * - the values at inputs one rounding aside count. It notices a wrong formula, a wrong cell, and digits lost. */
 #include "sampler/seen.h"
 
 typedef enum family { ROUGH, APART, SHEARED, LEANING, MIXED, FAMILIES } family;
 static const char *const family_names[FAMILIES] = {"roughness", "alphas apart", "matrix", "mean slope", "mixture"};
 
 /* After the quantities of seen.h; -1 where there is no sample, or it has no weight. */
-enum { WEIGHT = QUANTITIES, G2, ASKED }; /* G2: of wi and wo at the same place */
+enum { WEIGHT = QUANTITIES, DRAWN, G2, ASKED }; /* G2: of wi and wo at the same place */
+
+static const char *const more_names[] = {"weight", "density drawn", "g2"};
 
 /* A point, and what the oracle knows of its lobes. */
 typedef struct point {
     seen s;
-    float weight;
+    float weight, drawn;
     oracle_surface lobe[2];
     double wi[3], wm[3];
 } point;
@@ -43,7 +46,7 @@ static point random_point(const oracle *of, const vndf_distribution *d, family f
                       {{random_shape(d, f, state), 0.25f}, {random_shape(vndf_ggx(), f, state), 0.5f}}};
     const vndf_affine *a = &m.lobe[0].surface;
     point p;
-    float u1 = test_uniform(state), u2 = test_uniform(state), pdf;
+    float u1 = test_uniform(state), u2 = test_uniform(state);
     vndf_vec3 wi = random_direction(state, f == ROUGH ? -1 : -0.5);
     if (test_random_bits(state) % 3 == 0) {
         double rho = random_decade(state, -3, 3),
@@ -52,12 +55,14 @@ static point random_point(const oracle *of, const vndf_distribution *d, family f
         wi.x = (float)(wi.x / length), wi.y = (float)(wi.y / length), wi.z = (float)(z / length);
     }
     p.s = seen_from(f == MIXED ? SEEN_MIXTURE : f >= SHEARED ? SEEN_AFFINE : SEEN_SURFACE, &m, wi);
-    vndf_vec3 wm = seen_draw(&p.s, u1, u2, &pdf);
+    vndf_vec3 wm = seen_draw(&p.s, u1, u2, &p.drawn);
     p.weight = -1;
     if (f == ROUGH)
         vndf_sample_weight(&p.s.view, u1, u2, NULL, &p.weight);
+    if (f == SHEARED)
+        p.drawn = -1;
     if (test_random_bits(state) % 2) {
-        p.weight = -1;
+        p.weight = p.drawn = -1;
         double r = random_decade(state, -3, 3), t = random_between(state, -PI, PI);
         double x = a->xx * r * cos(t) + a->xy * r * sin(t) - a->mean_x,
                y = a->yx * r * cos(t) + a->yy * r * sin(t) - a->mean_y;
@@ -76,8 +81,8 @@ static point random_point(const oracle *of, const vndf_distribution *d, family f
 
 static double ask(const point *p, int q)
 {
-    if (q == WEIGHT)
-        return (double)p->weight;
+    if (q == WEIGHT || q == DRAWN)
+        return (double)(q == WEIGHT ? p->weight : p->drawn);
     if (q == G2 && p->s.kind == SEEN_SURFACE)
         return (double)vndf_g2(&p->s.surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
     if (q == G2 && p->s.kind == SEEN_AFFINE)
@@ -92,6 +97,8 @@ static double truth(const point *p, int q)
 {
     if (q == WEIGHT)
         return truth(p, VISIBLE) / truth(p, DENSITY);
+    if (q == DRAWN)
+        return truth(p, DENSITY);
     double area = 0, cosine = 0, sum = 0;
     for (int i = 0; i < p->s.of.count; i++) {
         double weight = p->s.of.count == 2 ? (i + 1) / 3.0 : 1;
@@ -130,8 +137,8 @@ static int is_deep(const point *p)
 static double error_of(const point *p, int q)
 {
     double want = truth(p, q), got = ask(p, q), low = want, high = want, size = fmax(fabs(want), q == LAMBDA);
-    if ((q == WEIGHT && p->weight < 0) || !(size > 1e-30 && size < 1e30) || (q == LAMBDA && size > 1e6) ||
-        is_deep(p))
+    if (((q == WEIGHT || q == DRAWN) && got < 0) || !(size > 1e-30 && size < 1e30) ||
+        (q == LAMBDA && size > 1e6) || is_deep(p))
         return -1;
     size *= oracle_look_from(&p->lobe[0], p->wi).c < 0 ? 10 : 1;
     if (fabs(got - want) <= 1e-5 * size)
@@ -168,10 +175,8 @@ static void test_family(const subject *of, const oracle *slopes, family f, size_
               TEST(worst[q] < (of->shape.rough ? HUGE_VAL : 1e-2))) ||
             test_long()) {
             fprintf(stderr, "  %s, %s, %s: %lu of %lu beyond 1e-5, most %.3g\n", of->name, family_names[f],
-                    q == WEIGHT ? "weight"
-                    : q == G2   ? "g2"
-                                : quantity_names[q],
-                    (unsigned long)missed[q], (unsigned long)checked[q], worst[q]);
+                    q < QUANTITIES ? quantity_names[q] : more_names[q - QUANTITIES], (unsigned long)missed[q],
+                    (unsigned long)checked[q], worst[q]);
             if (worst[q] > 1e-5)
                 seen_print(&at[q].s, "worst"),
                     fprintf(stderr, "    wm %.9g %.9g %.9g: got %.9g, want %.9g\n", at[q].wm[0], at[q].wm[1],

@@ -116,23 +116,6 @@ static void test_masses(void)
     test_mass("epd:1000", 3e-6); /* all but a jump, which Simpson's rule does not like */
 }
 
-/* The sheen of Estevez & Kulla, which is 0 straight up, in tables as small as those of others. */
-static void test_sheen(void)
-{
-    static const char *const names[] = {"charlie:0.1", "charlie:0.3", "charlie:1"};
-    for (int i = 0; i < 6; i++) {
-        const vndf_build_options options = {.max_bytes = i % 2 ? 8192 : 2048};
-        vndf_certificate claim;
-        vndf_source *source = family_of(names[i / 2]);
-        vndf_distribution *table = vndf_build(source, &options, &claim, NULL);
-        if (!(TEST(table && vndf_source_p22(source, 0) == 0 && claim.hidden <= 1e-5f) &
-              TEST(claim.tv <= (i % 2 ? 1e-2f : 2e-2f) && claim.tv_above <= (i % 2 ? 4e-4f : 1.5e-3f))))
-            fprintf(stderr, "  %s in %zu bytes\n", names[i / 2], options.max_bytes);
-        vndf_free(table);
-        vndf_source_free(source);
-    }
-}
-
 /* The help names each family with its usage and its limits. */
 static void test_help(void)
 {
@@ -160,7 +143,6 @@ int main(void)
     test_all_finite();
     test_formulas();
     test_masses();
-    test_sheen();
     test_help();
     return test_done();
 }

@@ -67,7 +67,7 @@ static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)
     vndf_family *family = vndf_family_load_memory(bytes, size, error);
     verdict found = family ? SAFE : REFUSED;
     for (size_t i = 0; i < 2 && family; i++)
-        found = is_safe(vndf_family_distribution(family, i)) ? found : UNSAFE;
+        found = is_safe(vndf_family_distribution(family, i), 0) ? found : UNSAFE;
     vndf_family_free(family);
     return found;
 }

@@ -58,7 +58,7 @@ static const broken_rule RULES[] = {
 static verdict load(const unsigned char *bytes, size_t size, vndf_error *error)
 {
     vndf_distribution *table = vndf_load_memory(bytes, size, error);
-    verdict found = !table ? REFUSED : is_safe(table) ? SAFE : UNSAFE;
+    verdict found = !table ? REFUSED : is_safe(table, 0) ? SAFE : UNSAFE;
     vndf_free(table);
     return found;
 }

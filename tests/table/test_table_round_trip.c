@@ -7,14 +7,6 @@
 
 enum { ROOM = 1 << 14 };
 
-static int exists(const char *path)
-{
-    FILE *file = fopen(path, "rb");
-    if (file)
-        fclose(file);
-    return file != NULL;
-}
-
 static void test_numbers(const vndf_distribution *d)
 {
     static float all[ROOM], part[ROOM];
@@ -56,9 +48,10 @@ static void test_round_trip(size_t kind)
 
 static void test_errors(void)
 {
+    unsigned char byte;
     vndf_error error = {VNDF_OK, ""};
-    TEST(vndf_save(NULL, "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !exists("x.vndf"));
-    TEST(vndf_save(vndf_ggx(), "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !exists("x.vndf"));
+    TEST(vndf_save(NULL, "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !read_bytes("x.vndf", &byte, 1));
+    TEST(vndf_save(vndf_ggx(), "x.vndf", &error) == VNDF_ERROR_ARGUMENT && !read_bytes("x.vndf", &byte, 1));
     TEST(!vndf_load("no-such-file.vndf", &error) && error.status == VNDF_ERROR_IO);
     TEST_HAS(error.message, "no-such-file.vndf: cannot be opened: ");
     TEST(!vndf_load(NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
