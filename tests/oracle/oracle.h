@@ -1,6 +1,5 @@
 /* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written
- * out once more, with quadrature of their own (tanh-sinh panels; Takahasi & Mori, "Double exponential
- * formulas for numerical integration", Publ. RIMS Kyoto 9, 1974).
+ * out once more.
  *
  * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with
  * normals ~ (r cos a, r sin a, 1), so that the visible density in slope area is
@@ -30,8 +29,6 @@ typedef struct oracle {
     const char *name; /* how the builder gets it: a family, or a formula of slopes */
     int shape;
     const oracle_table *table; /* its slopes are over the median; it has a shape and a table alone */
-    double breaks[2];          /* slopes where it jumps or has a kink, ascending; 0: none */
-    double peak, reach;        /* slopes below and beyond which less than 1e-12 of the mass lies */
     int rough;                 /* a ring or a jump: ten times the error is allowed */
     double norm;               /* P22 = norm times the shape, integral P22 r dr = 1/(2 pi) */
 } oracle;
@@ -48,9 +45,9 @@ vndf_distribution *oracle_shipped(const char *name);
 
 double oracle_p22(const oracle *o, double r);
 
-/* integral over slopes of P22 max(0, c + s r cos a), s and c of any length: relative error below 1e-9 where it exceeds
- * 1e-200. GGX: Walter et al. 2007, equation 33, Lambda = (sqrt(1 + 1/a^2) - 1)/2, a = 1/(alpha tan). Beckmann: equation
- * 25, Lambda = (erf(a) - 1)/2 + exp(-a^2)/(2 a sqrt(pi)) (both from Heitz 2014), written as areas. */
+/* integral over slopes of P22 max(0, c + s r cos a), s and c of any length, of tables and closed forms. GGX: Walter et
+ * al. 2007, equation 33, Lambda = (sqrt(1 + 1/a^2) - 1)/2, a = 1/(alpha tan). Beckmann: equation 25, Lambda = (erf(a) -
+ * 1)/2 + exp(-a^2)/(2 a sqrt(pi)) (both from Heitz 2014), written as areas. */
 double oracle_area(const oracle *o, double s, double c);
 
 /* ---- surfaces ---- */

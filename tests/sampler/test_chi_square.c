@@ -59,7 +59,7 @@ static size_t samples, stride; /* of each subject every `stride`-th view, anothe
 static void test_subject(const subject *of, size_t index)
 {
     const double level = statistics_sidak(0.01, SUBJECT_COUNT * VIEWS),
-                 off = of->shape.breaks[0] > 0 ? 2e-3 : 1e-4;
+                 off = of->shape.shape == ORACLE_DISC ? 2e-3 : 1e-4;
     for (size_t view = index % stride; view < VIEWS; view += stride) {
         seen s = view_of(of->d, &views[view]);
         if (seen_quantity(&s, AREA, s.wi) <= 1e-6f) /* next to nothing is seen */
