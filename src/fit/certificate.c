@@ -243,8 +243,8 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 
 /* ---- areas ---- */
 
-/* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. What is left
- * of c below the horizon loses digits of floats (law_area_in). */
+/* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. What is
+ * left of c below the horizon loses digits of floats (law_area_in). */
 static double area_error_at(const survey *s, int cell, double rho)
 {
     const double floats = 0x1.8p-23, digits = 4e-4;
@@ -299,8 +299,8 @@ static double error_of(double is, double right)
     return fabs(is / right - 1);
 }
 
-/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side: at their points and
- * ends; of all of a strip in the last cell, which draws R f. */
+/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side: at their points
+ * and ends; of all of a strip in the last cell, which draws R f. */
 static double ndf_error(const survey *s)
 {
     static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288,

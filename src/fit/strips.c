@@ -106,8 +106,8 @@ static void gather(maker *m, const vndf_panel *panel, double from, double to)
     }
 }
 
-/* Ends what is gathered before a slope, at a knot that is the same as a float, or a little after it, so that floats tell
- * both ends apart; returns where. */
+/* Ends what is gathered before a slope, at a knot that is the same as a float, or a little after it, so that floats
+ * tell both ends apart; returns where. */
 static double end_before(maker *m, double slope)
 {
     double least = fmin(edge_of(m) * (1 + VNDF_GRAIN / 2), m->knot);
@@ -151,8 +151,8 @@ static void scale(vndf_strips *s, size_t first, double mass)
     }
 }
 
-/* How many strips a panel has at least: more if P22 varies in it, since ten points may show more than one wave; few if it
- * is slim, as beside a jump. */
+/* How many strips a panel has at least: more if P22 varies in it, since ten points may show more than one wave; few if
+ * it is slim, as beside a jump. */
 static double least_of(const vndf_profile *profile, const vndf_panel *p)
 {
     const double worth = 1e-7, wave = 0.02, slim = 1e-3; /* of the mass; of P22; of the slope */

@@ -53,7 +53,7 @@ static void test_descriptors(const char *words, int varies)
 /* The last ones are those of figures. */
 static void test_allocations(const char *words, int varies, long tries)
 {
-    const char *told = run_line(0, "", "LD_PRELOAD=\"$FAILING\" \"$VNDF\" %s 9>&1 >printed", words)->text;
+    const char *told = run_line(0, "", "LD_PRELOAD=\"$FAILING\" \"$VNDF\" %s 9>&1 >printed 2>said", words)->text;
     const long count = atol(told), last = count - (tries > 5 ? 10 : 1);
     char before[64];
     for (long n = 1, next; n <= count; n = next) {

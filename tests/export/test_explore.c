@@ -7,8 +7,11 @@
 
 #define SHIPPED VNDF_SOURCE_DIR "/tables/"
 
-static const char *const parts[] = {" data-tv=\"0.00038\">hazy</option>", ">a&amp;b</option>",
-                                    "const int VNDF_STUDENT_T_2_5 = ", "What an engine makes of it in one pass",
+static const char *const parts[] = {" data-tv=\"0.0003",
+                                    ">hazy</option>",
+                                    ">a&amp;b</option>",
+                                    "const int VNDF_STUDENT_T_2_5 = ",
+                                    "What an engine makes of it in one pass",
                                     "vndf_sampled vndf_sample(vndf_view view, float w1, float w2) {"},
                          /* What is left of a frame, or may ask the network. */
     *const none[] = {"{{",    "a&b",     "http:",   "https:",  "src=",  "url(h",    "url(/",

@@ -84,7 +84,7 @@ expect("info: ${errors}" errors MATCHES "doubtful with the matrix [^\n]*implausi
 
 answers(2 "--cutoff '300'" build --height heights.txt --cutoff 300 ${to})
 answers(2 "4 slopes" build --height heights.txt --cutoff 46 ${to})
-answers(2 "begin with PF, Pf, P5 or P6" build --normal-map heights.txt ${to})
+answers(2 "begins with PF, Pf, P5 or P6" build --normal-map heights.txt ${to})
 answers(2 "-o and --profile both name" build --height heights.txt --profile bad.vndf ${to})
 answers(2 "--profile '-': a file is needed" build --height heights.txt --profile - ${to})
 answers(2 "--profile is for files of measurements" build --family ggx --profile bad.csv ${to})

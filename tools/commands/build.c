@@ -279,7 +279,8 @@ static int run(const arguments *given)
     if (!check_words(given))
         return STATUS_USE;
     if (!is_family)
-        source = option_among(given, measured) ? measured_source(given, &output[1]) : source_from_words(given, NULL);
+        source =
+            option_among(given, measured) ? measured_source(given, &output[1]) : source_from_words(given, NULL);
     /* Opened before the work, so that a place that cannot be written is told first. */
     if ((source || is_family) && output_open(&output[0], name, option_value(given, "-o")) &&
         build(given, source, &made) && write_table(&made, output[0].file))

@@ -128,7 +128,7 @@ static void find_doubts(const vndf_info *info, char *to, size_t room)
         {(double)c->max_weight, 10, "weights up to %.3g, fireflies"}, /* as bright as ten samples stands out */
         {(double)c->area_error, poor, "Lambda and G1 off by %.2g"},   /* which brightness follows */
         {(double)c->consistency, 2e-3, "densities biased by %.2g"},   /* half a step of 8 bits */
-        {(double)c->ndf_error, 1, "D off by %.2g of itself"},         /* 0.4 is usual at the feet of thin rings */
+        {(double)c->ndf_error, 3, "D off by %.2g of itself"},         /* 2 is usual at the feet of thin rings */
         {c->finest > 0 ? 0 : (double)c->hidden, 1e-3, "%.2g of D may be missing"}, /* as much as tables are off */
         {isotropy, 5e-2, "no ellipse: %.2g of the normals would have to turn"},    /* more refuses a .bsdf */
         {light, 1e-1, "%.2g of the light is not that of one D"},                   /* a good fit has 0.02 */
