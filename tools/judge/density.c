@@ -1,0 +1,232 @@
+/* The integral of the density over bins, with an error that is measured. Bins are cells, rectangles of theta and the
+ * azimuth. Where the corners of a cell and its middle say different things, it is divided in four, the worst cells first;
+ * a line across a cell, along which the density jumps, shows itself there. Where they have settled, each cell is asked
+ * at fresh points: two pairs, drawn at random, each symmetric about the middle. Their mean has no bias whatever
+ * the density is, and their difference is its error. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "cli/random.h"
+#include "judge/judge.h"
+
+/* A cell may err by this part of all mass. */
+static const double CLOSE = 4e-6;
+
+/* Each round runs the command. In the first ones bins are divided whose count is far from their integral, too: there
+ * may be a peak between the points. */
+enum { ROUNDS = 7, COUNTING = 3, CELLS_MAX = 40000 * JUDGE_VIEWS };
+
+typedef struct cell {
+    size_t bin; /* of all directions, one after the other */
+    double x[2], y[2], mass, error;
+    double urgency; /* the error, or more; negative: not measured yet */
+} cell;
+
+typedef struct point {
+    size_t bin;
+    double x, y, p, truth; /* densities of theta and the azimuth */
+    exchange shown;
+} point;
+
+typedef struct integrating {
+    const judge_task *task;
+    judgement *j;
+    vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
+    progress *bar;
+    double round;
+    cell *cells;
+    size_t count;
+} integrating;
+
+/* ---- points -------------------------------------------------------------------------------------- */
+
+static int ask(integrating *of, point *at, size_t count)
+{
+    query *asked = malloc(count * sizeof *asked);
+    for (size_t i = 0; i < count && asked; i++) {
+        const judge_view *v = &of->j->view[at[i].bin / JUDGE_BINS];
+        const double phi = at[i].y + v->turn, sine = sin(at[i].x);
+        asked[i] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(at[i].x)}};
+    }
+    progress_show(++of->round / (ROUNDS + 1), "densities", of->bar);
+    answer *got = process_ask(of->task, asked, count);
+    for (size_t i = 0; i < count && got; i++) {
+        judge_fault *invalid = &of->j->fault[JUDGE_VALID];
+        const int is_valid = got[i].pdf >= 0 && isfinite(got[i].pdf);
+        at[i].shown = (exchange){asked[i], got[i]};
+        at[i].p = is_valid ? got[i].pdf * sin(at[i].x) : 0;
+        at[i].truth = (double)vndf_visible(&of->truth[at[i].bin / JUDGE_BINS], asked[i].x) * sin(at[i].x);
+        if (!is_valid)
+            judge_note(invalid, invalid->worst + 1, NAN, &at[i].shown);
+    }
+    free(asked);
+    free(got);
+    return got != NULL;
+}
+
+/* Half of its sides away from the middle by (x, y), of -1 to 1. */
+static point place(const cell *c, double x, double y)
+{
+    return (point){.bin = c->bin,
+                   .x = (c->x[0] + c->x[1]) / 2 + (c->x[1] - c->x[0]) / 2 * x,
+                   .y = (c->y[0] + c->y[1]) / 2 + (c->y[1] - c->y[0]) / 2 * y};
+}
+
+static double area_of(const cell *c)
+{
+    return (c->x[1] - c->x[0]) * (c->y[1] - c->y[0]);
+}
+
+/* ---- cells --------------------------------------------------------------------------------------- */
+
+/* What is new, by its corners, drawn in a little, and its middle. */
+static int look(integrating *of)
+{
+    enum { POINTS = 5 };
+    static const double in = 0.9999999;
+    point *at = malloc(of->count * POINTS * sizeof *at);
+    size_t asked = 0, next = 0;
+    for (size_t i = 0; i < of->count && at; i++)
+        for (int k = 0; k < POINTS && of->cells[i].urgency < 0; k++)
+            at[asked++] =
+                k ? place(&of->cells[i], k & 1 ? in : -in, k & 2 ? in : -in) : place(&of->cells[i], 0, 0);
+    const int good = at && ask(of, at, asked);
+    for (size_t i = 0; i < of->count && good; i++) {
+        cell *c = &of->cells[i];
+        if (c->urgency >= 0)
+            continue;
+        const point *its = at + POINTS * next++;
+        const double corners = (its[1].p + its[2].p + its[3].p + its[4].p) / 4;
+        const double true_corners = (its[1].truth + its[2].truth + its[3].truth + its[4].truth) / 4;
+        c->mass = area_of(c) * (corners + 2 * its->p) / 3;
+        c->error = area_of(c) / 3 * fabs(corners - its->p);
+        c->urgency = fmax(c->error, area_of(c) / 3 * fabs(true_corners - its->truth));
+    }
+    free(at);
+    return good;
+}
+
+/* More than five standard deviations of the count. */
+static void heed_counts(integrating *of)
+{
+    static double mass[JUDGE_VIEWS * JUDGE_BINS], parts[JUDGE_VIEWS * JUDGE_BINS];
+    const double samples = (double)of->task->samples;
+    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++)
+        mass[i] = parts[i] = 0;
+    for (size_t i = 0; i < of->count; i++) {
+        mass[of->cells[i].bin] += of->cells[i].mass;
+        parts[of->cells[i].bin] += 1;
+    }
+    for (size_t i = 0; i < of->count; i++) {
+        const size_t bin = of->cells[i].bin;
+        const double count = of->j->view[bin / JUDGE_BINS].observed[bin % JUDGE_BINS];
+        const double off = fabs(count - samples * mass[bin]);
+        if (off > 5 * sqrt(fmax(count, samples * mass[bin])) + 5)
+            of->cells[i].urgency = fmax(of->cells[i].urgency, off / samples / parts[bin]);
+    }
+}
+
+static int most_urgent(const void *a, const void *b)
+{
+    const double x = ((const cell *)a)->urgency, y = ((const cell *)b)->urgency;
+    return (x < y) - (x > y);
+}
+
+/* Returns whether any was. */
+static int divide(integrating *of)
+{
+    const size_t before = of->count;
+    qsort(of->cells, before, sizeof *of->cells, most_urgent);
+    for (size_t i = 0; i < before && of->cells[i].urgency > CLOSE && of->count + 3 <= CELLS_MAX; i++) {
+        const cell c = of->cells[i];
+        const double x[3] = {c.x[0], (c.x[0] + c.x[1]) / 2, c.x[1]},
+                     y[3] = {c.y[0], (c.y[0] + c.y[1]) / 2, c.y[1]};
+        for (int k = 0; k < 4; k++)
+            of->cells[k ? of->count++ : i] =
+                (cell){c.bin, {x[k & 1], x[(k & 1) + 1]}, {y[k / 2], y[k / 2 + 1]}, 0, 0, -1};
+    }
+    return of->count > before;
+}
+
+/* ---- integrals ----------------------------------------------------------------------------------- */
+
+static void add(judgement *j, const cell *c, const point at[4])
+{
+    judge_view *v = &j->view[c->bin / JUDGE_BINS];
+    const size_t bin = c->bin % JUDGE_BINS;
+    const double area = area_of(c), a = (at[0].p + at[1].p) / 2, b = (at[2].p + at[3].p) / 2;
+    const double error = fmax(area * fabs(a - b) / 2, c->error);
+    v->mass[bin] += area * (a + b) / 2;
+    v->variance[bin] += error * error;
+    for (const point *q = at; q < at + 4; q++) {
+        const double off = area / 4 * fabs(q->p - q->truth), sine = sin(q->x);
+        v->tv += off / 2;
+        v->efficiency += q->p > 0 ? area / 4 * q->truth / q->p * q->truth : 0; /* its reciprocal, for now */
+        v->uncovered += q->p > 0 ? 0 : area / 4 * q->truth;
+        judge_note(&j->fault[JUDGE_NORMALS], off, q->truth / sine, &q->shown);
+        judge_note(&j->fault[JUDGE_COVERS], q->p > 0 ? 0 : off, q->truth / sine, &q->shown);
+        if (q->shown.got.pdf >= v->density[bin].got.pdf)
+            v->density[bin] = q->shown;
+    }
+}
+
+static int measure(integrating *of)
+{
+    random_stream stream = random_from(of->task->seed ^ 0x5851F42D4C957F2Du); /* apart from that of the samples */
+    point *at = malloc(of->count * 4 * sizeof *at);
+    for (size_t i = 0; i < of->count * 4 && at; i += 2) {
+        const double x = 2 * random_double(&stream) - 1, y = 2 * random_double(&stream) - 1;
+        at[i] = place(&of->cells[i / 4], x, y);
+        at[i + 1] = place(&of->cells[i / 4], -x, -y);
+    }
+    const int good = at && ask(of, at, of->count * 4);
+    for (size_t i = 0; i < of->count && good; i++)
+        add(of->j, &of->cells[i], at + 4 * i);
+    free(at);
+    return good;
+}
+
+/* Sums over the bins of each direction, and the worst of them. */
+static void sum_up(judgement *j)
+{
+    double most[JUDGE_NUMBERS] = {0};
+    for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
+        for (size_t i = 0; i < JUDGE_BINS; i++) {
+            v->total += v->mass[i];
+            v->error += v->variance[i];
+        }
+        v->error = 4 * sqrt(v->error);
+        v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->total) : 0;
+        most[JUDGE_NORMALS] = fmax(most[JUDGE_NORMALS], v->tv);
+        most[JUDGE_COVERS] = fmax(most[JUDGE_COVERS], v->uncovered);
+        judge_note(&j->fault[JUDGE_MASS], fabs(v->total - 1) - v->error, NAN, &v->first[0]);
+    }
+    j->fault[JUDGE_NORMALS].worst = most[JUDGE_NORMALS];
+    j->fault[JUDGE_COVERS].worst = most[JUDGE_COVERS];
+}
+
+int judge_integrate(const judge_task *task, progress *bar, judgement *j)
+{
+    integrating of = {.task = task, .j = j, .bar = bar};
+    int good = (of.cells = malloc(CELLS_MAX * sizeof *of.cells)) != NULL;
+    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS && good; i++) {
+        const judge_view *v = &j->view[i / JUDGE_BINS];
+        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SIDE], *phi = &v->sector[i % JUDGE_SIDE];
+        if (theta[0] < theta[1] && phi[0] < phi[1])
+            of.cells[of.count++] = (cell){i, {theta[0], theta[1]}, {phi[0], phi[1]}, 0, 0, -1};
+    }
+    for (int i = 0; i < JUDGE_VIEWS; i++)
+        of.truth[i] = vndf_view_from(&task->surface, j->view[i].wi);
+    for (int round = 0; round < ROUNDS && good; round++) {
+        good = look(&of);
+        if (round < COUNTING && good)
+            heed_counts(&of);
+        if (!good || !divide(&of))
+            break;
+    }
+    good = good && measure(&of);
+    free(of.cells);
+    if (good)
+        sum_up(j);
+    return good;
+}
