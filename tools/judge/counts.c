@@ -29,16 +29,25 @@ static void scale(judge_view *v, size_t samples, counts *c)
 
 /* ---- blocks -------------------------------------------------------------------------------------- */
 
-enum { ACROSS = JUDGE_SIDE + 1 };
+enum { SUMS_MAX = JUDGE_BINS + 2 * JUDGE_SIDE };
 
-static void sums_of(const double bins[JUDGE_BINS], double sum[ACROSS][ACROSS])
+static void sums_of(const judge_view *v, const double *bins, double *sum)
 {
-    memset(sum[0], 0, sizeof sum[0]);
-    for (size_t i = 0; i < JUDGE_SIDE; i++) {
-        sum[i + 1][0] = 0;
-        for (size_t k = 0; k < JUDGE_SIDE; k++)
-            sum[i + 1][k + 1] = sum[i][k + 1] + sum[i + 1][k] - sum[i][k] + bins[i * JUDGE_SIDE + k];
+    const size_t across = v->sectors + 1;
+    memset(sum, 0, across * sizeof *sum);
+    for (size_t i = 0; i < v->rings; i++) {
+        double *row = sum + (i + 1) * across;
+        row[0] = 0;
+        for (size_t k = 0; k < v->sectors; k++)
+            row[k + 1] = row[k - across + 1] + row[k] - row[k - across] + bins[i * v->sectors + k];
     }
+}
+
+static double sum_over(const judge_view *v, const double *sum, size_t ring, size_t high, size_t sector,
+                       size_t wide)
+{
+    const double *at = sum + ring * (v->sectors + 1) + sector, *end = at + high * (v->sectors + 1);
+    return end[wide] - at[wide] - end[0] + at[0];
 }
 
 /* The logarithm of the bound. The edge of a support may cut slivers off bins that no point of the quadrature met: so
@@ -51,23 +60,22 @@ static double chance(double expected, double observed)
 }
 
 /* The least likely block and its p, all of them taken into account. */
-static judge_block find_block(const counts *c)
+static judge_block find_block(const judge_view *v, const counts *c)
 {
-    double e[ACROSS][ACROSS], o[ACROSS][ACROSS], least = 1, blocks = 0;
+    double e[SUMS_MAX], o[SUMS_MAX], least = 1, blocks = 0;
     judge_block found = {{0, 1}, {0, 1}, 0, 0, 1};
-    sums_of(c->expected, e);
-    sums_of(c->observed, o);
-    for (size_t high = 1; high < JUDGE_SIDE; high *= 2)
-        for (size_t wide = 1; wide < JUDGE_SIDE; wide *= 2)
-            for (size_t i = 0; i + high <= JUDGE_SIDE; i += (high + 1) / 2)
-                for (size_t k = 0; k + wide <= JUDGE_SIDE; k += (wide + 1) / 2, blocks++) {
-                    const size_t to = i + high, end = k + wide;
-                    const double expected = fmax(e[to][end] - e[i][end] - e[to][k] + e[i][k], 0);
-                    const double observed = o[to][end] - o[i][end] - o[to][k] + o[i][k];
+    sums_of(v, c->expected, e);
+    sums_of(v, c->observed, o);
+    for (size_t high = 1; high <= v->rings; high *= 2)
+        for (size_t wide = 1; wide <= v->sectors && high * wide < JUDGE_BINS; wide *= 2)
+            for (size_t i = 0; i + high <= v->rings; i += (high + 1) / 2)
+                for (size_t k = 0; k + wide <= v->sectors; k += (wide + 1) / 2, blocks++) {
+                    const double expected = fmax(sum_over(v, e, i, high, k, wide), 0);
+                    const double observed = sum_over(v, o, i, high, k, wide);
                     const double p = chance(expected, observed);
                     if (p < least) {
                         least = p;
-                        found = (judge_block){{i, to}, {k, end}, expected, observed, 0};
+                        found = (judge_block){{i, i + high}, {k, k + wide}, expected, observed, 0};
                     }
                 }
     found.p = fmin(1, JUDGE_VIEWS * blocks * exp(least));
@@ -79,10 +87,10 @@ static exchange show(const judge_view *v, const counts *c)
 {
     const judge_block *b = &v->block;
     const int too_many = b->observed > b->expected;
-    size_t most = b->ring[0] * JUDGE_SIDE + b->sector[0];
+    size_t most = b->ring[0] * v->sectors + b->sector[0];
     for (size_t ring = b->ring[0]; ring < b->ring[1]; ring++)
         for (size_t sector = b->sector[0]; sector < b->sector[1]; sector++) {
-            const size_t i = ring * JUDGE_SIDE + sector;
+            const size_t i = ring * v->sectors + sector;
             const double off = c->observed[i] - c->expected[i], of_most = c->observed[most] - c->expected[most];
             most = (too_many ? off > of_most : off < of_most) ? i : most;
         }
@@ -91,20 +99,21 @@ static exchange show(const judge_view *v, const counts *c)
 
 /* ---- chi-square ---------------------------------------------------------------------------------- */
 
-/* Sums of blocks, high x wide. */
-static pearson pearson_over(const counts *c, size_t high, size_t wide)
+/* Of so many rings and sectors, in which bins are put together. */
+static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, size_t sectors)
 {
     counts sum = {{0}, {0}};
-    const size_t across = JUDGE_SIDE / wide, bins = JUDGE_SIDE / high * across;
+    const size_t bins = rings * sectors;
     for (size_t i = 0; i <= JUDGE_BINS; i++) {
-        const size_t to = i < JUDGE_BINS ? i / JUDGE_SIDE / high * across + i % JUDGE_SIDE / wide : bins;
+        const size_t ring = i / v->sectors * rings / v->rings, sector = i % v->sectors * sectors / v->sectors;
+        const size_t to = i < JUDGE_BINS ? ring * sectors + sector : bins;
         sum.expected[to] += c->expected[i];
         sum.observed[to] += c->observed[i];
     }
     return pearson_of(sum.expected, sum.observed, bins + 1);
 }
 
-/* Of 16 x 16 bins, which expect 16 samples of 64 x 64. */
+/* Of 16 x 16 bins, which expect 16 samples of 64 x 64, or 16 x 4. */
 static double scatter_of(const judge_view *v)
 {
     double stratified = 0;
@@ -115,14 +124,14 @@ static double scatter_of(const judge_view *v)
         even.expected[i] = v->total > 0 ? stratified * v->mass[i] / v->total : 0;
         even.observed[i] = v->stratified[i];
     }
-    const pearson spread = pearson_over(&even, JUDGE_SIDE / 16, JUDGE_SIDE / 16);
+    const pearson spread =
+        pearson_over(v, &even, v->rings < 16 ? v->rings : 16, v->sectors < 16 ? v->sectors : 16);
     return spread.classes > 1 ? spread.statistic / (double)(spread.classes - 1) : 1;
 }
 
 /* Tests: the bins of each direction; bins, rings and sectors of all; blocks. */
 void judge_counts(judgement *j, size_t samples)
 {
-    static const size_t sides[3][2] = {{1, 1}, {1, JUDGE_SIDE}, {JUDGE_SIDE, 1}};
     judge_fault *fault = &j->fault[JUDGE_CHI_SQUARE];
     double statistic[3] = {0}, p = 1, worst = 2;
     size_t freedom[3] = {0};
@@ -130,13 +139,13 @@ void judge_counts(judgement *j, size_t samples)
     for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
         scale(v, samples, &c);
         for (int k = 0; k < 3; k++) {
-            const pearson found = pearson_over(&c, sides[k][0], sides[k][1]);
+            const pearson found = pearson_over(v, &c, k == 2 ? 1 : v->rings, k == 1 ? 1 : v->sectors);
             statistic[k] += found.statistic;
             freedom[k] += found.classes ? found.classes - 1 : 0;
             v->bins = k ? v->bins : found;
         }
         v->scatter = scatter_of(v);
-        v->block = find_block(&c);
+        v->block = find_block(v, &c);
         p = fmin(p, fmin(v->bins.p, v->block.p));
         if (fmin(v->bins.p, v->block.p) < worst) {
             worst = fmin(v->bins.p, v->block.p);

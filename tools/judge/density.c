@@ -19,7 +19,8 @@ enum { ROUNDS = 7, COUNTING = 3, CELLS_MAX = 40000 * JUDGE_VIEWS };
 typedef struct cell {
     size_t bin; /* of all directions, one after the other */
     double x[2], y[2], mass, error;
-    double urgency; /* the error, or more; negative: not measured yet */
+    double urgency;  /* the error, or more; negative: not measured yet */
+    double along[2]; /* how much the corners differ along x, and along y */
 } cell;
 
 typedef struct point {
@@ -96,11 +97,13 @@ static int look(integrating *of)
         if (c->urgency >= 0)
             continue;
         const point *its = at + POINTS * next++;
-        const double corners = (its[1].p + its[2].p + its[3].p + its[4].p) / 4;
+        const double part = area_of(c) / 3, corners = (its[1].p + its[2].p + its[3].p + its[4].p) / 4;
         const double true_corners = (its[1].truth + its[2].truth + its[3].truth + its[4].truth) / 4;
-        c->mass = area_of(c) * (corners + 2 * its->p) / 3;
-        c->error = area_of(c) / 3 * fabs(corners - its->p);
-        c->urgency = fmax(c->error, area_of(c) / 3 * fabs(true_corners - its->truth));
+        c->mass = part * (corners + 2 * its->p);
+        c->error = part * fabs(corners - its->p);
+        c->urgency = fmax(c->error, part * fabs(true_corners - its->truth));
+        c->along[0] = fabs(its[2].p - its[1].p) + fabs(its[4].p - its[3].p);
+        c->along[1] = fabs(its[3].p - its[1].p) + fabs(its[4].p - its[2].p);
     }
     free(at);
     return good;
@@ -132,18 +135,19 @@ static int most_urgent(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* Returns whether any was. */
+/* Along x, along y, or both if both matter. Returns whether any was divided. */
 static int divide(integrating *of)
 {
     const size_t before = of->count;
     qsort(of->cells, before, sizeof *of->cells, most_urgent);
     for (size_t i = 0; i < before && of->cells[i].urgency > CLOSE && of->count + 3 <= CELLS_MAX; i++) {
         const cell c = of->cells[i];
-        const double x[3] = {c.x[0], (c.x[0] + c.x[1]) / 2, c.x[1]},
-                     y[3] = {c.y[0], (c.y[0] + c.y[1]) / 2, c.y[1]};
-        for (int k = 0; k < 4; k++)
-            of->cells[k ? of->count++ : i] =
-                (cell){c.bin, {x[k & 1], x[(k & 1) + 1]}, {y[k / 2], y[k / 2 + 1]}, 0, 0, -1};
+        const int columns = c.along[1] > 4 * c.along[0] ? 1 : 2, rows = c.along[0] > 4 * c.along[1] ? 1 : 2;
+        const double wide = (c.x[1] - c.x[0]) / columns, high = (c.y[1] - c.y[0]) / rows;
+        for (int k = 0; k < columns * rows; k++) {
+            const double x = c.x[0] + wide * (k % columns), y = c.y[0] + high * (double)(k / columns);
+            of->cells[k ? of->count++ : i] = (cell){.bin = c.bin, {x, x + wide}, {y, y + high}, .urgency = -1};
+        }
     }
     return of->count > before;
 }
@@ -211,9 +215,9 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
     int good = (of.cells = malloc(CELLS_MAX * sizeof *of.cells)) != NULL;
     for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS && good; i++) {
         const judge_view *v = &j->view[i / JUDGE_BINS];
-        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SIDE], *phi = &v->sector[i % JUDGE_SIDE];
+        const double *theta = &v->ring[i % JUDGE_BINS / v->sectors], *phi = &v->sector[i % v->sectors];
         if (theta[0] < theta[1] && phi[0] < phi[1])
-            of.cells[of.count++] = (cell){i, {theta[0], theta[1]}, {phi[0], phi[1]}, 0, 0, -1};
+            of.cells[of.count++] = (cell){i, {theta[0], theta[1]}, {phi[0], phi[1]}, .urgency = -1};
     }
     for (int i = 0; i < JUDGE_VIEWS; i++)
         of.truth[i] = vndf_view_from(&task->surface, j->view[i].wi);

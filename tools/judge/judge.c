@@ -20,27 +20,34 @@ void judge_note(judge_fault *f, double amount, double beside, const exchange *sh
 
 /* ---- directions ---------------------------------------------------------------------------------- */
 
-/* Degrees. The eight in the middle are inclined enough for a fault of one octant to matter. */
-static const double angles[JUDGE_VIEWS][2] = {{0, 0},   {0.01, 20}, {20, 32},   {32, 43},
-                                              {43, 53}, {53, 62},   {62, 70},   {70, 77},
-                                              {77, 82}, {82, 86},   {86, 89.9}, {89.99, 89.99}};
+/* Angles in degrees, and rings. The eight in the middle are inclined enough for a fault of one octant to matter. */
+static const struct {
+    double from, to;
+    size_t rings;
+} strata[JUDGE_VIEWS] = {{0, 0, 64},   {0, 0, 1024}, {0, 0, 4},      {0.01, 20, 64},    {20, 32, 64},
+                         {32, 43, 64}, {43, 53, 64}, {53, 62, 64},   {62, 70, 64},      {70, 77, 64},
+                         {77, 82, 64}, {82, 86, 64}, {86, 89.9, 64}, {89.99, 89.99, 64}};
 
 static void place_views(judge_view *views, random_stream *stream)
 {
     const size_t turn = random_bits(stream) >> 32, step = 2 * (random_bits(stream) >> 32) + 1;
     for (size_t i = 0; i < JUDGE_VIEWS; i++) {
-        const double from = angles[i][0], theta = from + (angles[i][1] - from) * random_double(stream);
-        const double phi = i ? 45 * ((double)((i * step + turn) % 8) + random_double(stream)) : 0;
-        const vndf_vec3 wi = direction_from(theta, phi);
-        views[i] = (judge_view){.theta = theta, .phi = phi, .wi = wi, .turn = atan2((double)wi.y, (double)wi.x)};
+        judge_view *v = &views[i];
+        v->rings = strata[i].rings;
+        v->sectors = JUDGE_BINS / v->rings;
+        v->theta = strata[i].from + (strata[i].to - strata[i].from) * random_double(stream);
+        v->phi = v->theta > 0 ? 45 * ((double)((i * step + turn) % 8) + random_double(stream)) : 0;
+        v->wi = direction_from(v->theta, v->phi);
+        v->turn = atan2((double)v->wi.y, (double)v->wi.x);
     }
 }
 
 /* ---- samples ------------------------------------------------------------------------------------- */
 
-/* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, and those at
- * the ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random. */
-enum { PILOTS = 2000, EVEN = PILOTS / 4, STRATA = 64, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
+/* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
+ * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
+enum { PILOTS = 4000, EVEN = PILOTS / 4, STRATA = 64, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
+enum { PAIRS = 16, PAIRED = 4 * 2 * PAIRS };
 
 /* theta and the azimuth from wi; NaN of what is no direction. */
 static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
@@ -49,15 +56,15 @@ static void locate(const judge_view *v, const answer *a, double *theta, double *
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
 }
 
-static void place_borders(double border[JUDGE_SIDE + 1], double low, double high, double at[PILOTS + EVEN])
+static void place_borders(double *border, size_t parts, double low, double high, double at[PILOTS + EVEN])
 {
     for (size_t i = 0; i < EVEN; i++)
         at[PILOTS + i] = low + (high - low) * ((double)i + 0.5) / EVEN;
     sort_numbers(at, PILOTS + EVEN);
-    for (size_t i = 1; i < JUDGE_SIDE; i++)
-        border[i] = fmin(fmax(at[i * (PILOTS + EVEN) / JUDGE_SIDE], low), high);
+    for (size_t i = 1; i < parts; i++)
+        border[i] = fmin(fmax(at[i * (PILOTS + EVEN) / parts], low), high);
     border[0] = low;
-    border[JUDGE_SIDE] = high;
+    border[parts] = high;
 }
 
 static void place_bins(judge_view *v, const answer *pilots)
@@ -68,8 +75,8 @@ static void place_bins(judge_view *v, const answer *pilots)
         phi[i] = isnan(theta[i]) ? 0 : phi[i];
         theta[i] = isnan(theta[i]) ? 0 : theta[i];
     }
-    place_borders(v->ring, 0, pi / 2, theta);
-    place_borders(v->sector, -pi, pi, phi);
+    place_borders(v->ring, v->rings, 0, pi / 2, theta);
+    place_borders(v->sector, v->sectors, -pi, pi, phi);
 }
 
 /* Its bin, JUDGE_BINS for none. */
@@ -87,32 +94,63 @@ static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
     locate(v, a, &theta, &phi);
     if (!(theta <= pi / 2 + 1e-6))
         return JUDGE_BINS;
-    return bins_interval(v->ring, JUDGE_SIDE, theta) * JUDGE_SIDE + bins_interval(v->sector, JUDGE_SIDE, phi);
+    return bins_interval(v->ring, v->rings, theta) * v->sectors + bins_interval(v->sector, v->sectors, phi);
 }
 
-static void fill_samples(query *to, const judge_view *v, size_t samples, double axis, random_stream *stream)
+/* The numbers of sample i; random ones are in u. */
+static void place_numbers(float u[3], size_t i, size_t samples)
 {
     static const float ends[2] = {0, 1 - 0x1p-24f};
-    const size_t stratified = PILOTS + samples, last = stratified + STRATIFIED;
-    for (size_t i = 0; i < last + ENDS; i++) {
-        float u[3] = {random_float(stream), 0, 0};
-        u[1] = random_float(stream);
-        u[2] = random_float(stream);
-        if (i >= last) {
-            for (size_t k = 0, kind = i - last; k < 3; k++, kind /= 3)
-                u[k] = kind % 3 < 2 ? ends[kind % 3] : u[k];
-        } else if (i >= stratified) { /* of 18 bits in their stratum, so that none is rounded to 1 */
-            u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(i % STRATA)) / STRATA;
-            u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(i / STRATA % STRATA)) / STRATA;
-        } /* a fourth of those at the ends looks along an axis of the surface */
-        const int is_turned = i >= last && i % 4 == 0;
+    size_t k = i - PILOTS - samples; /* of what is before it is huge */
+    if (i < PILOTS + samples)
+        return;
+    if (k < STRATIFIED) { /* of 18 bits in their stratum, so that none is rounded to 1 */
+        u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(k % STRATA)) / STRATA;
+        u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(k / STRATA % STRATA)) / STRATA;
+    } else if ((k -= STRATIFIED) < ENDS) {
+        for (int which = 0; which < 3; which++, k /= 3)
+            u[which] = k % 3 < 2 ? ends[k % 3] : u[which];
+    } else {
+        k -= ENDS;
+        float *moved = &u[k / 2 % 2];
+        *moved = k / 4 % 2 ? 1 - 0x1p-24f - floorf(*moved * 0x1p14f) * 0x1p-24f : *moved * 0x1p-10f;
+    }
+}
+
+/* A fourth of those at the ends looks along an axis of the surface. A pair has u1 or u2 in common, and nothing else. */
+static void fill_samples(query *to, const judge_view *v, size_t samples, double axis, random_stream *stream)
+{
+    const size_t ends = PILOTS + samples + STRATIFIED, pairs = ends + ENDS;
+    for (size_t i = 0; i < pairs + PAIRED; i++) {
+        const int is_turned = i >= ends && i < pairs && i % 4 == 0, is_second = i >= pairs && (i - pairs) % 2;
+        float u[3];
+        for (int k = 0; k < 3; k++)
+            u[k] = random_float(stream);
+        place_numbers(u, i, samples);
+        if (is_second && (i - pairs) / 2 % 2)
+            u[0] = to[i - 1].x.x;
+        else if (is_second)
+            u[1] = to[i - 1].x.y;
         to[i] = (query){'s', is_turned ? direction_from(v->theta, axis) : v->wi, {u[0], u[1], u[2]}};
+    }
+}
+
+/* A sampler of two numbers, one of which does not move the sample, piles samples up on a line. */
+static void compare_pairs(judgement *j, const query *asked, const answer *got)
+{
+    double same[4] = {0};
+    for (size_t i = 0; i < PAIRED; i += 2) {
+        const answer *a = &got[i], *b = &got[i + 1];
+        const exchange its = {asked[i], *a};
+        const size_t end = i / 2 % 4;
+        same[end] += a->x == b->x && a->y == b->y && a->z == b->z ? 1.0 / PAIRS : 0;
+        judge_note(&j->fault[JUDGE_MOVES], same[end], NAN, &its);
     }
 }
 
 static int draw(const judge_task *task, judgement *j)
 {
-    const size_t each = PILOTS + task->samples + STRATIFIED + ENDS, count = each * JUDGE_VIEWS;
+    const size_t each = PILOTS + task->samples + STRATIFIED + ENDS + PAIRED, count = each * JUDGE_VIEWS;
     random_stream stream = random_from(task->seed);
     query *asked = malloc(count * sizeof *asked);
     place_views(j->view, &stream);
@@ -132,6 +170,8 @@ static int draw(const judge_task *task, judgement *j)
             v->sample[bin] = its;
         } else if (k - task->samples < STRATIFIED)
             v->stratified[bin] += 1;
+        if (i % each == each - PAIRED)
+            compare_pairs(j, asked + i, got + i);
     }
     free(asked);
     free(got);

@@ -1,10 +1,11 @@
-/* Is a sampler of visible normals right? What it answers at twelve directions, by its own density: samples are unit and
+/* Is a sampler of visible normals right? What it answers at fourteen directions, by its own density: samples are unit and
  * face wi, their density is the one that is asked for, its integral is 1, and they follow it over bins.
  *
- * Of the directions one is exactly from above, one close to it, one at 89.99 degrees and one just before; eight are
- * drawn from strata of the angle, each in another octant of the azimuth, so that no seed leaves an octant out. The bins
- * of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi. Their borders are
- * quantiles of samples drawn before, of which a fifth is even, so that a region without samples has bins too. */
+ * Of the directions three are exactly from above, one is close to that, one at 89.99 degrees and one just before; eight
+ * are drawn from strata of the angle, each in another octant of the azimuth, so that no seed leaves an octant out. The
+ * bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi: 64 x 64, and from
+ * above 1024 x 4 and 4 x 1024 as well, which see thin rings and wedges. Their borders are quantiles of samples drawn
+ * before, of which a fifth is even, so that a region without samples has bins too. */
 #ifndef TOOLS_JUDGE_JUDGE_H
 #define TOOLS_JUDGE_JUDGE_H
 
@@ -14,7 +15,7 @@
 #include "evidence/measure/statistics.h"
 #include "vndf.h"
 
-enum { JUDGE_VIEWS = 12, JUDGE_SIDE = 64, JUDGE_BINS = JUDGE_SIDE * JUDGE_SIDE };
+enum { JUDGE_VIEWS = 14, JUDGE_BINS = 4096, JUDGE_SIDE = 1024 };
 enum { JUDGE_ASKED = 1000, JUDGE_TESTS = JUDGE_VIEWS + 4 };
 
 /* ---- questions ----------------------------------------------------------------------------------- */
@@ -56,9 +57,10 @@ void process_line(char text[JUDGE_LINE], const query *q);
 
 /* Numbers that are 0 at best, but for the last. */
 typedef enum judge_id {
-    JUDGE_UNIT,       /* the most of | |wm| - 1 | */
-    JUDGE_FACING,     /* the most by which a sample is turned away from wi, or lies below the surface: a cosine */
-    JUDGE_VALID,      /* densities that are not finite, are negative, or are 0 for a sample */
+    JUDGE_UNIT,   /* the most of | |wm| - 1 | */
+    JUDGE_FACING, /* the most by which a sample is turned away from wi, or lies below the surface: a cosine */
+    JUDGE_VALID,  /* densities that are not finite, are negative, or are 0 for a sample */
+    JUDGE_MOVES, /* the part of the pairs of samples that are one, though u1 or u2 differs by some 1e-3 at an end */
     JUDGE_AGREES,     /* |density of a sample / density asked for - 1|, which 99% do not exceed */
     JUDGE_MASS,       /* |integral of the density - 1|, less what the quadrature may err */
     JUDGE_COVERS,     /* the part of the true visible normals where the density is 0; 0 if none are meant */
@@ -82,8 +84,9 @@ typedef struct judge_block {
 typedef struct judge_view {
     double theta, phi; /* of wi, degrees */
     vndf_vec3 wi;
-    double turn;                                                 /* the azimuth of wi, radians */
-    double ring[JUDGE_SIDE + 1], sector[JUDGE_SIDE + 1];         /* borders, radians; azimuths from wi */
+    double turn;                                         /* the azimuth of wi, radians */
+    size_t rings, sectors;                               /* JUDGE_BINS together, neither above JUDGE_SIDE */
+    double ring[JUDGE_SIDE + 1], sector[JUDGE_SIDE + 1]; /* borders, radians; azimuths from wi */
     double observed[JUDGE_BINS + 1], stratified[JUDGE_BINS + 1]; /* ring by ring; the last: samples in no bin */
     double mass[JUDGE_BINS + 1], variance[JUDGE_BINS + 1]; /* the integral of the density, and that of its error */
     double total, error;                                   /* of all bins; four standard deviations of it */

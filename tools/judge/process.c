@@ -18,8 +18,9 @@
 
 void process_line(char text[JUDGE_LINE], const query *q)
 {
-    snprintf(text, JUDGE_LINE, "%c %.9g %.9g %.9g %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y,
-             (double)q->wi.z, (double)q->x.x, (double)q->x.y, (double)q->x.z);
+    const int digits = q->kind == 's' ? 17 : 9; /* 1 - 2^-24 is that for those who read a double, too */
+    snprintf(text, JUDGE_LINE, "%c %.9g %.9g %.9g %.*g %.*g %.*g", q->kind, (double)q->wi.x, (double)q->wi.y,
+             (double)q->wi.z, digits, (double)q->x.x, digits, (double)q->x.y, digits, (double)q->x.z);
 }
 
 static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
