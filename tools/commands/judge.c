@@ -59,8 +59,8 @@ static const char *const help[] = {
 
 /* In the order of judge_id. A table of two moments, 1.3e-2 away from its visible normals, has the normals that are
  * meant. The last is Sidak's level of each test. */
-static const char *const names[] = {"unit", "facing", "valid",   "agrees",
-                                    "mass", "covers", "normals", "chi-square"};
+static const char *const names[JUDGE_NUMBERS] = {"unit", "facing", "valid",   "moves",     "agrees",
+                                                 "mass", "covers", "normals", "chi-square"};
 static double limits[JUDGE_NUMBERS] = {1e-4, 1e-5, 0, 0.5, 1e-3, 1e-3, 1e-3, 2e-2};
 
 /* What the quadrature may err, and leave out. */
@@ -117,7 +117,7 @@ static int is_unsure(int id, const judgement *j, char text[LISTED_LENGTH])
     double worst = id == JUDGE_MASS ? MASS_ERROR : LEFT_OUT;
     *text = '\0';
     for (const judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
-        const double of = id == JUDGE_MASS ? v->error : id == JUDGE_CHI_SQUARE ? v->left_out : 0;
+        const double of = id == JUDGE_MASS ? v->error * v->is_first : id == JUDGE_CHI_SQUARE ? v->left_out : 0;
         if (of <= worst)
             continue;
         worst = of;

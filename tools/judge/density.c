@@ -1,5 +1,5 @@
 /* The integral of the density over bins, with an error that is measured. Bins are cells, rectangles of theta and the
- * azimuth. Where the corners of a cell and its middle say different things, it is divided in four, the worst cells first;
+ * azimuth. Where a cell is not what its corners say, it is divided in four, the worst cells first;
  * a line across a cell, along which the density jumps, shows itself there. Where they have settled, each cell is asked
  * at fresh points: two pairs, drawn at random, each symmetric about the middle. Their mean has no bias whatever
  * the density is, and their difference is its error. */
@@ -80,31 +80,46 @@ static double area_of(const cell *c)
 
 /* ---- cells --------------------------------------------------------------------------------------- */
 
-/* What is new, by its corners, drawn in a little, and its middle. */
-static int look(integrating *of)
+static double between(const cell *c, const double corner[4], const point *p)
 {
-    enum { POINTS = 5 };
+    const double x = (p->x - c->x[0]) / (c->x[1] - c->x[0]), y = (p->y - c->y[0]) / (c->y[1] - c->y[0]);
+    return (1 - y) * ((1 - x) * corner[0] + x * corner[1]) + y * ((1 - x) * corner[2] + x * corner[3]);
+}
+
+static void compare(cell *c, const point at[7])
+{
+    const double p[4] = {at[0].p, at[1].p, at[2].p, at[3].p}, area = area_of(c);
+    const double truth[4] = {at[0].truth, at[1].truth, at[2].truth, at[3].truth};
+    double error = 0, true_error = 0;
+    for (int k = 4; k < 7; k++) {
+        error = fmax(error, fabs(at[k].p - between(c, p, &at[k])));
+        true_error = fmax(true_error, fabs(at[k].truth - between(c, truth, &at[k])));
+    }
+    c->mass = area * ((p[0] + p[1] + p[2] + p[3]) / 12 + (at[4].p + at[5].p + at[6].p) * 2 / 9);
+    c->error = area / 3 * error;
+    c->urgency = area / 3 * fmax(error, true_error);
+    c->along[0] = fabs(p[1] - p[0]) + fabs(p[3] - p[2]);
+    c->along[1] = fabs(p[2] - p[0]) + fabs(p[3] - p[1]);
+}
+
+/* What is new: by its corners, drawn in a little, and three points between; what these differ by from what the corners
+ * say of them, linear along x and y, is an error. */
+static int look(integrating *of, random_stream *stream)
+{
+    enum { POINTS = 7 };
     static const double in = 0.9999999;
     point *at = malloc(of->count * POINTS * sizeof *at);
     size_t asked = 0, next = 0;
     for (size_t i = 0; i < of->count && at; i++)
-        for (int k = 0; k < POINTS && of->cells[i].urgency < 0; k++)
-            at[asked++] =
-                k ? place(&of->cells[i], k & 1 ? in : -in, k & 2 ? in : -in) : place(&of->cells[i], 0, 0);
+        for (int k = 0; k < POINTS && of->cells[i].urgency < 0; k++) {
+            const double x = k & 1 ? in : -in, y = k & 2 ? in : -in;
+            const double u = 2 * random_double(stream) - 1, v = 2 * random_double(stream) - 1;
+            at[asked++] = k < 4 ? place(&of->cells[i], x, y) : place(&of->cells[i], u, v);
+        }
     const int good = at && ask(of, at, asked);
-    for (size_t i = 0; i < of->count && good; i++) {
-        cell *c = &of->cells[i];
-        if (c->urgency >= 0)
-            continue;
-        const point *its = at + POINTS * next++;
-        const double part = area_of(c) / 3, corners = (its[1].p + its[2].p + its[3].p + its[4].p) / 4;
-        const double true_corners = (its[1].truth + its[2].truth + its[3].truth + its[4].truth) / 4;
-        c->mass = part * (corners + 2 * its->p);
-        c->error = part * fabs(corners - its->p);
-        c->urgency = fmax(c->error, part * fabs(true_corners - its->truth));
-        c->along[0] = fabs(its[2].p - its[1].p) + fabs(its[4].p - its[3].p);
-        c->along[1] = fabs(its[3].p - its[1].p) + fabs(its[4].p - its[2].p);
-    }
+    for (size_t i = 0; i < of->count && good; i++)
+        if (of->cells[i].urgency < 0)
+            compare(&of->cells[i], at + POINTS * next++);
     free(at);
     return good;
 }
@@ -135,6 +150,13 @@ static int most_urgent(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
+/* Of directions: a sampler may prepare what it needs for one. */
+static int in_order(const void *a, const void *b)
+{
+    const size_t x = ((const cell *)a)->bin, y = ((const cell *)b)->bin;
+    return (x > y) - (x < y);
+}
+
 /* Along x, along y, or both if both matter. Returns whether any was divided. */
 static int divide(integrating *of)
 {
@@ -149,6 +171,7 @@ static int divide(integrating *of)
             of->cells[k ? of->count++ : i] = (cell){.bin = c.bin, {x, x + wide}, {y, y + high}, .urgency = -1};
         }
     }
+    qsort(of->cells, of->count, sizeof *of->cells, in_order);
     return of->count > before;
 }
 
@@ -174,12 +197,11 @@ static void add(judgement *j, const cell *c, const point at[4])
     }
 }
 
-static int measure(integrating *of)
+static int measure(integrating *of, random_stream *stream)
 {
-    random_stream stream = random_from(of->task->seed ^ 0x5851F42D4C957F2Du); /* apart from that of the samples */
     point *at = malloc(of->count * 4 * sizeof *at);
     for (size_t i = 0; i < of->count * 4 && at; i += 2) {
-        const double x = 2 * random_double(&stream) - 1, y = 2 * random_double(&stream) - 1;
+        const double x = 2 * random_double(stream) - 1, y = 2 * random_double(stream) - 1;
         at[i] = place(&of->cells[i / 4], x, y);
         at[i + 1] = place(&of->cells[i / 4], -x, -y);
     }
@@ -203,7 +225,8 @@ static void sum_up(judgement *j)
         v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->total) : 0;
         most[JUDGE_NORMALS] = fmax(most[JUDGE_NORMALS], v->tv);
         most[JUDGE_COVERS] = fmax(most[JUDGE_COVERS], v->uncovered);
-        judge_note(&j->fault[JUDGE_MASS], fabs(v->total - 1) - v->error, NAN, &v->first[0]);
+        if (v->is_first)
+            judge_note(&j->fault[JUDGE_MASS], fabs(v->total - 1) - v->error, NAN, &v->first[0]);
     }
     j->fault[JUDGE_NORMALS].worst = most[JUDGE_NORMALS];
     j->fault[JUDGE_COVERS].worst = most[JUDGE_COVERS];
@@ -212,6 +235,7 @@ static void sum_up(judgement *j)
 int judge_integrate(const judge_task *task, progress *bar, judgement *j)
 {
     integrating of = {.task = task, .j = j, .bar = bar};
+    random_stream stream = random_from(task->seed ^ 0x5851F42D4C957F2Du); /* apart from that of the samples */
     int good = (of.cells = malloc(CELLS_MAX * sizeof *of.cells)) != NULL;
     for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS && good; i++) {
         const judge_view *v = &j->view[i / JUDGE_BINS];
@@ -222,13 +246,13 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
     for (int i = 0; i < JUDGE_VIEWS; i++)
         of.truth[i] = vndf_view_from(&task->surface, j->view[i].wi);
     for (int round = 0; round < ROUNDS && good; round++) {
-        good = look(&of);
+        good = look(&of, &stream);
         if (round < COUNTING && good)
             heed_counts(&of);
         if (!good || !divide(&of))
             break;
     }
-    good = good && measure(&of);
+    good = good && measure(&of, &stream);
     free(of.cells);
     if (good)
         sum_up(j);

@@ -33,6 +33,7 @@ static void place_views(judge_view *views, random_stream *stream)
     const size_t turn = random_bits(stream) >> 32, step = 2 * (random_bits(stream) >> 32) + 1;
     for (size_t i = 0; i < JUDGE_VIEWS; i++) {
         judge_view *v = &views[i];
+        v->is_first = i == 0 || strata[i].to > 0;
         v->rings = strata[i].rings;
         v->sectors = JUDGE_BINS / v->rings;
         v->theta = strata[i].from + (strata[i].to - strata[i].from) * random_double(stream);

@@ -83,6 +83,7 @@ typedef struct judge_block {
 
 typedef struct judge_view {
     double theta, phi; /* of wi, degrees */
+    int is_first;      /* wi is not that of the direction before, which has told the mass */
     vndf_vec3 wi;
     double turn;                                         /* the azimuth of wi, radians */
     size_t rings, sectors;                               /* JUDGE_BINS together, neither above JUDGE_SIDE */
