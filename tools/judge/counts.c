@@ -113,44 +113,33 @@ static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, 
     return pearson_of(sum.expected, sum.observed, bins + 1);
 }
 
-/* Of 16 x 16 bins, which expect 16 samples of 64 x 64, or 16 x 4. */
-static double scatter_of(const judge_view *v)
-{
-    double stratified = 0;
-    counts even;
-    for (size_t i = 0; i <= JUDGE_BINS; i++)
-        stratified += v->stratified[i];
-    for (size_t i = 0; i <= JUDGE_BINS; i++) {
-        even.expected[i] = v->total > 0 ? stratified * v->mass[i] / v->total : 0;
-        even.observed[i] = v->stratified[i];
-    }
-    const pearson spread =
-        pearson_over(v, &even, v->rings < 16 ? v->rings : 16, v->sectors < 16 ? v->sectors : 16);
-    return spread.classes > 1 ? spread.statistic / (double)(spread.classes - 1) : 1;
-}
-
-/* Tests: the bins of each direction; bins, rings and sectors of all; blocks. */
+/* Tests: squares of four bins of each direction, which expect enough for chi-square to be one; those, rings and sectors
+ * of all directions; blocks. */
 void judge_counts(judgement *j, size_t samples)
 {
     judge_fault *fault = &j->fault[JUDGE_CHI_SQUARE];
-    double statistic[3] = {0}, p = 1, worst = 2;
+    double statistic[3] = {0}, p = 1, least = 2;
     size_t freedom[3] = {0};
     counts c;
     for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
         scale(v, samples, &c);
+        const pearson of[3] = {pearson_over(v, &c, v->rings / 2, v->sectors / 2), pearson_over(v, &c, v->rings, 1),
+                               pearson_over(v, &c, 1, v->sectors)};
         for (int k = 0; k < 3; k++) {
-            const pearson found = pearson_over(v, &c, k == 2 ? 1 : v->rings, k == 1 ? 1 : v->sectors);
-            statistic[k] += found.statistic;
-            freedom[k] += found.classes ? found.classes - 1 : 0;
-            v->bins = k ? v->bins : found;
+            statistic[k] += of[k].statistic;
+            freedom[k] += of[k].classes ? of[k].classes - 1 : 0;
         }
-        v->scatter = scatter_of(v);
+        v->bins = of[0];
         v->block = find_block(v, &c);
         p = fmin(p, fmin(v->bins.p, v->block.p));
-        if (fmin(v->bins.p, v->block.p) < worst) {
-            worst = fmin(v->bins.p, v->block.p);
-            fault->shown = show(v, &c);
+        fault->shown = p < least ? show(v, &c) : fault->shown;
+        least = fmin(least, p);
+        for (size_t i = 0; i <= JUDGE_BINS; i++) {
+            c.expected[i] *= (double)(JUDGE_STRATA * JUDGE_STRATA) / (double)samples;
+            c.observed[i] = v->stratified[i];
         }
+        const pearson even = pearson_over(v, &c, v->rings / 4, v->sectors / 4);
+        v->scatter = even.classes > 1 ? even.statistic / (double)(even.classes - 1) : 1;
     }
     for (int k = 0; k < 3; k++)
         p = fmin(p, statistics_chi_square_p(statistic[k], freedom[k]));

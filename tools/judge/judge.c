@@ -47,11 +47,10 @@ static void place_views(judge_view *views, random_stream *stream)
 
 /* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
  * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
-enum { PILOTS = 4000, EVEN = PILOTS / 4, STRATA = 64, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
+enum { PILOTS = 4000, EVEN = PILOTS / 4, STRATA = JUDGE_STRATA, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
 enum { PAIRS = 16, PAIRED = 4 * 2 * PAIRS };
 
-/* theta and the azimuth from wi; NaN of what is no direction. */
-static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
+void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi)
 {
     *theta = isfinite(a->x + a->y + a->z) ? atan2(hypot(a->x, a->y), a->z) : NAN;
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
@@ -72,7 +71,7 @@ static void place_bins(judge_view *v, const answer *pilots)
 {
     double theta[PILOTS + EVEN], phi[PILOTS + EVEN];
     for (size_t i = 0; i < PILOTS; i++) {
-        locate(v, &pilots[i], &theta[i], &phi[i]);
+        judge_locate(v, &pilots[i], &theta[i], &phi[i]);
         phi[i] = isnan(theta[i]) ? 0 : phi[i];
         theta[i] = isnan(theta[i]) ? 0 : theta[i];
     }
@@ -92,7 +91,7 @@ static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
     judge_note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
     if (!(a->pdf > 0 && isfinite(a->pdf)))
         judge_note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
-    locate(v, a, &theta, &phi);
+    judge_locate(v, a, &theta, &phi);
     if (!(theta <= pi / 2 + 1e-6))
         return JUDGE_BINS;
     return bins_interval(v->ring, v->rings, theta) * v->sectors + bins_interval(v->sector, v->sectors, phi);
@@ -228,30 +227,24 @@ static double apart(const judgement *j, const vndf_distribution *distribution, f
     return sum / (JUDGE_VIEWS * JUDGE_ASKED);
 }
 
-/* The roughness whose normals are nearest: all powers of 2 first, then steps about the best that halve down to 2^-10 of
- * a power, along both axes and along each. */
+/* The roughness whose normals are nearest: steps from the one that is meant, along both axes and along each, of 8 at
+ * first, down to 2^(1/1024). */
 static void fit_roughness(const judge_task *task, judgement *j)
 {
-    double best[2] = {0, 0}, step = 1;
+    double at[2] = {log2((double)task->surface.alpha_x), log2((double)task->surface.alpha_y)}, step = 3;
     j->fits_tv = HUGE_VAL;
-    for (int i = -10; i <= 3; i++)
-        for (int k = -10; k <= 3; k++) {
-            const double tv = apart(j, task->surface.distribution, exp2f((float)i), exp2f((float)k));
-            if (tv < j->fits_tv)
-                j->fits_tv = tv, best[0] = i, best[1] = k;
-        }
-    for (int moved = 0; step > 0x1p-10; step = moved ? step : step / 2) {
-        const double from[2] = {best[0], best[1]};
-        moved = 0;
+    while (step > 0x1p-10) {
+        const double from[2] = {at[0], at[1]}, before = j->fits_tv;
         for (int k = 0; k < 9; k++) {
             const double x = from[0] + step * (k % 3 - 1), y = from[1] + step * (double)(k / 3 - 1);
-            const double tv = apart(j, task->surface.distribution, exp2f((float)x), exp2f((float)y));
+            const double tv = apart(j, task->surface.distribution, (float)exp2(x), (float)exp2(y));
             if (tv < j->fits_tv)
-                j->fits_tv = tv, best[0] = x, best[1] = y, moved = 1;
+                j->fits_tv = tv, at[0] = x, at[1] = y;
         }
+        step = j->fits_tv < before ? step : step / 2;
     }
-    j->fits[0] = exp2(best[0]);
-    j->fits[1] = exp2(best[1]);
+    j->fits[0] = exp2(at[0]);
+    j->fits[1] = exp2(at[1]);
 }
 
 /* ---- the whole ----------------------------------------------------------------------------------- */

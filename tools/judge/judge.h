@@ -16,7 +16,7 @@
 #include "vndf.h"
 
 enum { JUDGE_VIEWS = 14, JUDGE_BINS = 4096, JUDGE_SIDE = 1024 };
-enum { JUDGE_ASKED = 1000, JUDGE_TESTS = JUDGE_VIEWS + 4 };
+enum { JUDGE_STRATA = 64, JUDGE_ASKED = 1000, JUDGE_TESTS = JUDGE_VIEWS + 4 };
 
 /* ---- questions ----------------------------------------------------------------------------------- */
 
@@ -114,6 +114,9 @@ int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 /* Its parts: the integrals over bins, 0 after a complaint; and what the counts say of them by JUDGE_TESTS tests. */
 int judge_integrate(const judge_task *task, progress *bar, judgement *j);
 void judge_counts(judgement *j, size_t samples);
+
+/* theta and the azimuth from wi; NaN of what is no direction. */
+void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi);
 
 /* Keeps the worst; what is no number is the worst of all. */
 void judge_note(judge_fault *f, double amount, double beside, const exchange *shown);
