@@ -113,7 +113,7 @@ static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, 
     return pearson_of(sum.expected, sum.observed, bins + 1);
 }
 
-/* Tests: squares of four bins of each direction, which expect enough for chi-square to be one; those, rings and sectors
+/* Tests: squares of 16 bins of each direction, since many small ones add up what integrals err; those, rings and sectors
  * of all directions; blocks. */
 void judge_counts(judgement *j, size_t samples)
 {
@@ -123,8 +123,8 @@ void judge_counts(judgement *j, size_t samples)
     counts c;
     for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
         scale(v, samples, &c);
-        const pearson of[3] = {pearson_over(v, &c, v->rings / 2, v->sectors / 2), pearson_over(v, &c, v->rings, 1),
-                               pearson_over(v, &c, 1, v->sectors)};
+        const pearson of[3] = {pearson_over(v, &c, v->rings / 4, v->sectors / 4),
+                               pearson_over(v, &c, v->rings / 4, 1), pearson_over(v, &c, 1, v->sectors / 4)};
         for (int k = 0; k < 3; k++) {
             statistic[k] += of[k].statistic;
             freedom[k] += of[k].classes ? of[k].classes - 1 : 0;

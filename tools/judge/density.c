@@ -5,15 +5,16 @@
  * and how much they differ is its error, or the points between corners if that is more. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli/random.h"
 #include "judge/judge.h"
 
-/* A cell may err by this part of all mass. */
+/* A cell may err by this part of all mass; a fourth of it where the mass of a direction may err by more than 1e-3. */
 static const double CLOSE = 4e-6;
 
-/* Each round runs the command. */
-enum { ROUNDS = 8, CELLS_MAX = 40000 * JUDGE_VIEWS, POINTS = 10, PAIRS = 8 };
+/* Each round runs the command. In the first ones counts are heeded. */
+enum { ROUNDS = 8, HEEDING = 4, CELLS_MAX = 40000 * JUDGE_VIEWS, POINTS = 10, PAIRS = 8 };
 
 /* What is integrated; the efficiency is the reciprocal of SQUARE. */
 enum { MASS, DISTANCE, SQUARE, UNCOVERED, VALUES };
@@ -142,16 +143,33 @@ static int in_order(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Along x, along y, or both if both matter. Returns whether any was divided. */
-static int divide(integrating *of)
+/* What a cell may err. Where the count of a bin is far from its integral, that might be at fault: nothing, for now. */
+static double allowed(const integrating *of, const cell *c, int round, const double *squares, const double *mass)
 {
+    const judge_view *v = &of->j->view[c->bin / JUDGE_BINS];
+    const double count = v->observed[c->bin % JUDGE_BINS], expected = mass[c->bin] * (double)of->task->samples;
+    if (round < HEEDING && fabs(count - expected) > 4 * sqrt(fmax(count, expected)) + 4)
+        return -1;
+    return v->is_first && squares[c->bin / JUDGE_BINS] > 1e-3 * 1e-3 / 16 ? CLOSE / 4 : CLOSE;
+}
+
+/* Along x, along y, or both if both matter. Returns whether any was divided. */
+static int divide(integrating *of, int round)
+{
+    static double mass[JUDGE_VIEWS * JUDGE_BINS];
     const size_t before = of->count;
+    double squares[JUDGE_VIEWS] = {0};
+    memset(mass, 0, sizeof mass);
+    for (const cell *c = of->cells; c < of->cells + before; c++) {
+        squares[c->bin / JUDGE_BINS] += c->error * c->error;
+        mass[c->bin] += c->value[MASS];
+    }
     qsort(of->cells, before, sizeof *of->cells, most_urgent);
-    for (size_t i = 0; i < before && of->cells[i].urgency > CLOSE && of->count + 3 <= CELLS_MAX; i++) {
+    for (size_t i = 0; i < before && of->count + 3 <= CELLS_MAX; i++) {
         const cell c = of->cells[i];
         const int columns = c.along[1] > 4 * c.along[0] ? 1 : 2, rows = c.along[0] > 4 * c.along[1] ? 1 : 2;
         const double wide = (c.x[1] - c.x[0]) / columns, high = (c.y[1] - c.y[0]) / rows;
-        for (int k = 0; k < columns * rows; k++) {
+        for (int k = 0; k < columns * rows && c.urgency > allowed(of, &c, round, squares, mass); k++) {
             const double x = c.x[0] + wide * (k % columns), y = c.y[0] + high * (double)(k / columns);
             of->cells[k ? of->count++ : i] = (cell){.bin = c.bin, {x, x + wide}, {y, y + high}, .urgency = -1};
         }
@@ -200,7 +218,7 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
     for (int round = 0; round < ROUNDS && good; round++) {
         progress_show((double)round / ROUNDS, "densities", bar);
         good = ask(&of);
-        if (good && (round == ROUNDS - 1 || !divide(&of)))
+        if (good && (round == ROUNDS - 1 || !divide(&of, round)))
             break;
     }
     if (good)
