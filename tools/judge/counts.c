@@ -67,7 +67,7 @@ static judge_block find_block(const judge_view *v, const counts *c)
     sums_of(v, c->expected, e);
     sums_of(v, c->observed, o);
     for (size_t high = 1; high <= v->rings; high *= 2)
-        for (size_t wide = 1; wide <= v->sectors && high * wide < JUDGE_BINS; wide *= 2)
+        for (size_t wide = 1; wide <= v->sectors && high * wide < v->rings * v->sectors; wide *= 2)
             for (size_t i = 0; i + high <= v->rings; i += (high + 1) / 2)
                 for (size_t k = 0; k + wide <= v->sectors; k += (wide + 1) / 2, blocks++) {
                     const double expected = fmax(sum_over(v, e, i, high, k, wide), 0);
@@ -106,7 +106,7 @@ static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, 
     const size_t bins = rings * sectors;
     for (size_t i = 0; i <= JUDGE_BINS; i++) {
         const size_t ring = i / v->sectors * rings / v->rings, sector = i % v->sectors * sectors / v->sectors;
-        const size_t to = i < JUDGE_BINS ? ring * sectors + sector : bins;
+        const size_t to = i < v->rings * v->sectors ? ring * sectors + sector : bins;
         sum.expected[to] += c->expected[i];
         sum.observed[to] += c->observed[i];
     }
@@ -123,8 +123,9 @@ void judge_counts(judgement *j, size_t samples)
     counts c;
     for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
         scale(v, samples, &c);
-        const pearson of[3] = {pearson_over(v, &c, v->rings / 4, v->sectors / 4),
-                               pearson_over(v, &c, v->rings / 4, 1), pearson_over(v, &c, 1, v->sectors / 4)};
+        const size_t rings = (v->rings + 3) / 4, sectors = (v->sectors + 3) / 4;
+        const pearson of[3] = {pearson_over(v, &c, rings, sectors), pearson_over(v, &c, rings, 1),
+                               pearson_over(v, &c, 1, sectors)};
         for (int k = 0; k < 3; k++) {
             statistic[k] += of[k].statistic;
             freedom[k] += of[k].classes ? of[k].classes - 1 : 0;
@@ -138,7 +139,7 @@ void judge_counts(judgement *j, size_t samples)
             c.expected[i] *= (double)(JUDGE_STRATA * JUDGE_STRATA) / (double)samples;
             c.observed[i] = v->stratified[i];
         }
-        const pearson even = pearson_over(v, &c, v->rings / 4, v->sectors / 4);
+        const pearson even = pearson_over(v, &c, rings, sectors);
         v->scatter = even.classes > 1 ? even.statistic / (double)(even.classes - 1) : 1;
     }
     for (int k = 0; k < 3; k++)

@@ -14,7 +14,7 @@
 static const double CLOSE = 4e-6;
 
 /* Each round runs the command. In the first ones counts are heeded. */
-enum { ROUNDS = 8, HEEDING = 4, CELLS_MAX = 40000 * JUDGE_VIEWS, POINTS = 10, PAIRS = 8 };
+enum { ROUNDS = 8, HEEDING = 5, CELLS_MAX = 40000 * JUDGE_VIEWS, POINTS = 10, PAIRS = 8 };
 
 /* What is integrated; the efficiency is the reciprocal of SQUARE. */
 enum { MASS, DISTANCE, SQUARE, UNCOVERED, VALUES };
@@ -148,7 +148,7 @@ static double allowed(const integrating *of, const cell *c, int round, const dou
 {
     const judge_view *v = &of->j->view[c->bin / JUDGE_BINS];
     const double count = v->observed[c->bin % JUDGE_BINS], expected = mass[c->bin] * (double)of->task->samples;
-    if (round < HEEDING && fabs(count - expected) > 4 * sqrt(fmax(count, expected)) + 4)
+    if (round < HEEDING && fabs(count - expected) > 3 * sqrt(fmax(count, expected)) + 1)
         return -1;
     return v->is_first && squares[c->bin / JUDGE_BINS] > 1e-3 * 1e-3 / 16 ? CLOSE / 4 : CLOSE;
 }
@@ -210,7 +210,7 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
     for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS && good; i++) {
         const judge_view *v = &j->view[i / JUDGE_BINS];
         const double *theta = &v->ring[i % JUDGE_BINS / v->sectors], *phi = &v->sector[i % v->sectors];
-        if (theta[0] < theta[1] && phi[0] < phi[1])
+        if (i % JUDGE_BINS < v->rings * v->sectors && theta[0] < theta[1] && phi[0] < phi[1])
             of.cells[of.count++] = (cell){.bin = i, {theta[0], theta[1]}, {phi[0], phi[1]}, .urgency = -1};
     }
     for (int i = 0; i < JUDGE_VIEWS; i++)

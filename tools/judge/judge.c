@@ -28,14 +28,15 @@ static const struct {
                          {32, 43, 64}, {43, 53, 64}, {53, 62, 64},   {62, 70, 64},      {70, 77, 64},
                          {77, 82, 64}, {82, 86, 64}, {86, 89.9, 64}, {89.99, 89.99, 64}};
 
-static void place_views(judge_view *views, random_stream *stream)
+static void place_views(judge_view *views, size_t samples, random_stream *stream)
 {
+    const size_t coarser = samples < 50000 ? 2 : 1; /* bins are to expect samples */
     const size_t turn = random_bits(stream) >> 32, step = 2 * (random_bits(stream) >> 32) + 1;
     for (size_t i = 0; i < JUDGE_VIEWS; i++) {
         judge_view *v = &views[i];
         v->is_first = i == 0 || strata[i].to > 0;
-        v->rings = strata[i].rings;
-        v->sectors = JUDGE_BINS / v->rings;
+        v->rings = strata[i].rings / coarser;
+        v->sectors = JUDGE_BINS / strata[i].rings / coarser;
         v->theta = strata[i].from + (strata[i].to - strata[i].from) * random_double(stream);
         v->phi = v->theta > 0 ? 45 * ((double)((i * step + turn) % 8) + random_double(stream)) : 0;
         v->wi = direction_from(v->theta, v->phi);
@@ -153,7 +154,7 @@ static int draw(const judge_task *task, judgement *j)
     const size_t each = PILOTS + task->samples + STRATIFIED + ENDS + PAIRED, count = each * JUDGE_VIEWS;
     random_stream stream = random_from(task->seed);
     query *asked = malloc(count * sizeof *asked);
-    place_views(j->view, &stream);
+    place_views(j->view, task->samples, &stream);
     for (size_t i = 0; i < JUDGE_VIEWS && asked; i++)
         fill_samples(asked + i * each, &j->view[i], task->samples, 90 * (double)i, &stream);
     answer *got = process_ask(task, asked, count);

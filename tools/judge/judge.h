@@ -86,7 +86,7 @@ typedef struct judge_view {
     int is_first;      /* wi is not that of the direction before, which has told the mass */
     vndf_vec3 wi;
     double turn;                                         /* the azimuth of wi, radians */
-    size_t rings, sectors;                               /* JUDGE_BINS together, neither above JUDGE_SIDE */
+    size_t rings, sectors;                               /* at most JUDGE_BINS together, and JUDGE_SIDE each */
     double ring[JUDGE_SIDE + 1], sector[JUDGE_SIDE + 1]; /* borders, radians; azimuths from wi */
     double observed[JUDGE_BINS + 1], stratified[JUDGE_BINS + 1]; /* ring by ring; the last: samples in no bin */
     double mass[JUDGE_BINS + 1], variance[JUDGE_BINS + 1]; /* the integral of the density, and that of its error */

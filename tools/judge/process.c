@@ -16,11 +16,17 @@
 #include "cli/output.h"
 #include "judge/judge.h"
 
+/* Close to 1 nine digits are the number for those who read a float alone. */
+static int digits(float x)
+{
+    return x > 0.99f ? 17 : 9;
+}
+
 void process_line(char text[JUDGE_LINE], const query *q)
 {
-    const int digits = q->kind == 's' ? 17 : 9; /* 1 - 2^-24 is that for those who read a double, too */
     snprintf(text, JUDGE_LINE, "%c %.9g %.9g %.9g %.*g %.*g %.*g", q->kind, (double)q->wi.x, (double)q->wi.y,
-             (double)q->wi.z, digits, (double)q->x.x, digits, (double)q->x.y, digits, (double)q->x.z);
+             (double)q->wi.z, digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y, digits(q->x.z),
+             (double)q->x.z);
 }
 
 static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
