@@ -10,8 +10,9 @@
 #include "cli/random.h"
 #include "judge/judge.h"
 
-/* A cell may err by this part of all mass; a fourth of it where the mass of a direction may err by more than 1e-3. */
-static const double CLOSE = 4e-6;
+/* A cell may err by this part of all mass; a fourth of it where the mass of a direction may err by more than 2e-3, four
+ * times the root of MASS_MAY. */
+static const double CLOSE = 4e-6, MASS_MAY = 2.5e-7;
 
 /* Each round runs the command. In the first ones counts are heeded. */
 enum { ROUNDS = 8, HEEDING = 5, CELLS_MAX = 40000 * JUDGE_VIEWS, POINTS = 10, PAIRS = 8 };
@@ -143,33 +144,38 @@ static int in_order(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* What a cell may err. Where the count of a bin is far from its integral, that might be at fault: nothing, for now. */
-static double allowed(const integrating *of, const cell *c, int round, const double *squares, const double *mass)
+static int is_accused(const integrating *of, size_t bin, double mass)
 {
-    const judge_view *v = &of->j->view[c->bin / JUDGE_BINS];
-    const double count = v->observed[c->bin % JUDGE_BINS], expected = mass[c->bin] * (double)of->task->samples;
-    if (round < HEEDING && fabs(count - expected) > 3 * sqrt(fmax(count, expected)) + 1)
-        return -1;
-    return v->is_first && squares[c->bin / JUDGE_BINS] > 1e-3 * 1e-3 / 16 ? CLOSE / 4 : CLOSE;
+    const double count = of->j->view[bin / JUDGE_BINS].observed[bin % JUDGE_BINS];
+    const double expected = mass * (double)of->task->samples;
+    return fabs(count - expected) > 3 * sqrt(fmax(count, expected)) + 1;
 }
 
-/* Along x, along y, or both if both matter. Returns whether any was divided. */
+/* Along x, along y, or both if both matter; the worst first, and those of a bin whose count is far from its integral,
+ * unless so many are that it is the sampler. Returns whether any was divided. */
 static int divide(integrating *of, int round)
 {
     static double mass[JUDGE_VIEWS * JUDGE_BINS];
     const size_t before = of->count;
     double squares[JUDGE_VIEWS] = {0};
+    size_t accused = 0;
     memset(mass, 0, sizeof mass);
     for (const cell *c = of->cells; c < of->cells + before; c++) {
         squares[c->bin / JUDGE_BINS] += c->error * c->error;
         mass[c->bin] += c->value[MASS];
     }
+    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++)
+        accused += (size_t)is_accused(of, i, mass[i]);
+    const int is_heeded = round < HEEDING && accused < JUDGE_VIEWS * JUDGE_BINS / 50;
     qsort(of->cells, before, sizeof *of->cells, most_urgent);
     for (size_t i = 0; i < before && of->count + 3 <= CELLS_MAX; i++) {
         const cell c = of->cells[i];
+        const int is_mass = of->j->view[c.bin / JUDGE_BINS].is_first && squares[c.bin / JUDGE_BINS] > MASS_MAY;
         const int columns = c.along[1] > 4 * c.along[0] ? 1 : 2, rows = c.along[0] > 4 * c.along[1] ? 1 : 2;
+        if (c.urgency <= (is_mass ? CLOSE / 4 : CLOSE) && !(is_heeded && is_accused(of, c.bin, mass[c.bin])))
+            continue;
         const double wide = (c.x[1] - c.x[0]) / columns, high = (c.y[1] - c.y[0]) / rows;
-        for (int k = 0; k < columns * rows && c.urgency > allowed(of, &c, round, squares, mass); k++) {
+        for (int k = 0; k < columns * rows; k++) {
             const double x = c.x[0] + wide * (k % columns), y = c.y[0] + high * (double)(k / columns);
             of->cells[k ? of->count++ : i] = (cell){.bin = c.bin, {x, x + wide}, {y, y + high}, .urgency = -1};
         }
