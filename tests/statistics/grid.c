@@ -34,7 +34,7 @@ static int answer(void *state, quadrature_point *at, size_t count)
 {
     const asked *a = state;
     for (size_t i = 0; i < count; i++)
-        at[i].value[0] = a->density(at[i].x, at[i].y, a->of);
+        at[i].value = a->density(at[i].x, at[i].y, a->of);
     return 1;
 }
 
@@ -43,7 +43,7 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
     static quadrature_cell cells[4 * GRID_BINS];
     static quadrature_sum sum[GRID_BINS];
     asked state = {density, of};
-    const quadrature q = {answer, &state, allowed, 1e-5, 0, 1024, SIZE_MAX, 24};
+    const quadrature q = {answer, &state, allowed, 1e-5, 0, 1024, 24};
     double mass = 0;
     memset(sum, 0, sizeof sum);
     for (size_t i = 0; i < 4 * g->elsewhere; i++) {
@@ -57,8 +57,8 @@ double grid_expect(grid *g, grid_density *density, const void *of, double sample
     if (!quadrature_run(&q, cells, 4 * g->elsewhere, sum))
         return NAN;
     for (size_t i = 0; i < g->elsewhere; i++) {
-        g->expected[i] = samples * sum[i].value[0];
-        mass += sum[i].value[0];
+        g->expected[i] = samples * sum[i].value;
+        mass += sum[i].value;
     }
     g->expected[g->elsewhere] = fmax(1 - mass, 0) * samples;
     return mass;

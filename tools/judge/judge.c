@@ -109,8 +109,10 @@ static void place_numbers(float u[3], size_t i, size_t samples)
         u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(k % STRATA)) / STRATA;
         u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(k / STRATA % STRATA)) / STRATA;
     } else if ((k -= STRATIFIED) < ENDS) {
-        for (int which = 0; which < 3; which++, k /= 3)
-            u[which] = k % 3 < 2 ? ends[k % 3] : u[which];
+        for (int which = 0; which < 3; which++, k /= 3) {
+            const size_t kind = k % 3;
+            u[which] = kind < 2 ? ends[kind] : u[which];
+        }
     } else {
         k -= ENDS;
         float *moved = &u[k / 2 % 2];
