@@ -113,8 +113,8 @@ static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, 
     return pearson_of(sum.expected, sum.observed, bins + 1);
 }
 
-/* Tests: squares of 16 bins of each direction, since many small ones add up what integrals err; those, rings and sectors
- * of all directions; blocks. */
+/* Tests: squares of 16 bins of each direction, since many small ones add up what integrals err; those, rings and
+ * sectors of all directions; blocks. */
 void judge_counts(judgement *j, size_t samples)
 {
     judge_fault *fault = &j->fault[JUDGE_CHI_SQUARE];

@@ -1,8 +1,8 @@
 /* The integral of the density over bins, with an error that is measured. Bins are cells, rectangles of theta and the
  * azimuth. Where two points and a sample in a cell are off what its corners say, linear in theta and in the azimuth, it
- * is divided, the worst first: lines along which the density jumps, and peaks, show themselves there. Two pairs of other
- * points, drawn at random, each symmetric about the middle, measure it: their mean has no bias whatever the density is,
- * and how much they differ is its error, or the points between corners if that is more. */
+ * is divided, the worst first: lines along which the density jumps, and peaks, show themselves there. Two pairs of
+ * other points, drawn at random, each symmetric about the middle, measure it: their mean has no bias whatever the
+ * density is. Its error is how much they differ, or the two points and the sample say if that is more. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

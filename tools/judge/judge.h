@@ -1,11 +1,11 @@
-/* Is a sampler of visible normals right? What it answers at fourteen directions, by its own density: samples are unit and
- * face wi, their density is the one that is asked for, its integral is 1, and they follow it over bins.
+/* Is a sampler of visible normals right? What it answers at fourteen directions, by its own density: samples are unit
+ * and face wi, their density is the one that is asked for, its integral is 1, and they follow it over bins.
  *
  * Of the directions three are exactly from above, one is close to that, one at 89.99 degrees and one just before; eight
  * are drawn from strata of the angle, each in another octant of the azimuth, so that no seed leaves an octant out. The
- * bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi: 64 x 64, and from
- * above 1024 x 4 and 4 x 1024 as well, which see thin rings and wedges. Their borders are quantiles of samples drawn
- * before, of which a fifth is even, so that a region without samples has bins too. */
+ * bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi: 64 x 64, and
+ * from above 1024 x 4 and 4 x 1024 as well, which see thin rings and wedges. Their borders are quantiles of samples
+ * drawn before, of which a fifth is even, so that a region without samples has bins too. */
 #ifndef TOOLS_JUDGE_JUDGE_H
 #define TOOLS_JUDGE_JUDGE_H
 

@@ -1,5 +1,5 @@
-/* The command's stdin and stdout are temporary files, so that neither side waits for the other. It is a process group of
- * its own, which ends as a whole: when it is silent for too long, when the user stops the program, and when it ends. */
+/* The command's stdin and stdout are temporary files, so that neither side waits for the other. It is a process group
+ * of its own, which ends as a whole: when it is silent for too long, when the user stops the program, when it ends. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
 #include <signal.h>
