@@ -34,7 +34,7 @@ typedef struct integrating {
     vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
     random_stream stream;
     cell *cells;
-    size_t count;
+    size_t count, bins;
 } integrating;
 
 /* ---- cells --------------------------------------------------------------------------------------- */
@@ -166,7 +166,7 @@ static int divide(integrating *of, int round)
     }
     for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++)
         accused += (size_t)is_accused(of, i, mass[i]);
-    const int is_heeded = round < HEEDING && accused < JUDGE_VIEWS * JUDGE_BINS / 50;
+    const int is_heeded = round < HEEDING && accused < of->bins / 50;
     qsort(of->cells, before, sizeof *of->cells, most_urgent);
     for (size_t i = 0; i < before && of->count + 3 <= CELLS_MAX; i++) {
         const cell c = of->cells[i];
@@ -219,6 +219,7 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
         if (i % JUDGE_BINS < v->rings * v->sectors && theta[0] < theta[1] && phi[0] < phi[1])
             of.cells[of.count++] = (cell){.bin = i, {theta[0], theta[1]}, {phi[0], phi[1]}, .urgency = -1};
     }
+    of.bins = of.count;
     for (int i = 0; i < JUDGE_VIEWS; i++)
         of.truth[i] = vndf_view_from(&task->surface, j->view[i].wi);
     for (int round = 0; round < ROUNDS && good; round++) {

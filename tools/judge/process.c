@@ -22,11 +22,19 @@ static int digits(float x)
     return x > 0.99f ? 17 : 9;
 }
 
+/* Prints wi if it is another one than in the line before, since printing numbers is what takes time. */
+static void print_query(char text[JUDGE_LINE], const query *q, const query *before)
+{
+    static int start;
+    if (!before || before->kind != q->kind || memcmp(&before->wi, &q->wi, sizeof q->wi) != 0)
+        start = sprintf(text, "%c %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y, (double)q->wi.z);
+    sprintf(text + start, " %.*g %.*g %.*g", digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y,
+            digits(q->x.z), (double)q->x.z);
+}
+
 void process_line(char text[JUDGE_LINE], const query *q)
 {
-    snprintf(text, JUDGE_LINE, "%c %.9g %.9g %.9g %.*g %.*g %.*g", q->kind, (double)q->wi.x, (double)q->wi.y,
-             (double)q->wi.z, digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y, digits(q->x.z),
-             (double)q->x.z);
+    print_query(text, q, NULL);
 }
 
 static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
@@ -138,8 +146,8 @@ answer *process_ask(const judge_task *task, const query *queries, size_t count)
     answer *answers = queries ? malloc(count * sizeof *answers) : NULL;
     int good = answers && in && out;
     for (size_t i = 0; i < count && good; i++) {
-        process_line(text, &queries[i]);
-        good = fprintf(in, "%s\n", text) > 0;
+        print_query(text, &queries[i], i ? &queries[i - 1] : NULL);
+        good = fputs(text, in) >= 0 && putc('\n', in) >= 0;
     }
     if (!answers)
         complain(task->who, "no memory");
