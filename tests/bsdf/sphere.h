@@ -19,7 +19,7 @@ static inline size_t sphere_bin(vndf_vec3 w)
 static inline int sphere_answer(void *of, quadrature_point *at, size_t count)
 {
     for (quadrature_point *p = at; p < at + count; p++)
-        p->value[0] = (double)vndf_bsdf_pdf(of, oracle_toward(p->x, p->y));
+        p->value = (double)vndf_bsdf_pdf(of, oracle_toward(p->x, p->y));
     return 1;
 }
 
@@ -31,7 +31,7 @@ static inline double sphere_integrate(const vndf_bsdf *bsdf, double allowed, dou
     static const double BELT = 0.01;
     static quadrature_cell cells[4 * SPHERE_BINS];
     static quadrature_sum sum[SPHERE_BINS];
-    const quadrature q = {sphere_answer, (void *)bsdf, allowed, 1e-5, 0, 1024, SIZE_MAX, 24};
+    const quadrature q = {sphere_answer, (void *)bsdf, allowed, 1e-5, 0, 1024, 24};
     double mass = 0;
     memset(sum, 0, sizeof sum);
     for (size_t i = 0; i < 4 * SPHERE_BINS; i++) {
@@ -45,7 +45,7 @@ static inline double sphere_integrate(const vndf_bsdf *bsdf, double allowed, dou
     if (!TEST(quadrature_run(&q, cells, 4 * SPHERE_BINS, sum)))
         return NAN;
     for (size_t i = 0; i < SPHERE_BINS; i++)
-        mass += probability[i] = sum[i].value[0];
+        mass += probability[i] = sum[i].value;
     probability[SPHERE_BINS] = fmax(1 - mass, 0);
     return mass;
 }

@@ -103,13 +103,12 @@ static void test_ends(void)
 static size_t points;
 
 /* Jumps along x and along y, and what Simpson's rule and Lobatto's have exactly. */
-static int answer(void *of, quadrature_point *at, size_t count)
+static int answer(void *which, quadrature_point *at, size_t count)
 {
-    (void)of;
     points += count;
     for (size_t i = 0; i < count; i++) {
         const double value[] = {at[i].x > 1 / PI, at[i].y > 1 / PI, pow(at[i].x, 7), pow(at[i].y, 7)};
-        memcpy(at[i].value, value, sizeof value);
+        at[i].value = value[*(int *)which];
     }
     return 1;
 }
@@ -119,13 +118,14 @@ static void test_quadrature(void)
     static const quadrature_cell cells[] = {{1, {0, 1}, {0, 0.5}, 0}, {0, {0, 1}, {0.5, 1}, 0}};
     static const double exact[2][4] = {{0.5 - 0.5 / PI, 0.5, 1.0 / 16, 255.0 / 2048},
                                        {0.5 - 0.5 / PI, 0.5 - 1 / PI, 1.0 / 16, 1.0 / 2048}};
-    const quadrature q = {answer, NULL, 1e-9, 0, 0, 7, 100000, 40};
-    quadrature_sum sum[2] = {{{0}, 0, 0}};
-    TEST(quadrature_run(&q, cells, 2, sum));
-    for (int bin = 0; bin < 2; bin++) {
-        for (int v = 0; v < 4; v++)
-            TEST_NEAR(sum[bin].value[v], exact[bin][v], v < 2 ? 1e-7 : 1e-8);
-        TEST_NEAR(sum[bin].change, 0.5, 1e-6);
+    for (int v = 0; v < 4; v++) {
+        const quadrature q = {answer, &v, 1e-9, 0, 0, 7, 40};
+        quadrature_sum sum[2] = {{0, 0, 0}};
+        TEST(quadrature_run(&q, cells, 2, sum));
+        for (int bin = 0; bin < 2; bin++) {
+            TEST_NEAR(sum[bin].value, exact[bin][v], v < 2 ? 1e-7 : 1e-8);
+            TEST(v || fabs(sum[bin].change - 0.5) < 1e-6);
+        }
     }
     TEST(points < 250000);
 }

@@ -4,94 +4,177 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
 #include "evidence/measure/bins.h"
-#include "evidence/measure/quadrature.h"
 
 static const double pi = 3.14159265358979323846;
 
-/* From straight down to grazing, at azimuths that no axis of a surface has. */
-static const double angles[JUDGE_VIEWS][2] = {{0, 0}, {20, 40}, {45, 100}, {65, 200}, {80, 290}, {88, 335}};
-
-enum { PILOTS = 2000, STRATA = 64, STRATIFIED = STRATA * STRATA };
-
-/* The larger one; what is no number is the worst. */
-static double worst(double a, double b)
+void judge_note(judge_fault *f, double amount, double beside, const exchange *shown)
 {
-    return isnan(b) ? HUGE_VAL : fmax(a, b);
+    amount = isnan(amount) ? HUGE_VAL : amount;
+    if (amount > f->worst)
+        *f = (judge_fault){amount, beside, *shown};
+}
+
+/* ---- directions ---------------------------------------------------------------------------------- */
+
+/* Angles in degrees, and rings. The eight in the middle are inclined enough for a fault of one octant to matter. */
+static const struct {
+    double from, to;
+    size_t rings;
+} strata[JUDGE_VIEWS] = {{0, 0, 64},   {0, 0, 1024}, {0, 0, 4},      {0.01, 20, 64},    {20, 32, 64},
+                         {32, 43, 64}, {43, 53, 64}, {53, 62, 64},   {62, 70, 64},      {70, 77, 64},
+                         {77, 82, 64}, {82, 86, 64}, {86, 89.9, 64}, {89.99, 89.99, 64}};
+
+static void place_views(judge_view *views, size_t samples, random_stream *stream)
+{
+    const size_t coarser = samples < 50000 ? 2 : 1; /* bins are to expect samples */
+    const size_t turn = random_bits(stream) >> 32, step = 2 * (random_bits(stream) >> 32) + 1;
+    for (size_t i = 0; i < JUDGE_VIEWS; i++) {
+        judge_view *v = &views[i];
+        v->is_first = i == 0 || strata[i].to > 0;
+        v->rings = strata[i].rings / coarser;
+        v->sectors = JUDGE_BINS / strata[i].rings / coarser;
+        v->theta = strata[i].from + (strata[i].to - strata[i].from) * random_double(stream);
+        v->phi = v->theta > 0 ? 45 * ((double)((i * step + turn) % 8) + random_double(stream)) : 0;
+        v->wi = direction_from(v->theta, v->phi);
+        v->turn = atan2((double)v->wi.y, (double)v->wi.x);
+    }
 }
 
 /* ---- samples ------------------------------------------------------------------------------------- */
 
-/* theta and the azimuth from wi; NaN of what is no direction. */
-static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
+/* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
+ * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
+enum { PILOTS = 4000, EVEN = PILOTS / 4, STRATA = JUDGE_STRATA, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
+enum { PAIRS = 16, PAIRED = 4 * 2 * PAIRS };
+
+void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi)
 {
     *theta = isfinite(a->x + a->y + a->z) ? atan2(hypot(a->x, a->y), a->z) : NAN;
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
 }
 
+static void place_borders(double *border, size_t parts, double low, double high, double at[PILOTS + EVEN])
+{
+    for (size_t i = 0; i < EVEN; i++)
+        at[PILOTS + i] = low + (high - low) * ((double)i + 0.5) / EVEN;
+    sort_numbers(at, PILOTS + EVEN);
+    for (size_t i = 1; i < parts; i++)
+        border[i] = fmin(fmax(at[i * (PILOTS + EVEN) / parts], low), high);
+    border[0] = low;
+    border[parts] = high;
+}
+
 static void place_bins(judge_view *v, const answer *pilots)
 {
-    double theta[PILOTS], phi[PILOTS];
+    double theta[PILOTS + EVEN], phi[PILOTS + EVEN];
     for (size_t i = 0; i < PILOTS; i++) {
-        locate(v, &pilots[i], &theta[i], &phi[i]);
+        judge_locate(v, &pilots[i], &theta[i], &phi[i]);
         phi[i] = isnan(theta[i]) ? 0 : phi[i];
-        theta[i] = isnan(theta[i]) ? 0 : fmin(theta[i], pi / 2);
+        theta[i] = isnan(theta[i]) ? 0 : theta[i];
     }
-    sort_numbers(theta, PILOTS);
-    sort_numbers(phi, PILOTS);
-    bins_borders(v->ring, JUDGE_RINGS, 0, pi / 2, theta, PILOTS);
-    bins_borders(v->sector, JUDGE_SECTORS, -pi, pi, phi, PILOTS);
-    sort_numbers(v->ring, JUDGE_RINGS + 1);
-    sort_numbers(v->sector, JUDGE_SECTORS + 1);
+    place_borders(v->ring, v->rings, 0, pi / 2, theta);
+    place_borders(v->sector, v->sectors, -pi, pi, phi);
 }
 
-static void take_sample(judge_view *v, const answer *a, double counts[JUDGE_BINS + 1])
+/* Its bin, JUDGE_BINS for none. */
+static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
 {
-    double theta, phi, length = sqrt(a->x * a->x + a->y * a->y + a->z * a->z);
-    double facing = a->x * (double)v->wi.x + a->y * (double)v->wi.y + a->z * (double)v->wi.z;
-    v->found[JUDGE_UNIT] = worst(v->found[JUDGE_UNIT], fabs(length - 1));
-    v->found[JUDGE_FACING] = worst(v->found[JUDGE_FACING], -fmin(facing, a->z));
-    v->found[JUDGE_VALID] += !(a->pdf > 0 && isfinite(a->pdf));
-    locate(v, a, &theta, &phi);
-    counts[theta <= pi / 2 + 1e-6 ? bins_interval(v->ring, JUDGE_RINGS, theta) * JUDGE_SECTORS +
-                                        bins_interval(v->sector, JUDGE_SECTORS, phi)
-                                  : JUDGE_BINS] += 1;
+    const query *q = &e->asked;
+    const answer *a = &e->got;
+    const double length = sqrt(a->x * a->x + a->y * a->y + a->z * a->z);
+    const double facing = a->x * (double)q->wi.x + a->y * (double)q->wi.y + a->z * (double)q->wi.z;
+    double theta, phi;
+    judge_note(&j->fault[JUDGE_UNIT], fabs(length - 1), NAN, e);
+    judge_note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
+    if (!(a->pdf > 0 && isfinite(a->pdf)))
+        judge_note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
+    judge_locate(v, a, &theta, &phi);
+    if (!(theta <= pi / 2 + 1e-6))
+        return JUDGE_BINS;
+    return bins_interval(v->ring, v->rings, theta) * v->sectors + bins_interval(v->sector, v->sectors, phi);
 }
 
-/* Queries with random numbers, of which the last 64 x 64 are stratified. */
-static void fill_samples(query *to, const judge_view *v, size_t samples, random_stream *stream)
+/* The numbers of sample i; random ones are in u. */
+static void place_numbers(float u[3], size_t i, size_t samples)
 {
-    for (size_t i = 0; i < PILOTS + samples + STRATIFIED; i++) {
-        float u[3] = {random_float(stream), 0, 0};
-        u[1] = random_float(stream);
-        u[2] = random_float(stream);
-        if (i >= PILOTS + samples) { /* of 18 bits in their stratum, so that none is rounded to 1 */
-            u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(i % STRATA)) / STRATA;
-            u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(i / STRATA % STRATA)) / STRATA;
+    static const float ends[2] = {0, 1 - 0x1p-24f};
+    size_t k = i - PILOTS - samples; /* of what is before it is huge */
+    if (i < PILOTS + samples)
+        return;
+    if (k < STRATIFIED) { /* of 18 bits in their stratum, so that none is rounded to 1 */
+        u[0] = (floorf(u[0] * 0x1p18f) * 0x1p-18f + (float)(k % STRATA)) / STRATA;
+        u[1] = (floorf(u[1] * 0x1p18f) * 0x1p-18f + (float)(k / STRATA % STRATA)) / STRATA;
+    } else if ((k -= STRATIFIED) < ENDS) {
+        for (int which = 0; which < 3; which++, k /= 3) {
+            const size_t kind = k % 3;
+            u[which] = kind < 2 ? ends[kind] : u[which];
         }
-        to[i] = (query){'s', v->wi, {u[0], u[1], u[2]}};
+    } else {
+        k -= ENDS;
+        float *moved = &u[k / 2 % 2];
+        *moved = k / 4 % 2 ? 1 - 0x1p-24f - floorf(*moved * 0x1p14f) * 0x1p-24f : *moved * 0x1p-10f;
     }
 }
 
-static int draw(const judge_task *task, judge_view *views)
+/* A fourth of those at the ends looks along an axis of the surface. A pair has u1 or u2 in common, and nothing else. */
+static void fill_samples(query *to, const judge_view *v, size_t samples, double axis, random_stream *stream)
 {
-    const size_t each = PILOTS + task->samples + STRATIFIED, count = each * JUDGE_VIEWS;
+    const size_t ends = PILOTS + samples + STRATIFIED, pairs = ends + ENDS;
+    for (size_t i = 0; i < pairs + PAIRED; i++) {
+        const int is_turned = i >= ends && i < pairs && i % 4 == 0, is_second = i >= pairs && (i - pairs) % 2;
+        float u[3];
+        for (int k = 0; k < 3; k++)
+            u[k] = random_float(stream);
+        place_numbers(u, i, samples);
+        if (is_second && (i - pairs) / 2 % 2)
+            u[0] = to[i - 1].x.x;
+        else if (is_second)
+            u[1] = to[i - 1].x.y;
+        to[i] = (query){'s', is_turned ? direction_from(v->theta, axis) : v->wi, {u[0], u[1], u[2]}};
+    }
+}
+
+/* A sampler of two numbers, one of which does not move the sample, piles samples up on a line. */
+static void compare_pairs(judgement *j, const query *asked, const answer *got)
+{
+    double same[4] = {0};
+    for (size_t i = 0; i < PAIRED; i += 2) {
+        const answer *a = &got[i], *b = &got[i + 1];
+        const exchange its = {asked[i], *a};
+        const size_t end = i / 2 % 4;
+        same[end] += a->x == b->x && a->y == b->y && a->z == b->z ? 1.0 / PAIRS : 0;
+        judge_note(&j->fault[JUDGE_MOVES], same[end], NAN, &its);
+    }
+}
+
+static int draw(const judge_task *task, judgement *j)
+{
+    const size_t each = PILOTS + task->samples + STRATIFIED + ENDS + PAIRED, count = each * JUDGE_VIEWS;
     random_stream stream = random_from(task->seed);
     query *asked = malloc(count * sizeof *asked);
+    place_views(j->view, task->samples, &stream);
     for (size_t i = 0; i < JUDGE_VIEWS && asked; i++)
-        fill_samples(asked + i * each, &views[i], task->samples, &stream);
-    answer *got = process_ask(task->who, task->command, asked, count);
-    for (size_t i = 0; i < JUDGE_VIEWS && got; i++) {
-        judge_view *v = &views[i];
-        const answer *its = got + i * each;
-        place_bins(v, its);
-        memcpy(v->first, its + PILOTS, sizeof v->first);
-        for (size_t k = PILOTS; k < each; k++)
-            take_sample(v, &its[k], k < PILOTS + task->samples ? v->observed : v->stratified);
+        fill_samples(asked + i * each, &j->view[i], task->samples, 90 * (double)i, &stream);
+    answer *got = process_ask(task, asked, count);
+    for (size_t i = 0; i < count && got; i++) {
+        judge_view *v = &j->view[i / each];
+        if (i % each == 0)
+            place_bins(v, got + i);
+        const exchange its = {asked[i], got[i]};
+        const size_t bin = take_sample(j, v, &its), k = i % each - PILOTS; /* of pilots it is huge */
+        if (k < JUDGE_ASKED)
+            v->first[k] = its;
+        if (k < task->samples) {
+            v->observed[bin] += 1;
+            v->sample[bin] = its;
+        } else if (k - task->samples < STRATIFIED)
+            v->stratified[bin] += 1;
+        if (i % each == each - PAIRED)
+            compare_pairs(j, asked + i, got + i);
     }
     free(asked);
     free(got);
@@ -99,174 +182,87 @@ static int draw(const judge_task *task, judge_view *views)
 }
 
 /* Densities of samples, asked for. What is no direction has none, so anything is asked in its place. */
-static int agree(const judge_task *task, judge_view *views)
+static int agree(const judge_task *task, judgement *j)
 {
     query asked[JUDGE_VIEWS * JUDGE_ASKED];
     for (int i = 0; i < JUDGE_VIEWS * JUDGE_ASKED; i++) {
-        const judge_view *v = &views[i / JUDGE_ASKED];
-        const answer *a = &v->first[i % JUDGE_ASKED];
-        vndf_vec3 wm = {(float)a->x, (float)a->y, (float)a->z};
+        const judge_view *v = &j->view[i / JUDGE_ASKED];
+        const answer *a = &v->first[i % JUDGE_ASKED].got;
+        const vndf_vec3 wm = {(float)a->x, (float)a->y, (float)a->z};
         asked[i] = (query){'p', v->wi, isfinite(wm.x + wm.y + wm.z) ? wm : v->wi};
     }
-    answer *got = process_ask(task->who, task->command, asked, JUDGE_VIEWS * JUDGE_ASKED);
+    answer *got = process_ask(task, asked, JUDGE_VIEWS * JUDGE_ASKED);
     for (int i = 0; i < JUDGE_VIEWS && got; i++) {
         double differs[JUDGE_ASKED];
-        for (int k = 0; k < JUDGE_ASKED; k++)
-            differs[k] = worst(0, fabs(views[i].first[k].pdf / got[i * JUDGE_ASKED + k].pdf - 1));
+        judge_fault most = {.worst = -1};
+        for (int k = 0; k < JUDGE_ASKED; k++) {
+            const exchange *e = &j->view[i].first[k];
+            const double beside = got[i * JUDGE_ASKED + k].pdf, differ = fabs(e->got.pdf / beside - 1);
+            differs[k] = isnan(differ) ? HUGE_VAL : differ;
+            judge_note(&most, differ, beside, e);
+        }
         sort_numbers(differs, JUDGE_ASKED);
-        views[i].found[JUDGE_AGREES] = differs[JUDGE_ASKED * 99 / 100];
+        most.worst = differs[JUDGE_ASKED * 99 / 100];
+        if (most.worst > j->fault[JUDGE_AGREES].worst)
+            j->fault[JUDGE_AGREES] = most;
     }
     free(got);
     return got != NULL;
 }
 
-/* ---- integrals ----------------------------------------------------------------------------------- */
+/* ---- roughness ----------------------------------------------------------------------------------- */
 
-/* A cell counts when its two rules differ by no more than this part of all mass, or in the last round: each of them
- * runs the command. */
-static const double CLOSE = 1e-6;
-enum { ROUNDS = 8, CELLS_MAX = 100000 };
-
-/* What is integrated; the efficiency is the reciprocal of SQUARE. */
-enum { MASS, TRUTH, DISTANCE, SQUARE, UNCOVERED };
-
-typedef struct integrating {
-    const judge_task *task;
-    judge_view *views;
-    vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
-    progress *bar;
-    double rounds;
-    int gave_up; /* after a complaint */
-} integrating;
-
-/* By theta and the azimuth from wi. */
-static int answer_densities(void *state, quadrature_point *at, size_t count)
+/* The total variation to the visible normals of a roughness is the mean over samples of (1 - Dv/p)+, which is bounded:
+ * samples whose density was asked for will do. */
+static double apart(const judgement *j, const vndf_distribution *distribution, float alpha_x, float alpha_y)
 {
-    integrating *of = state;
-    query *asked = malloc(count * sizeof *asked);
-    for (size_t i = 0; i < count && asked; i++) {
-        const judge_view *v = &of->views[at[i].bin / JUDGE_BINS];
-        const double theta = at[i].x, phi = at[i].y + v->turn, sine = sin(theta);
-        asked[i] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(theta)}};
-    }
-    progress_show(++of->rounds / ROUNDS, "densities", of->bar);
-    answer *got = process_ask(of->task->who, of->task->command, asked, count);
-    for (size_t i = 0; i < count && got; i++) {
-        const size_t view = at[i].bin / JUDGE_BINS;
-        const int is_valid = got[i].pdf >= 0 && isfinite(got[i].pdf);
-        const double p = is_valid ? got[i].pdf : 0, v = (double)vndf_visible(&of->truth[view], asked[i].x);
-        const double value[] = {p, v, fabs(p - v) / 2, p > 0 ? v / p * v : 0, p > 0 ? 0 : v};
-        for (int k = 0; k < QUADRATURE_VALUES; k++)
-            at[i].value[k] = value[k] * sin(at[i].x);
-        of->views[view].found[JUDGE_VALID] += !is_valid;
-    }
-    free(asked);
-    free(got);
-    of->gave_up = !got;
-    return got != NULL;
-}
-
-static size_t divide(const judge_view *views, quadrature_cell *to)
-{
-    size_t count = 0;
-    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS; i++) {
-        const judge_view *v = &views[i / JUDGE_BINS];
-        const double *theta = &v->ring[i % JUDGE_BINS / JUDGE_SECTORS], *phi = &v->sector[i % JUDGE_SECTORS];
-        if (theta[0] < theta[1] && phi[0] < phi[1])
-            to[count++] = (quadrature_cell){i, {theta[0], theta[1]}, {phi[0], phi[1]}, 0};
-    }
-    return count;
-}
-
-static int integrate(const judge_task *task, judge_view *views, progress *bar)
-{
-    enum { ALL = JUDGE_VIEWS * JUDGE_BINS };
-    integrating of = {task, views, {{0}}, bar, 0, 0};
-    const quadrature q = {answer_densities, &of, CLOSE, 0, 0, CELLS_MAX, CELLS_MAX, ROUNDS - 1};
-    quadrature_cell *cells = malloc(ALL * sizeof *cells);
-    quadrature_sum *sum = calloc(ALL, sizeof *sum);
-    for (int i = 0; i < JUDGE_VIEWS; i++)
-        of.truth[i] = vndf_view_from(&task->surface, views[i].wi);
-    const int good = cells && sum && quadrature_run(&q, cells, divide(views, cells), sum);
-    for (size_t i = 0; i < ALL && good; i++) {
-        judge_view *v = &views[i / JUDGE_BINS];
-        v->expected[i % JUDGE_BINS] = sum[i].value[MASS];
-        v->mass += sum[i].value[MASS];
-        v->mass_error += sum[i].error;
-        v->tv += sum[i].value[DISTANCE];
-        v->efficiency += sum[i].value[SQUARE]; /* its reciprocal, until all is there */
-        v->found[JUDGE_COVERS] += sum[i].value[UNCOVERED];
-    }
-    free(cells);
-    free(sum);
-    if (!good && !of.gave_up)
-        complain(task->who, "no memory");
-    return good;
-}
-
-/* ---- counts -------------------------------------------------------------------------------------- */
-
-int judge_is_hole(const judge_view *view, size_t bin)
-{
-    return view->expected[bin] >= 20 && view->observed[bin] == 0;
-}
-
-/* From integrals to what is expected of the samples: a density that is wrong by a factor alone has the right shape. */
-static void compare_counts(judge_view *v, size_t samples)
-{
-    double ring[2][JUDGE_RINGS + 1] = {{0}}, sector[2][JUDGE_SECTORS + 1] = {{0}}, even[JUDGE_BINS + 1];
-    double scale = v->mass > 0 ? (double)samples / v->mass : 0;
-    for (size_t i = 0; i <= JUDGE_BINS; i++) {
-        size_t its_sector = i < JUDGE_BINS ? i % JUDGE_SECTORS : JUDGE_SECTORS;
-        v->expected[i] *= scale;
-        even[i] = v->expected[i] * STRATIFIED / (double)samples;
-        ring[0][i / JUDGE_SECTORS] += v->expected[i];
-        ring[1][i / JUDGE_SECTORS] += v->observed[i];
-        sector[0][its_sector] += v->expected[i];
-        sector[1][its_sector] += v->observed[i];
-        v->found[JUDGE_HOLES] += judge_is_hole(v, i);
-    }
-    v->bins = pearson_of(v->expected, v->observed, JUDGE_BINS + 1);
-    v->rings = pearson_of(ring[0], ring[1], JUDGE_RINGS + 1);
-    v->sectors = pearson_of(sector[0], sector[1], JUDGE_SECTORS + 1);
-    pearson spread = pearson_of(even, v->stratified, JUDGE_BINS + 1);
-    v->scatter = spread.classes > 1 ? spread.statistic / (double)(spread.classes - 1) : 1;
-    v->found[JUDGE_MASS] = worst(0, fabs(v->mass - 1) - v->mass_error);
-    v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->mass) : 0;
-}
-
-double judge_least_p(const judge_view *views)
-{
-    double p = 1, statistic[2] = {0, 0};
-    size_t freedom[2] = {0, 0};
-    for (int i = 0; i < JUDGE_VIEWS; i++) {
-        const pearson *sums[] = {&views[i].rings, &views[i].sectors};
-        p = fmin(p, views[i].bins.p);
-        for (int k = 0; k < 2; k++) {
-            statistic[k] += sums[k]->statistic;
-            freedom[k] += sums[k]->classes ? sums[k]->classes - 1 : 0;
+    const vndf_surface surface = {distribution, alpha_x, alpha_y};
+    double sum = 0;
+    for (const judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
+        const vndf_view view = vndf_view_from(&surface, v->wi);
+        for (int k = 0; k < JUDGE_ASKED; k++) {
+            const answer *a = &v->first[k].got;
+            const vndf_vec3 wm = {(float)a->x, (float)a->y, (float)a->z};
+            const double part = 1 - (double)vndf_visible(&view, wm) / a->pdf;
+            sum += part > 0 ? part : 0;
         }
     }
-    for (int k = 0; k < 2; k++)
-        p = fmin(p, statistics_chi_square_p(statistic[k], freedom[k]));
-    return p;
+    return sum / (JUDGE_VIEWS * JUDGE_ASKED);
 }
 
-int judge_views(const judge_task *task, progress *bar, judge_view views[JUDGE_VIEWS])
+/* The roughness whose normals are nearest: steps from the one that is meant, along both axes and along each, of 8 at
+ * first, down to 2^(1/1024). */
+static void fit_roughness(const judge_task *task, judgement *j)
 {
-    for (int i = 0; i < JUDGE_VIEWS; i++) {
-        vndf_vec3 wi = direction_from(angles[i][0], angles[i][1]);
-        double turn = atan2((double)wi.y, (double)wi.x);
-        views[i] = (judge_view){.theta = angles[i][0], .phi = angles[i][1], .wi = wi, .turn = turn};
+    double at[2] = {log2((double)task->surface.alpha_x), log2((double)task->surface.alpha_y)}, step = 3;
+    j->fits_tv = HUGE_VAL;
+    while (step > 0x1p-10) {
+        const double from[2] = {at[0], at[1]}, before = j->fits_tv;
+        for (int k = 0; k < 9; k++) {
+            const double x = from[0] + step * (k % 3 - 1), y = from[1] + step * (double)(k / 3 - 1);
+            const double tv = apart(j, task->surface.distribution, (float)exp2(x), (float)exp2(y));
+            if (tv < j->fits_tv)
+                j->fits_tv = tv, at[0] = x, at[1] = y;
+        }
+        step = j->fits_tv < before ? step : step / 2;
     }
+    j->fits[0] = exp2(at[0]);
+    j->fits[1] = exp2(at[1]);
+}
+
+/* ---- the whole ----------------------------------------------------------------------------------- */
+
+int judge_sampler(const judge_task *task, progress *bar, judgement *j)
+{
     progress_step(bar, 0.5);
     progress_show(0, "samples", bar);
-    if (!draw(task, views) || !agree(task, views))
+    if (!draw(task, j) || !agree(task, j))
         return 0;
     progress_step(bar, 1);
-    if (!integrate(task, views, bar))
+    if (!judge_integrate(task, bar, j))
         return 0;
-    for (int i = 0; i < JUDGE_VIEWS; i++)
-        compare_counts(&views[i], task->samples);
+    judge_counts(j, task->samples);
+    if (task->surface.distribution)
+        fit_roughness(task, j);
     return 1;
 }

@@ -1,48 +1,99 @@
-/* The command's stdin and stdout are temporary files, so that neither side waits for the other. */
+/* The command's stdin and stdout are temporary files, so that neither side waits for the other. It is a process group
+ * of its own, which ends as a whole: when it is silent for too long, when the user stops the program, when it ends. */
 #define _XOPEN_SOURCE 700
 #include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "cli/arguments.h"
+#include "cli/output.h"
 #include "judge/judge.h"
 
-enum { LINE = 512 };
-
-static void print_query(char text[LINE], const query *q)
+/* Close to 1 nine digits are the number for those who read a float alone. */
+static int digits(float x)
 {
-    snprintf(text, LINE, "%c %.9g %.9g %.9g %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y,
-             (double)q->wi.z, (double)q->x.x, (double)q->x.y, (double)q->x.z);
+    return x > 0.99f ? 17 : 9;
 }
 
-/* 1, or 0 after a complaint. What is written beyond LINE bytes for each query is not taken, so that no disk fills. */
-static int run(const char *who, const char *command, size_t queries, FILE *in, FILE *out)
+/* Prints wi if it is another one than in the line before, since printing numbers is what takes time. */
+static void print_query(char text[JUDGE_LINE], const query *q, const query *before)
 {
-    struct rlimit was, limit;
-    struct stat written;
+    static int start;
+    if (!before || before->kind != q->kind || memcmp(&before->wi, &q->wi, sizeof q->wi) != 0)
+        start = sprintf(text, "%c %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y, (double)q->wi.z);
+    sprintf(text + start, " %.*g %.*g %.*g", digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y,
+            digits(q->x.z), (double)q->x.z);
+}
+
+void process_line(char text[JUDGE_LINE], const query *q)
+{
+    print_query(text, q, NULL);
+}
+
+static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
+{
     fflush(stdout);
-    getrlimit(RLIMIT_FSIZE, &was);
-    limit = was;
-    limit.rlim_cur = (rlim_t)(LINE * (queries + 1));
-    int stdin_was = dup(0), stdout_was = dup(1), status = -1;
-    if (dup2(fileno(in), 0) >= 0 && dup2(fileno(out), 1) >= 0)
-        status = setrlimit(RLIMIT_FSIZE, &limit) == 0 ? system(command) : -1;
-    int reason = errno;
-    setrlimit(RLIMIT_FSIZE, &was);
-    dup2(stdin_was, 0);
-    dup2(stdout_was, 1);
-    close(stdin_was);
-    close(stdout_was);
-    if (status == -1)
+    const pid_t child = fork();
+    if (child != 0)
+        return child;
+    struct rlimit limit;
+    setpgid(0, 0);
+    output_release_signals();
+    getrlimit(RLIMIT_FSIZE, &limit);
+    limit.rlim_cur = bytes < limit.rlim_max ? bytes : limit.rlim_max;
+    if (dup2(fileno(in), 0) >= 0 && dup2(fileno(out), 1) >= 0 && setrlimit(RLIMIT_FSIZE, &limit) == 0)
+        execl("/bin/sh", "sh", "-c", command, (char *)NULL);
+    _exit(127);
+}
+
+/* The status that it ended with; -1: it wrote nothing for too long, or the user stops. */
+static int wait_for(pid_t child, double timeout, FILE *out)
+{
+    struct timespec pause = {0, 500000};
+    struct stat written = {0};
+    double since = clock_seconds();
+    int status = -1;
+    for (off_t before = 0; waitpid(child, &status, WNOHANG) == 0; nanosleep(&pause, NULL)) {
+        pause.tv_nsec = pause.tv_nsec < 16000000 ? 2 * pause.tv_nsec : pause.tv_nsec;
+        if (fstat(fileno(out), &written) == 0 && written.st_size != before)
+            since = clock_seconds();
+        before = written.st_size;
+        if (clock_seconds() - since > timeout || output_stopping()) {
+            kill(-child, SIGKILL);
+            waitpid(child, &status, 0);
+            return -1;
+        }
+    }
+    kill(-child, SIGKILL);
+    return status;
+}
+
+/* 1, or 0 after a complaint. What is written beyond a line for each query is not taken, so that no disk fills. */
+static int run(const judge_task *task, size_t queries, FILE *in, FILE *out)
+{
+    const rlim_t bytes = (rlim_t)(JUDGE_LINE * (queries + 1));
+    const char *who = task->who, *command = task->command;
+    struct stat written;
+    output_hold_signals();
+    const pid_t child = begin(command, bytes, in, out);
+    const int reason = errno, status = child > 0 ? wait_for(child, task->timeout, out) : -1;
+    output_release_signals();
+    if (child < 0)
         return complain(who, "'%s' cannot be run: %s", command, strerror(reason)), 0;
-    if (fstat(fileno(out), &written) == 0 && (rlim_t)written.st_size >= limit.rlim_cur)
+    if (fstat(fileno(out), &written) == 0 && (rlim_t)written.st_size >= bytes)
         return complain(who, "'%s' writes without an end: more than %d bytes for each of %zu queries", command,
-                        LINE, queries),
+                        JUDGE_LINE, queries),
+               0;
+    if (status == -1)
+        return complain(who, "'%s' wrote nothing for %g s and was ended; --timeout allows it longer", command,
+                        task->timeout),
                0;
     if (WIFSIGNALED(status))
         return complain(who, "'%s' was ended by signal %d", command, WTERMSIG(status)), 0;
@@ -68,17 +119,19 @@ static int read_numbers(const char *line, size_t count, double *number)
 
 static int read_answers(const char *who, FILE *out, const query *queries, size_t count, answer *answers)
 {
-    char line[LINE], asked[LINE];
+    char line[JUDGE_LINE], asked[JUDGE_LINE];
     for (size_t i = 0; i < count; i++) {
         const int is_sample = queries[i].kind == 's';
         double number[4] = {0, 0, 0, 0};
-        print_query(asked, &queries[i]);
-        if (!fgets(line, sizeof line, out))
-            return complain(who, "%zu of %zu queries were answered; the next is: %s", i, count, asked), 0;
-        if (!read_numbers(line, is_sample ? 4 : 1, is_sample ? number : number + 3))
+        const int is_there = fgets(line, sizeof line, out) != NULL;
+        if (!is_there || !read_numbers(line, is_sample ? 4 : 1, is_sample ? number : number + 3)) {
+            process_line(asked, &queries[i]);
+            if (!is_there)
+                return complain(who, "%zu of %zu queries were answered; the next is: %s", i, count, asked), 0;
             return complain(who, "line %zu, '%.*s', is not %s; it answers: %s", i + 1, (int)strcspn(line, "\r\n"),
                             line, is_sample ? "wm.x wm.y wm.z pdf" : "a number, pdf", asked),
                    0;
+        }
         answers[i] = (answer){number[0], number[1], number[2], number[3]};
     }
     if (fgets(line, sizeof line, out))
@@ -86,23 +139,23 @@ static int read_answers(const char *who, FILE *out, const query *queries, size_t
     return 1;
 }
 
-answer *process_ask(const char *who, const char *command, const query *queries, size_t count)
+answer *process_ask(const judge_task *task, const query *queries, size_t count)
 {
-    char text[LINE];
+    char text[JUDGE_LINE];
     FILE *in = tmpfile(), *out = tmpfile();
     answer *answers = queries ? malloc(count * sizeof *answers) : NULL;
     int good = answers && in && out;
     for (size_t i = 0; i < count && good; i++) {
-        print_query(text, &queries[i]);
-        good = fprintf(in, "%s\n", text) > 0;
+        print_query(text, &queries[i], i ? &queries[i - 1] : NULL);
+        good = fputs(text, in) >= 0 && putc('\n', in) >= 0;
     }
     if (!answers)
-        complain(who, "no memory");
+        complain(task->who, "no memory");
     else if (!good || fflush(in) != 0 || fseek(in, 0, SEEK_SET) != 0)
-        good = !complain(who, "a temporary file cannot be written: %s", strerror(errno));
+        good = !complain(task->who, "a temporary file cannot be written: %s", strerror(errno));
     else
-        good = run(who, command, count, in, out) && fseek(out, 0, SEEK_SET) == 0 &&
-               read_answers(who, out, queries, count, answers);
+        good = run(task, count, in, out) && fseek(out, 0, SEEK_SET) == 0 &&
+               read_answers(task->who, out, queries, count, answers);
     if (in)
         fclose(in);
     if (out)

@@ -91,13 +91,6 @@ bins_sampler bins_of_view(const vndf_view *view, const vndf_surface *surface, vn
 
 /* ---- bins ---------------------------------------------------------------------------------------- */
 
-void bins_borders(double *border, size_t parts, double low, double high, const double *sorted, size_t count)
-{
-    for (size_t i = 0; i <= parts; i++)
-        border[i] =
-            i % 2 ? sorted[count * i / (parts + 1)] : low + (high - low) * (double)i / (double)(parts + parts % 2);
-}
-
 /* Without branches to mispredict: samples come in any order. */
 size_t bins_interval(const double *border, size_t parts, double x)
 {
@@ -120,9 +113,8 @@ void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RIN
         pilot[i] = atan(polar(&judged->frame, judged->draw(judged->of, u1, u2, &pdf), &azimuth));
     }
     sort_numbers(pilot, PILOTS);
-    bins_borders(slope, BINS_RINGS, 0, pi / 2, pilot, PILOTS);
     for (size_t i = 0; i < BINS_RINGS; i++)
-        slope[i] = tan(slope[i]);
+        slope[i] = tan(i % 2 ? pilot[PILOTS * i / (BINS_RINGS + 1)] : pi / 2 * (double)i / (BINS_RINGS + 1));
     slope[BINS_RINGS] = HUGE_VAL;
     sort_numbers(slope, BINS_RINGS + 1);
 }
@@ -151,7 +143,7 @@ static int answer(void *of, quadrature_point *at, size_t count)
         const double z = 1 / sqrt(1 + x * x + y * y);
         const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
         if (wide > 0)
-            p->value[0] = (double)judged->pdf(judged->of, wm) * z * z * z * fabs(f->det) * slope * slope * wide;
+            p->value = (double)judged->pdf(judged->of, wm) * z * z * z * fabs(f->det) * slope * slope * wide;
     }
     return 1;
 }
@@ -189,13 +181,13 @@ static const double ONE_ROUNDING = 0x1p-23;
 double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
                       double probability[BINS_COUNT])
 {
-    const quadrature q = {answer, (void *)judged, 1e-9, 0, ONE_ROUNDING, 1024, SIZE_MAX, 24};
+    const quadrature q = {answer, (void *)judged, 1e-9, 0, ONE_ROUNDING, 1024, 24};
     quadrature_cell *cells = malloc(RINGS_MAX * BINS_SECTORS * sizeof *cells);
     quadrature_sum *sum = calloc(BINS_COUNT, sizeof *sum);
     double change = 0;
     const int good = cells && sum && quadrature_run(&q, cells, divide(&judged->frame, slope, cells), sum);
     for (size_t i = 0; i < BINS_COUNT; i++) {
-        probability[i] = good ? sum[i].value[0] : (double)NAN;
+        probability[i] = good ? sum[i].value : (double)NAN;
         change += good ? sum[i].change : 0;
     }
     free(cells);

@@ -61,9 +61,7 @@ size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_ve
 double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
                       double probability[BINS_COUNT]);
 
-/* For bins of other kinds: borders, in no order yet, of which every other is even between low and high and the rest are
- * quantiles of what is sorted; and which of `parts` intervals of ascending borders holds x. */
-void bins_borders(double *border, size_t parts, double low, double high, const double *sorted, size_t count);
+/* For bins of other kinds: which of `parts` intervals of ascending borders holds x. */
 size_t bins_interval(const double *border, size_t parts, double x);
 
 #endif

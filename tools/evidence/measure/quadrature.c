@@ -18,28 +18,24 @@ static void place(const quadrature_cell *c, quadrature_point to[POINTS])
     const double x = (c->x[0] + c->x[1]) / 2, half_x = (c->x[1] - c->x[0]) / 2;
     const double y = (c->y[0] + c->y[1]) / 2, half_y = (c->y[1] - c->y[0]) / 2;
     for (int k = 0; k < POINTS; k++)
-        to[k] = (quadrature_point){c->bin, x + half_x * node[k / NODES], y + half_y * node[k % NODES], {0}};
+        to[k] = (quadrature_point){c->bin, x + half_x * node[k / NODES], y + half_y * node[k % NODES], 0};
 }
 
 /* differs[]: by how much the two rules do, along x and along y. */
 static quadrature_sum measure(const quadrature_cell *c, const quadrature_point at[POINTS], double differs[2])
 {
     const double half_y = (c->y[1] - c->y[0]) / 2, area = (c->x[1] - c->x[0]) / 2 * half_y;
-    double few[2][2] = {{0}}, along[NODES] = {0};
-    quadrature_sum sum = {{0}, 0, 0};
+    double few[2] = {0}, along[NODES] = {0};
+    quadrature_sum sum = {0, 0, 0};
     for (int k = 0; k < POINTS; k++) {
         const int i = k / NODES, j = k % NODES;
-        const double *value = at[k].value;
-        for (int v = 0; v < QUADRATURE_VALUES; v++)
-            sum.value[v] += area * lobatto[i] * lobatto[j] * value[v];
-        for (int v = 0; v < 2; v++) {
-            few[0][v] += area * simpson[i] * lobatto[j] * value[v];
-            few[1][v] += area * lobatto[i] * simpson[j] * value[v];
-        }
-        along[i] += half_y * lobatto[j] * value[0];
+        sum.value += area * lobatto[i] * lobatto[j] * at[k].value;
+        few[0] += area * simpson[i] * lobatto[j] * at[k].value;
+        few[1] += area * lobatto[i] * simpson[j] * at[k].value;
+        along[i] += half_y * lobatto[j] * at[k].value;
     }
     for (int i = 0; i < 2; i++)
-        differs[i] = fmax(fabs(few[i][0] - sum.value[0]), fabs(few[i][1] - sum.value[1]));
+        differs[i] = fabs(few[i] - sum.value);
     for (int i = 1; i < NODES; i++)
         sum.change += fabs(along[i] - along[i - 1]);
     sum.error = fmax(differs[0], differs[1]);
@@ -61,8 +57,7 @@ static size_t halve(const quadrature_cell *c, const double differs[2], double al
 
 static void add(quadrature_sum *to, const quadrature_sum *of)
 {
-    for (int v = 0; v < QUADRATURE_VALUES; v++)
-        to->value[v] += of->value[v];
+    to->value += of->value;
     to->error += of->error;
     to->change += of->change;
 }
@@ -71,7 +66,6 @@ static void add(quadrature_sum *to, const quadrature_sum *of)
 int quadrature_run(const quadrature *q, const quadrature_cell *cells, size_t count, quadrature_sum *sum)
 {
     quadrature_cell *waiting = malloc(count * sizeof *waiting);
-    size_t asked = 0;
     int good = waiting != NULL;
     if (good)
         memcpy(waiting, cells, count * sizeof *waiting);
@@ -83,7 +77,6 @@ int quadrature_run(const quadrature *q, const quadrature_cell *cells, size_t cou
         waiting = more ? more : waiting;
         good = more && cell && at;
         count -= now;
-        asked += now;
         for (size_t i = 0; i < now && good; i++) {
             cell[i] = waiting[count + i];
             place(&cell[i], at + i * POINTS);
@@ -92,9 +85,8 @@ int quadrature_run(const quadrature *q, const quadrature_cell *cells, size_t cou
         for (size_t i = 0; i < now && good; i++) {
             double differs[2];
             const quadrature_sum found = measure(&cell[i], at + i * POINTS, differs);
-            const double allowed =
-                fmax(fmax(q->absolute, q->relative * found.value[0]), q->rounding * found.change);
-            if (found.error <= allowed || cell[i].halvings == q->halvings || asked >= q->most)
+            const double allowed = fmax(fmax(q->absolute, q->relative * found.value), q->rounding * found.change);
+            if (found.error <= allowed || cell[i].halvings == q->halvings)
                 add(&sum[cell[i].bin], &found);
             else
                 count += halve(&cell[i], differs, allowed, waiting + count);

@@ -11,17 +11,14 @@ typedef struct quadrature_cell {
     int halvings; /* 0 */
 } quadrature_cell;
 
-/* Up to so many densities are integrated at once; the first two decide where cells are halved. */
-enum { QUADRATURE_VALUES = 5 };
-
 typedef struct quadrature_point {
     size_t bin;
-    double x, y, value[QUADRATURE_VALUES];
+    double x, y, value;
 } quadrature_point;
 
 typedef struct quadrature_sum {
-    double value[QUADRATURE_VALUES], error;
-    double change; /* of the first along x, from point to point, integrated over y */
+    double value, error;
+    double change; /* along x, from point to point, integrated over y */
 } quadrature_sum;
 
 typedef struct quadrature {
@@ -29,8 +26,8 @@ typedef struct quadrature {
     void *of;
     double absolute, relative; /* what a cell may err, whichever is larger; relative: to its first integral */
     double rounding;           /* of x: a cell may err by its change times this, too */
-    size_t at_once, most; /* cells whose points are asked for together; in all, before none is halved any more */
-    int halvings;         /* of a cell */
+    size_t at_once;            /* cells whose points are asked for together */
+    int halvings;              /* of a cell */
 } quadrature;
 
 /* Adds the integrals over cells to sum[bin]. 0 if `answer` gave up or there was no memory. */
