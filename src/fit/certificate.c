@@ -247,7 +247,7 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
  * left of c below the horizon loses digits of floats (law_area_in). */
 static double area_error_at(const survey *s, int cell, double rho)
 {
-    const double floats = 0x1.8p-23, digits = 4e-4;
+    const double floats = 0x1p-22, digits = 4e-4;
     table t = s->table;
     if (!(rho >= RHO_LEAST && rho <= RHO_MOST))
         return 0;
