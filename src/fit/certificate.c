@@ -17,7 +17,7 @@ static const double PI = 3.14159265358979323846;
 static const double LEFT_OUT = 1e-6; /* the part of what a direction sees that the largest weight leaves out */
 static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30; /* claims end there */
 static const double Z_LEAST = 1e-26;                        /* law_length draws no less */
-enum { CELLS_MOST = 128, RATIOS = 1024, PER_OCTAVE = 32 };
+enum { CELLS_MOST = 256, RATIOS = 1024, PER_OCTAVE = 32 };
 
 /* What one direction shows on one side. */
 enum { TV, WEIGHT, CONSISTENCY, FIGURES };
