@@ -213,15 +213,17 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
 {
     integrating of = {.task = task, .j = j, .stream = random_from(task->seed ^ 0x5851F42D4C957F2Du)};
     int good = (of.cells = malloc(CELLS_MAX * sizeof *of.cells)) != NULL;
-    for (size_t i = 0; i < JUDGE_VIEWS * JUDGE_BINS && good; i++) {
-        const judge_view *v = &j->view[i / JUDGE_BINS];
-        const double *theta = &v->ring[i % JUDGE_BINS / v->sectors], *phi = &v->sector[i % v->sectors];
-        if (i % JUDGE_BINS < v->rings * v->sectors && theta[0] < theta[1] && phi[0] < phi[1])
-            of.cells[of.count++] = (cell){.bin = i, {theta[0], theta[1]}, {phi[0], phi[1]}, .urgency = -1};
+    for (size_t i = 0; i < JUDGE_VIEWS && good; i++) {
+        const judge_view *v = &j->view[i];
+        of.truth[i] = vndf_view_from(&task->surface, v->wi);
+        for (size_t k = 0; k < v->rings * v->sectors; k++) {
+            const double *theta = &v->ring[k / v->sectors], *phi = &v->sector[k % v->sectors];
+            if (theta[0] < theta[1] && phi[0] < phi[1])
+                of.cells[of.count++] = (cell){
+                    .bin = i * JUDGE_BINS + k, .x = {theta[0], theta[1]}, .y = {phi[0], phi[1]}, .urgency = -1};
+        }
     }
     of.bins = of.count;
-    for (int i = 0; i < JUDGE_VIEWS; i++)
-        of.truth[i] = vndf_view_from(&task->surface, j->view[i].wi);
     for (int round = 0; round < ROUNDS && good; round++) {
         progress_show((double)round / ROUNDS, "densities", bar);
         good = ask(&of);
