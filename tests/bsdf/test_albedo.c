@@ -218,6 +218,11 @@ static void test_values(const subject *s)
         }
         check_pair(s, alpha, wi, wo);
         is.alpha_y *= k % 3 ? 1 : 0.3f;
+        if (s->ways > 1 && k % 4 == 1) { /* what glass reflects inside */
+            is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+            is.eta = 1.5f;
+            wi.z = -wi.z;
+        }
         check_sample(hit_from(&h, &is, wi), u);
     }
 }
