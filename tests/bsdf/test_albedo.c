@@ -130,7 +130,7 @@ static void test_energy(const subject *s)
     printf("%s, eta %g: at most %.2g of the light too much or lost\n", s->name, (double)s->eta, worst);
 }
 
-/* Gold is less than white, and gets back less than all that is lost. */
+/* Gold is less than white, and gets back less than all that is lost: by Kulla & Conty (2017) the part F_ms. */
 static void test_colours(const subject *s)
 {
     double got[3];
@@ -142,6 +142,9 @@ static void test_colours(const subject *s)
     }
     for (int k = 0; k < 2; k++)
         TEST(got[k] > got[2] + 0.02 && got[k] < 0.75);
+    double f = 0.6 + 0.4 / 21, e = (double)vndf_albedo_average(s->albedo, 0.8f); /* F_avg of Schlick, E_avg */
+    double lost = 1 - (double)vndf_albedo_directional(s->albedo, 0.6f, 0.8f);
+    TEST_NEAR(got[1] - got[2], lost * f * f * e / (1 - f * (1 - e)), 1e-3);
 }
 
 /* F_avg = 2 int F(mu) mu dmu: of Schlick f0 + (1 - f0)/21, of glass by quadrature over the angle. */
@@ -215,6 +218,11 @@ static void test_values(const subject *s)
         }
         check_pair(s, alpha, wi, wo);
         is.alpha_y *= k % 3 ? 1 : 0.3f;
+        if (s->ways > 1 && k % 4 == 1) { /* what glass reflects inside */
+            is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+            is.eta = 1.5f;
+            wi.z = -wi.z;
+        }
         check_sample(hit_from(&h, &is, wi), u);
     }
 }

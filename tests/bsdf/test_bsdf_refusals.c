@@ -156,6 +156,10 @@ static void test_numbers(void)
     none.distribution = NULL;
     refuse(&none, "distribution");
     refuse(NULL, "the description is NULL");
+    vndf_description straight = good((vndf_effects){
+        .lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_SCHLICK, .scattering = VNDF_SCATTERING_MULTIPLE});
+    straight.eta = 1;
+    refuse(&straight, "eta is 1: a walk needs another");
     for (int i = 0; i < 4; i++) { /* a mean slope counts where the shape has one */
         const float means[] = {0.5f, 1e7f, INFINITY, NAN};
         vndf_description is = with((vndf_effects){.shape = VNDF_SHAPE_MATRIX}, AT(affine.mean_x), means[i]);

@@ -37,6 +37,16 @@ static vndf_vec3 between(vndf_vec3 a, vndf_vec3 b, float t)
     return (vndf_vec3){w.x * per, w.y * per, w.z * per};
 }
 
+/* Whether, without a lobe, it is that which draws the normal most often. */
+static int finds_likeliest(const vndf_mixture_view *m, vndf_vec3 wm)
+{
+    float u1, u2, often[VNDF_MIXTURE_LOBES] = {0}, most = 0;
+    for (int i = 0; i < m->count; i++)
+        most = fmaxf(most, often[m->part[i].lobe] = m->part[i].share * vndf_pdf(&m->part[i].view, wm));
+    int lobe = vndf_mixture_invert(m, wm, -1, &u1, &u2);
+    return lobe >= 0 && often[lobe] == most;
+}
+
 /* The normal of two of these numbers or, with `t` above 0, one between that and the normal of the others, where D is
  * not so small that no number stands for it. */
 static int comes_back(const seen *s, const float u[4], float t, double *lost)
@@ -55,7 +65,8 @@ static int comes_back(const seen *s, const float u[4], float t, double *lost)
     bins_frame f = bins_frame_from(&s->of.lobe[drawn].surface, s->wi);
     const vndf_vec3 back = seen_draw(s, v1, v2, NULL);
     *lost = bins_apart(&f, wm, back);
-    if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
+    if (lobe != drawn || (s->kind == SEEN_MIXTURE && !finds_likeliest(&s->mixture, wm)) ||
+        !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
     return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, v1, v2, back);
 }

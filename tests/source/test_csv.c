@@ -122,8 +122,8 @@ static void test_points(void)
         {"slope,p22\n0,1\n2,3\n", 20, 3e-4},           /* it rises */
         {"slope,p22\n0,1\n1,1\n1.000001,0\n", 1e300, 0},
         {"slope,p22\n0,1\n1,1\n1.000001,0\n", 0.7, 1},
-        {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e9, 1e-36},        /* D at 90 degrees is given */
-        {"theta,ndf\n0,3\n0.5,2\n1.5707963263,1\n", 1e9, 1e-36}, /* or nearly there */
+        {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e9, 1e-36},           /* D at 90 degrees is given */
+        {"theta,ndf\n0,3\n0.5,200\n1.5707963263,1\n", 1e14, 1e-56}, /* or nearly there */
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1, 0.5},
         {"theta_deg,ndf\n0,3\n45,2\n90,1\n", 1e300, 0},
         {"theta_deg,ndf\n0,3\n80,0.171\n90,0\n", 11.430052302761343,

@@ -72,6 +72,7 @@ static void test_own_words(void)
     static const char *const bad[][2] = {
         {"", "a description of 0 characters"},
         {"--height a\nb", "column 11 of the description: a control character"},
+        {"--height a\177", "column 11 of the description: a control character"},
         {"--height 'a", "column 10: a quote in this word is not closed"},
         {"--family ggx", "begins as that of a formula or a family"},
         {"'--slope' 1", "begins as that of a formula or a family"},

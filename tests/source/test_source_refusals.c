@@ -105,6 +105,10 @@ static void test_calls(void)
     refused(vndf_source_slope_expression("a", NULL, 1, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     refused(vndf_source_slope_expression("a", &nameless, 1, &error), &error, VNDF_ERROR_ARGUMENT, "a letter");
     refused(vndf_source_family(NULL, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
+    char many[1024] = "--slope r";
+    for (int i = 0; i <= VNDF_LIMIT_PARAMETERS; i++)
+        strcat(many, " --set a=1");
+    refused(vndf_source_from_description(many, &error), &error, VNDF_ERROR_ARGUMENT, "more than 64 parameters");
     refused(vndf_source_ndf_callback(NULL, NULL, "x", &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
 }
 

@@ -24,7 +24,7 @@ static const broken_rule RULES[] = {
     {DENSITY_LEFT, 24, FLOAT, 1e9, "density is out of range"},
     {DENSITY_RIGHT, -4, FLOAT, (double)NAN, "density is out of range"},
     {M0, 12, FLOAT, 0, "moment is out of range"},
-    {M0, 160, FLOAT, 0.5, "add up to 1"},
+    {M0, 160, FLOAT, 0.05, "add up to 1"},
     {M1, 12, FLOAT, -1, "moment is out of range"},
     {M1, 24, FLOAT, 0.5, "moment is out of range"},
     {M2, -4, FLOAT, (double)INFINITY, "moment is out of range"},
@@ -36,6 +36,7 @@ static const broken_rule RULES[] = {
     {AREA, 0, FLOAT, 0, "area is out of range"},
     {SLOPE, 12, FLOAT, (double)NAN, "area is out of range"},
     {SLOPE, 24, FLOAT, 1e9, "area is out of range"},
+    {SLOPE, 24, FLOAT, -1e9, "area is out of range"},
     {FILE_START, SCALES + 4, WORD, 0x7ff00000, "scale or normalization"}, /* an infinite double, and no number */
     {FILE_START, SCALES + 4, WORD, 0xfff80000, "scale or normalization"},
     {FILE_START, SCALES + 12, WORD, 0x7ff00000, "scale or normalization"},
