@@ -1,5 +1,4 @@
-/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is
- * not. */
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
 #include "vndf_build.h"

@@ -1,9 +1,8 @@
-/* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written
- * out once more.
+/* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written out once
+ * more.
  *
- * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with
- * normals ~ (r cos a, r sin a, 1), so that the visible density in slope area is
- * P22(r) max(0, c + s r cos a) / A(s, c). */
+ * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with normals ~
+ * (r cos a, r sin a, 1), so that the visible density in slope area is P22(r) max(0, c + s r cos a) / A(s, c). */
 #ifndef TESTS_ORACLE_ORACLE_H
 #define TESTS_ORACLE_ORACLE_H
 
@@ -13,17 +12,8 @@
 #include "vndf_build.h"
 
 /* The shapes, in the order of oracle_get; that of a table is ORACLE_COUNT. */
-enum {
-    ORACLE_GGX,
-    ORACLE_BECKMANN,
-    ORACLE_STUDENT,
-    ORACLE_LAPLACE,
-    ORACLE_MEASURED,
-    ORACLE_HAZE,
-    ORACLE_RING,
-    ORACLE_DISC,
-    ORACLE_COUNT
-};
+enum { ORACLE_GGX, ORACLE_BECKMANN, ORACLE_STUDENT, ORACLE_LAPLACE, ORACLE_MEASURED, ORACLE_HAZE };
+enum { ORACLE_RING = ORACLE_HAZE + 1, ORACLE_DISC, ORACLE_COUNT };
 
 typedef struct oracle {
     const char *name; /* how the builder gets it: a family, or a formula of slopes */

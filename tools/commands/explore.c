@@ -200,10 +200,5 @@ static int run(const arguments *given)
     return status;
 }
 
-const subcommand command_explore = {name,
-                                    "a page that draws tables, GGX and Beckmann side by side in a browser",
-                                    "FILE",
-                                    1,
-                                    EXPORT_TABLES_MAX,
-                                    run,
-                                    help};
+const subcommand command_explore = {
+    name, "a page that draws tables, GGX and Beckmann side by side", "FILE", 1, EXPORT_TABLES_MAX, run, help};

@@ -17,7 +17,7 @@ static const double VARIES = 1e-2;       /* what P22 may be off a cubic in a pan
 static const double LITTLE_MASS = 1e-15, LITTLE_AREA = 1e-18; /* of a panel, of all: it is left out */
 static const double ROUNDING = 0x1p-22;                       /* of cot(theta) and of slopes: two of floats */
 enum { GAUSS = 4, TRIED = 2 * GAUSS + 2, QUANTILES = 1024, PANELS_MOST = 1 << 17, JUMPS_MOST = 32 };
-enum { GRADES = 200, PARTS = 24, BINS = 4096, PER_BIN = 64 };
+enum { GRADES = 200, PARTS = 24, BINS = 4096, PER_OCTAVE = 64 };
 static const double place[GAUSS] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
                                     0.93056815579702629};
 static const double share[2] = {0.17392742256872693, 0.32607257743127307};
@@ -31,11 +31,6 @@ typedef struct point {
     float x, z;         /* the normal that leans towards it */
 } point;
 
-/* Of each value what part has it, in bins that are even between powers of 2. */
-typedef struct spread {
-    double part[BINS];
-} spread;
-
 /* Panel i is from end[2 i] to end[2 i + 1] and has GAUSS points. `count` of them ascend; then there is room for GRADES
  * of the direction at hand. */
 typedef struct laws {
@@ -47,27 +42,25 @@ typedef struct laws {
     point at[GAUSS * PANELS_MOST];
     float x[GAUSS * PANELS_MOST], y[GAUSS * PANELS_MOST], z[GAUSS * PANELS_MOST], pdf[GAUSS * PANELS_MOST];
     double mass[2], tail[2]; /* integrals of P22 R dR and P22 R^2 dR: all, and beyond the panels */
-    spread spread;
+    double part[BINS];       /* of all, that has a value: bins are even in its logarithm */
     laws_figure *worst;
     double rho[LAWS_FIGURES]; /* where it was found; negative below the horizon */
 } laws;
 
-static void add_to(spread *s, double value, double part)
+static void add_to(laws *l, double value, double part)
 {
-    int power;
-    double digits = frexp(fmin(fmax(value, 1e-9), 1e9), &power);
-    s->part[(power + 32) * PER_BIN + (int)((2 * digits - 1) * PER_BIN)] += part;
+    l->part[BINS / 2 + (int)floor(PER_OCTAVE * log2(fmin(fmax(value, 1e-9), 1e9)))] += part;
 }
 
 /* The largest value, but for LEFT_OUT of all; empties the bins. */
-static double take_most(spread *s)
+static double take_most(laws *l)
 {
     double sum = 0;
     int i = BINS;
     while (i > 0 && sum <= LEFT_OUT)
-        sum += s->part[--i];
-    memset(s, 0, sizeof *s);
-    return i == 0 ? 0 : ldexp(1 + (i % PER_BIN + 0.5) / PER_BIN, i / PER_BIN - 33);
+        sum += l->part[--i];
+    memset(l->part, 0, sizeof l->part);
+    return i == 0 ? 0 : exp2((i + 0.5 - BINS / 2) / PER_OCTAVE);
 }
 
 /* ---- points ---- */
@@ -213,19 +206,16 @@ static size_t grade(laws *l, double rho, size_t *end)
     for (size_t step = PANELS_MOST; step > 0; step /= 2)
         first += first + step <= l->count && l->end[2 * (first + step) - 1] <= rho ? step : 0;
     for (; first < l->count && *end + PARTS < l->count + GRADES; first++) {
-        double to = l->end[2 * first + 1], from = fmax(l->end[2 * first], rho), parts[PARTS], width = to - rho;
-        int n = 0;
-        if (width <= 1.5 * (from - rho))
+        double to = l->end[2 * first + 1], from = fmax(l->end[2 * first], rho), next;
+        const double least = fmax(1e-4 * (to - rho), LEAST * rho);
+        if (to - rho <= 1.5 * (from - rho))
             break;
-        for (parts[n++] = to; n < PARTS && width > 1.5 * (from - rho) && width > LEAST * rho; width *= 0.66)
-            parts[n++] = rho + 0.66 * width;
-        while (n-- > 0)
-            if (parts[n] > from) {
-                point at[GAUSS];
-                put_points(l, from, parts[n], at);
-                add_panel(l, (*end)++, from, parts[n], at);
-                from = parts[n];
-            }
+        for (; from < to; from = next) {
+            point at[GAUSS];
+            next = fmin(rho + 1.5 * fmax(from - rho, least), to);
+            put_points(l, from, next, at);
+            add_panel(l, (*end)++, from, next, at);
+        }
     }
     return first;
 }
@@ -255,16 +245,10 @@ static void look_from(laws *l, double rho)
     }
     if (!(area > AREA_LEAST * hypot(s, c * l->scale) * l->mass[1] / PI))
         return;
-    const vndf_batch batch = {l->surface.distribution,
-                              end - from,
-                              VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
-                              VNDF_INSTRUCTIONS_BEST,
-                              &l->surface.alpha_x,
-                              &l->surface.alpha_y,
-                              &wi.x,
-                              &wi.y,
-                              &wi.z,
-                              .lobes = 0};
+    vndf_batch batch = {.distribution = l->surface.distribution, .count = end - from};
+    batch.shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
+    batch.alpha_x = batch.alpha_y = &l->surface.alpha_x;
+    batch.wi_x = &wi.x, batch.wi_y = &wi.y, batch.wi_z = &wi.z;
     vndf_pdf_n(&batch, (vndf_normals){l->x + from, l->y, l->z + from}, l->pdf + from);
     double drawn = 0, rarely = beyond / area, often = 0, unsure = 0;
     for (size_t i = from; i < end; i++) {
@@ -279,14 +263,14 @@ static void look_from(laws *l, double rho)
         rarely += fmax(right - is, 0);
         often += fmax(is - right, 0);
         if (right > is)
-            add_to(&l->spread, right / is - 1, right);
+            add_to(l, right / is - 1, right);
     }
     const double slack = ROUNDING * moved / area, both = slack + ROUNDING * steep / area,
                  tv = fmax(fmax(rarely, often) - both, 0);
     take(l, LAWS_TV, tv, rho);
     if (rho >= 0)
         take(l, LAWS_TV_ABOVE, tv, rho);
-    take(l, LAWS_MAX_WEIGHT, 1 + take_most(&l->spread), rho);
+    take(l, LAWS_MAX_WEIGHT, 1 + take_most(l), rho);
     take(l, LAWS_AREA_ERROR,
          fmax(fabs((double)vndf_projected_area(&l->surface, wi) * l->mass[0] / area - 1) - slack, 0), rho);
     /* points miss some of what is drawn at knots */
@@ -352,9 +336,9 @@ static double ndf_error(laws *l)
     for (size_t i = 0; i < GAUSS * l->count; i++) {
         const point *at = &l->at[i];
         if (at->p > 0 && is_decided(l, i, 0))
-            add_to(&l->spread, fabs(2 * PI * l->mass[0] * at->drawn / at->p - 1), at->mass / l->mass[0]);
+            add_to(l, fabs(2 * PI * l->mass[0] * at->drawn / at->p - 1), at->mass / l->mass[0]);
     }
-    return take_most(&l->spread);
+    return take_most(l);
 }
 
 int laws_measure(const vndf_distribution *table, const vndf_source *source, int per_octave,

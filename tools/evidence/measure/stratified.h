@@ -1,7 +1,6 @@
-/* What a renderer sees of a sampler's map: the error of light that is reflected, estimated with few
- * Owen-scrambled Sobol points (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; hashes after
- * Burley, "Practical Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points
- * have over random numbers. */
+/* What a renderer sees of a sampler's map: the error of light that is reflected, estimated with few Owen-scrambled
+ * Sobol points (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; hashes after Burley, "Practical
+ * Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points have over random numbers. */
 #ifndef TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
 #define TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
 

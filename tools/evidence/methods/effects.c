@@ -1,6 +1,5 @@
-/* Effect by effect: the sets, from bare reflection upward, the materials made of them, and the loops over
- * vndf_bsdf.h, which do the work of a renderer at a hit. The line of a set says how it differs from bare
- * reflection. */
+/* Effect by effect: the sets, from bare reflection upward, the materials made of them, and the loops over vndf_bsdf.h,
+ * which do the work of a renderer at a hit. The line of a set says how it differs from bare reflection. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,12 +106,9 @@ static void density(const method *m, block *b)
 
 static void batch(const method *m, block *b)
 {
-    const vndf_bsdf_batch of = {.material = &((const effect_case *)m->state)->material,
-                                .count = b->count,
-                                .limit = b->limit,
-                                .wi_x = b->wi[0],
-                                .wi_y = b->wi[1],
-                                .wi_z = b->wi[2]};
+    const effect_case *e = m->state;
+    vndf_bsdf_batch of = {.material = &e->material, .count = b->count, .limit = b->limit};
+    of.wi_x = b->wi[0], of.wi_y = b->wi[1], of.wi_z = b->wi[2];
     const float *const u[3] = {b->u[0], b->u[1], b->u[2]};
     const vndf_scattered_n to = {{b->x, b->y, b->z},
                                  {b->value[0], b->value[1], b->value[2]},
