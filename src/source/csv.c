@@ -235,13 +235,9 @@ static csv_source *allocate(size_t rows, vndf_rows_over over, vndf_rows_of of, v
     csv_source *s = calloc(1, sizeof *s);
     double *numbers = calloc(4 * rows, sizeof *numbers);
     if (s && numbers) {
-        *s = (csv_source){.base = {.p22 = p22, .destroy = destroy, .reach = reach, .operations = OPERATIONS},
-                          .over = over,
-                          .of = of,
-                          .slope = numbers,
-                          .x = numbers + rows,
-                          .y = numbers + 2 * rows,
-                          .change = numbers + 3 * rows};
+        s->base = (vndf_source){.p22 = p22, .destroy = destroy, .reach = reach, .operations = OPERATIONS};
+        s->over = over, s->of = of;
+        s->slope = numbers, s->x = numbers + rows, s->y = numbers + 2 * rows, s->change = numbers + 3 * rows;
         return s;
     }
     free(s);

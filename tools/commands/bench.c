@@ -95,11 +95,9 @@ static int run(const arguments *given)
     const int is_of_materials = option_value(given, "--effects") != NULL;
     vndf_surface surface;
     subject s;
-    evidence_plan plan = {.at_hand = &s,
-                          .is_of_materials = is_of_materials,
-                          .theta = 60,
-                          .seconds = is_of_materials ? 15 : 40,
-                          .only = option_value(given, "--only")};
+    evidence_plan plan = {.at_hand = &s, .is_of_materials = is_of_materials, .theta = 60};
+    plan.seconds = is_of_materials ? 15 : 40;
+    plan.only = option_value(given, "--only");
     if (!roughness_from(name, alpha ? alpha : "0.5", &surface) ||
         !option_number(given, "--seconds", 0.01, 3600, &plan.seconds) ||
         !option_number(given, "--theta", 0, 89.9, &plan.theta))
