@@ -3,8 +3,7 @@
  *
  * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with normals ~
  * (r cos a, r sin a, 1), so that the visible density in slope area is P22(r) max(0, c + s r cos a) / A(s, c). */
-#ifndef TESTS_ORACLE_ORACLE_H
-#define TESTS_ORACLE_ORACLE_H
+#pragma once
 
 #include <stddef.h>
 
@@ -76,5 +75,3 @@ vndf_vec3 oracle_direction(double theta, double phi);
 /* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
  * name is its first argument. mutants.py asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
-
-#endif

@@ -1,6 +1,5 @@
 /* Files that are not trusted: their bytes, their lines as words, and what is said where they are wrong. */
-#ifndef TOOLS_RENDER_LINES_H
-#define TOOLS_RENDER_LINES_H
+#pragma once
 
 #include <stddef.h>
 
@@ -34,5 +33,3 @@ int lines_next(lines *in);
 
 /* A decimal number; 0 after a refusal. */
 int read_number(const lines *in, const char *word, double *number);
-
-#endif
