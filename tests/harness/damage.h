@@ -2,8 +2,6 @@
  * it holds. */
 #pragma once
 
-#include <stdlib.h>
-
 #include "core/checksum.h"
 #include "harness/test.h"
 #include "vndf.h"

@@ -5,8 +5,6 @@
  * (r cos a, r sin a, 1), so that the visible density in slope area is P22(r) max(0, c + s r cos a) / A(s, c). */
 #pragma once
 
-#include <stddef.h>
-
 #include "oracle/oracle_table.h"
 #include "vndf_build.h"
 

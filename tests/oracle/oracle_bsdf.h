@@ -6,8 +6,6 @@
  * A = cos (1 + Lambda), which stays finite; the formulas divide as they are printed. */
 #pragma once
 
-#include <stddef.h>
-
 #include "oracle/oracle.h"
 #include "vndf_bsdf.h"
 

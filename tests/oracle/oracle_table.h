@@ -7,8 +7,6 @@
  * has the density (c + s R cos a)+. A surface has slopes M u + mean, u of the table. */
 #pragma once
 
-#include <stddef.h>
-
 #include "vndf.h"
 
 typedef struct oracle_table {

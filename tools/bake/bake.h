@@ -10,8 +10,6 @@
  */
 #pragma once
 
-#include <stddef.h>
-
 #include "cli/progress.h"
 #include "draw/page.h"
 #include "vndf_bsdf.h"

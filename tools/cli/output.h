@@ -3,8 +3,6 @@
  * signal through after the temporary is gone. */
 #pragma once
 
-#include <stdio.h>
-
 #include "core/replace_file.h"
 
 typedef struct output_file {

@@ -1,11 +1,6 @@
 /* vndf bench: what a normal and, with --effects, what each effect of a BSDF costs and is worth, beside everything else
  * that a user could pick. */
-#include <stdio.h>
 
-#include "cli/arguments.h"
-#include "cli/figures.h"
-#include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "evidence/evidence.h"

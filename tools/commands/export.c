@@ -1,15 +1,11 @@
 /* vndf export: the sampler and tables as one file for another language or processor. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
-#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/named_tables.h"
-#include "export/export.h"
 #include "measured/measured.h"
 
 static const char name[] = "vndf export";

@@ -3,9 +3,6 @@
  * before that leaves the folder as it was. */
 #pragma once
 
-#include <stddef.h>
-#include <stdio.h>
-
 #include "cli/figures.h"
 #include "cli/output.h"
 

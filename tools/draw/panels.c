@@ -1,7 +1,6 @@
 #include "draw/panels.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "cli/random.h"
 #include "cli/sort.h"

@@ -13,7 +13,6 @@
  * All methods run in one process and take turns; each is verified before its time counts. */
 #pragma once
 
-#include "cli/figures.h"
 #include "cli/progress.h"
 #include "draw/page.h"
 #include "evidence/method.h"

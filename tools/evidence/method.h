@@ -6,9 +6,6 @@
  * may inline it, and are compiled without vector loops (CMakeLists.txt). */
 #pragma once
 
-#include <stddef.h>
-#include <stdint.h>
-
 #include "vndf_bsdf.h"
 
 typedef enum row_kind {

@@ -1,8 +1,6 @@
 /* Files of measurements, and the rows of D or P22 that every reader of them ends in, for vndf_source_rows. */
 #pragma once
 
-#include <stdio.h>
-
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "render/image.h"

@@ -1,7 +1,6 @@
 /* Shapes, and the nearest one along a ray: a bounding-volume hierarchy over all of them. */
 #pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "render/vector.h"

@@ -2,7 +2,6 @@
  * PFM and as PNG (8 bits, sRGB). */
 #pragma once
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "vndf.h"

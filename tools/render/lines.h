@@ -1,8 +1,6 @@
 /* Files that are not trusted: their bytes, their lines as words, and what is said where they are wrong. */
 #pragma once
 
-#include <stddef.h>
-
 #include "cli/arguments.h"
 #include "vndf.h"
 

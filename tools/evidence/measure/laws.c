@@ -1,7 +1,6 @@
 #include "evidence/measure/laws.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/sort.h"
@@ -155,11 +154,12 @@ static int place_points(laws *l)
 {
     const size_t even = (size_t)(log(SLOPE_MOST / SLOPE_LEAST) / FIRST), all = even + 1 + QUANTILES;
     double *first = malloc(all * sizeof *first), end = SLOPE_MOST, n = 4;
-    for (size_t i = 0; first && i < all; i++)
+    if (!first)
+        return 0;
+    for (size_t i = 0; i < all; i++)
         first[i] = first_end(l, i, even);
-    if (first)
-        sort_numbers(first, all);
-    for (size_t i = 0; first && i + 1 < all; i++)
+    sort_numbers(first, all);
+    for (size_t i = 0; i + 1 < all; i++)
         if (first[i + 1] > first[i]) {
             point at[GAUSS];
             put_points(l, first[i], first[i + 1], at);
@@ -175,7 +175,7 @@ static int place_points(laws *l)
         l->mass[1] += l->at[i].mass * l->at[i].r;
     }
     free(first);
-    return first != NULL;
+    return 1;
 }
 
 /* Not where floats do not tell a point from rho, or from the other side of a jump. */
@@ -308,7 +308,6 @@ static int look_around(laws *l, int per_octave, vndf_progress *progress, void *u
 static void look_closer(laws *l, const vndf_certificate *c, int per_octave)
 {
     static const double beside[] = {-0.3, -0.05, -1e-2, -1e-3, -3e-4, -1e-4, -1e-5, 0, 1e-4, 1e-2};
-    const double said[] = {(double)c->tv_theta * PI / 180, (double)c->tv_above_theta * PI / 180};
     double jump = 0;
     for (size_t i = 0, jumps = 0; i < l->count && jumps < JUMPS_MOST; i++) {
         const double r = l->end[2 * i + 1];
@@ -321,8 +320,8 @@ static void look_closer(laws *l, const vndf_certificate *c, int per_octave)
     }
     look_from(l, 0);
     look_from(l, 1e6);
-    for (int i = 0; i < 2; i++)
-        look_both_ways(l, fabs(1 / (tan(said[i]) * l->scale)));
+    look_both_ways(l, fabs(1 / (tan((double)c->tv_theta * PI / 180) * l->scale)));
+    look_both_ways(l, fabs(1 / (tan((double)c->tv_above_theta * PI / 180) * l->scale)));
     for (int figure = LAWS_TV; figure <= LAWS_AREA_ERROR; figure++)
         for (double apart = 0.5 / per_octave; apart > 1e-5; apart /= 2) {
             const double at = l->rho[figure];

@@ -3,7 +3,6 @@
  * Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points have over random numbers. */
 #pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "vndf.h"

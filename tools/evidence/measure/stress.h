@@ -4,7 +4,6 @@
  * them). Each property is a number that is 0 at best and must not exceed its limit. */
 #pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "vndf.h"
