@@ -116,8 +116,7 @@ VNDF_API void vndf_free(vndf_distribution *distribution);
  * Visible GGX Normals with Spherical Caps", HPG 2023). It need not be freed. */
 VNDF_API const vndf_distribution *vndf_ggx(void);
 
-/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the CDF of slopes. It need not be
- * freed. */
+/* Beckmann, P22(r) = exp(-r^2)/pi: Lambda by erf, samples by an inverse of the CDF of slopes. It need not be freed. */
 VNDF_API const vndf_distribution *vndf_beckmann(void);
 
 /* What the builder measured: the table as it is stored against quadrature of the given D, for incident directions
@@ -304,8 +303,7 @@ VNDF_API float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w);
  * infinite: at cos(theta) = 0 it is the largest float, with the sign of the side. */
 VNDF_API float vndf_lambda(const vndf_surface *surface, vndf_vec3 w);
 
-/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w), for w.wm > 0: in [0, 1] above the horizon, 0
- * below. */
+/* Smith's masking function 1/(1 + Lambda(w)) = cos(theta)/A(w), for w.wm > 0: in [0, 1] above the horizon, 0 below. */
 VNDF_API float vndf_g1(const vndf_surface *surface, vndf_vec3 w);
 
 /* How G2 correlates masking and shadowing (Heitz, "Understanding the Masking-Shadowing Function

@@ -148,10 +148,9 @@ typedef enum vndf_scattering {
      * E(wi) the part that is kept, and F0 the reflectance at normal incidence, f of reflection is scaled by 1 + F0
      * (1 - E)/E, f of both lobes by 1/E (Turquin 2019). Not reciprocal: E is that of wi. */
     VNDF_SCATTERING_TURQUIN,
-    /* The same for reflection alone by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with
-     * F_ms = F_avg^2 E_avg/(1 - F_avg (1 - E_avg)) (Kulla & Conty 2017). f is reciprocal. A sample takes this lobe as
-     * often as light does; wm is then 0. Where 1 - E_avg is below 1e-5, on smooth surfaces, Turquin's factor takes its
-     * place. */
+    /* The same for reflection alone by another lobe, F_ms (1 - E(wi)) (1 - E(wo))/(pi (1 - E_avg)) with F_ms = F_avg^2
+     * E_avg/(1 - F_avg (1 - E_avg)) (Kulla & Conty 2017). f is reciprocal. A sample takes this lobe as often as light
+     * does; wm is then 0. Where 1 - E_avg is below 1e-5, on smooth surfaces, Turquin's factor takes its place. */
     VNDF_SCATTERING_KULLA_CONTY
 } vndf_scattering;
 
@@ -279,10 +278,9 @@ typedef struct vndf_bsdf {
     } own;                         /* private */
 } vndf_bsdf;
 
-/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that
- * does not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane),
- * any other from both sides. Returns 0 if the material scatters nothing from there, or has no mixture where it
- * needs one. */
+/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
+ * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
+ * from both sides. Returns 0 if the material scatters nothing from there, or has no mixture where it needs one. */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
 /* The same with the roughness of the hit; NULL: the roughness of the material. */
@@ -315,9 +313,8 @@ typedef struct vndf_scattered {
     vndf_vec3 wm; /* the facet that was met, on the side of wi; 0 where there is none, or a walk met many */
 } vndf_scattered;
 
-/* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random
- * walk takes further numbers from a hash of the three; its weight is its throughput, its density that of
- * vndf_bsdf_pdf. */
+/* Draws a direction from three uniform numbers in [0, 1]: two for the normal, the third for the lobe. A random walk
+ * takes further numbers from a hash of the three; its weight is its throughput, its density that of vndf_bsdf_pdf. */
 VNDF_API void vndf_bsdf_sample(const vndf_bsdf *bsdf, const float u[3], vndf_scattered *scattered);
 
 /* value[i] = f of wavelength i of the material, without the cosine. f of a random walk is a random number with the
@@ -336,10 +333,9 @@ VNDF_API float vndf_bsdf_cosine(const vndf_bsdf *bsdf, vndf_vec3 wo);
 
 /* ---- many at once ------------------------------------------------------------------------------- */
 
-/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. The arrays of
- * the material's shape are read: alpha_x and alpha_y together, cos_rotation and sin_rotation together, `affine`
- * (without its distribution), `mixture`. They are shared if VNDF_SHARED_ALPHA is set, and NULL for what the
- * material has. */
+/* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. The arrays of the
+ * material's shape are read: alpha_x and alpha_y together, cos_rotation and sin_rotation together, `affine` (without
+ * its distribution), `mixture`. They are shared if VNDF_SHARED_ALPHA is set, and NULL for what the material has. */
 typedef struct vndf_bsdf_batch {
     const vndf_material *material;
     size_t count;

@@ -35,11 +35,10 @@ VNDF_API vndf_source *vndf_source_ndf_expression(const char *text, const vndf_pa
 VNDF_API vndf_source *vndf_source_slope_expression(const char *text, const vndf_parameter *parameters,
                                                    size_t count, vndf_error *error);
 
-/* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 -
- * then numbers, the first column ascending. Blank lines and lines that begin with # are skipped.
- * Shape-preserving interpolation joins the rows. Beyond the last row P22 falls as the power of r that the last two
- * rows give, at least as r^-4. A last row of value 0 ends the support there; at 90 degrees it says that D vanishes as
- * cos(theta_m) or faster. */
+/* A CSV: a header line that names the columns - one of theta_deg, theta, slope and one of ndf, p22 - then numbers, the
+ * first column ascending. Blank lines and lines that begin with # are skipped. Shape-preserving interpolation joins the
+ * rows. Beyond the last row P22 falls as the power of r that the last two rows give, at least as r^-4. A last row of
+ * value 0 ends the support there; at 90 degrees it says that D vanishes as cos(theta_m) or faster. */
 VNDF_API vndf_source *vndf_source_csv_file(const char *path, vndf_error *error);
 VNDF_API vndf_source *vndf_source_csv_text(const char *name, const char *text, size_t size, vndf_error *error);
 
@@ -167,11 +166,10 @@ VNDF_API vndf_distribution *vndf_build(const vndf_source *source, const vndf_bui
 VNDF_API vndf_status vndf_certify(const vndf_distribution *distribution, const vndf_source *source,
                                   vndf_certificate *certificate, vndf_error *error);
 
-/* Writes the table to a file: first to a temporary file beside it, vndf.NUMBER.tmp, which is flushed to the disk
- * and renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced
- * keeps its permissions, and a symbolic link that leads to one stays; other hard links keep the old file. Anything
- * but a regular file is refused. A signal that ends the process meanwhile may leave the temporary: block it, as
- * `vndf build` does. */
+/* Writes the table to a file: first to a temporary file beside it, vndf.NUMBER.tmp, which is flushed to the disk and
+ * renamed over path. If a step fails, the old file is whole and no temporary is left. A file that is replaced keeps its
+ * permissions, and a symbolic link that leads to one stays; other hard links keep the old file. Anything but a regular
+ * file is refused. A signal that ends the process meanwhile may leave the temporary: block it, as `vndf build` does. */
 VNDF_API vndf_status vndf_save(const vndf_distribution *distribution, const char *path, vndf_error *error);
 
 /* The same to memory, for vndf_load_memory: `size` bytes, which is `bytes` of vndf_distribution_info. */

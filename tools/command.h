@@ -1,7 +1,6 @@
 /* The commands of `vndf` and what they return. Each is a file in commands/, which prints its answer on stdout and its
  * complaints on stderr as `vndf NAME: ...`. */
-#ifndef TOOLS_COMMAND_H
-#define TOOLS_COMMAND_H
+#pragma once
 
 #include <stddef.h>
 
@@ -24,5 +23,3 @@ typedef struct subcommand {
 
 extern const subcommand command_build, command_info, command_check, command_sample, command_plot, command_report,
     command_bench, command_bake, command_export, command_explore, command_render, command_judge;
-
-#endif

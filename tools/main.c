@@ -1,6 +1,5 @@
 /* vndf: one program, a command for each thing that can be done with a distribution of normals. This file lists them and
  * their helps, as a manual page too, reads the words by the help of the command, and runs it. */
-#include <stdio.h>
 #include <string.h>
 
 #include "cli/arguments.h"

@@ -1,7 +1,6 @@
-/* One scattering event: what a material picks of Fresnel's terms, masking and normals, and the lobes that call
- * them (kernel/lobes.h). With q = A(wi) (visible density)/(density), what a normal's draw leaves of D
- * (wi.wm)/(density), the weight of a reflection is F G wo' q and that of a transmission (1 - F) G |wo'| q, over
- * r^2 for radiance. */
+/* One scattering event: what a material picks of Fresnel's terms, masking and normals, and the lobes that call them
+ * (kernel/lobes.h). With q = A(wi) (visible density)/(density), what a normal's draw leaves of D (wi.wm)/(density), the
+ * weight of a reflection is F G wo' q and that of a transmission (1 - F) G |wo'| q, over r^2 for radiance. */
 #include "bsdf/bsdf.h"
 
 /* ---- Fresnel ---- */

@@ -1,23 +1,22 @@
 /* Measured curves: D or P22 against angle or slope, as CSV or as rows of numbers, each row checked against the one
  * before; and the curve through them.
  *
- * The first line that is neither blank nor a comment (#) names two columns: theta_deg, theta (radians) or
- * slope (= tan theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0
- * or above, the second finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
+ * The first line that is neither blank nor a comment (#) names two columns: theta_deg, theta (radians) or slope (= tan
+ * theta), then ndf (D) or p22. Each line after it holds two numbers, the first ascending from 0 or above, the second
+ * finite and not negative. 90 degrees is allowed for ndf: D may be anything there.
  *
- * Between the rows: a shape-preserving cubic. It interpolates the logarithm of the second column if all
- * values are positive, so that a curve over many decades keeps its shape in each; if there are zeros, the column
- * itself. The abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic beyond.
- * s = last x * first step/last step makes the first step as wide as the last: even rows are joined almost as they
- * stand (s >= last x), rows that double are joined in log x. s stays within 1e-12 and 1e3 of the last x.
+ * Between the rows: a shape-preserving cubic. It interpolates the logarithm of the second column if all values are
+ * positive, so that a curve over many decades keeps its shape in each; if there are zeros, the column itself. The
+ * abscissa is asinh(x/s), x the first column: linear for x << s, logarithmic beyond. s = last x * first step/last step
+ * makes the first step as wide as the last: even rows are joined almost as they stand (s >= last x), rows that double
+ * are joined in log x. s stays within 1e-12 and 1e3 of the last x.
  *
  * Below the first row: the second column keeps its first value.
  *
- * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which
- * D is constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but
- * one is at slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. A row of 0 at 90
- * degrees behind one that is not 0 stands for half of that half-way there; from there on k is at least 5, as for
- * D ~ cos.
+ * Beyond the last row: P22 falls as r^-k, k fitted to the last two rows, but never slower than r^-4, for which D is
+ * constant: finite at 90 degrees. (k is 4 too if the last two rows give none: P22 rises, or the last row but one is at
+ * slope 0.) If the last value is 0, P22 is 0 beyond it: end with 0 for a support that ends. A row of 0 at 90 degrees
+ * behind one that is not 0 stands for half of that half-way there; from there on k is at least 5, as for D ~ cos.
  *
  * The cubic is Steffen's (slopes by eq. 11 inside, eqs. 24-29 at the ends, then Hermite's form), in Astronomy and
  * Astrophysics 239 (1990). Its first derivative is continuous, it never leaves the range of two neighbours, and it is
@@ -236,13 +235,9 @@ static csv_source *allocate(size_t rows, vndf_rows_over over, vndf_rows_of of, v
     csv_source *s = calloc(1, sizeof *s);
     double *numbers = calloc(4 * rows, sizeof *numbers);
     if (s && numbers) {
-        *s = (csv_source){.base = {.p22 = p22, .destroy = destroy, .reach = reach, .operations = OPERATIONS},
-                          .over = over,
-                          .of = of,
-                          .slope = numbers,
-                          .x = numbers + rows,
-                          .y = numbers + 2 * rows,
-                          .change = numbers + 3 * rows};
+        s->base = (vndf_source){.p22 = p22, .destroy = destroy, .reach = reach, .operations = OPERATIONS};
+        s->over = over, s->of = of;
+        s->slope = numbers, s->x = numbers + rows, s->y = numbers + 2 * rows, s->change = numbers + 3 * rows;
         return s;
     }
     free(s);

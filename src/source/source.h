@@ -27,9 +27,8 @@ struct vndf_source {
     vndf_reach (*reach)(const vndf_source *self, double low, double high); /* 0 < low < high; NULL: only points */
 };
 
-/* Makes the source that has this description, "--slope 'exp(-a*r)' --set a=0.3". It understands --ndf, --slope,
- * --set and --family, and refuses any other (VNDF_ERROR_ARGUMENT): those of a CSV and of a callback do not hold
- * the data. */
+/* Makes the source that has this description, "--slope 'exp(-a*r)' --set a=0.3". It understands --ndf, --slope, --set
+ * and --family, and refuses any other (VNDF_ERROR_ARGUMENT): those of a CSV and of a callback do not hold the data. */
 vndf_source *vndf_source_from_description(const char *description, vndf_error *error);
 
 #endif

@@ -8,22 +8,9 @@ static const char head[] =
     "shared_ns,eval_ns,pdf_ns,spread,ratio,tv,tv_below,max_weight,stratified,efficiency_60,efficiency_85,"
     "efficiency_light,mean,noise,lost,variance,efficiency\n";
 
-enum {
-    ALPHA_Y = 4,
-    MEMORY,
-    FILE_BYTES,
-    MOMENTS,
-    WRONG,
-    NS,
-    BATCH,
-    RATIO = 17,
-    TV,
-    BELOW,
-    WEIGHT,
-    MEAN = 25,
-    LOST = 27,
-    COLUMNS = 30
-};
+/* Columns. */
+enum { ALPHA_Y = 4, MEMORY, FILE_BYTES, MOMENTS, WRONG, NS, BATCH, RATIO = 17, TV, BELOW, WEIGHT };
+enum { MEAN = 25, LOST = 27, COLUMNS = 30 };
 
 #define LIST(...)       \
   (const char *const[]) \

@@ -2,7 +2,6 @@
  * very different width, an unbounded peak, a tail that barely has an area, a ring, or a jump, up to grazing; in a
  * ring of width 1e-4, whose slopes floats hardly tell apart, it is within what bins_integrate says of rounding. Each
  * bin is what a plain sum over a fine grid gives. */
-#include <string.h>
 
 #include "evidence/measure/bins.h"
 #include "evidence/measure/quadrature.h"

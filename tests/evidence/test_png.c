@@ -1,5 +1,4 @@
 /* A PNG is what its standard says, and holds the picture: it is read back here, by code of the test's own. */
-#include <stdint.h>
 
 #include "core/checksum.h"
 #include "harness/test.h"

@@ -1,8 +1,6 @@
-/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is
- * not. */
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
-#include "vndf_build.h"
 
 static const char *const refusals[][2] = {
     {"1-r", "negative"}, /* negative beyond slope 1 */

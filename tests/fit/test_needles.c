@@ -4,7 +4,6 @@
 #include "harness/test.h"
 
 #include "fit/profile/profile.h"
-#include "vndf_build.h"
 
 /* A formula with a needle at a, of width s and height k; in what variable a and s are. */
 typedef enum variable { SLOPE, TANGENT, THETA, COSINE } variable;

@@ -4,7 +4,6 @@
  * not the best, exceed these. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
-#include "source/family/family.h"
 
 /* clang-format off */
 static const char *const SUBJECTS[] = {

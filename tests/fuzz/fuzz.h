@@ -1,10 +1,8 @@
 /* What the fuzz targets share: the entry point that libFuzzer (or fuzz_replay.c) calls, which hands each input to the
  * target's fuzz_one, and checks that stop the program. */
-#ifndef TESTS_FUZZ_FUZZ_H
-#define TESTS_FUZZ_FUZZ_H
+#pragma once
 
 #include <math.h>
-#include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,5 +44,3 @@ static inline int fuzz_loaded(const void *loaded, const vndf_error *error)
     fuzz_require(loaded != NULL || error->message[0] != '\0', "an error has a message");
     return loaded != NULL;
 }
-
-#endif

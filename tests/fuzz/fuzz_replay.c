@@ -2,7 +2,6 @@
  * mutations of each - bytes changed, removed, repeated, copied from elsewhere - the same on every run.
  * VNDF_TEST_QUICK in the environment makes it five times fewer. */
 #include <stdint.h>
-#include <stdlib.h>
 
 #include "harness/test.h"
 

@@ -1,9 +1,6 @@
 /* Damage to files that are read: bytes that change, checksums that are put right, and what a table has to do, whatever
  * it holds. */
-#ifndef TESTS_HARNESS_DAMAGE_H
-#define TESTS_HARNESS_DAMAGE_H
-
-#include <stdlib.h>
+#pragma once
 
 #include "core/checksum.h"
 #include "harness/test.h"
@@ -163,5 +160,3 @@ static inline void test_broken_rules(const file_kind *kind, const unsigned char 
         test_refused_for(kind, bytes, size, r->message);
     }
 }
-
-#endif

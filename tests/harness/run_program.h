@@ -1,7 +1,6 @@
 /* Runs the program as a user does, by a line for the shell, with quotes, files for stdin and stdout, limits and
  * signals. For tests whose property is about words, files and processes; POSIX. */
-#ifndef TESTS_HARNESS_RUN_PROGRAM_H
-#define TESTS_HARNESS_RUN_PROGRAM_H
+#pragma once
 
 #ifndef _XOPEN_SOURCE
 #  define _XOPEN_SOURCE 700 /* where this is the first header */
@@ -10,7 +9,6 @@
 #include <dirent.h>
 #include <signal.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -107,5 +105,3 @@ static inline int run_end(const char *folder)
     TEST(run_count(".", "") == 0 && chdir("..") == 0 && rmdir(folder) == 0);
     return test_done();
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* The harness: checks count, failures print where and what, test_done() is main's return value; random numbers, pi.
  * A test program states one property in its first sentence and ends with `return test_done();`. */
-#ifndef TESTS_HARNESS_TEST_H
-#define TESTS_HARNESS_TEST_H
+#pragma once
 
 #include <math.h>
 #include <stdio.h>
@@ -94,5 +93,3 @@ static inline double test_uniform_double(unsigned long long *state)
 {
     return (double)(test_random_bits(state) >> 11) * 0x1p-53;
 }
-
-#endif

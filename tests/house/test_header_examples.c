@@ -4,7 +4,6 @@
 #include <ctype.h>
 
 #include "harness/test.h"
-#include "vndf.h"
 #include "vndf_bsdf.h"
 
 /* ---- what they do ---- */

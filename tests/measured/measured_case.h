@@ -1,7 +1,6 @@
 /* What tests of measured files share: files in memory, what is noted of them, why they are refused, and surfaces
  * whose law of slopes is known. */
-#ifndef TESTS_MEASURED_MEASURED_CASE_H
-#define TESTS_MEASURED_MEASURED_CASE_H
+#pragma once
 
 #include "harness/test.h"
 #include "measured/measured.h"
@@ -54,5 +53,3 @@ static inline double case_ggx(double r, double alpha)
     double q = 1 + r * r / (alpha * alpha);
     return 1 / (PI * alpha * alpha * q * q);
 }
-
-#endif

@@ -1,11 +1,6 @@
 #include "harness/test.h"
 #include "oracle/oracle.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
 /* ---- the distributions ---- */
 
 static double shape_at(int shape, double r)

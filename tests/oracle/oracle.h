@@ -1,29 +1,16 @@
-/* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written
- * out once more.
+/* Slow references for the tests, in double and sharing no code with src/: the distributions they use, written out once
+ * more.
  *
- * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with
- * normals ~ (r cos a, r sin a, 1), so that the visible density in slope area is
- * P22(r) max(0, c + s r cos a) / A(s, c). */
-#ifndef TESTS_ORACLE_ORACLE_H
-#define TESTS_ORACLE_ORACLE_H
-
-#include <stddef.h>
+ * The unit problem: incident direction (s, 0, c) of any length, roughness 1. Slopes in polar form (r, a) with normals ~
+ * (r cos a, r sin a, 1), so that the visible density in slope area is P22(r) max(0, c + s r cos a) / A(s, c). */
+#pragma once
 
 #include "oracle/oracle_table.h"
 #include "vndf_build.h"
 
 /* The shapes, in the order of oracle_get; that of a table is ORACLE_COUNT. */
-enum {
-    ORACLE_GGX,
-    ORACLE_BECKMANN,
-    ORACLE_STUDENT,
-    ORACLE_LAPLACE,
-    ORACLE_MEASURED,
-    ORACLE_HAZE,
-    ORACLE_RING,
-    ORACLE_DISC,
-    ORACLE_COUNT
-};
+enum { ORACLE_GGX, ORACLE_BECKMANN, ORACLE_STUDENT, ORACLE_LAPLACE, ORACLE_MEASURED, ORACLE_HAZE };
+enum { ORACLE_RING = ORACLE_HAZE + 1, ORACLE_DISC, ORACLE_COUNT };
 
 typedef struct oracle {
     const char *name; /* how the builder gets it: a family, or a formula of slopes */
@@ -86,5 +73,3 @@ vndf_vec3 oracle_direction(double theta, double phi);
 /* Whether a test program is to do its part `index`: without arguments every part, else the one whose number or
  * name is its first argument. mutants.py asks for single parts. */
 int oracle_wanted(int arguments, char **argument, size_t index, const char *name);
-
-#endif

@@ -4,10 +4,7 @@
  * V-cavities; D and areas of oracle.h, summed over the lobes of a mixture, with the mean plane in the place
  * of z = 0. Fresnel's equations by complex arithmetic in long double. Lambda is kept as the projected area
  * A = cos (1 + Lambda), which stays finite; the formulas divide as they are printed. */
-#ifndef TESTS_ORACLE_ORACLE_BSDF_H
-#define TESTS_ORACLE_ORACLE_BSDF_H
-
-#include <stddef.h>
+#pragma once
 
 #include "oracle/oracle.h"
 #include "vndf_bsdf.h"
@@ -67,5 +64,3 @@ void oracle_from_vec3(vndf_vec3 w, double out[3]);
 
 /* At cosine z (of either sign) and azimuth phi, radians; unit within rounding to float. */
 vndf_vec3 oracle_toward(double z, double phi);
-
-#endif

@@ -1,10 +1,6 @@
 #include "oracle/oracle_table.h"
 
-#include <math.h>
 #include <stdint.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "harness/test.h"
 #include "vndf_build.h"

@@ -5,10 +5,7 @@
  * to R_(i+1), a law is W(R) f/R dR with a polynomial W; it has the mass that the moments of the cell give, and
  * between the densities of both ends it runs as a rational quadratic (Gregory & Delbourgo 1982). Given R, the azimuth
  * has the density (c + s R cos a)+. A surface has slopes M u + mean, u of the table. */
-#ifndef TESTS_ORACLE_ORACLE_TABLE_H
-#define TESTS_ORACLE_ORACLE_TABLE_H
-
-#include <stddef.h>
+#pragma once
 
 #include "vndf.h"
 
@@ -46,5 +43,3 @@ double oracle_table_p22(const oracle_table *t, double r);
 
 /* integral over the circle of max(0, c + s cos a). */
 double oracle_circle(double c, double s);
-
-#endif

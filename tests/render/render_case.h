@@ -1,7 +1,6 @@
 /* Scenes from text for tests of the renderer, and the mean over all samples of a film with its standard deviation:
  * for films all of whose pixels see the same. */
-#ifndef TESTS_RENDER_RENDER_CASE_H
-#define TESTS_RENDER_RENDER_CASE_H
+#pragma once
 
 #include "harness/test.h"
 #include "render/film.h"
@@ -68,5 +67,3 @@ static inline int case_agrees(case_mean mean, double want, double slack)
 {
     return TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
 }
-
-#endif

@@ -1,8 +1,7 @@
-/* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2
- * before it writes anything: words, and lines of a scene. A picture is the same to the bit for any number of
- * threads; another seed gives another; a map of 1/2 halves roughness. Notices options that are not read, sums in
- * the order of arrival, a picture that is half written, text mixed into JSON, and a comparison that alarms about
- * one sample a pixel. */
+/* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2 before
+ * it writes anything: words, and lines of a scene. A picture is the same to the bit for any number of threads; another
+ * seed gives another; a map of 1/2 halves roughness. Notices options that are not read, sums in the order of arrival, a
+ * picture that is half written, text mixed into JSON, and a comparison that alarms about one sample a pixel. */
 #include "harness/run_program.h"
 
 static void test_refusals(void)

@@ -1,8 +1,7 @@
-/* A comparison calls pictures the same that differ by chance, and different where a difference is planted: a
- * lamp brighter by 7%, one ball of six that is duller. Of too few samples it says that it does not know. Its
- * figures are right for ways whose ratio is known: twice the samples halve the squared noise. Notices a variance
- * that is off by a factor, blocks that are left out, alarms about nothing, and random numbers that depend on the
- * pass. */
+/* A comparison calls pictures the same that differ by chance, and different where a difference is planted: a lamp
+ * brighter by 7%, one ball of six that is duller. Of too few samples it says that it does not know. Its figures are
+ * right for ways whose ratio is known: twice the samples halve the squared noise. Notices a variance that is off by a
+ * factor, blocks that are left out, alarms about nothing, and random numbers that depend on the pass. */
 #include "render_case.h"
 
 static scene *scene_of(double lamp, double alpha)

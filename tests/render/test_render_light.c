@@ -56,8 +56,7 @@ static void test_furnace(const char *kind, const char *lit, double most)
   "camera --from 0,1,3 --to 0,0,0\nintegrator --depth 1\nmaterial floor --matte 0.5,0.5,0.5\n" \
   "rectangle --corner -9,0,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n"
 
-/* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel &
- * Howell). */
+/* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel & Howell). */
 static double corner_factor(double a, double b)
 {
     double x = sqrt(1 + a * a), y = sqrt(1 + b * b);

@@ -1,6 +1,5 @@
 /* What the tests of sources share: a source that was made, and one that was refused. */
-#ifndef TESTS_SOURCE_SOURCES_H
-#define TESTS_SOURCE_SOURCES_H
+#pragma once
 
 #include "harness/test.h"
 #include "source/source.h"
@@ -30,5 +29,3 @@ static inline vndf_source *family_of(const char *text)
     vndf_error error = {VNDF_OK, ""};
     return made(vndf_source_family(text, &error), &error, text);
 }
-
-#endif

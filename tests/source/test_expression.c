@@ -1,7 +1,6 @@
 /* A formula has the value that C gives it, up to the limits of its length, depth and parameters; numbers are read and
  * printed alike in every locale; a callback is the function it was given. */
 #include <locale.h>
-#include <stdlib.h>
 
 #include "source/sources.h"
 #include "source/words.h"

@@ -6,7 +6,6 @@
  * nearly always breaks several rules at once: it would not miss one of them.) Arguments: tables, damaged alone. */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
-#include "vndf_build.h"
 
 enum { ROOM = 1 << 14, VERSION = 8, SCALES = 16, COUNTS = 32, CLAIMS = 44, TEXTS = 100 };
 

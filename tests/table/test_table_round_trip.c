@@ -3,7 +3,6 @@
  * a head of 8 and five rows of four for each knot, and no more than there is room for. (What they say: exported_*.) */
 #include "harness/damage.h"
 #include "oracle/oracle.h"
-#include "vndf_build.h"
 
 enum { ROOM = 1 << 14 };
 

@@ -8,10 +8,7 @@
  *     prefilter  normals with weights, for environments that are looked up at N = V = R (Karis, "Real Shading in
  *                Unreal Engine 4", 2013)
  */
-#ifndef TOOLS_BAKE_BAKE_H
-#define TOOLS_BAKE_BAKE_H
-
-#include <stddef.h>
+#pragma once
 
 #include "cli/progress.h"
 #include "draw/page.h"
@@ -124,5 +121,3 @@ int bake_page(html_page *page, const baked_list *list, unsigned forms, const cha
 
 /* The half float nearest to x, ties to even; what is too large is infinite. */
 unsigned bake_half(float x);
-
-#endif

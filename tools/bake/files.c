@@ -3,12 +3,10 @@
 #include "bake/bake.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/files.h"
-#include "cli/arguments.h"
 #include "draw/png.h"
 #include "draw/svg.h"
 

@@ -7,8 +7,7 @@
  *
  * with two blanks before what is said of them. A value may follow = (--seed=7, -n=10), a number an option of one letter
  * at once (-n10). Every refusal says which word was wrong and what would be right. */
-#ifndef TOOLS_CLI_ARGUMENTS_H
-#define TOOLS_CLI_ARGUMENTS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -84,5 +83,3 @@ const char *did_you_mean(const char *word, const char *const *candidates, size_t
 
 /* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it. */
 int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
-
-#endif

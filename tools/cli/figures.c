@@ -237,8 +237,7 @@ static void put_member(FILE *file, const figure *c)
         put_string(file, c->text);
 }
 
-/* The records from i on as an array, each on such a line, the bracket on the last one; returns what comes behind
- * it. */
+/* The records from i on as an array, each on such a line, the bracket on the last one; returns what comes behind it. */
 static size_t put_records(FILE *file, const figures *f, size_t i, const char *line, const char *last)
 {
     const size_t first = i;

@@ -9,10 +9,8 @@
  *     figures_text(&f, "method", row->method);
  *     figures_number(&f, "TV", "%.1e", row->tv, "");
  */
-#ifndef TOOLS_CLI_FIGURES_H
-#define TOOLS_CLI_FIGURES_H
+#pragma once
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "cli/arguments.h"
@@ -84,5 +82,3 @@ int figures_print(FILE *file, const figures *f, figures_form form);
 /* What a table shows in a row, from 0, and a column. */
 size_t figures_columns(const figures *f);
 const char *figures_shown(const figures *f, size_t row, size_t column);
-
-#endif

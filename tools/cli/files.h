@@ -2,8 +2,7 @@
  * same under all its names, links included. Inputs are noted where they are opened - words of a command line,
  * scenes, what scenes name - and outputs where they are, so that no output replaces an input, in whatever
  * order they come. The list is the process's, as its files are. */
-#ifndef TOOLS_CLI_FILES_H
-#define TOOLS_CLI_FILES_H
+#pragma once
 
 #include <stddef.h>
 #include <stdint.h>
@@ -36,5 +35,3 @@ void put_floats(FILE *file, const float *x, size_t count);
 
 /* Into 4 * count bytes. */
 void floats_to_bytes(unsigned char *bytes, const float *x, size_t count);
-
-#endif

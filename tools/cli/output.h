@@ -1,10 +1,7 @@
 /* Files that appear whole or not at all (core/replace_file.h), none of which is an input as well (files.h). While the
  * temporary exists, SIGINT, SIGTERM and SIGHUP wait; writers ask output_stopping() now and then, and closing lets the
  * signal through after the temporary is gone. */
-#ifndef TOOLS_CLI_OUTPUT_H
-#define TOOLS_CLI_OUTPUT_H
-
-#include <stdio.h>
+#pragma once
 
 #include "core/replace_file.h"
 
@@ -50,5 +47,3 @@ int output_finish_stdout(const char *command);
 /* Which of these forms, {"csv", "f32", NULL} say, an output has by its name; the first for stdout. -1 after a
  * complaint. */
 int output_form(const char *command, const char *path, const char *const *forms);
-
-#endif

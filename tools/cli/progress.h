@@ -1,7 +1,6 @@
 /* How far the work is, on a line of stderr where that is a terminal; and whether the user asked to stop, by a signal
  * that waits (output_hold_signals). */
-#ifndef TOOLS_CLI_PROGRESS_H
-#define TOOLS_CLI_PROGRESS_H
+#pragma once
 
 typedef struct progress {
     const char *name;    /* of the work: "building" */
@@ -26,5 +25,3 @@ void progress_end(const progress *p);
 /* Seconds that pass, on a clock that only goes forward; and seconds that all threads of this process worked. */
 double clock_seconds(void);
 double clock_processor_seconds(void);
-
-#endif

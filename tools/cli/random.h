@@ -1,8 +1,7 @@
 /* Uniform numbers by counter: number i of stream `seed` is a hash of both, so a sequence can be entered
  * anywhere and two seeds do not meet. The hash is the finaliser of SplitMix64 (Steele, Lea & Flood,
  * "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014). */
-#ifndef TOOLS_CLI_RANDOM_H
-#define TOOLS_CLI_RANDOM_H
+#pragma once
 
 #include <stdint.h>
 
@@ -45,5 +44,3 @@ static inline double random_double(random_stream *stream)
 {
     return (double)(random_bits(stream) >> 11) * 0x1p-53;
 }
-
-#endif

@@ -1,6 +1,5 @@
 /* Numbers in their order. */
-#ifndef TOOLS_CLI_SORT_H
-#define TOOLS_CLI_SORT_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -14,5 +13,3 @@ static inline void sort_numbers(double *number, size_t count)
 {
     qsort(number, count, sizeof *number, sort_ascending);
 }
-
-#endif

@@ -1,7 +1,6 @@
 /* What the user points at: a distribution (FILE|ggx|beckmann), the source of one that is to be tabulated (a formula, a
  * CSV, a named family), a roughness, an incident direction. */
-#ifndef TOOLS_CLI_SUBJECT_H
-#define TOOLS_CLI_SUBJECT_H
+#pragma once
 
 #include "cli/arguments.h"
 #include "vndf_build.h"
@@ -45,5 +44,3 @@ vndf_vec3 direction_from(double theta, double phi);
 
 /* "AX" or "AX,AY" into *surface; text NULL: 1, 1. Returns 1, or 0 after a complaint. */
 int roughness_from(const char *command, const char *text, vndf_surface *surface);
-
-#endif

@@ -4,7 +4,6 @@
 
 #include "bake/bake.h"
 #include "cli/files.h"
-#include "cli/output.h"
 #include "command.h"
 #include "commands/parts/describe.h"
 

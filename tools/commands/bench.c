@@ -1,11 +1,6 @@
 /* vndf bench: what a normal and, with --effects, what each effect of a BSDF costs and is worth, beside everything else
  * that a user could pick. */
-#include <stdio.h>
 
-#include "cli/arguments.h"
-#include "cli/figures.h"
-#include "cli/output.h"
-#include "cli/progress.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "evidence/evidence.h"
@@ -95,11 +90,9 @@ static int run(const arguments *given)
     const int is_of_materials = option_value(given, "--effects") != NULL;
     vndf_surface surface;
     subject s;
-    evidence_plan plan = {.at_hand = &s,
-                          .is_of_materials = is_of_materials,
-                          .theta = 60,
-                          .seconds = is_of_materials ? 15 : 40,
-                          .only = option_value(given, "--only")};
+    evidence_plan plan = {.at_hand = &s, .is_of_materials = is_of_materials, .theta = 60};
+    plan.seconds = is_of_materials ? 15 : 40;
+    plan.only = option_value(given, "--only");
     if (!roughness_from(name, alpha ? alpha : "0.5", &surface) ||
         !option_number(given, "--seconds", 0.01, 3600, &plan.seconds) ||
         !option_number(given, "--theta", 0, 89.9, &plan.theta))

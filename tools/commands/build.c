@@ -1,18 +1,14 @@
 /* vndf build: a table from what the user brings - formula, rows, family, measurements - or a family of tables along a
  * parameter. Reads the options, makes the source, calls the builder, saves, prints what came out. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/describe.h"
 #include "core/checksum.h"
 #include "measured/measured.h"
-#include "vndf_build.h"
 
 static const char name[] = "vndf build";
 

@@ -4,23 +4,16 @@
  *   chi-square   samples follow the density that they claim, over bins (bins.h), at some views;
  *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
-#include "cli/figures.h"
 #include "cli/progress.h"
 #include "cli/random.h"
 #include "cli/sort.h"
-#include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/describe.h"
 #include "evidence/measure/bins.h"
 #include "evidence/measure/laws.h"
-#include "evidence/measure/statistics.h"
 #include "evidence/measure/stress.h"
-#include "vndf_build.h"
 
 static const char name[] = "vndf check";
 

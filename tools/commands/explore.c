@@ -1,18 +1,14 @@
 /* vndf explore: a page on which tables, GGX and Beckmann are seen side by side, drawn by the exported kernel: one HTML
  * file that draws in WebGL2. Its frame is tools/export/page/explorer.html. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "bake/bake.h"
-#include "cli/arguments.h"
 #include "cli/files.h"
-#include "cli/output.h"
 #include "command.h"
 #include "commands/parts/named_tables.h"
 #include "draw/png.h"
 #include "draw/svg.h"
-#include "export/export.h"
 
 /* What the page is made of. */
 typedef struct contents {
@@ -200,10 +196,5 @@ static int run(const arguments *given)
     return status;
 }
 
-const subcommand command_explore = {name,
-                                    "a page that draws tables, GGX and Beckmann side by side in a browser",
-                                    "FILE",
-                                    1,
-                                    EXPORT_TABLES_MAX,
-                                    run,
-                                    help};
+const subcommand command_explore = {
+    name, "a page that draws tables, GGX and Beckmann side by side", "FILE", 1, EXPORT_TABLES_MAX, run, help};

@@ -1,15 +1,11 @@
 /* vndf export: the sampler and tables as one file for another language or processor. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
-#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/named_tables.h"
-#include "export/export.h"
 #include "measured/measured.h"
 
 static const char name[] = "vndf export";
@@ -69,14 +65,10 @@ static int read_effects(const arguments *given, export_document *document)
                                   .masking = (vndf_masking)option_choice(given, "--masking", 0),
                                   .transport = (vndf_transport)option_choice(given, "--transport", 0),
                                   .reflection = (vndf_reflection)option_choice(given, "--reflection", 0)};
-    const vndf_description is = {.distribution = vndf_ggx(),
-                                 .effects = effects,
-                                 .alpha_x = 1.0f,
-                                 .alpha_y = 1.0f,
-                                 .eta = 1.5f,
-                                 .conductor_eta = {1.0f, 1.0f, 1.0f}};
+    vndf_description is = {.distribution = vndf_ggx(), .effects = effects, .conductor_eta = {1.0f, 1.0f, 1.0f}};
     vndf_material material;
     vndf_error refusal = {VNDF_OK, ""};
+    is.alpha_x = is.alpha_y = 1.0f, is.eta = 1.5f;
     document->scatters = option_value(given, "--bsdf") != NULL;
     document->effects = effects;
     if (document->scatters && vndf_material_resolve(&is, &material, &refusal) != VNDF_OK)
@@ -222,10 +214,5 @@ static int run(const arguments *given)
 }
 
 const subcommand command_export = {
-    name,
-    "the sampler with your tables as one file for C, CUDA, GLSL and other languages",
-    "FILE",
-    0,
-    EXPORT_TABLES_MAX,
-    run,
+    name, "the sampler with your tables in C, CUDA, GLSL and other languages", "FILE", 0, EXPORT_TABLES_MAX, run,
     help};

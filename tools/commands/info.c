@@ -1,11 +1,8 @@
 /* vndf info: what a file of this program says of itself; nothing is measured (`vndf check` does). */
-#include <stdio.h>
 
-#include "cli/arguments.h"
 #include "command.h"
 #include "commands/parts/describe.h"
 #include "cli/output.h"
-#include "cli/subject.h"
 
 static const char *const help[] = {
     "usage: vndf info FILE|ggx|beckmann|FILE.vndfs\n"

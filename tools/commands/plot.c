@@ -1,9 +1,7 @@
 /* vndf plot: one figure that shows a distribution and its visible normals. This file reads the options and lays
  * out the page; draw/panels.c draws. */
-#include <stdio.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "command.h"
 #include "cli/subject.h"
 #include "cli/output.h"

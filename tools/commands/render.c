@@ -1,6 +1,5 @@
 /* vndf render: a scene file into a picture, by one sampler or by several side by side. Reads the words, prepares
  * the scene, renders, saves the picture, prints figures. */
-#include <math.h>
 
 #include "cli/figures.h"
 #include "cli/output.h"

@@ -1,9 +1,6 @@
 /* vndf report: one page about what accuracy costs for the user's own D. This file reads the words, measures one
  * thing after the other, and has the page written (evidence/report.c). */
-#include <stdio.h>
 
-#include "cli/arguments.h"
-#include "cli/progress.h"
 #include "cli/subject.h"
 #include "command.h"
 #include "evidence/evidence.h"

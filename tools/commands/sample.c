@@ -1,6 +1,4 @@
 /* vndf sample: visible normals into a file, in a format that outsiders read. */
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "cli/files.h"

@@ -77,8 +77,7 @@ static int tick_at(const picture *p, int is_y, int index, double *at, int *is_na
     return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
-/* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does
- * not. */
+/* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does not. */
 static void name_number(const picture *p, int is_y, char name[16], double value)
 {
     static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};

@@ -1,6 +1,5 @@
 /* Charts: axes with ticks, a key, curves, points with labels beside them that avoid each other. */
-#ifndef TOOLS_DRAW_CHART_H
-#define TOOLS_DRAW_CHART_H
+#pragma once
 
 #include "draw/svg.h"
 
@@ -41,5 +40,3 @@ typedef struct chart {
 
 /* As an element, or as a file of its own. */
 void chart_draw(FILE *file, const chart *c, int is_alone);
-
-#endif

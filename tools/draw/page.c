@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cli/arguments.h"
 #include "command.h"
 #include "draw/svg.h"
 #include "vndf.h"

@@ -1,11 +1,7 @@
 /* A page in a folder: a head with its style, sections with a title, and the data behind each plot in a file beside
  * the page. All of them are temporaries until page_close renames them together, the page last; a failure or a signal
  * before that leaves the folder as it was. */
-#ifndef TOOLS_DRAW_PAGE_H
-#define TOOLS_DRAW_PAGE_H
-
-#include <stddef.h>
-#include <stdio.h>
+#pragma once
 
 #include "cli/figures.h"
 #include "cli/output.h"
@@ -46,5 +42,3 @@ FILE *page_file(html_page *page, const char *name);
 
 /* The page links the file that was begun last. */
 void page_link(html_page *page, const char *what);
-
-#endif

@@ -1,7 +1,6 @@
 #include "draw/panels.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "cli/random.h"
 #include "cli/sort.h"
@@ -95,8 +94,7 @@ static double rim_angle(const disc *d, unsigned seed)
     return round_angle(angle[PILOTS * 95 / 100]);
 }
 
-/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at the
- * rim). */
+/* The mean over FINE x FINE points of a pixel, or -1 well outside the disc (the grid covers the steps at the rim). */
 static double pixel_density(const disc *d, size_t column, size_t row)
 {
     double sum = 0;

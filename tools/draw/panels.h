@@ -1,7 +1,6 @@
 /* The two kinds of panel of a figure: D against the angle of the normal, and the visible normals from one incident
  * direction on a disc. Boxes hold the labels too. */
-#ifndef TOOLS_DRAW_PANELS_H
-#define TOOLS_DRAW_PANELS_H
+#pragma once
 
 #include "draw/svg.h"
 #include "vndf.h"
@@ -19,5 +18,3 @@ int panel_disc(FILE *file, svg_box box, const vndf_surface *surface, double thet
 
 /* What colour, dots and marks of the discs mean. 0: no memory. */
 int panel_key(FILE *file, double x, double y);
-
-#endif

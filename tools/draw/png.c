@@ -4,7 +4,6 @@
  * fixes saved nothing of the former and a quarter of the latter. */
 #include "draw/png.h"
 
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -2,8 +2,7 @@
  * change them for dark screens: ink, quiet, pen and so on; and of five hues l0 to l4 for lines, f0 to f4 for areas, t0
  * to t4 for texts: blue, orange, green, violet, grey. The palette is that of M. Okabe and K. Ito, "Color Universal
  * Design" (2008), which people with any kind of colour vision tell apart; series differ in mark or dashes as well. */
-#ifndef TOOLS_DRAW_SVG_H
-#define TOOLS_DRAW_SVG_H
+#pragma once
 
 #include <stddef.h>
 #include <stdio.h>
@@ -33,5 +32,3 @@ unsigned char svg_shade(double density);
 
 /* A picture of such indices in a box of this size. 0 if there is no memory. */
 int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows);
-
-#endif

@@ -1,5 +1,4 @@
-/* Inputs: the same random numbers for all methods of a turn, so that only the methods make a difference of
- * times. */
+/* Inputs: the same random numbers for all methods of a turn, so that only the methods make a difference of times. */
 #include <math.h>
 
 #include "cli/random.h"

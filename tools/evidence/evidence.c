@@ -2,7 +2,6 @@
 #include "evidence/evidence.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "cli/sort.h"
 #include "evidence/measure/stratified.h"

@@ -11,10 +11,8 @@
  *     measure/     what `vndf check` asks: certificates, chi-square, hard cases, agreement of calls; points of Sobol'
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
-#ifndef TOOLS_EVIDENCE_EVIDENCE_H
-#define TOOLS_EVIDENCE_EVIDENCE_H
+#pragma once
 
-#include "cli/figures.h"
 #include "cli/progress.h"
 #include "draw/page.h"
 #include "evidence/method.h"
@@ -169,5 +167,3 @@ findings worth_of_normals(const method *m, const method_reference *reference, do
 /* Fills mean, noise, lost, weight and variance from `blocks` blocks. */
 void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
                        double found[COLUMNS]);
-
-#endif

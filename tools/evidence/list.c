@@ -1,11 +1,9 @@
 /* Which methods of which distributions: the rows of a plan. All of them are made, tables too, which takes less than a
  * second; what nobody asked for is neither measured nor timed. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "cli/arguments.h"
 #include "evidence/evidence.h"
 
 const table_size table_sizes[SIZES] = {

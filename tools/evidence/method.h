@@ -4,11 +4,7 @@
  *
  * A method is a few loops over a block of inputs. Scalar loops call what they time by name, so that the compiler
  * may inline it, and are compiled without vector loops (CMakeLists.txt). */
-#ifndef TOOLS_EVIDENCE_METHOD_H
-#define TOOLS_EVIDENCE_METHOD_H
-
-#include <stddef.h>
-#include <stdint.h>
+#pragma once
 
 #include "vndf_bsdf.h"
 
@@ -167,5 +163,3 @@ block_law effect_law(const effect_set *set);
 
 /* The cosine of w that goes with values: to the normal of the mean plane. */
 double effect_cosine(const effect_case *of, vndf_vec3 w);
-
-#endif

@@ -1,6 +1,5 @@
 /* The one file that `vndf export` writes: comments, tables, and the kernel of the library in another language. */
-#ifndef TOOLS_EXPORT_EXPORT_H
-#define TOOLS_EXPORT_EXPORT_H
+#pragma once
 
 #include <stdio.h>
 
@@ -102,5 +101,3 @@ void put_prefixed(const export_document *as, FILE *to, const char *from, size_t 
  * blanks and comments between them, but for names, numbers and calls. The build translates the one text there is, so
  * its shape is not judged. */
 int translate(const export_document *as, const char *source, const char *wanted, FILE *to);
-
-#endif

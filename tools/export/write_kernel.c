@@ -1,6 +1,5 @@
 /* Run by the build: writes the kernel in C, which takes numbers through a pointer, for `vndf bench`; or in Python for
  * tools/python, where the name of the file ends in .py. */
-#include <stdio.h>
 #include <string.h>
 
 #include "export/export.h"

@@ -1,6 +1,5 @@
 #include "measured/measured.h"
 
-#include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,8 +1,5 @@
 /* Files of measurements, and the rows of D or P22 that every reader of them ends in, for vndf_source_rows. */
-#ifndef TOOLS_MEASURED_MEASURED_H
-#define TOOLS_MEASURED_MEASURED_H
-
-#include <stdio.h>
+#pragma once
 
 #include "cli/arguments.h"
 #include "cli/files.h"
@@ -130,5 +127,3 @@ int heights_slopes(const image *of, const double step[2], int margin, slope_set 
  * Lengths need not be 1: normals shorter than a half, longer than 3/2 or without z above 0 are left out, and more
  * than half of them are a reason to refuse. */
 int normals_slopes(data_file *file, slope_set *made);
-
-#endif

@@ -18,7 +18,6 @@
  *
  * Written is a warp that leaves v alone and is the same for all incident directions: x goes by the square root of D, so
  * that tails have places, too. What is left to the luminance, (wi.m) sqrt(D) and what is reflected, is smooth. */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,11 +1,10 @@
 /* The law of slopes of a surface that was measured: P22 over the slope length, whether it is isotropic, and how sure
  * all that is.
  *
- * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s
- * s^T / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
- * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken
- * as isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this
- * matrix.
+ * The mean slope is taken off. The shape of the rest is Tyler's: the matrix V of determinant 1 with V = (2/n) sum s s^T
+ * / (s^T V^-1 s), which exists where the second moment does not (D. Tyler, "A Distribution-Free M-Estimator of
+ * Multivariate Scatter", Annals of Statistics 15, 1987). If V is the identity within its error, the slopes are taken as
+ * isotropic. If not, s = M u with M = V^1/2, and the rows are of u: the surface is the affine one with this matrix.
  *
  * Bins of |u| hold equal parts of the slopes, and halves of what is left in the tail; a row stands where the mean
  * square of a bin's lengths is, since a density that falls evenly in r^2 has its mean there. Beyond the last bins the

@@ -2,8 +2,7 @@
  * of samples, whose mean is the picture; they do not depend on the number of threads, to the bit. And one scene by
  * several samplers side by side, in equal time or with equal samples: how noisy their films are, and whether they show
  * the same. */
-#ifndef TOOLS_RENDER_FILM_H
-#define TOOLS_RENDER_FILM_H
+#pragma once
 
 #include "render/scene.h"
 #include "vndf_build.h"
@@ -124,5 +123,3 @@ void comparison_find(const comparison *c, finding found[SAMPLERS]);
 /* The film of one way; or a sheet: those of all ways side by side, and below them the noise of each pixel, beside its
  * light, from 1% (black) to 100% (white) by its logarithm. 0 if there is no memory. */
 int comparison_image(const comparison *c, float exposure, image *made);
-
-#endif

@@ -1,8 +1,6 @@
 /* Shapes, and the nearest one along a ray: a bounding-volume hierarchy over all of them. */
-#ifndef TOOLS_RENDER_GEOMETRY_H
-#define TOOLS_RENDER_GEOMETRY_H
+#pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "render/vector.h"
@@ -70,5 +68,3 @@ int geometry_blocked(const geometry *g, const ray *r);
 
 /* A ray from a hit to the side of `direction`, which does not meet the same place again. */
 ray ray_from(const hit *h, vec3 direction);
-
-#endif

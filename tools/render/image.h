@@ -1,9 +1,7 @@
 /* Images of three floats a pixel, rows from the top: read from PFM, PGM or PPM, made by a named pattern, written as
  * PFM and as PNG (8 bits, sRGB). */
-#ifndef TOOLS_RENDER_IMAGE_H
-#define TOOLS_RENDER_IMAGE_H
+#pragma once
 
-#include <stddef.h>
 #include <stdio.h>
 
 #include "vndf.h"
@@ -42,5 +40,3 @@ int image_make_pattern(image *made, image_pattern of, int width, int height);
 /* Writes to an open file; 0 if that fails. In a PNG numbers are clamped to [0, 1]. */
 int image_write_pfm(FILE *file, const image *image);
 int image_write_png(FILE *file, const image *image);
-
-#endif

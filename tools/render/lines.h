@@ -1,8 +1,5 @@
 /* Files that are not trusted: their bytes, their lines as words, and what is said where they are wrong. */
-#ifndef TOOLS_RENDER_LINES_H
-#define TOOLS_RENDER_LINES_H
-
-#include <stddef.h>
+#pragma once
 
 #include "cli/arguments.h"
 #include "vndf.h"
@@ -34,5 +31,3 @@ int lines_next(lines *in);
 
 /* A decimal number; 0 after a refusal. */
 int read_number(const lines *in, const char *word, double *number);
-
-#endif

@@ -1,6 +1,5 @@
 /* A scene: the contents of a scene file, ready for rendering. scene_print_manual says how they are written. */
-#ifndef TOOLS_RENDER_SCENE_H
-#define TOOLS_RENDER_SCENE_H
+#pragma once
 
 #include "render/geometry.h"
 #include "render/image.h"
@@ -96,5 +95,3 @@ double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
 void environment_radiance(const environment *e, vec3 direction, float rgb[3]);
-
-#endif

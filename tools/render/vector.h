@@ -1,7 +1,6 @@
 /* Vectors of the renderer. Places and rays are in double, so that a ray that leaves a surface does not meet it
  * again; the library takes directions in float, in the frame of a hit. */
-#ifndef TOOLS_RENDER_VECTOR_H
-#define TOOLS_RENDER_VECTOR_H
+#pragma once
 
 #include <math.h>
 
@@ -95,5 +94,3 @@ static inline vndf_vec3 narrow(vec3 w)
 {
     return (vndf_vec3){(float)w.x, (float)w.y, (float)w.z};
 }
-
-#endif

@@ -18,21 +18,9 @@ typedef enum vndf_task {
 } vndf_task;
 
 /* Arrays that are read: matrix, mean slope, direction, and the two numbers of a sample or the given normal. */
-enum {
-    VNDF_READ_XX,
-    VNDF_READ_XY,
-    VNDF_READ_YX,
-    VNDF_READ_YY,
-    VNDF_READ_MEAN_X,
-    VNDF_READ_MEAN_Y,
-    VNDF_READ_WI_X,
-    VNDF_READ_WI_Y,
-    VNDF_READ_WI_Z,
-    VNDF_READ_A,
-    VNDF_READ_B,
-    VNDF_READ_C,
-    VNDF_READS
-};
+enum { VNDF_READ_XX, VNDF_READ_XY, VNDF_READ_YX, VNDF_READ_YY, VNDF_READ_MEAN_X, VNDF_READ_MEAN_Y };
+enum { VNDF_READ_WI_X = VNDF_READ_MEAN_Y + 1, VNDF_READ_WI_Y, VNDF_READ_WI_Z };
+enum { VNDF_READ_A = VNDF_READ_WI_Z + 1, VNDF_READ_B, VNDF_READ_C, VNDF_READS };
 
 /* Arrays that are written: normal, density and weight of a sample; an area and 1 if the surface is valid, else 0; two
  * numbers of an inverse; else one. */

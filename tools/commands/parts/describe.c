@@ -1,7 +1,6 @@
 #include "commands/parts/describe.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 /* The units of figures, as text and JSON name them. */

@@ -1,6 +1,5 @@
 /* A table, or a family of tables, and what it is worth: the same wherever it is printed. */
-#ifndef TOOLS_COMMANDS_PARTS_DESCRIBE_H
-#define TOOLS_COMMANDS_PARTS_DESCRIBE_H
+#pragma once
 
 #include "cli/figures.h"
 #include "cli/subject.h"
@@ -17,5 +16,3 @@ int describe_verdict(const chosen_distribution *of, char verdict[DESCRIBE_VERDIC
  * without -q. A closed form has neither certificate nor end. */
 void describe(figures *f, const chosen_distribution *of);
 void describe_end(figures *f, const chosen_distribution *of);
-
-#endif

@@ -1,6 +1,5 @@
 /* The tables and families that the user names for a kernel: `vndf export` and `vndf explore`. */
-#ifndef TOOLS_COMMANDS_PARTS_NAMED_TABLES_H
-#define TOOLS_COMMANDS_PARTS_NAMED_TABLES_H
+#pragma once
 
 #include "cli/arguments.h"
 #include "export/export.h"
@@ -11,5 +10,3 @@ int named_tables_open(const char *command, const words *files, int families, exp
 
 /* Frees the tables, and the numbers of the document. */
 void named_tables_close(export_document *document);
-
-#endif

@@ -1,7 +1,6 @@
 #include "evidence/measure/laws.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/sort.h"
@@ -17,7 +16,7 @@ static const double VARIES = 1e-2;       /* what P22 may be off a cubic in a pan
 static const double LITTLE_MASS = 1e-15, LITTLE_AREA = 1e-18; /* of a panel, of all: it is left out */
 static const double ROUNDING = 0x1p-22;                       /* of cot(theta) and of slopes: two of floats */
 enum { GAUSS = 4, TRIED = 2 * GAUSS + 2, QUANTILES = 1024, PANELS_MOST = 1 << 17, JUMPS_MOST = 32 };
-enum { GRADES = 200, PARTS = 24, BINS = 4096, PER_BIN = 64 };
+enum { GRADES = 200, PARTS = 24, BINS = 4096, PER_OCTAVE = 64 };
 static const double place[GAUSS] = {0.069431844202973712, 0.33000947820757187, 0.66999052179242813,
                                     0.93056815579702629};
 static const double share[2] = {0.17392742256872693, 0.32607257743127307};
@@ -31,11 +30,6 @@ typedef struct point {
     float x, z;         /* the normal that leans towards it */
 } point;
 
-/* Of each value what part has it, in bins that are even between powers of 2. */
-typedef struct spread {
-    double part[BINS];
-} spread;
-
 /* Panel i is from end[2 i] to end[2 i + 1] and has GAUSS points. `count` of them ascend; then there is room for GRADES
  * of the direction at hand. */
 typedef struct laws {
@@ -47,27 +41,25 @@ typedef struct laws {
     point at[GAUSS * PANELS_MOST];
     float x[GAUSS * PANELS_MOST], y[GAUSS * PANELS_MOST], z[GAUSS * PANELS_MOST], pdf[GAUSS * PANELS_MOST];
     double mass[2], tail[2]; /* integrals of P22 R dR and P22 R^2 dR: all, and beyond the panels */
-    spread spread;
+    double part[BINS];       /* of all, that has a value: bins are even in its logarithm */
     laws_figure *worst;
     double rho[LAWS_FIGURES]; /* where it was found; negative below the horizon */
 } laws;
 
-static void add_to(spread *s, double value, double part)
+static void add_to(laws *l, double value, double part)
 {
-    int power;
-    double digits = frexp(fmin(fmax(value, 1e-9), 1e9), &power);
-    s->part[(power + 32) * PER_BIN + (int)((2 * digits - 1) * PER_BIN)] += part;
+    l->part[BINS / 2 + (int)floor(PER_OCTAVE * log2(fmin(fmax(value, 1e-9), 1e9)))] += part;
 }
 
 /* The largest value, but for LEFT_OUT of all; empties the bins. */
-static double take_most(spread *s)
+static double take_most(laws *l)
 {
     double sum = 0;
     int i = BINS;
     while (i > 0 && sum <= LEFT_OUT)
-        sum += s->part[--i];
-    memset(s, 0, sizeof *s);
-    return i == 0 ? 0 : ldexp(1 + (i % PER_BIN + 0.5) / PER_BIN, i / PER_BIN - 33);
+        sum += l->part[--i];
+    memset(l->part, 0, sizeof l->part);
+    return i == 0 ? 0 : exp2((i + 0.5 - BINS / 2) / PER_OCTAVE);
 }
 
 /* ---- points ---- */
@@ -162,11 +154,12 @@ static int place_points(laws *l)
 {
     const size_t even = (size_t)(log(SLOPE_MOST / SLOPE_LEAST) / FIRST), all = even + 1 + QUANTILES;
     double *first = malloc(all * sizeof *first), end = SLOPE_MOST, n = 4;
-    for (size_t i = 0; first && i < all; i++)
+    if (!first)
+        return 0;
+    for (size_t i = 0; i < all; i++)
         first[i] = first_end(l, i, even);
-    if (first)
-        sort_numbers(first, all);
-    for (size_t i = 0; first && i + 1 < all; i++)
+    sort_numbers(first, all);
+    for (size_t i = 0; i + 1 < all; i++)
         if (first[i + 1] > first[i]) {
             point at[GAUSS];
             put_points(l, first[i], first[i + 1], at);
@@ -182,7 +175,7 @@ static int place_points(laws *l)
         l->mass[1] += l->at[i].mass * l->at[i].r;
     }
     free(first);
-    return first != NULL;
+    return 1;
 }
 
 /* Not where floats do not tell a point from rho, or from the other side of a jump. */
@@ -213,19 +206,16 @@ static size_t grade(laws *l, double rho, size_t *end)
     for (size_t step = PANELS_MOST; step > 0; step /= 2)
         first += first + step <= l->count && l->end[2 * (first + step) - 1] <= rho ? step : 0;
     for (; first < l->count && *end + PARTS < l->count + GRADES; first++) {
-        double to = l->end[2 * first + 1], from = fmax(l->end[2 * first], rho), parts[PARTS], width = to - rho;
-        int n = 0;
-        if (width <= 1.5 * (from - rho))
+        double to = l->end[2 * first + 1], from = fmax(l->end[2 * first], rho), next;
+        const double least = fmax(1e-4 * (to - rho), LEAST * rho);
+        if (to - rho <= 1.5 * (from - rho))
             break;
-        for (parts[n++] = to; n < PARTS && width > 1.5 * (from - rho) && width > LEAST * rho; width *= 0.66)
-            parts[n++] = rho + 0.66 * width;
-        while (n-- > 0)
-            if (parts[n] > from) {
-                point at[GAUSS];
-                put_points(l, from, parts[n], at);
-                add_panel(l, (*end)++, from, parts[n], at);
-                from = parts[n];
-            }
+        for (; from < to; from = next) {
+            point at[GAUSS];
+            next = fmin(rho + 1.5 * fmax(from - rho, least), to);
+            put_points(l, from, next, at);
+            add_panel(l, (*end)++, from, next, at);
+        }
     }
     return first;
 }
@@ -255,16 +245,10 @@ static void look_from(laws *l, double rho)
     }
     if (!(area > AREA_LEAST * hypot(s, c * l->scale) * l->mass[1] / PI))
         return;
-    const vndf_batch batch = {l->surface.distribution,
-                              end - from,
-                              VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
-                              VNDF_INSTRUCTIONS_BEST,
-                              &l->surface.alpha_x,
-                              &l->surface.alpha_y,
-                              &wi.x,
-                              &wi.y,
-                              &wi.z,
-                              .lobes = 0};
+    vndf_batch batch = {.distribution = l->surface.distribution, .count = end - from};
+    batch.shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
+    batch.alpha_x = batch.alpha_y = &l->surface.alpha_x;
+    batch.wi_x = &wi.x, batch.wi_y = &wi.y, batch.wi_z = &wi.z;
     vndf_pdf_n(&batch, (vndf_normals){l->x + from, l->y, l->z + from}, l->pdf + from);
     double drawn = 0, rarely = beyond / area, often = 0, unsure = 0;
     for (size_t i = from; i < end; i++) {
@@ -279,14 +263,14 @@ static void look_from(laws *l, double rho)
         rarely += fmax(right - is, 0);
         often += fmax(is - right, 0);
         if (right > is)
-            add_to(&l->spread, right / is - 1, right);
+            add_to(l, right / is - 1, right);
     }
     const double slack = ROUNDING * moved / area, both = slack + ROUNDING * steep / area,
                  tv = fmax(fmax(rarely, often) - both, 0);
     take(l, LAWS_TV, tv, rho);
     if (rho >= 0)
         take(l, LAWS_TV_ABOVE, tv, rho);
-    take(l, LAWS_MAX_WEIGHT, 1 + take_most(&l->spread), rho);
+    take(l, LAWS_MAX_WEIGHT, 1 + take_most(l), rho);
     take(l, LAWS_AREA_ERROR,
          fmax(fabs((double)vndf_projected_area(&l->surface, wi) * l->mass[0] / area - 1) - slack, 0), rho);
     /* points miss some of what is drawn at knots */
@@ -324,7 +308,6 @@ static int look_around(laws *l, int per_octave, vndf_progress *progress, void *u
 static void look_closer(laws *l, const vndf_certificate *c, int per_octave)
 {
     static const double beside[] = {-0.3, -0.05, -1e-2, -1e-3, -3e-4, -1e-4, -1e-5, 0, 1e-4, 1e-2};
-    const double said[] = {(double)c->tv_theta * PI / 180, (double)c->tv_above_theta * PI / 180};
     double jump = 0;
     for (size_t i = 0, jumps = 0; i < l->count && jumps < JUMPS_MOST; i++) {
         const double r = l->end[2 * i + 1];
@@ -337,8 +320,8 @@ static void look_closer(laws *l, const vndf_certificate *c, int per_octave)
     }
     look_from(l, 0);
     look_from(l, 1e6);
-    for (int i = 0; i < 2; i++)
-        look_both_ways(l, fabs(1 / (tan(said[i]) * l->scale)));
+    look_both_ways(l, fabs(1 / (tan((double)c->tv_theta * PI / 180) * l->scale)));
+    look_both_ways(l, fabs(1 / (tan((double)c->tv_above_theta * PI / 180) * l->scale)));
     for (int figure = LAWS_TV; figure <= LAWS_AREA_ERROR; figure++)
         for (double apart = 0.5 / per_octave; apart > 1e-5; apart /= 2) {
             const double at = l->rho[figure];
@@ -352,9 +335,9 @@ static double ndf_error(laws *l)
     for (size_t i = 0; i < GAUSS * l->count; i++) {
         const point *at = &l->at[i];
         if (at->p > 0 && is_decided(l, i, 0))
-            add_to(&l->spread, fabs(2 * PI * l->mass[0] * at->drawn / at->p - 1), at->mass / l->mass[0]);
+            add_to(l, fabs(2 * PI * l->mass[0] * at->drawn / at->p - 1), at->mass / l->mass[0]);
     }
-    return take_most(&l->spread);
+    return take_most(l);
 }
 
 int laws_measure(const vndf_distribution *table, const vndf_source *source, int per_octave,

@@ -4,8 +4,7 @@
  * Given the slope length R a table draws the azimuth exactly, so the density of one normal at R tells the drawn law of
  * R. Both laws are added up over points of R that are as close as D varies, from directions where D says that something
  * happens and many more. */
-#ifndef TOOLS_EVIDENCE_MEASURE_LAWS_H
-#define TOOLS_EVIDENCE_MEASURE_LAWS_H
+#pragma once
 
 #include "vndf_build.h"
 
@@ -23,5 +22,3 @@ typedef struct laws_figure {
  * which may be NULL, said to stop. */
 int laws_measure(const vndf_distribution *table, const vndf_source *source, int per_octave,
                  vndf_progress *progress, void *user, laws_figure found[LAWS_FIGURES]);
-
-#endif

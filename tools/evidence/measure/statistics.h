@@ -1,8 +1,7 @@
 /* What decides a test: p-values of chi-square, the level that each of several tests gets, and Pearson's chi-square:
  * counts of samples in bins against what is expected there. The one place that pools bins and decides; `vndf check` and
  * all tests that bin use it. */
-#ifndef TOOLS_EVIDENCE_MEASURE_STATISTICS_H
-#define TOOLS_EVIDENCE_MEASURE_STATISTICS_H
+#pragma once
 
 #include <stddef.h>
 
@@ -23,5 +22,3 @@ typedef struct pearson {
 /* The bins have to be all there is: both sums are the number of samples. A bin that expects 5 or more is a class; the
  * others are added up in their order until they expect as much, and what is left at the end joins the last class. */
 pearson pearson_of(const double *expected, const double *observed, size_t bins);
-
-#endif

@@ -1,11 +1,8 @@
-/* What a renderer sees of a sampler's map: the error of light that is reflected, estimated with few
- * Owen-scrambled Sobol points (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; hashes after
- * Burley, "Practical Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points
- * have over random numbers. */
-#ifndef TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
-#define TOOLS_EVIDENCE_MEASURE_STRATIFIED_H
+/* What a renderer sees of a sampler's map: the error of light that is reflected, estimated with few Owen-scrambled
+ * Sobol points (Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences", 1995; hashes after Burley, "Practical
+ * Hash-based Owen Scrambling", JCGT 2020). A map that folds or jumps loses what the points have over random numbers. */
+#pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "vndf.h"
@@ -24,5 +21,3 @@ void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points,
 /* That error over that of GGX by caps, as rough in the median slope, for 64 points: the geometric mean over six
  * views and both lights. */
 double stratified_beside_caps(const vndf_distribution *distribution, float alpha, size_t scrambles, uint64_t seed);
-
-#endif

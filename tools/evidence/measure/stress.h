@@ -2,10 +2,8 @@
  * hair beside them, at and beyond the horizon, of length 1 and nearly 1; of roughnesses from 1e-8 to 1e4 in all pairs
  * up to a ratio of 1e8; and of uniform numbers at their ends and at 1/2 in all pairs, and random ones (stress.c lists
  * them). Each property is a number that is 0 at best and must not exceed its limit. */
-#ifndef TOOLS_EVIDENCE_MEASURE_STRESS_H
-#define TOOLS_EVIDENCE_MEASURE_STRESS_H
+#pragma once
 
-#include <stddef.h>
 #include <stdint.h>
 
 #include "vndf.h"
@@ -54,5 +52,3 @@ stress_result stress_run(const vndf_distribution *distribution, size_t every, ui
 
 /* Notes a number for a property; returns whether it is within the limit. */
 int stress_note(stress_result *result, stress_id id, double value, const float at[STRESS_NUMBERS]);
-
-#endif

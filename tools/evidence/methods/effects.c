@@ -1,6 +1,5 @@
-/* Effect by effect: the sets, from bare reflection upward, the materials made of them, and the loops over
- * vndf_bsdf.h, which do the work of a renderer at a hit. The line of a set says how it differs from bare
- * reflection. */
+/* Effect by effect: the sets, from bare reflection upward, the materials made of them, and the loops over vndf_bsdf.h,
+ * which do the work of a renderer at a hit. The line of a set says how it differs from bare reflection. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,12 +106,9 @@ static void density(const method *m, block *b)
 
 static void batch(const method *m, block *b)
 {
-    const vndf_bsdf_batch of = {.material = &((const effect_case *)m->state)->material,
-                                .count = b->count,
-                                .limit = b->limit,
-                                .wi_x = b->wi[0],
-                                .wi_y = b->wi[1],
-                                .wi_z = b->wi[2]};
+    const effect_case *e = m->state;
+    vndf_bsdf_batch of = {.material = &e->material, .count = b->count, .limit = b->limit};
+    of.wi_x = b->wi[0], of.wi_y = b->wi[1], of.wi_z = b->wi[2];
     const float *const u[3] = {b->u[0], b->u[1], b->u[2]};
     const vndf_scattered_n to = {{b->x, b->y, b->z},
                                  {b->value[0], b->value[1], b->value[2]},
@@ -150,18 +146,13 @@ static vndf_status make(effect_case *of, const effect_set *set, const vndf_surfa
     if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
         of->albedo = vndf_albedo_build(surface->distribution, 0.0f, error);
     /* gold at 650, 550 and 450 nm for conductors; a dielectric under Schlick's approximation */
-    const vndf_description is = {.distribution = surface->distribution,
-                                 .alpha_x = s.alpha_x,
-                                 .alpha_y = s.alpha_y,
-                                 .rotation = 0.5f,
-                                 .affine = of->mixture.lobe[0].surface,
-                                 .mixture = &of->mixture,
-                                 .albedo = of->albedo,
-                                 .eta = 1.5f,
-                                 .f0 = {0.04f, 0.04f, 0.04f},
-                                 .conductor_eta = {0.16f, 0.42f, 1.35f},
-                                 .conductor_k = {3.5f, 2.35f, 1.9f},
-                                 .effects = set->effects};
+    vndf_description is = {.eta = 1.5f,
+                           .f0 = {0.04f, 0.04f, 0.04f},
+                           .conductor_eta = {0.16f, 0.42f, 1.35f},
+                           .conductor_k = {3.5f, 2.35f, 1.9f}};
+    is.effects = set->effects, is.albedo = of->albedo;
+    is.distribution = surface->distribution, is.alpha_x = s.alpha_x, is.alpha_y = s.alpha_y, is.rotation = 0.5f;
+    is.affine = of->mixture.lobe[0].surface, is.mixture = &of->mixture;
     return vndf_material_resolve(&is, &of->material, error);
 }
 

@@ -105,14 +105,10 @@ static void each_exported(const method *m, block *b)
 
 static vndf_batch batch_of(const method *m, const block *b)
 {
-    return (vndf_batch){.distribution = m->d,
-                        .count = b->count,
-                        .limit = b->limit,
-                        .alpha_x = b->alpha,
-                        .alpha_y = b->alpha,
-                        .wi_x = b->wi[0],
-                        .wi_y = b->wi[1],
-                        .wi_z = b->wi[2]};
+    vndf_batch of = {.distribution = m->d, .count = b->count, .limit = b->limit};
+    of.alpha_x = of.alpha_y = b->alpha;
+    of.wi_x = b->wi[0], of.wi_y = b->wi[1], of.wi_z = b->wi[2];
+    return of;
 }
 
 static vndf_normals drawn(block *b)

@@ -128,11 +128,7 @@ method method_all_normals(const method_reference *reference)
         t->y[j] = (float)sine2_at(&reference->canonical, (double)j / CELLS);
     if (t)
         t->scale = reference->scale;
-    return (method){.name = "all normals (2007)",
-                    .kind = ROW_PUBLISHED,
-                    .memory = sizeof *t,
-                    .state = t,
-                    .release = free,
-                    .each = t ? normals_each : NULL,
-                    .turned = 1};
+    method m = {.name = "all normals (2007)", .kind = ROW_PUBLISHED, .memory = sizeof *t, .turned = 1};
+    m.state = t, m.release = free, m.each = t ? normals_each : NULL;
+    return m;
 }

@@ -147,11 +147,7 @@ method method_warp(const method_reference *reference)
     }
     if (w)
         w->scale = reference->scale;
-    return (method){.name = "bilinear warps, 8 x 128^2",
-                    .kind = ROW_PUBLISHED,
-                    .memory = sizeof *w,
-                    .state = w,
-                    .release = free,
-                    .each = w ? warp_each : NULL,
-                    .turned = 1};
+    method m = {.name = "bilinear warps, 8 x 128^2", .kind = ROW_PUBLISHED, .memory = sizeof *w, .turned = 1};
+    m.state = w, m.release = free, m.each = w ? warp_each : NULL;
+    return m;
 }

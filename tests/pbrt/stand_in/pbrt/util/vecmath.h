@@ -1,6 +1,5 @@
 /* As much of pbrt-v4's vectors as tools/pbrt needs, written for its test; pbrt has its own. */
-#ifndef STAND_IN_PBRT_UTIL_VECMATH_H
-#define STAND_IN_PBRT_UTIL_VECMATH_H
+#pragma once
 
 namespace pbrt
 {
@@ -16,5 +15,3 @@ struct Vector3f {
 };
 
 } // namespace pbrt
-
-#endif
