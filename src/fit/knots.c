@@ -236,15 +236,17 @@ const vndf_area *vndf_knots_area(vndf_knots *k, size_t edge)
 
 /* ---- jumps ---- */
 
+/* Where there are more than STOPS_MAX, knots stand there only as far as errors ask for them. */
 enum { JUMPS_MAX = 64, STOPS_MAX = 16 };
 
 /* A knot at a jump or a pole has the side with more normals in one cell: slopes where P22 leaps from one side of a
  * panel's edge to the other, after a 0. Returns how many there are. */
 static size_t find_jumps(const vndf_profile *profile, float *jump)
 {
-    const double narrow = 1e-9,                              /* of a slope: half a panel at a pole, */
-        apart = 0x1p-21;                                     /* and knots */
-    const double least = 1e-9, beside = 2e-7, widely = 1e-4; /* of a slope: just beyond it, and away from it */
+    const double narrow = 1e-9;               /* of a slope: half of a panel at a pole */
+    const double apart = 0x1p-21;             /* of a slope: knots */
+    const double least = 1e-9, beside = 2e-7; /* of a slope: where both sides are asked, inside of their panels */
+    const double widely = 1e-4;               /* of a slope: away from the edge */
     const double jump_least = 1e-4, pole_least = 1.5, needle = 1e5, worth = 1e-12;
     const vndf_panel *p = profile->panel;
     size_t n = 1;
