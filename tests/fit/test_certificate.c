@@ -64,8 +64,8 @@ static void test_random_rows(unsigned long long seed)
     test_source(vndf_source_rows(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, r, p22, count, NULL, NULL), name, 0);
 }
 
-/* D of student-t:1.7 grows as cos^-0.6 towards the horizon; that of GGX has a limit there. One has a pole. What is worst
- * is told where it is, also if all slopes are a tenth. */
+/* D of student-t:1.7 grows as cos^-0.6 towards the horizon; that of GGX has a limit there. One has a pole. What is
+ * worst is told where it is, also if all slopes are a tenth. */
 static void test_ends(void)
 {
     static const struct {
