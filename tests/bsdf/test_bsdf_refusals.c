@@ -156,9 +156,9 @@ static void test_numbers(void)
     none.distribution = NULL;
     refuse(&none, "distribution");
     refuse(NULL, "the description is NULL");
-    vndf_description straight = good((vndf_effects){
-        .lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_SCHLICK, .scattering = VNDF_SCATTERING_MULTIPLE});
-    straight.eta = 1;
+    const vndf_effects walk = {
+        .lobes = 2, .fresnel = VNDF_FRESNEL_SCHLICK, .scattering = VNDF_SCATTERING_MULTIPLE};
+    const vndf_description straight = with(walk, AT(eta), 1);
     refuse(&straight, "eta is 1: a walk needs another");
     for (int i = 0; i < 4; i++) { /* a mean slope counts where the shape has one */
         const float means[] = {0.5f, 1e7f, INFINITY, NAN};

@@ -66,6 +66,10 @@ static void check_page(void)
         TEST(i > 1 || is_well_formed(i ? text : text + strlen(files[0][1])));
         for (size_t k = 2; k < 13 && files[i][k]; k++)
             TEST_HAS(text, files[i][k]);
+        double low, high; /* ticks of an axis that goes up */
+        const char *tick = "end\"><tspan x=\"%*f\" y=\"%lf\">%*[^<]</tspan><tspan x=\"%*f\" y=\"%lf\"",
+                   *at = strstr(text, "end\"><tspan");
+        TEST(i > 1 || (at && sscanf(at, tick, &low, &high) == 2 && low > high + 1));
         for (size_t k = 0; i == 0 && k < sizeof never / sizeof *never; k++)
             TEST(!strstr(text, never[k]));
         free(text);

@@ -60,6 +60,7 @@ int main(void)
     size_t count = sizeof files / sizeof *files, first, second, size;
     if (!run_begin(folder))
         return test_done();
+    run_line(2, "which is taken", "cp '" SMALL "' lobes.vndf && vndf export lobes.vndf --language c -o x");
     run_line(0, "", "vndf build --family student-t --parameter 2..4 --max-tv 0.05 -o tails.vndfs");
     for (size_t i = 0; i < count; i++)
         for (const char *const *to = languages; *to; to++) {
@@ -77,6 +78,6 @@ int main(void)
         free(run_file("two.f32", &size));
         TEST(size == 4 * (first + second));
     }
-    TEST(remove("two.f32") == 0 && remove("tails.vndfs") == 0);
+    TEST(remove("two.f32") == 0 && remove("tails.vndfs") == 0 && remove("lobes.vndf") == 0);
     return run_end(folder);
 }

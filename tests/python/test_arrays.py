@@ -57,6 +57,7 @@ class Places(unittest.TestCase):
         for wi, u, words in (
             (np.zeros((4, 3)), np.zeros((2, 4)), "wi: its first axis has length 4, it must have 3"),
             ((0, 0, 1), 0.5, "u: its first axis has length 0"),
+            ((0, 0, 1), (0.5, 1.5), r"u: its numbers must lie in \[0, 1\]"),
             (np.zeros((3, 4)), np.zeros((2, 5)), "do not broadcast"),
         ):
             with self.assertRaisesRegex(ValueError, words):

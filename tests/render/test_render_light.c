@@ -112,6 +112,9 @@ static void test_sky(void)
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
     unsigned long long state = 4;
     TEST(s->environment.sums != NULL);
+    float up[3]; /* at a pole there is its row alone */
+    environment_radiance(&s->environment, vec(0, 1, 0), up);
+    TEST_RELATIVE((double)up[0], (double)image_pixel(s->environment.map, 0, 0)[0], 1e-6);
     for (int i = 0; i < 1000; i++) { /* the density of what is drawn is that of where it is */
         const double u[3] = {0, test_uniform_double(&state), test_uniform_double(&state)};
         light_sample l;

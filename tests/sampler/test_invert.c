@@ -59,14 +59,13 @@ static int comes_back(const seen *s, const float u[4], float t, double *lost)
         wm = other;
     if (s->kind == SEEN_MIXTURE) {
         vndf_mixture_sample(&s->mixture, u1, u2, NULL, &drawn);
-        lobe = vndf_mixture_invert(&s->mixture, wm, drawn, &v1, &v2);
+        lobe = finds_likeliest(&s->mixture, wm) ? vndf_mixture_invert(&s->mixture, wm, drawn, &v1, &v2) : -1;
     } else
         vndf_invert(&s->view, wm, &v1, &v2);
     bins_frame f = bins_frame_from(&s->of.lobe[drawn].surface, s->wi);
     const vndf_vec3 back = seen_draw(s, v1, v2, NULL);
     *lost = bins_apart(&f, wm, back);
-    if (lobe != drawn || (s->kind == SEEN_MIXTURE && !finds_likeliest(&s->mixture, wm)) ||
-        !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
+    if (lobe != drawn || !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1))
         return 0;
     return *lost <= 1e-5 + rounding(&f) || *lost <= led_by_steps(s, &f, v1, v2, back);
 }

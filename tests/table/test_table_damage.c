@@ -23,7 +23,7 @@ static const broken_rule RULES[] = {
     {DENSITY_LEFT, 24, FLOAT, 1e9, "density is out of range"},
     {DENSITY_RIGHT, -4, FLOAT, (double)NAN, "density is out of range"},
     {M0, 12, FLOAT, 0, "moment is out of range"},
-    {M0, 160, FLOAT, 0.05, "add up to 1"},
+    {M0, 160, FLOAT, 0.01, "add up to 1"},
     {M1, 12, FLOAT, -1, "moment is out of range"},
     {M1, 24, FLOAT, 0.5, "moment is out of range"},
     {M2, -4, FLOAT, (double)INFINITY, "moment is out of range"},
