@@ -56,6 +56,7 @@ static double lean_of(double point0, double point1, double end0, double end1)
     return fmin(fmax(lean, -most), most);
 }
 
+/* Places of strips in their cells, and halves of those that floats tell apart. */
 static void halve(survey *s, const float *knot)
 {
     int cells = s->table.cells, squarings = s->table.squarings;
@@ -303,8 +304,8 @@ static double error_of(double is, double right)
  * and ends; of all of a strip in the last cell, which draws R f. */
 static double ndf_error(const survey *s)
 {
-    static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288,
-                                     1}; /* ends and points of strips */
+    /* of ends and points in a strip */
+    static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1};
     const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
