@@ -84,35 +84,21 @@ static void put_best(const ray *at, size_t count, float *b0, float *b1)
     *b1 = (float)fmax((area - low * near) / far, least);
 }
 
-/* Puts the shares of all knots, scaled so that the area that is drawn from there is the true one, below[i]. */
-static void put_shares(vndf_distribution *t, const vndf_strips *s, const double *below, double *grazing,
-                       vndf_cell *cell, ray *room)
+/* Puts the shares of all knots. */
+static void put_shares(vndf_distribution *t, const vndf_strips *s, double *grazing, ray *room)
 {
     unsigned cells = (unsigned)t->cells;
     float b0 = 0.43f, b1 = 0.57f;
     double sum = 0;
-    for (unsigned i = cells + 1; i-- > 0; grazing[i] = sum) {
-        const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i);
-        cell[i] =
-            vndf_cell_between(knot[0], i < cells ? (double)knot[VNDF_STRIDE] : HUGE_VAL, (unsigned)t->squarings);
-        cell[i].g0 = law[0];
-        cell[i].g1 = law[1];
-        cell[i].m0 = law[2];
-        cell[i].m1 = law[3];
-        cell[i].m2 = vndf_table_row(t, VNDF_MORE, i)[0];
+    for (unsigned i = cells + 1; i-- > 0; grazing[i] = sum)
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
             sum += s->at[k].along;
-    }
     for (unsigned i = 0; i <= cells; i++) {
         float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
-        double rho = i ? cell[i].r : 0.1 * cell[1].r, mass = 0, factor = 1, area = below[i] * (1 + rho);
+        double rho = s->at[s->first[i ? i : 1]].edge * (i ? 1 : 0.1);
         put_best(room, cast(s, i, cells, rho, grazing, room), &b0, &b1);
-        for (unsigned k = i; i > 0 && k <= cells; k++)
-            mass += vndf_drawn_below(&cell[k], rho, b0, b1).mass / PI;
-        if (mass > 0 && area > 1e-30)
-            factor = fmin(fmax(area / mass, 0.5), 2);
-        b0 = shares[0] = b0 * (float)factor;
-        b1 = shares[1] = b1 * (float)factor;
+        shares[0] = b0;
+        shares[1] = b1;
     }
 }
 
@@ -185,11 +171,10 @@ vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
     unsigned count = knots->count;
     vndf_strips strips = {0, NULL, NULL};
     vndf_distribution *t = vndf_table_allocate(count - 1, moments, knots->squarings);
-    double *room = malloc(2 * count * sizeof *room), *below = room, *grazing = room + count;
+    double *grazing = malloc(count * sizeof *grazing);
     float *knot = malloc(count * sizeof *knot);
-    vndf_cell *cell = malloc(count * sizeof *cell);
     ray *rays = NULL;
-    if (t && room && knot && cell) {
+    if (t && grazing && knot) {
         t->normalization = profile->normalization;
         t->scale = profile->scale;
         for (unsigned i = 0; i < count; i++) {
@@ -198,21 +183,19 @@ vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
             vndf_table_row(t, VNDF_KNOT, i)[0] = r;
             low[2] = (float)(area->below + (double)r / (1 + (double)r));
             low[3] = (float)(1 - area->turned - area->along);
-            below[i] = area->below;
         }
         if (vndf_strips_from(&strips, profile, knot, count, count - 1))
             rays = malloc(2 * strips.count * sizeof *rays);
     }
     if (rays) {
         put_cells(t, &strips, profile);
-        put_shares(t, &strips, below, grazing, cell, rays);
+        put_shares(t, &strips, grazing, rays);
     } else {
         vndf_free(t);
         t = NULL;
     }
-    free(room);
+    free(grazing);
     free(knot);
-    free(cell);
     free(rays);
     vndf_strips_free(&strips);
     return t;

@@ -151,19 +151,25 @@ static void scale(vndf_strips *s, size_t first, double mass)
     }
 }
 
+/* P22 at the points of a panel, in a unit of its own. Returns the largest. */
+static double p22_of(const vndf_panel *p, double value[VNDF_GAUSS])
+{
+    double most = 0;
+    for (int k = 0; k < VNDF_GAUSS; k++)
+        most = fmax(most, value[k] = p->point[k].weight / (vndf_gauss_weight[k] * p->point[k].r * p->point[k].r));
+    return most;
+}
+
 /* How many strips a panel has at least: more if P22 varies in it, since ten points may show more than one wave; few if
  * it is slim, as beside a jump. */
 static double least_of(const vndf_profile *profile, const vndf_panel *p)
 {
     const double worth = 1e-7, wave = 0.02, slim = 1e-3; /* of the mass; of P22; of the slope */
-    double least = HUGE_VAL, most = 0;
+    double value[VNDF_GAUSS], most = p22_of(p, value), least = most;
+    for (int k = 0; k < VNDF_GAUSS; k++)
+        least = fmin(least, value[k]);
     if (!(p->m0 > worth * profile->f0))
         return 1;
-    for (int k = 0; k < VNDF_GAUSS; k++) {
-        double p22 = p->point[k].weight / (vndf_gauss_weight[k] * p->point[k].r * p->point[k].r);
-        least = fmin(least, p22);
-        most = fmax(most, p22);
-    }
     return most - least > wave * most ? 6 : p[1].r - p->r > slim * p->r ? 4 : 2;
 }
 
@@ -172,15 +178,12 @@ static double least_of(const vndf_profile *profile, const vndf_panel *p)
  * a gap before something that is seen from there. */
 static double need_of(const vndf_profile *profile, size_t i)
 {
-    const double few = 1e-10, few_grazing = 1e-14, below = 2.5e-3, floor = 1e-4, near = 1e-4;
+    const double few = 1e-10, few_grazing = 1e-16, below = 2.5e-3, floor = 1e-4, near = 1e-4;
     const vndf_panel *p = &profile->panel[i];
-    const vndf_profile_point *point = p->point;
-    double value[VNDF_GAUSS], most = 0, change = 2 * log(p[1].r / p->r);
+    double value[VNDF_GAUSS], most = p22_of(p, value), change = 2 * log(p[1].r / p->r);
     double f = p->m0 / profile->f0, along = p[1].r * p->m0, beyond = p->s + p->r * p->t0;
     if (f < few && along < few_grazing * profile->f1)
         return p->r > near && p[1].s > few_grazing * profile->f1 ? -1 : 0;
-    for (int k = 0; k < VNDF_GAUSS; k++)
-        most = fmax(most, value[k] = point[k].weight / (vndf_gauss_weight[k] * point[k].r * point[k].r));
     for (int k = 1; k < VNDF_GAUSS && most > 0; k++)
         change += fabs(log((value[k] + floor * most) / (value[k - 1] + floor * most)));
     return change * cbrt(fmax(fmax(f, along / profile->f1), below * along / beyond));

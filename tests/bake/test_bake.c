@@ -81,6 +81,14 @@ static void test_places(void)
     TEST_NEAR(sum, 1, 1e-5);
     TEST_NEAR((double)prefilter[4 * 32 * 7 + 3], 0.5 * log2(6 / 32.0), 1e-4); /* D is 1/pi */
     baked_free(&list);
+    s.shape = BAKE_OSPRAY;
+    TEST(bake_energy(&s, &list) && list.count == 6);
+    for (int inside = 0; inside < 2; inside++) {
+        eta = inside ? 1 / (1 + 2 * 6 / 15.0) : 1 / (1 / 3.0 + 2 * 6 / 45.0);
+        want = bake_direction(&s, bake_alpha(BAKE_SQUARE, 4 / 15.0), 9 / 15.0, eta);
+        TEST_NEAR((double)list.table[2 + 2 * inside].value[(4 * 16 + 6) * 16 + 9], want.all, 1e-6);
+    }
+    baked_free(&list);
 }
 
 /* ---- light from a rectangle ---- */
