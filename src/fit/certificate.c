@@ -206,20 +206,25 @@ static void climb(survey *s, int side, int figure)
     }
 }
 
-/* Directions an octave of rho apart; of every so many cells the left knot and two places; and the neighbourhood of what
- * is worst. */
+/* The last edge before a slope. */
+static size_t edge_before(const survey *s, double slope)
+{
+    return vndf_last_before(&s->strips.at->edge, sizeof *s->strips.at, s->strips.count, slope * (1 - 1e-9));
+}
+
+/* Directions an octave of rho apart; before k~ begins at another knot; of every so many cells the left
+ * knot and a place; and the neighbourhood of what is worst. */
 static void look_around(survey *s)
 {
     enum { OCTAVES = 8 };
-    const vndf_strip *at = s->strips.at;
     for (int i = -OCTAVES; i <= OCTAVES; i++)
-        look_from(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count, exp2(i)));
+        look_from(s, edge_before(s, exp2(i)));
+    for (int i = 1; i < VNDF_RHO_PARTS; i++)
+        if (look_first(s->table, i) != look_first(s->table, i - 1))
+            look_from(s, edge_before(s, of_bits((VNDF_RHO_FIRST + i) * (1 << 20))));
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
-        size_t from = s->strips.first[i], strips = s->strips.first[i + 1] - from;
-        look_from(s, from);
-        look_from(s, from + strips / 3);
-        if (i > 0)
-            look_from(s, from + 2 * strips / 3);
+        look_from(s, s->strips.first[i]);
+        look_from(s, (s->strips.first[i] + s->strips.first[i + 1]) / 2);
     }
     for (int figure = TV; figure <= WEIGHT; figure++)
         for (int side = 0; side < 2; side++)

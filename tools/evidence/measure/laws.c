@@ -12,7 +12,7 @@ static const double AREA_LEAST = 1e-10;  /* over the area at grazing incidence *
 static const double FIRST = 0x1p-7;      /* widths of panels in log R: at first, */
 static const double UNDECIDED = 0x1p-20; /* below which floats do not tell on which side of a jump they are, */
 static const double LEAST = 0x1p-44;     /* and at a jump */
-static const double VARIES = 1e-2;       /* what P22 may be off a cubic in a panel */
+static const double VARIES = 3e-3;       /* what P22 may be off a cubic in a panel */
 static const double LITTLE_MASS = 1e-15, LITTLE_AREA = 1e-18; /* of a panel, of all: it is left out */
 static const double ROUNDING = 0x1p-22;                       /* of cot(theta) and of slopes: two of floats */
 enum { GAUSS = 4, TRIED = 2 * GAUSS + 2, QUANTILES = 1024, PANELS_MOST = 1 << 17, JUMPS_MOST = 32 };
