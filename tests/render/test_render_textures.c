@@ -20,8 +20,8 @@ static void test_upright(const char *shapes, const char *camera, const int want[
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "film --width 4 --height 4\n%s\nintegrator --depth 1\nenvironment --constant 1,1,1\n"
-             "image q --file \"render_quarters.pfm\"\nmaterial m --matte 1,1,1 --colour-map q\n%s",
+             "%s --width 4 --height 4 --depth 1\nenvironment --constant 1,1,1\n"
+             "material m --matte 1,1,1 --colour-map \"render_quarters.pfm\"\n%s",
              camera, shapes);
     scene *s = case_scene(text);
     film f = {.sum = NULL};

@@ -1,10 +1,9 @@
 #include "render/lines.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/files.h"
 
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
 {
@@ -19,15 +18,6 @@ int refuse_at(vndf_error *error, const char *name, unsigned long long line, cons
         *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
     error->status = VNDF_ERROR_SYNTAX;
     return 0;
-}
-
-char *bytes_read(const char *path, size_t most, size_t *size, vndf_error *error)
-{
-    char reason[128];
-    char *bytes = files_read(path, most, size, reason, sizeof reason);
-    if (!bytes)
-        refuse_at(error, path, 0, "%s", reason);
-    return bytes;
 }
 
 int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_error *error)

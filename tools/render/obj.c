@@ -16,7 +16,7 @@
 #include "render/lines.h"
 
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
-enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
+enum { ITEMS_MAX = 1 << 22 };
 
 /* What lines begin with, and how large their numbers may be: beyond 1e6 float has no digits for the place in a
  * texture. */
@@ -154,14 +154,5 @@ int obj_read_text(geometry *g, const char *name, char *text, size_t length, int 
         g->count = before;
     for (int i = 0; i < TABLES; i++)
         free(r.of[i].row);
-    return good;
-}
-
-int obj_read(geometry *g, const char *path, int material, vndf_error *error)
-{
-    size_t size;
-    char *text = bytes_read(path, BYTES_MAX, &size, error);
-    const int good = text && obj_read_text(g, path, text, size, material, error);
-    free(text);
     return good;
 }

@@ -49,9 +49,7 @@ typedef struct scene {
     material materials[SCENE_MATERIALS_MAX];
     size_t material_count;
     image images[SCENE_IMAGES_MAX];
-    size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
-    size_t table_count;
     char *text; /* of the file, where the names are */
 } scene;
 
