@@ -7,7 +7,7 @@
 
 static void judge(int good, profile *rows, const data_file *file)
 {
-    fuzz_require(good || (strncmp(file->refused, "fuzz: ", 6) == 0 && rows->x == NULL),
+    fuzz_require(good || (strncmp(file->error.message, "fuzz: ", 6) == 0 && rows->x == NULL),
                  "a refusal has a reason alone");
     for (size_t i = 0; good && i < rows->count; i++)
         fuzz_require(isfinite(rows->value[i]) && rows->value[i] >= 0 && (i == 0 || rows->x[i] > rows->x[i - 1]),

@@ -45,11 +45,7 @@ static int read_rows(data_file *file, image *made)
 
 static int read_image(data_file *file, image *made)
 {
-    vndf_error error = {VNDF_OK, ""};
-    const int good = image_read_bytes(made, file->name, file->bytes, file->size, &error);
-    if (!good)
-        memcpy(file->refused, error.message, sizeof file->refused);
-    return good;
+    return image_read_bytes(made, file->name, file->bytes, file->size, &file->error);
 }
 
 int heights_read(data_file *file, image *made)
