@@ -1,7 +1,7 @@
-/* No bytes crash the readers of measured files - reflectances (.bsdf and MERL), heights, normal maps, hence PFM, PGM and
- * PPM: they are refused with a message that names the file and hold no memory then, or D is a curve over ascending
- * angles and slopes are finite; look-ups stay inside of an image; and no slopes crash what looks for their law: its rows
- * are a curve, or it says why not. */
+/* No bytes crash the readers of measured files - reflectances (.bsdf and MERL), heights, normal maps, hence PFM, PGM
+ * and PPM: they are refused with a message that names the file and hold no memory then, or D is a curve over ascending
+ * angles and slopes are finite; look-ups stay inside of an image; and no slopes crash what looks for their law: its
+ * rows are a curve, or it says why not. */
 #include "fuzz/fuzz.h"
 #include "measured/measured.h"
 
