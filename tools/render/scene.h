@@ -27,14 +27,11 @@ typedef struct emitter {
     double part;
 } emitter;
 
-/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
- * drawn from its pixels, by their light, of which `sums` has the sum up to each, the last one 1. */
+/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. */
 typedef struct environment {
     float constant[3];
     const image *map;   /* NULL: the constant */
     double scale, turn; /* turn: a part of a full turn */
-    double *sums;       /* NULL: it is not drawn */
-    double part;        /* how likely it is */
 } environment;
 
 typedef struct scene {
@@ -68,27 +65,23 @@ int scene_resize(scene *s, int width);
 /* How scenes are written, to stdout. */
 void scene_print_manual(void);
 
-/* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
+/* ---- light that is drawn: spheres and rectangles that emit ---- */
 
-/* Lists the lights of a scene and sums up its environment. 0 if there is no memory, or there are more than
- * SCENE_LIGHTS_MAX lights. */
+/* Lists the lights of a scene. 0 if there are more than SCENE_LIGHTS_MAX. */
 int lights_make(scene *s);
 
 typedef struct light_sample {
-    vec3 direction;  /* towards the light, unit */
-    double distance; /* infinite: the environment */
-    double density;  /* per steradian */
+    vec3 direction; /* towards the light, unit */
+    double distance;
+    double density; /* per steradian */
     float radiance[3];
 } light_sample;
 
-/* Whether there is light to draw. */
-int lights_any(const scene *s);
-
-/* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
+/* Draws one of the lights, which are there, from a place, by three uniform numbers in [0, 1). 0: the place does not see
+ * what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment.
- */
+/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment, 0. */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
