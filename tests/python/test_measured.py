@@ -1,8 +1,9 @@
 """A .bsdf of `vndf export --rgl` in Mitsuba 3's plugin `measured`, unmodified: its values are those of GGX in closed
 form, its samples follow its own density, and their weights are value over density; also in spectra.
 
-Two numbers for each direction of incidence: the mean relative error of f cos, weighed by the light, and the largest
-difference between the density of a sample and the density of its direction. A sample's weight is f cos over density."""
+Numbers for each direction of incidence: the mean relative error of f cos, weighed by the light, the largest difference
+between the density of a sample and the density of its direction, and of a sample's weight from f cos over density; and
+the spread of weights, which are nearly equal."""
 import os
 import subprocess
 import sys
@@ -38,6 +39,7 @@ def look(bsdf, degrees, alpha, f0, wavelengths):
     hit, context = mitsuba.SurfaceInteraction3f(), mitsuba.BSDFContext()
     hit.wi, hit.wavelengths = mitsuba.Vector3f(*wi.tolist()), wavelengths
     worst = light = missed = off = 0
+    weights = []
     for _ in range(1000):
         drawn, weight = bsdf.sample(context, hit, 0.5, mitsuba.Point2f(numbers.random(), numbers.random()))
         wo = numpy.array([float(x) for x in drawn.wo])
@@ -49,8 +51,9 @@ def look(bsdf, degrees, alpha, f0, wavelengths):
         want = value * (f0 + (1 - f0) * rise)
         missed += abs(found - want).mean() / drawn.pdf
         light += want.mean() / drawn.pdf
+        weights.append(numpy.array(weight).mean())
         off = max(off, abs(numpy.array(weight) * drawn.pdf / numpy.maximum(found, 1e-9) - 1).max())
-    return missed / light, worst, off
+    return missed / light, worst, off, numpy.std(weights) / numpy.mean(weights)
 
 
 def check(name, alpha, f0, wavelengths=(), words=()):
@@ -59,9 +62,10 @@ def check(name, alpha, f0, wavelengths=(), words=()):
     subprocess.run(program, check=True)
     bsdf, good = mitsuba.load_dict({"type": "measured", "filename": name}), True
     for degrees in (2, 40, 65, 80, 87):
-        off, worst, weights = look(bsdf, degrees, alpha, numpy.array(f0), wavelengths)
-        print(f"{name} at {degrees} degrees: f cos off by {off:.4f}, densities by {worst:.1e}, weights by {weights:.1e}")
-        good = good and off < 0.015 and worst < 1e-3 and weights < 2e-3
+        off, worst, weights, spread = look(bsdf, degrees, alpha, numpy.array(f0), wavelengths)
+        print(f"{name} at {degrees} degrees: f cos off by {off:.4f}, densities by {worst:.1e}, weights by {weights:.1e}",
+              f"and spread {spread:.3f}")
+        good = good and off < 0.015 and worst < 1e-3 and weights < 2e-3 and spread < 0.1
     return good
 
 
