@@ -4,7 +4,7 @@
  * integral over a sky, a rough floor f of the library under a small lamp. All samplers show the same of metals
  * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
  * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
- * own surface, by roulette, by weights of drawn light; a sky that is turned or off by a row, choices that forget a
+ * own surface, by weights of drawn light; a sky that is turned or off by a row, choices that forget a
  * light; wrong densities, areas, powers and cosines, lights that shine backwards, shadow rays that end
  * too early or too late, candidates that are not kept in proportion to their weight. */
 #include "render_case.h"
