@@ -1,8 +1,8 @@
 /* Files are what they say, and broken ones are refused with the place and the reason. Images of either byte
  * order, of one channel, with CR LF are read. A broken mesh adds nothing. Images lie upright on rectangles, around
- * spheres with the top at +y, on meshes, which are scaled, turned and moved, as vt say. Notices rows from the wrong end, a byte
- * order that is not swapped, sizes that are believed; indices off by one or taken from the wrong end, polygons
- * cut wrongly, v not flipped, normals that do not win over the order of corners. */
+ * spheres with the top at +y, on meshes, which are scaled, turned and moved, as vt say. Notices rows from the wrong
+ * end, a byte order that is not swapped, sizes that are believed; indices off by one or taken from the wrong end,
+ * polygons cut wrongly, u and v exchanged or flipped, normals that do not win over the order of corners. */
 #include "render_case.h"
 
 #define BYTES(literal) literal, sizeof literal - 1

@@ -1,3 +1,4 @@
+#include "cli/figures.h"
 #include "draw/chart.h"
 
 #include <math.h>
@@ -77,19 +78,6 @@ static int tick_at(const picture *p, int is_y, int index, double *at, int *is_na
     return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
-/* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does not. */
-static void name_number(const picture *p, int is_y, char name[16], double value)
-{
-    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const int is_wide = p->step[is_y] == 0 && (p->low[is_y] < 9e-4 || p->high[is_y] > 2e5);
-    const int power = is_wide ? (int)floor(log10(value) + 1e-9) : 0, size = abs(power);
-    if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
-        snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
-                 digits[size % 10]);
-    else
-        snprintf(name, 16, "%.6g", value);
-}
-
 /* ---- the frame ----------------------------------------------------------------------------------- */
 
 /* Lines across the frame, those without a name finer, and names. */
@@ -105,13 +93,11 @@ static void draw_ticks(const picture *p, int is_y)
         fputs(is_y && pass == NAMES ? "<text class=\"tick quiet\" text-anchor=\"end\">" : begin[pass], p->file);
         for (int i = 0; tick_at(p, is_y, i, &at, &is_named); i++) {
             const double v = pixel(p, is_y, at);
-            char text[16];
-            name_number(p, is_y, text, at);
             if (is_named != (pass != FINE))
                 continue;
             if (pass == NAMES)
-                fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : v,
-                        is_y ? v + 4 : bottom + 16, text);
+                fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%.6g</tspan>", is_y ? p->left - 6 : v,
+                        is_y ? v + 4 : bottom + 16, at);
             else if (is_y)
                 fprintf(p->file, "M%.1f %.1fh%.1f", p->left, v, p->width);
             else
@@ -194,14 +180,6 @@ static void draw_marks(picture *p, const chart_series *s)
     fputs("\"/>\n", p->file);
 }
 
-static double text_width(const char *text)
-{
-    double glyphs = 0;
-    for (; *text; text++)
-        glyphs += ((unsigned char)*text & 0xc0) != 0x80; /* the first byte of each character of UTF-8 */
-    return glyphs * glyph_width;
-}
-
 /* The names one after the other, from the left of the frame. */
 static void draw_key(const picture *p)
 {
@@ -216,7 +194,7 @@ static void draw_key(const picture *p)
             fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n", s->line ? "" : " swatch",
                     s->colour, dashes[s->line], x - 2, y);
         svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, s->name);
-        x += 36 + text_width(s->name);
+        x += 36 + glyph_width * (double)text_glyphs(s->name);
     }
 }
 
@@ -227,7 +205,8 @@ static void draw_key(const picture *p)
 static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
 {
     static const double distances[] = {7, 12, 20, 30, 42, 56};
-    const double width = text_width(text), right = p->left + p->width, bottom = p->top + p->height + p->band;
+    const double width = glyph_width * (double)text_glyphs(text), right = p->left + p->width,
+                 bottom = p->top + p->height + p->band;
     char kind[16];
     for (int i = 0; i < 6 * 12; i++) {
         const double far = distances[i / 12], turn = i % 12 * acos(-1.0) / 6;

@@ -1,5 +1,5 @@
-/* One light is chosen by its power. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in the
- * cone that it fills. Light from far away is not drawn: rough materials find it, for 1.6 times the work in a studio of
+/* One light is chosen by its power. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in
+ * the cone that it fills. Light from far away is not drawn: materials find it, for 1.6 times the work in a studio of
  * soft boxes. */
 #include "render/scene.h"
 
