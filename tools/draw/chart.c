@@ -200,8 +200,8 @@ static void draw_key(const picture *p)
 
 /* ---- labels -------------------------------------------------------------------------------------- */
 
-/* Tries places around the point, near ones first, and takes the first where the text covers nothing; where there is none
- * it is left out. */
+/* Tries places around the point, near ones first, and takes the first where the text covers nothing; where there is
+ * none it is left out. */
 static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
 {
     static const double distances[] = {7, 12, 20, 30, 42, 56};
