@@ -5,7 +5,7 @@
  * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
  * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
  * own surface, by weights of drawn light; a sky that is turned or off by a row, choices that forget a
- * light; wrong densities, areas, powers and cosines, lights that shine backwards, shadow rays that end
+ * light; wrong densities, areas and cosines, lights that shine backwards, shadow rays that end
  * too early or too late, candidates that are not kept in proportion to their weight. */
 #include "render_case.h"
 

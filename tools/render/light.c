@@ -1,4 +1,4 @@
-/* One light is chosen by its power. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in
+/* All lights are as likely. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in
  * the cone that it fills. Light from far away is not drawn: materials find it, for 1.6 times the work in a studio of
  * soft boxes. */
 #include "render/scene.h"
@@ -61,7 +61,6 @@ static void draw_shape(const shape *is, vec3 place, double u, double v, light_sa
 
 int lights_make(scene *s)
 {
-    double power = 0;
     for (size_t i = 0; i < s->geometry.count; i++) {
         const shape *is = &s->geometry.shapes[i];
         const material *m = &s->materials[is->material];
@@ -69,33 +68,23 @@ int lights_make(scene *s)
             continue;
         if (s->light_count == SCENE_LIGHTS_MAX)
             return 0;
-        const double seen =
-            PI * is->radius * is->radius + length(cross(is->edge_u, is->edge_v)); /* from far away */
-        s->lights[s->light_count++] = (emitter){is, luminance(m->colour) * seen};
-        power += luminance(m->colour) * seen;
+        s->lights[s->light_count++] = is;
     }
-    for (size_t i = 0; i < s->light_count; i++)
-        s->lights[i].part /= power;
     return 1;
 }
 
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample)
 {
-    double left = u[0];
-    const emitter *l = s->lights;
-    while (l + 1 < s->lights + s->light_count && (left -= l->part) >= 0)
-        l++;
-    draw_shape(l->shape, place, u[1], u[2], sample);
-    sample->density *= l->part;
+    const double count = (double)s->light_count;
+    const shape *is = s->lights[(size_t)(u[0] * count)];
+    draw_shape(is, place, u[1], u[2], sample);
+    sample->density /= count;
     for (int k = 0; k < 3; k++)
-        sample->radiance[k] = s->materials[l->shape->material].colour[k];
+        sample->radiance[k] = s->materials[is->material].colour[k];
     return sample->density > 0 && sample->distance > 0;
 }
 
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h)
 {
-    for (size_t i = 0; i < s->light_count && h; i++)
-        if (s->lights[i].shape == h->shape)
-            return s->lights[i].part * shape_density(h->shape, place, direction, h->place);
-    return 0;
+    return h ? shape_density(h->shape, place, direction, h->place) / (double)s->light_count : 0;
 }

@@ -21,12 +21,6 @@ typedef struct material {
     const image *colour_map, *alpha_map; /* multiply colour and alpha, by their red; NULL: none */
 } material;
 
-/* A shape that emits from its front, a sphere or a rectangle, and how likely it is drawn. */
-typedef struct emitter {
-    const shape *shape;
-    double part;
-} emitter;
-
 /* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. */
 typedef struct environment {
     float constant[3];
@@ -40,8 +34,8 @@ typedef struct scene {
     int width, height;
     int depth, samples; /* the most surfaces on a path; a pixel */
     environment environment;
-    geometry geometry; /* owned, as are all below */
-    emitter lights[SCENE_LIGHTS_MAX];
+    geometry geometry;                     /* owned, as are all below */
+    const shape *lights[SCENE_LIGHTS_MAX]; /* which emit from their fronts: spheres and rectangles */
     size_t light_count;
     material materials[SCENE_MATERIALS_MAX];
     size_t material_count;
@@ -81,7 +75,8 @@ typedef struct light_sample {
  * what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment, 0. */
+/* The density with which lights_draw finds, from a place, the light that a ray has met; 0 for the environment (NULL).
+ */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
