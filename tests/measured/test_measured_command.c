@@ -32,11 +32,9 @@ static void test_bsdf(void)
 /* 48 x 48 heights, smoothed along rows: slopes of both axes differ. */
 static void test_heights(void)
 {
-    static const char *const doubt = "doubtful with the matrix ", *const keys[] = {
-                                                                      "anisotropy", "p22_error_median",
-                                                                      "p22_error_99", "residual_isotropy"};
+    static const char *const doubt = "doubtful with the matrix ";
     unsigned long long state = 1;
-    double height = 0, x, y, z, w;
+    double height = 0;
     FILE *file = fopen("heights.txt", "w");
     for (int i = 0; i < 48 * 48; i++) {
         height = (3 * height + 1000 * test_uniform_double(&state)) / 4;
@@ -50,10 +48,6 @@ static void test_heights(void)
     build("--height heights.txt --step 400,400 --profile curve.csv -o heights.vndf");
     const double before = number("scale");
     TEST(finer > number("rms_slope"));
-    for (int i = 0; i < 4; i++)
-        TEST(number(keys[i]) > 0);
-    const char *matrix = strstr(text, "\nmatrix ");
-    TEST(matrix && sscanf(matrix, "\nmatrix %lf,%lf,%lf,%lf\n", &x, &y, &z, &w) == 4);
     run_line(0, "", "grep -q '^# --height heights.txt --step 400,400 (crc32 ' curve.csv");
     run_line(0, "", "grep -A 1 -x slope,p22 curve.csv | grep -q '^[-.e0-9]*,[-.e0-9]*$'");
     build("--csv curve.csv -o again.vndf");
@@ -63,7 +57,7 @@ static void test_heights(void)
     TEST_HAS(text, doubt);
     /* What was found stays with the table. */
     const char *from = strstr(text, "\nheights 48 x 48"), *verdict = from ? strstr(from, "\nverdict ") : NULL;
-    if (TEST(verdict && strstr(from, "\ntilt ") && strstr(from, "\nmatrix "))) {
+    if (TEST(verdict && strstr(from, "\ntilt ") && strstr(from, "\nmatrix ") && strstr(from, "\np22_error_99 "))) {
         snprintf(found, sizeof found, "%.*s", (int)(verdict - from), from);
         TEST_HAS(run_line(0, "\nresult good", "vndf check heights.vndf --samples 1000")->text, found);
     }

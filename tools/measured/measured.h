@@ -56,7 +56,6 @@ typedef struct tensor {
     size_t shape[5];
     const void *data;
 } tensor;
-size_t tensor_count(const tensor *of);
 
 /* The field of floats of this name and number of dimensions; its data are bytes of the file. Number i of them. */
 int tensor_find(data_file *file, const char *name, int dimensions, tensor *found);
