@@ -38,7 +38,4 @@ vndf(plot alum-bronze.vndf -o alum-bronze.svg)
 vndf(plot alum-bronze.vndf --alpha 1,3 --theta 0,60,85 -o alum-bronze-brushed.svg)
 vndf(sample alum-bronze.vndf --theta 60 -n 10 -o -)
 
-say("\nTables, and figures of density and samples, are in ${OUT}:
-  rings.vndf        rings.svg
-  gloss.vndf        gloss.svg
-  alum-bronze.vndf  alum-bronze.svg  alum-bronze-brushed.svg")
+say("\nTables, and figures of density and samples, are in ${OUT}")

@@ -7,19 +7,11 @@
 #include "command.h"
 #include "vndf.h"
 
-static const subcommand *const subcommands[] = {&command_build,
-                                                &command_info,
-                                                &command_check,
-                                                &command_sample,
-                                                &command_plot,
-                                                &command_report,
-                                                &command_bench,
-                                                &command_bake,
-                                                &command_export,
-                                                &command_explore,
-                                                &command_render,
-                                                &command_judge,
-                                                NULL};
+static const subcommand *const subcommands[] = {
+    &command_build,  &command_info,  &command_check, &command_sample, &command_plot,
+    &command_report, &command_bench, &command_bake,  &command_export, &command_explore,
+    &command_render, &command_judge, NULL,
+};
 
 /* ---- all commands -------------------------------------------------------------------------------- */
 

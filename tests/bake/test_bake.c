@@ -1,8 +1,8 @@
 /* Baked tables hold what quadrature over slopes finds, for closed forms, haze and rings: DFG and energy of mirrors to
  * 3e-4, of glass to 5e-4 from the thinner side and 3e-3 from the denser one; of GGX at alpha 1 also what is known
- * exactly. A fitted cosine lights a rectangle as the BSDF does. Notices the worse of two fits, a Fresnel term in the
- * wrong channel, axes that are swapped, a matrix that is not the inverse, weights that do not sum to 1, and half floats
- * that are not the nearest. */
+ * exactly. A fitted cosine lights a rectangle as the BSDF does. Notices a Fresnel term in the wrong channel, axes that
+ * are swapped, a matrix that is not the inverse, weights that do not sum to 1, and half floats that are not the
+ * nearest. */
 #include "bake/bake.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
@@ -149,7 +149,7 @@ static double anisotropic_error(const vndf_distribution *d)
     double sum[2] = {0, 0};
     TEST(bake_anisotropic(&s, &list) && list.count == 3);
     fprintf(stderr, "fits of two roughnesses: %.4f in the mean\n", list.table[0].mean);
-    TEST(list.table[0].mean < 0.1905); /* of the better of two fits; 0.1914 of the first, 0.1964 of the worse */
+    TEST(list.table[0].mean < 0.1905);
     for (int k = 0; k < 24 && list.count == 3; k++) {
         const int rough = 2 + k % 2, ratio = k / 2 % 2, theta = k / 4 % 3, phi = k % N,
                   at = 4 * (((rough * N + ratio) * N + theta) * N + phi);

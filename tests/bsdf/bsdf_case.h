@@ -31,13 +31,9 @@ static inline vndf_affine bsdf_affine(const vndf_distribution *d, float mean, un
     double x = exp(log(0.01) + log(300) * test_uniform_double(state)), p = 2 * PI * test_uniform_double(state);
     double y = exp(log(0.01) + log(300) * test_uniform_double(state)), q = 2 * PI * test_uniform_double(state);
     double flip = test_uniform(state) < 0.5f ? -1 : 1;
-    vndf_affine a = {d,
-                     (float)(cos(p) * x * cos(q) - sin(p) * y * flip * sin(q)),
-                     (float)(-cos(p) * x * sin(q) - sin(p) * y * flip * cos(q)),
-                     (float)(sin(p) * x * cos(q) + cos(p) * y * flip * sin(q)),
-                     (float)(-sin(p) * x * sin(q) + cos(p) * y * flip * cos(q)),
-                     bsdf_around(mean, state),
-                     bsdf_around(mean, state)};
+    vndf_affine a = oracle_turned(d, x, y * flip, q, p);
+    a.mean_x = bsdf_around(mean, state);
+    a.mean_y = bsdf_around(mean, state);
     return a;
 }
 

@@ -2,6 +2,7 @@
  * it holds. */
 #pragma once
 
+#include "cli/files.h"
 #include "core/checksum.h"
 #include "harness/test.h"
 #include "vndf.h"
@@ -9,11 +10,6 @@
 enum { DAMAGE_BYTES_MAX = 1 << 17 };
 
 /* ---- bytes ---- */
-
-static inline unsigned long get_u32(const unsigned char *bytes)
-{
-    return bytes[0] | (unsigned long)bytes[1] << 8 | (unsigned long)bytes[2] << 16 | (unsigned long)bytes[3] << 24;
-}
 
 static inline void put_u32(unsigned char *bytes, unsigned long value)
 {

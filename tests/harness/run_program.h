@@ -96,7 +96,7 @@ static inline int run_count(const char *folder, const char *part)
 
 /* A scene of a ball, small and quick. */
 static const char run_scene[] =
-    "film --width 8 --height 8\ncamera --from 0,0,5 --to 0,0,0\nenvironment --constant 1,1,1\n"
+    "camera --from 0,0,5 --to 0,0,0 --width 8 --height 8\nenvironment --constant 1,1,1\n"
     "material gold --conductor gold --distribution ggx --alpha 0.2\n"
     "sphere --centre 0,0,0 --radius 1 --material gold\n";
 

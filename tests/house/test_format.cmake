@@ -15,7 +15,6 @@ endif()
 
 file(GLOB_RECURSE files ${SOURCE}/include/*.h ${SOURCE}/src/*.[ch] ${SOURCE}/tools/*.[ch] ${SOURCE}/tests/*.[ch]
     ${SOURCE}/include/*.hpp ${SOURCE}/tools/*.hpp ${SOURCE}/tests/*.cpp)
-list(LENGTH files count)
 if(NOT files)
     message(FATAL_ERROR "no sources under ${SOURCE}")
 endif()
@@ -23,4 +22,3 @@ execute_process(COMMAND ${CLANG_FORMAT} --dry-run --Werror ${files} RESULT_VARIA
 if(NOT status EQUAL 0)
     message(FATAL_ERROR "not as .clang-format has it; clang-format -i FILE mends it:\n${output}")
 endif()
-message("${count} files are as .clang-format has them")

@@ -29,15 +29,16 @@ static inline double case_number(const data_file *file, const char *key)
 static inline int case_read(int good, const data_file *file)
 {
     if (!TEST(good))
-        fprintf(stderr, "  %s\n", file->refused);
+        fprintf(stderr, "  %s\n", file->error.message);
     return good;
 }
 
 /* A reader refused a file with this reason, and frees it. */
 static inline void case_refused(int good, data_file *file, const char *reason)
 {
-    if (!(TEST(!good) & TEST(strncmp(file->refused, "made: ", 6) == 0) & TEST_HAS(file->refused, reason)))
-        fprintf(stderr, "  '%s' in the place of '%s'\n", file->refused, reason);
+    if (!(TEST(!good) & TEST(strncmp(file->error.message, "made: ", 6) == 0) &
+          TEST_HAS(file->error.message, reason)))
+        fprintf(stderr, "  '%s' in the place of '%s'\n", file->error.message, reason);
     case_free(file);
 }
 

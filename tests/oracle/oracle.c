@@ -181,6 +181,13 @@ int oracle_wanted(int arguments, char **argument, size_t index, const char *name
     return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
 }
 
+vndf_affine oracle_turned(const vndf_distribution *d, double a, double b, double before, double after)
+{
+    const double c = cos(after), s = sin(after), e = cos(before), f = sin(before);
+    const float xx = (float)(c * a * e - s * b * f), xy = (float)(-c * a * f - s * b * e);
+    return (vndf_affine){d, xx, xy, (float)(s * a * e + c * b * f), (float)(-s * a * f + c * b * e), 0, 0};
+}
+
 vndf_vec3 oracle_direction(double theta, double phi)
 {
     double t = theta * PI / 180, p = phi * PI / 180, s = sin(t);

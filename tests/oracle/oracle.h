@@ -67,6 +67,9 @@ double oracle_surface_visible(const oracle_surface *surface, const double wi[3],
 
 /* ---- for tests ---- */
 
+/* A matrix with these singular values, turned before and after. */
+vndf_affine oracle_turned(const vndf_distribution *d, double a, double b, double before, double after);
+
 /* wi at theta and phi in degrees; exactly horizontal at 90. */
 vndf_vec3 oracle_direction(double theta, double phi);
 

@@ -1,4 +1,4 @@
-"""Mitsuba's own tests pass for our BSDFs, which agree with the library, and with Mitsuba where both have GGX.
+"""Our BSDFs agree with the library, and with Mitsuba where both have GGX.
 
     python test_mitsuba.py [VARIANT]        llvm_ad_rgb, or scalar_rgb where LLVM is absent
 """

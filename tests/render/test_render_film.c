@@ -8,7 +8,7 @@ static scene *scene_of(double lamp, double alpha)
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "film --width 96 --height 64\ncamera --from 0,0,8 --to 0,0,0 --field 30\n"
+             "camera --from 0,0,8 --to 0,0,0 --field 30 --width 96 --height 64\n"
              "environment --constant 0.2,0.2,0.2\nmaterial lamp --light %g,%g,%g\n"
              "material gold --conductor gold --distribution ggx --alpha 0.2\n"
              "material odd --conductor gold --distribution ggx --alpha %g\n"

@@ -27,14 +27,6 @@ static inline vndf_affine seen_straight(const vndf_distribution *d, float alpha_
     return (vndf_affine){d, alpha_x, 0, 0, alpha_y, 0, 0};
 }
 
-/* A matrix with these singular values, turned before and after. */
-static inline vndf_affine seen_turned(const vndf_distribution *d, double a, double b, double before, double after)
-{
-    const double c = cos(after), s = sin(after), e = cos(before), f = sin(before);
-    const float xx = (float)(c * a * e - s * b * f), xy = (float)(-c * a * f - s * b * e);
-    return (vndf_affine){d, xx, xy, (float)(s * a * e + c * b * f), (float)(-s * a * f + c * b * e), 0, 0};
-}
-
 static inline seen seen_from(seen_kind kind, const vndf_mixture *of, vndf_vec3 wi)
 {
     const vndf_affine *first = &of->lobe[0].surface;

@@ -47,10 +47,10 @@ static void check_valid(const vndf_distribution *d, const char *name, size_t cou
         const double z = i % 7 ? cosines[i % (sizeof cosines / sizeof *cosines)] : sin(atan(mean * cos(phi)));
         const double length = wild ? random_decade(state, -20, 20) : 1, across = length * sqrt((1 - z) * (1 + z));
         const double wi[3] = {across * cos(phi), i % 11 ? across * sin(phi) : 0, length * z};
-        vndf_mixture of = {2, {{seen_turned(d, larger, lesser, (double)i, phi + 2 * (double)i), 0}}};
+        vndf_mixture of = {2, {{oracle_turned(d, larger, lesser, (double)i, phi + 2 * (double)i), 0}}};
         of.lobe[0].surface.mean_x = (float)mean;
         of.lobe[0].weight = (float)random_decade(state, -38, 38);
-        of.lobe[1].surface = seen_turned(i % 3 ? vndf_ggx() : vndf_beckmann(), 1, 0.1, phi, phi);
+        of.lobe[1].surface = oracle_turned(i % 3 ? vndf_ggx() : vndf_beckmann(), 1, 0.1, phi, phi);
         of.lobe[1].weight = (float)random_decade(state, -38, 38);
         const vndf_mixture alone = {1, {of.lobe[0]}};
         seen one = seen_from(SEEN_AFFINE, &alone, vec3_of(wi)), mixed = seen_from(SEEN_MIXTURE, &of, one.wi),

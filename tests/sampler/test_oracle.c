@@ -32,7 +32,7 @@ static vndf_affine random_shape(const vndf_distribution *d, family f, unsigned l
         a = random_decade(state, -4, 4), b = a * random_decade(state, -8, 0);
     if (f == LEANING || f == MIXED)
         a = random_decade(state, -2, 0), b = random_decade(state, -2, 0);
-    vndf_affine m = f >= SHEARED ? seen_turned(d, a, b, q, p) : seen_straight(d, (float)a, (float)b);
+    vndf_affine m = f >= SHEARED ? oracle_turned(d, a, b, q, p) : seen_straight(d, (float)a, (float)b);
     if (f == LEANING || f == MIXED)
         m.mean_x = (float)random_between(state, -1, 1), m.mean_y = (float)random_between(state, -1, 1);
     return m;

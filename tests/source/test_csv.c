@@ -1,6 +1,6 @@
 /* Rows of D or P22 become a curve that meets them, stays between neighbours, never goes below zero (at the ends of
- * double: fuzz_csv) and has the tail that csv.c states, whatever their columns, from a CSV as from memory; what is no
- * such curve is refused with the number of the line or row. */
+ * double: fuzz_source) and has the tail that csv.c states, whatever their columns, from a CSV as from memory; what is
+ * no such curve is refused with the number of the line or row. */
 #include "source/sources.h"
 
 static vndf_source *csv(const char *text)

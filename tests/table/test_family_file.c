@@ -12,8 +12,8 @@ static const char path[] = VNDF_SOURCE_DIR "/tests/corpus/family/two.vndfs";
 /* Where the parameters begin: behind both texts. */
 static size_t parameters_at(const unsigned char *bytes)
 {
-    size_t tool = SOURCE + 4 + get_u32(bytes + SOURCE);
-    return tool + 4 + get_u32(bytes + tool);
+    size_t tool = SOURCE + 4 + little_whole(bytes + SOURCE, 4);
+    return tool + 4 + little_whole(bytes + tool, 4);
 }
 
 /* ---- what is saved ---- */
@@ -37,7 +37,7 @@ static void test_same(const unsigned char *bytes, size_t size)
     size_t at = parameters_at(bytes) + 3 * 4 + 4;
     vndf_info first = vndf_distribution_info(vndf_family_distribution(family, 0));
     TEST(strcmp(first.source, "--family student-t:1.8") == 0);
-    TEST(first.bytes == get_u32(bytes + at - 4) && memcmp(bytes + at, "VNDFtab\n", 8) == 0);
+    TEST(first.bytes == little_whole(bytes + at - 4, 4) && memcmp(bytes + at, "VNDFtab\n", 8) == 0);
     vndf_family_free(family);
 }
 
@@ -77,7 +77,7 @@ static void mend(unsigned char *bytes, const unsigned char *sound, size_t size)
 {
     size_t at = parameters_at(sound) + 3 * 4;
     for (int i = 0; i < 2; i++) {
-        size_t table = get_u32(sound + at);
+        size_t table = little_whole(sound + at, 4);
         mend_checksum(bytes + at + 4, table);
         at += 4 + table;
     }

@@ -84,9 +84,9 @@ static void test_rules(const file_kind *tables)
     vndf_source_free(source);
     size_t arrays = TEXTS;
     for (int i = 0; i < 3; i++)
-        arrays += 4 + get_u32(sound + arrays);
+        arrays += 4 + little_whole(sound + arrays, 4);
     for (size_t i = 0; i <= ARRAYS; i++)
-        part[i] = arrays + 4 * i * (get_u32(sound + COUNTS) + 1);
+        part[i] = arrays + 4 * i * (little_whole(sound + COUNTS, 4) + 1);
     if (!TEST(part[ARRAYS] + 4 == size && size < ROOM - 16))
         return;
     test_broken_rules(tables, sound, size, part, RULES, sizeof RULES / sizeof *RULES);

@@ -134,8 +134,7 @@ const char *figures_shown(const figures *f, size_t row, size_t column)
     return text_of(&f->at[row * figures_columns(f) + column]);
 }
 
-/* Characters of UTF-8. */
-static size_t length_of(const char *text)
+size_t text_glyphs(const char *text)
 {
     size_t length = 0;
     for (; *text; text++)
@@ -146,14 +145,14 @@ static size_t length_of(const char *text)
 /* With spaces before or behind it. */
 static void put_padded(FILE *file, const char *text, size_t width, int is_right)
 {
-    const int spaces = (int)(width - length_of(text));
+    const int spaces = (int)(width - text_glyphs(text));
     fprintf(file, "%*s%s%*s", is_right ? spaces : 0, "", text, is_right ? 0 : spaces, "");
 }
 
 static size_t width_of(const figures *f, size_t column, size_t width)
 {
     for (size_t i = 0; i < f->rows; i++) {
-        const size_t length = length_of(figures_shown(f, i, column));
+        const size_t length = text_glyphs(figures_shown(f, i, column));
         width = length > width ? length : width;
     }
     return width;
@@ -174,7 +173,7 @@ static void print_text(FILE *file, const figures *f)
             for (size_t k = first; k < columns; k++) {
                 fputs("  ", file);
                 put_padded(file, is_body ? figures_shown(f, i, k) : f->at[k].name,
-                           width_of(f, k, length_of(f->at[k].name)), f->at[k].kind == FIGURE_NUMBER);
+                           width_of(f, k, text_glyphs(f->at[k].name)), f->at[k].kind == FIGURE_NUMBER);
             }
             fputc('\n', file);
         }

@@ -79,6 +79,9 @@ int figures_end(figures *f);
  * to be; as JSON an array of objects; not FIGURES_NONE. 0 if there was no memory. */
 int figures_print(FILE *file, const figures *f, figures_form form);
 
+/* How many characters a text has; it is UTF-8. */
+size_t text_glyphs(const char *text);
+
 /* What a table shows in a row, from 0, and a column. */
 size_t figures_columns(const figures *f);
 const char *figures_shown(const figures *f, size_t row, size_t column);

@@ -55,23 +55,6 @@ int files_same(const char *a, const char *b)
 
 /* ---- whole files --------------------------------------------------------------------------------- */
 
-char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size)
-{
-    static int stdin_is_taken; /* what is read once is gone */
-    const int is_stdin = strcmp(path, "-") == 0;
-    const char *role = is_stdin ? stdin_is_taken++ ? "read already" : NULL : files_note(path, 0);
-    FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
-    char *bytes = file ? (char *)vndf_read_all(file, most, size) : NULL;
-    snprintf(reason, reason_size, role ? "it is %s" : "%s", role ? role : strerror(errno));
-    if (file && !is_stdin)
-        fclose(file);
-    if (!bytes || *size <= most)
-        return bytes;
-    snprintf(reason, reason_size, "it has more than %zu bytes", most);
-    free(bytes);
-    return NULL;
-}
-
 const char *input_name(const char *path)
 {
     return strcmp(path, "-") == 0 ? "stdin" : path;
@@ -79,11 +62,20 @@ const char *input_name(const char *path)
 
 char *input_read(const char *command, const char *path, size_t most, size_t *size)
 {
-    char reason[128];
-    char *bytes = files_read(path, most, size, reason, sizeof reason);
+    static int stdin_is_taken; /* what is read once is gone */
+    const int is_stdin = strcmp(path, "-") == 0;
+    const char *role = is_stdin ? stdin_is_taken++ ? "read already" : NULL : files_note(path, 0);
+    FILE *file = role ? NULL : is_stdin ? stdin : fopen(path, "rb");
+    char *bytes = file ? (char *)vndf_read_all(file, most, size) : NULL;
+    const char *reason = role ? role : strerror(errno);
+    if (file && !is_stdin)
+        fclose(file);
     if (!bytes)
-        complain(command, "cannot read %s: %s", input_name(path), reason);
-    return bytes;
+        return complain(command, "cannot read %s: %s%s", input_name(path), role ? "it is " : "", reason), NULL;
+    if (*size <= most)
+        return bytes;
+    free(bytes);
+    return complain(command, "cannot read %s: it has more than %zu bytes", input_name(path), most), NULL;
 }
 
 /* ---- numbers ------------------------------------------------------------------------------------- */

@@ -15,10 +15,7 @@ const char *files_note(const char *path, int is_output);
 int files_same(const char *a, const char *b);
 
 /* All bytes of a file that is not trusted, or of stdin for "-", noted as an input, with a 0 behind them; to be freed.
- * NULL and the reason if it cannot be read, has more than `most` bytes, or there is no memory. */
-char *files_read(const char *path, size_t most, size_t *size, char *reason, size_t reason_size);
-
-/* The same, or NULL after a complaint. */
+ * NULL after a complaint if it cannot be read, has more than `most` bytes, or there is no memory. */
 char *input_read(const char *command, const char *path, size_t most, size_t *size);
 
 /* "stdin" for "-". */

@@ -44,19 +44,11 @@ static unsigned listed(const arguments *given, const char *option, unsigned othe
 
 static int make(const bake_settings *s, unsigned what, baked_list *list)
 {
-    static const struct {
-        int (*bake)(const bake_settings *, baked_list *);
-        double seconds;
-    } parts[] = {{bake_dfg, 2}, {bake_energy, 16}, {bake_ltc, 17}, {bake_prefilter, 0.1}, {bake_anisotropic, 50}};
-    double all = 0, end = 0;
-    for (int k = 0; k < 5; k++)
-        all += what >> k & 1 ? parts[k].seconds : 0;
+    static int (*const parts[])(const bake_settings *, baked_list *) = {bake_dfg, bake_energy, bake_ltc,
+                                                                        bake_prefilter, bake_anisotropic};
     for (int k = 0; k < 5; k++) {
-        if (!(what >> k & 1))
-            continue;
-        end += parts[k].seconds / all;
-        progress_step(s->progress, end);
-        if (!parts[k].bake(s, list))
+        progress_step(s->progress, (k + 1) / 5.0);
+        if (what >> k & 1 && !parts[k](s, list))
             return 0;
     }
     return 1;

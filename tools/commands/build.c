@@ -149,8 +149,8 @@ static vndf_source *measured_source(const arguments *given, output_file *to)
     file.bytes = (const unsigned char *)bytes;
     if (bytes && read_rows(given, &file, &rows))
         source = profile_source(&rows, &file);
-    if (!source && file.refused[0])
-        complain(name, "%s", file.refused);
+    if (!source && file.error.message[0])
+        complain(name, "%s", file.error.message);
     if (source && !finish_measured(given, &file, &rows, source, to)) {
         vndf_source_free(source);
         source = NULL;

@@ -1,3 +1,4 @@
+#include "cli/figures.h"
 #include "draw/chart.h"
 
 #include <math.h>
@@ -18,7 +19,7 @@ typedef struct picture {
     double left, top, width, height, band;
     double low[2], high[2], step[2]; /* of x and y; step 0: logarithmic */
     box taken[BOXES_MAX];
-    size_t count, marks; /* what comes after the marks and lines is labels */
+    size_t count;
 } picture;
 
 /* ---- axes ---------------------------------------------------------------------------------------- */
@@ -77,19 +78,6 @@ static int tick_at(const picture *p, int is_y, int index, double *at, int *is_na
     return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
-/* Powers of ten, with the digits above the line, on an axis that needs them; plain numbers on one that does not. */
-static void name_number(const picture *p, int is_y, char name[16], double value)
-{
-    static const char *const digits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    const int is_wide = p->step[is_y] == 0 && (p->low[is_y] < 9e-4 || p->high[is_y] > 2e5);
-    const int power = is_wide ? (int)floor(log10(value) + 1e-9) : 0, size = abs(power);
-    if (is_wide && fabs(value / pow(10, power) - 1) < 1e-9 && power != 0)
-        snprintf(name, 16, "10%s%s%s", power < 0 ? "⁻" : "", size > 9 ? digits[size / 10 % 10] : "",
-                 digits[size % 10]);
-    else
-        snprintf(name, 16, "%.6g", value);
-}
-
 /* ---- the frame ----------------------------------------------------------------------------------- */
 
 /* Lines across the frame, those without a name finer, and names. */
@@ -105,13 +93,11 @@ static void draw_ticks(const picture *p, int is_y)
         fputs(is_y && pass == NAMES ? "<text class=\"tick quiet\" text-anchor=\"end\">" : begin[pass], p->file);
         for (int i = 0; tick_at(p, is_y, i, &at, &is_named); i++) {
             const double v = pixel(p, is_y, at);
-            char text[16];
-            name_number(p, is_y, text, at);
             if (is_named != (pass != FINE))
                 continue;
             if (pass == NAMES)
-                fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%s</tspan>", is_y ? p->left - 6 : v,
-                        is_y ? v + 4 : bottom + 16, text);
+                fprintf(p->file, "<tspan x=\"%.1f\" y=\"%.1f\">%.6g</tspan>", is_y ? p->left - 6 : v,
+                        is_y ? v + 4 : bottom + 16, at);
             else if (is_y)
                 fprintf(p->file, "M%.1f %.1fh%.1f", p->left, v, p->width);
             else
@@ -194,14 +180,6 @@ static void draw_marks(picture *p, const chart_series *s)
     fputs("\"/>\n", p->file);
 }
 
-static double text_width(const char *text)
-{
-    double glyphs = 0;
-    for (; *text; text++)
-        glyphs += ((unsigned char)*text & 0xc0) != 0x80; /* the first byte of each character of UTF-8 */
-    return glyphs * glyph_width;
-}
-
 /* The names one after the other, from the left of the frame. */
 static void draw_key(const picture *p)
 {
@@ -216,49 +194,37 @@ static void draw_key(const picture *p)
             fprintf(p->file, "<path class=\"line%s l%u\"%s d=\"M%.1f %.1fh18\"/>\n", s->line ? "" : " swatch",
                     s->colour, dashes[s->line], x - 2, y);
         svg_text(p->file, "tick quiet", SVG_START, x + 20, y + 4, s->name);
-        x += 36 + text_width(s->name);
+        x += 36 + glyph_width * (double)text_glyphs(s->name);
     }
 }
 
 /* ---- labels -------------------------------------------------------------------------------------- */
 
-static double overlap(const box *a, const box *b)
-{
-    double width = fmin(a->right, b->right) - fmax(a->left, b->left);
-    double height = fmin(a->bottom, b->bottom) - fmax(a->top, b->top);
-    return width > 0 && height > 0 ? width * height : 0;
-}
-
-/* Tries places around the point, near ones first, and takes the one where the text covers least of the drawing;
- * where a third of it would cover something, or any of it a label, it is left out. */
+/* Tries places around the point, near ones first, and takes the first where the text covers nothing; where there is
+ * none it is left out. */
 static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
 {
     static const double distances[] = {7, 12, 20, 30, 42, 56};
-    const box bounds = {p->left + 2, p->top + 2, p->left + p->width - 2, p->top + p->height + p->band - 2};
-    double width = text_width(text), area = width * text_height, least = HUGE_VAL, least_covered = 0, chosen = 0;
-    box best = {0, 0, 0, 0};
+    const double width = glyph_width * (double)text_glyphs(text), right = p->left + p->width,
+                 bottom = p->top + p->height + p->band;
+    char kind[16];
     for (int i = 0; i < 6 * 12; i++) {
         const double far = distances[i / 12], turn = i % 12 * acos(-1.0) / 6;
         const double cx = x + cos(turn) * (far + width / 2), cy = y + sin(turn) * (far + text_height / 2);
         const box at = {cx - width / 2, cy - text_height / 2, cx + width / 2, cy + text_height / 2};
-        double sum = 20 * (area - overlap(&at, &bounds));
-        for (size_t n = 0; n < p->count; n++)
-            sum += (n < p->marks ? 1 : 20) * overlap(&at, &p->taken[n]);
-        const double cost = sum + 1.5 * far + (i % 6 == 0 ? 0 : 2);
-        if (cost < least) {
-            least = cost, least_covered = sum;
-            best = at, chosen = far;
-        }
-    }
-    if (least_covered > area / 3 || p->count == BOXES_MAX)
+        int is_free = at.left > p->left && at.right < right && at.top > p->top && at.bottom < bottom;
+        for (const box *b = p->taken; b < p->taken + p->count; b++)
+            is_free &= b->right < at.left || b->left > at.right || b->bottom < at.top || b->top > at.bottom;
+        if (!is_free || p->count == BOXES_MAX)
+            continue;
+        if (far > 14)
+            fprintf(p->file, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x, y,
+                    fmin(fmax(x, at.left), at.right), fmin(fmax(y, at.top), at.bottom));
+        p->taken[p->count++] = at;
+        snprintf(kind, sizeof kind, "name t%u", colour);
+        svg_text(p->file, kind, SVG_START, at.left, at.bottom - 2.5, text);
         return;
-    if (chosen > 14)
-        fprintf(p->file, "<path class=\"lead\" d=\"M%.1f %.1fL%.1f %.1f\"/>\n", x, y,
-                fmin(fmax(x, best.left), best.right), fmin(fmax(y, best.top), best.bottom));
-    p->taken[p->count++] = best;
-    char kind[16];
-    snprintf(kind, sizeof kind, "name t%u", colour);
-    svg_text(p->file, kind, SVG_START, best.left, best.bottom - 2.5, text);
+    }
 }
 
 /* ---- the whole ----------------------------------------------------------------------------------- */
@@ -282,7 +248,6 @@ void chart_draw(FILE *file, const chart *c, int is_alone)
         if (s->mark && s->count)
             draw_marks(&p, s);
     }
-    p.marks = p.count;
     for (const chart_series *s = c->series; s < c->series + c->count; s++)
         for (const chart_point *at = s->point; at < s->point + s->count; at++)
             if (at->label[0] && is_inside(&p, at))

@@ -4,18 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-int refuse(data_file *file, const char *format, ...)
-{
-    int length = snprintf(file->refused, sizeof file->refused, "%.300s: ", file->name);
-    va_list list;
-    va_start(list, format);
-    vsnprintf(file->refused + length, sizeof file->refused - (size_t)length, format, list);
-    va_end(list);
-    for (char *c = file->refused; *c; c++)
-        *c = (unsigned char)*c < ' ' || *c == 127 ? '?' : *c;
-    return 0;
-}
-
 void note(data_file *file, const char *format, ...)
 {
     size_t used = strlen(file->notes), room = sizeof file->notes - used;

@@ -4,20 +4,22 @@
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "render/image.h"
+#include "render/lines.h"
 #include "vndf_build.h"
 
-/* A file, whose bytes are not trusted, with a 0 behind them. A reader returns 1, or 0 with the reason in `refused`: the
+/* A file, whose bytes are not trusted, with a 0 behind them. A reader returns 1, or 0 with the reason in `error`: the
  * file, the place in it, what is wrong, what would be right. What it finds goes to `notes`, lines `key value`;
  * `implausible` is the key of what only a mistake explains. Members that are not given are zeroed. */
 typedef struct data_file {
     const char *name;
     const unsigned char *bytes;
     size_t size;
-    char refused[512], notes[4096];
+    vndf_error error;
+    char notes[4096];
 } data_file;
 
-/* "NAME: message"; returns 0, so that a reader can end with it. */
-int refuse(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
+/* "NAME: message"; 0, so that a reader can end with it. */
+#define refuse(file, ...) refuse_at(&(file)->error, (file)->name, 0, __VA_ARGS__)
 
 /* Adds a line, unless it does not fit. */
 void note(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);
@@ -54,7 +56,6 @@ typedef struct tensor {
     size_t shape[5];
     const void *data;
 } tensor;
-size_t tensor_count(const tensor *of);
 
 /* The field of floats of this name and number of dimensions; its data are bytes of the file. Number i of them. */
 int tensor_find(data_file *file, const char *name, int dimensions, tensor *found);

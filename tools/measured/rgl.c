@@ -29,7 +29,7 @@ enum { HEAD = sizeof head + 4, ANGLES_LEAST = 8, ANGLES_MOST = 65536 };
 static const double anisotropy_most = 0.05;
 enum { NORMALS = 2048, INCIDENTS = 48, AREAS = 257, SIDE = 64 };
 
-size_t tensor_count(const tensor *of)
+static size_t tensor_count(const tensor *of)
 {
     size_t count = 1;
     for (int i = 0; i < of->dimensions; i++)

@@ -43,19 +43,12 @@ static int read_rows(data_file *file, image *made)
     return 1;
 }
 
-static int read_image(data_file *file, image *made)
-{
-    vndf_error error = {VNDF_OK, ""};
-    const int good = image_read_bytes(made, file->name, file->bytes, file->size, &error);
-    if (!good)
-        memcpy(file->refused, error.message, sizeof file->refused);
-    return good;
-}
-
 int heights_read(data_file *file, image *made)
 {
     *made = (image){0};
-    int good = file->size < 2 || file->bytes[0] != 'P' ? read_rows(file, made) : read_image(file, made);
+    int good = file->size < 2 || file->bytes[0] != 'P'
+                   ? read_rows(file, made)
+                   : image_read_bytes(made, file->name, file->bytes, file->size, &file->error);
     const int w = made->width, h = made->height;
     if (good && made->channels == 3 && made->quantum > 0)
         good = refuse(file, "a PPM has colours; heights are a PGM, P5");
@@ -110,7 +103,7 @@ int normals_slopes(data_file *file, slope_set *made)
 {
     image map;
     *made = (slope_set){0};
-    if (!read_image(file, &map))
+    if (!image_read_bytes(&map, file->name, file->bytes, file->size, &file->error))
         return 0;
     int good = map.channels == 3 || refuse(file, "an image of one channel; a normal map has three, P6 or PF");
     good = good && add_normals(file, &map, made);

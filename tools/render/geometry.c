@@ -85,7 +85,7 @@ static void enclose_shape(box *to, const shape *s)
 
 /* ---- building ---- */
 
-enum { LEAF_MAX = 3, DEPTH_MAX = 96, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds them all */ };
+enum { LEAF_MAX = 3, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds the depth */ };
 
 static vec3 middle_of(const shape *s)
 {
@@ -196,34 +196,30 @@ static inline double entry(const box *b, const slabs *s, double limit)
     return near <= far ? near : HUGE_VAL;
 }
 
-/* The nearest meeting, or any meeting if that is enough. */
+/* Meets the shapes of a node that begins at `near`, and of those below it, the nearer child first; stops at any if that
+ * is enough. */
+static int visit(const geometry *g, uint32_t at, double near, const slabs *s, const ray *r, int any, hit *h)
+{
+    const bvh_node *n = &g->nodes[at];
+    int is_met = 0;
+    if (!(near < h->distance))
+        return 0;
+    for (uint32_t i = 0; i < n->count; i++)
+        is_met |= meets(&g->shapes[n->at + i], r, h);
+    if (n->count)
+        return is_met;
+    const double one = entry(&n[1].box, s, h->distance), other = entry(&g->nodes[n->at].box, s, h->distance);
+    const uint32_t nearer = one <= other ? at + 1 : n->at, farther = one <= other ? n->at : at + 1;
+    is_met = visit(g, nearer, fmin(one, other), s, r, any, h);
+    return (is_met && any) || visit(g, farther, fmax(one, other), s, r, any, h) || is_met;
+}
+
 static int walk(const geometry *g, const ray *r, int any, hit *h)
 {
     const slabs s = {{r->origin.x, r->origin.y, r->origin.z},
                      {1 / r->direction.x, 1 / r->direction.y, 1 / r->direction.z}};
-    struct {
-        uint32_t node;
-        double near;
-    } stack[DEPTH_MAX] = {{0, 0}}, one, other;
-    int height = g->nodes != NULL, is_met = 0;
     h->distance = r->to;
-    while (height && !(is_met && any)) {
-        const bvh_node *n = &g->nodes[stack[--height].node];
-        if (!(stack[height].near < h->distance))
-            continue;
-        for (uint32_t i = 0; i < n->count; i++)
-            is_met |= meets(&g->shapes[n->at + i], r, h);
-        if (n->count)
-            continue;
-        one.node = stack[height].node + 1;
-        other.node = n->at;
-        one.near = entry(&n[1].box, &s, h->distance);
-        other.near = entry(&g->nodes[other.node].box, &s, h->distance);
-        stack[height] = one.near <= other.near ? other : one; /* the nearer child first */
-        height += stack[height].near < HUGE_VAL;
-        stack[height++] = one.near <= other.near ? one : other;
-    }
-    return is_met;
+    return g->nodes && visit(g, 0, 0, &s, r, any, h);
 }
 
 int geometry_blocked(const geometry *g, const ray *r)

@@ -43,9 +43,9 @@ void geometry_free(geometry *g);
 
 /* ---- meshes ---- */
 
-/* Adds the triangles of an OBJ file, or of its `length` bytes with a 0 behind them, which it changes and errors
- * call `name`. 0 and "NAME:LINE: what is wrong", and then none is added. Files that are not trusted are safe. */
-int obj_read(geometry *g, const char *path, int material, vndf_error *error);
+/* Adds the triangles of `length` bytes of an OBJ file with a 0 behind them, which it changes and errors call `name`.
+ * 0 and "NAME:LINE: what is wrong", and then none is added. Files that are not trusted are safe. */
+enum { OBJ_BYTES_MAX = 1 << 29 };
 int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material, vndf_error *error);
 
 /* Scales the shapes from `first` on, turns them about y (z towards x), then moves them. */

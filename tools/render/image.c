@@ -58,8 +58,6 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 
 /* ---- reading ---- */
 
-enum { HEAD_MAX = 1024 }; /* bytes of the head, with its comments */
-
 typedef struct image_head {
     char word[4][32];
     int is_float, channels, width, height, is_little;
@@ -148,19 +146,6 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
                                  "the pixel in column %d of row %d (from the top, from 0) is not finite", x, y);
             }
     return 1;
-}
-
-int image_read_pfm(image *made, const char *path, vndf_error *error)
-{
-    size_t size;
-    *made = (image){0};
-    char *bytes = bytes_read(path, (size_t)IMAGE_PIXELS_MAX * 12 + HEAD_MAX, &size, error);
-    const int good = bytes && image_read_bytes(made, path, bytes, size, error);
-    free(bytes);
-    if (!good || made->quantum == 0)
-        return good;
-    image_free(made);
-    return refuse_at(error, path, 0, "these are whole numbers, which are no linear light; a PFM is needed");
 }
 
 /* ---- writing ---- */

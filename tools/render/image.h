@@ -13,7 +13,9 @@ typedef struct image {
     double quantum; /* 1 over the largest whole number of the file; 0 of floats */
 } image;
 
-enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25 };
+/* HEAD_MAX: bytes of the head of a file, with its comments. */
+enum { IMAGE_SIDE_MAX = 16384, IMAGE_PIXELS_MAX = 1 << 25, HEAD_MAX = 1024 };
+enum { IMAGE_BYTES_MAX = 12 * IMAGE_PIXELS_MAX + HEAD_MAX };
 
 /* A black image. 0 if there is no memory, or a side is not within 1 to IMAGE_SIDE_MAX. */
 int image_make(image *made, int width, int height);
@@ -29,9 +31,8 @@ void image_bilinear(const image *of, double u, double v, float rgb[3]);
 
 /* Reads an image: PFM of either byte order, whose numbers must be finite; binary PGM and PPM of 8 or 16 bits, 0 to 1.
  * A grey pixel has three equal numbers. Returns 1, or 0 and an error; bytes that are not trusted are safe. Errors
- * call the file `name`. image_read_pfm takes a PFM alone: light is linear, and whole numbers are not. */
+ * call the file `name`. */
 int image_read_bytes(image *made, const char *name, const void *bytes, size_t size, vndf_error *error);
-int image_read_pfm(image *made, const char *path, vndf_error *error);
 
 /* 0 if there are too many pixels, or there is no memory. */
 typedef enum image_pattern { IMAGE_TILES, IMAGE_GRID, IMAGE_STUDIO } image_pattern;

@@ -1,110 +1,21 @@
-/* One light is chosen by its power; the image of the environment by half of all draws, or by all where no light
- * shines. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in the cone that it fills,
- * in the image a pixel by its light and then a direction in it evenly by solid angle.
- *
- * Pixels count by the mean luminance of 3 x 3 of them, so that the density is positive wherever the image, which
- * is interpolated between pixels, is. An image that is nearly even is not drawn: every direction finds its light.
- */
+/* All lights are as likely. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in
+ * the cone that it fills. Light from far away is not drawn: materials find it, for 1.6 times the work in a studio of
+ * soft boxes. */
 #include "render/scene.h"
-
-#include <stdlib.h>
 
 /* ---- the environment ---- */
 
-/* u and v in [0, 1]. */
-static void place_in_image(const environment *e, vec3 w, double *u, double *v)
-{
-    const double turns = 0.5 + atan2(w.x, -w.z) / (2 * PI) + e->turn;
-    *u = turns - floor(turns);
-    *v = atan2(hypot(w.x, w.z), w.y) / PI;
-}
-
 void environment_radiance(const environment *e, vec3 direction, float rgb[3])
 {
-    double u, v, half = e->map ? 0.5 / e->map->height : 0;
     for (int i = 0; i < 3; i++)
         rgb[i] = e->constant[i];
     if (!e->map)
         return;
-    place_in_image(e, direction, &u, &v);
-    image_bilinear(e->map, u, fmin(fmax(v, half), 1 - half), rgb); /* not across the poles */
+    const double turns = 0.5 + atan2(direction.x, -direction.z) / (2 * PI) + e->turn, half = 0.5 / e->map->height;
+    const double down = atan2(hypot(direction.x, direction.z), direction.y) / PI;
+    image_bilinear(e->map, turns, fmin(fmax(down, half), 1 - half), rgb); /* not across the poles */
     for (int i = 0; i < 3; i++)
         rgb[i] *= (float)e->scale;
-}
-
-static double pixel_light(const image *map, int x, int y)
-{
-    double sum = 0;
-    for (int k = y > 0 ? y - 1 : y; k <= y + 1 && k < map->height; k++)
-        for (int i = x - 1; i <= x + 1; i++)
-            sum += luminance(image_pixel(map, (i + map->width) % map->width, k));
-    return sum;
-}
-
-/* The cosines at the top of a row of pixels, and by how much they fall across it. */
-static double row_top(const image *map, size_t y)
-{
-    return cos(PI * (double)y / map->height);
-}
-
-static double row_fall(const image *map, size_t y)
-{
-    return row_top(map, y) - row_top(map, y + 1);
-}
-
-/* 0 if there is no memory. An image is drawn if the mean square of its light is `even` times the square of its mean:
- * below that, drawing costs more than it gives. */
-static int sum_up(environment *e)
-{
-    static const double even = 2;
-    const size_t width = (size_t)e->map->width, count = width * (size_t)e->map->height;
-    double sum = 0, square = 0;
-    e->sums = malloc(count * sizeof *e->sums);
-    for (size_t i = 0; i < count && e->sums; i++) {
-        const double here = pixel_light(e->map, (int)(i % width), (int)(i / width));
-        const double part = row_fall(e->map, i / width) / (2.0 * e->map->width); /* of the sphere */
-        e->sums[i] = sum += here * part;
-        square += here * here * part;
-    }
-    for (size_t i = 0; i < count && e->sums; i++)
-        e->sums[i] /= sum;
-    const int is_made = e->sums != NULL;
-    if (is_made && !(sum > 0 && square >= even * sum * sum)) {
-        free(e->sums);
-        e->sums = NULL;
-    }
-    return is_made;
-}
-
-/* The density per steradian of directions in pixel i, across whose row the cosine falls by `fall`. */
-static double pixel_density(const environment *e, size_t i, double fall)
-{
-    const double chance = e->sums[i] - (i ? e->sums[i - 1] : 0);
-    return e->part * chance * e->map->width / (2 * PI * fall);
-}
-
-/* The pixel of the first sum above u, which gives the place across it, too. */
-static int draw_environment(const environment *e, double u, double v, light_sample *sample)
-{
-    const size_t width = (size_t)e->map->width;
-    size_t low = 0, high = width * (size_t)e->map->height - 1;
-    while (low < high) {
-        const size_t middle = (low + high) / 2;
-        if (e->sums[middle] > u)
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    const double before = low ? e->sums[low - 1] : 0, across = (u - before) / (e->sums[low] - before);
-    const double top = row_top(e->map, low / width), fall = top - row_top(e->map, low / width + 1);
-    const double height = top - v * fall;
-    const double longitude = 2 * PI * (((double)(low % width) + across) / e->map->width - 0.5 - e->turn);
-    const double sine = sqrt(fmax(1 - height * height, 0));
-    sample->direction = vec(sine * sin(longitude), height, -sine * cos(longitude));
-    sample->distance = HUGE_VAL;
-    sample->density = pixel_density(e, low, fall);
-    environment_radiance(e, sample->direction, sample->radiance);
-    return sample->density > 0;
 }
 
 /* ---- shapes ---- */
@@ -150,7 +61,6 @@ static void draw_shape(const shape *is, vec3 place, double u, double v, light_sa
 
 int lights_make(scene *s)
 {
-    double power = 0;
     for (size_t i = 0; i < s->geometry.count; i++) {
         const shape *is = &s->geometry.shapes[i];
         const material *m = &s->materials[is->material];
@@ -158,50 +68,23 @@ int lights_make(scene *s)
             continue;
         if (s->light_count == SCENE_LIGHTS_MAX)
             return 0;
-        const double seen =
-            PI * is->radius * is->radius + length(cross(is->edge_u, is->edge_v)); /* from far away */
-        s->lights[s->light_count++] = (emitter){is, luminance(m->colour) * seen};
-        power += luminance(m->colour) * seen;
+        s->lights[s->light_count++] = is;
     }
-    if (s->environment.map && !sum_up(&s->environment))
-        return 0;
-    s->environment.part = !s->environment.sums ? 0 : s->light_count ? 0.5 : 1;
-    for (size_t i = 0; i < s->light_count; i++)
-        s->lights[i].part *= (1 - s->environment.part) / power;
     return 1;
-}
-
-int lights_any(const scene *s)
-{
-    return s->light_count > 0 || s->environment.sums != NULL;
 }
 
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample)
 {
-    double left = u[0] - s->environment.part;
-    if (left < 0)
-        return draw_environment(&s->environment, u[1], u[2], sample);
-    const emitter *l = s->lights;
-    while (l + 1 < s->lights + s->light_count && (left -= l->part) >= 0)
-        l++;
-    draw_shape(l->shape, place, u[1], u[2], sample);
-    sample->density *= l->part;
+    const double count = (double)s->light_count;
+    const shape *is = s->lights[(size_t)(u[0] * count)];
+    draw_shape(is, place, u[1], u[2], sample);
+    sample->density /= count;
     for (int k = 0; k < 3; k++)
-        sample->radiance[k] = s->materials[l->shape->material].colour[k];
+        sample->radiance[k] = s->materials[is->material].colour[k];
     return sample->density > 0 && sample->distance > 0;
 }
 
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h)
 {
-    const environment *e = &s->environment;
-    double u, v;
-    for (size_t i = 0; i < s->light_count && h; i++)
-        if (s->lights[i].shape == h->shape)
-            return s->lights[i].part * shape_density(h->shape, place, direction, h->place);
-    if (h || !e->sums)
-        return 0;
-    place_in_image(e, direction, &u, &v);
-    const int x = (int)fmin(u * e->map->width, e->map->width - 1);
-    const int y = (int)fmin(v * e->map->height, e->map->height - 1);
-    return pixel_density(e, (size_t)y * (size_t)e->map->width + (size_t)x, row_fall(e->map, (size_t)y));
+    return h ? shape_density(h->shape, place, direction, h->place) / (double)s->light_count : 0;
 }

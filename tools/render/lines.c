@@ -1,10 +1,9 @@
 #include "render/lines.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "cli/files.h"
 
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
 {
@@ -21,19 +20,10 @@ int refuse_at(vndf_error *error, const char *name, unsigned long long line, cons
     return 0;
 }
 
-char *bytes_read(const char *path, size_t most, size_t *size, vndf_error *error)
-{
-    char reason[128];
-    char *bytes = files_read(path, most, size, reason, sizeof reason);
-    if (!bytes)
-        refuse_at(error, path, 0, "%s", reason);
-    return bytes;
-}
-
 int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_error *error)
 {
     *in = (lines){.name = name, .error = error, .at = text};
-    return strlen(text) == length || refuse(in, "the file has a byte 0: it is no text");
+    return strlen(text) == length || refuse_line(in, "the file has a byte 0: it is no text");
 }
 
 static const char blanks[] = " \t\r\v\f";
@@ -53,7 +43,7 @@ int lines_next(lines *in)
             in->word[in->count++] = at += is_quoted;
             end = at + strcspn(at, is_quoted ? "\"" : " \t\r\v\f#");
             if (in->count == most)
-                return refuse(in, "there are %zu words or more in this line", most) - 1;
+                return refuse_line(in, "there are %zu words or more in this line", most) - 1;
             if (*end == '#') /* the comment goes */
                 end[1] = '\0';
             at = *end ? end + 1 : end;
@@ -69,5 +59,5 @@ int read_number(const lines *in, const char *word, double *number)
     char *end;
     *number = strtod(word, &end);
     return (*word && !*end && strspn(word, "+-.0123456789eE") == strlen(word)) ||
-           refuse(in, "'%.64s' should be a number", word);
+           refuse_line(in, "'%.64s' should be a number", word);
 }

@@ -1,4 +1,4 @@
-/* Files that are not trusted: their bytes, their lines as words, and what is said where they are wrong. */
+/* Files that are not trusted: their lines as words, and what is said where they are wrong. */
 #pragma once
 
 #include "cli/arguments.h"
@@ -17,10 +17,7 @@ typedef struct lines {
  * 0. */
 int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
     PRINTF_LIKE(4, 5);
-#define refuse(in, ...) refuse_at((in)->error, (in)->name, (in)->line, __VA_ARGS__)
-
-/* All bytes of a file, with a 0 behind them, to be freed; NULL after a refusal. */
-char *bytes_read(const char *path, size_t most, size_t *size, vndf_error *error);
+#define refuse_line(in, ...) refuse_at((in)->error, (in)->name, (in)->line, __VA_ARGS__)
 
 /* Text of so many bytes, with a 0 behind them, which reading changes. 0 after a refusal. */
 int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_error *error);

@@ -16,7 +16,7 @@
 #include "render/lines.h"
 
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
-enum { BYTES_MAX = 1 << 29, ITEMS_MAX = 1 << 22 };
+enum { ITEMS_MAX = 1 << 22 };
 
 /* What lines begin with, and how large their numbers may be: beyond 1e6 float has no digits for the place in a
  * texture. */
@@ -43,19 +43,19 @@ static int read_item(reader *r, int which)
         if (!read_number(&r->in, r->in.word[1 + i], i < 3 ? &p[i] : &beyond))
             return 0;
     if (count < least)
-        return refuse(&r->in, "there are %zu numbers of %zu in this line", count, least);
+        return refuse_line(&r->in, "there are %zu numbers of %zu in this line", count, least);
     vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : vec(p[0], p[1], p[2]);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
     if (!(largest <= reach[which]))
-        return refuse(&r->in, "numbers of '%s' lie within %g of 0, and these do not", table_names[which],
-                      reach[which]);
+        return refuse_line(&r->in, "numbers of '%s' lie within %g of 0, and these do not", table_names[which],
+                           reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
     if (r->of[which].count == r->of[which].room) {
         const size_t room = 64 + 2 * r->of[which].room;
         vec3 *larger = room <= ITEMS_MAX ? realloc(r->of[which].row, room * sizeof *larger) : NULL;
         if (!larger)
-            return refuse(&r->in, "there is no memory for more '%s'", table_names[which]);
+            return refuse_line(&r->in, "there is no memory for more '%s'", table_names[which]);
         r->of[which].row = larger;
         r->of[which].room = room;
     }
@@ -81,14 +81,14 @@ static int read_corner(reader *r, const char *word, corner *c)
         const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
         const long long count = (long long)r->of[i].count;
         if (behind == at)
-            return refuse(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
+            return refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
         if (given == 0 || given > count || given < -count)
-            return refuse(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
-                          given, count, table_names[i]);
+            return refuse_line(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
+                               given, count, table_names[i]);
         c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
         at = behind;
     }
-    return !*at || refuse(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
+    return !*at || refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
 }
 
 /* Normals of a mesh win over the order of its corners. */
@@ -112,8 +112,8 @@ static int add_triangle(reader *r, const corner *a, const corner *b, const corne
     if (agreement < 0)
         return add_triangle(r, a, c, b);
     if (r->g->count == ITEMS_MAX)
-        return refuse(&r->in, "there are more than %d triangles", ITEMS_MAX);
-    return geometry_add(r->g, &t) || refuse(&r->in, "no memory for its triangles");
+        return refuse_line(&r->in, "there are more than %d triangles", ITEMS_MAX);
+    return geometry_add(r->g, &t) || refuse_line(&r->in, "no memory for its triangles");
 }
 
 static int read_face(reader *r)
@@ -125,7 +125,8 @@ static int read_face(reader *r)
             return 0;
         c[1] = c[i < 3 ? 1 : 2];
     }
-    return r->in.count > 3 || refuse(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
+    return r->in.count > 3 ||
+           refuse_line(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
 }
 
 /* ---- files ---- */
@@ -149,19 +150,10 @@ int obj_read_text(geometry *g, const char *name, char *text, size_t length, int 
     while (good && (more = lines_next(&r.in)))
         good = more > 0 && read_line(&r);
     if (good && g->count == before)
-        good = refuse(&r.in, "the file ends here without a triangle that has an area");
+        good = refuse_line(&r.in, "the file ends here without a triangle that has an area");
     if (!good)
         g->count = before;
     for (int i = 0; i < TABLES; i++)
         free(r.of[i].row);
-    return good;
-}
-
-int obj_read(geometry *g, const char *path, int material, vndf_error *error)
-{
-    size_t size;
-    char *text = bytes_read(path, BYTES_MAX, &size, error);
-    const int good = text && obj_read_text(g, path, text, size, material, error);
-    free(text);
     return good;
 }

@@ -16,7 +16,7 @@
 #include "cli/random.h"
 #include "render/lines.h"
 
-enum { CANDIDATES = 32, ROULETTE = 4 /* from this surface on paths end at random */ };
+enum { CANDIDATES = 32 };
 
 const char *const path_sampler_names[SAMPLERS + 1] = {"visible", "all", "perfect", NULL};
 
@@ -140,7 +140,6 @@ typedef struct walk {
     random_stream random;
     ray ray;
     double throughput[3], radiance[3];
-    double carried; /* the factor of refraction in the throughput */
     double density; /* of the direction, if lights could have drawn it from `place`; else 0 */
     vec3 place;
 } walk;
@@ -211,23 +210,9 @@ static int go_on(walk *w, const surface *p, const hit *h)
         return 0;
     for (int i = 0; i < 3; i++)
         w->throughput[i] *= (double)b.weight[i] * (double)p->colour[i];
-    w->carried *= b.carried;
-    w->density = side > 0 && lights_any(w->plan->scene) ? b.density : 0;
+    w->density = side > 0 && w->plan->scene->light_count > 0 ? b.density : 0;
     w->place = h->place;
     w->ray = ray_from(h, direction);
-    return 1;
-}
-
-/* Leaves out the factor of refraction, which the way out undoes: it says nothing about the worth of a path. */
-static int survives(walk *w)
-{
-    const double worth = fmax(fmax(w->throughput[0], w->throughput[1]), w->throughput[2]) / w->carried;
-    if (worth >= 1)
-        return 1;
-    if (!(random_double(&w->random) < worth))
-        return 0;
-    for (int i = 0; i < 3; i++)
-        w->throughput[i] /= worth;
     return 1;
 }
 
@@ -237,7 +222,7 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
 {
     const scene *s = plan->scene;
     const uint64_t pixel = (uint64_t)y * (uint64_t)s->width + (uint64_t)x;
-    walk w = {.plan = plan, .counts = counts, .throughput = {1, 1, 1}, .carried = 1};
+    walk w = {.plan = plan, .counts = counts, .throughput = {1, 1, 1}};
     surface p;
     hit h;
     w.random = random_from(random_from(random_from(seed).start ^ pixel).start ^ index);
@@ -253,9 +238,9 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
         }
         if (count > (unsigned)s->depth || !begin(&p, plan, &h, w.ray.direction))
             break;
-        if (lights_any(s))
+        if (s->light_count > 0)
             reach_light(&w, &p, &h);
-        if (!go_on(&w, &p, &h) || (count >= ROULETTE && !survives(&w)))
+        if (!go_on(&w, &p, &h))
             break;
     }
     const int is_good = fabs(w.radiance[0]) + fabs(w.radiance[1]) + fabs(w.radiance[2]) < (double)FLT_MAX;

@@ -14,17 +14,18 @@ enum { BYTES_MAX = 1 << 22, PATH_BYTES = 4096, PIXELS_MAX = 2 * IMAGE_PIXELS_MAX
 
 static const double far_away = 1e6, least_size = 1e-6, brightest = 1e6;
 
-enum { FILM, CAMERA, INTEGRATOR, ENVIRONMENT, IMAGE, MATERIAL, SPHERE, RECTANGLE, MESH, STATEMENTS };
-static const char *const statements[] = {"film",     "camera", "integrator", "environment", "image",
-                                         "material", "sphere", "rectangle",  "mesh",        NULL};
+enum { CAMERA, ENVIRONMENT, MATERIAL, SPHERE, RECTANGLE, MESH, STATEMENTS };
+static const char *const statements[] = {"camera", "environment", "material", "sphere", "rectangle", "mesh", NULL};
 
 static const char preface[] =
     "A scene is text. A line is written as a command with options, whose values have no blanks or are\n"
-    "\"between quotes\"; # begins a comment. Images and materials are defined before they are used.\n"
-    "Colours are linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
+    "\"between quotes\"; # begins a comment. Materials are defined before they are used. Colours are\n"
+    "linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
     "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
-    "back is black. An image stands upright on rectangles, along edge-u and edge-v; goes around spheres from\n"
-    "+z by way of +x, its top at +y; lies on meshes as vt say.\n"
+    "back is black. An image is FILE.pfm, or one of these, with :WIDTH,HEIGHT behind it or of 512,512 pixels:\n"
+    "tiles, checks; grid, lines; studio, soft boxes in a grey room, an environment. It stands upright on\n"
+    "rectangles, along edge-u and edge-v; goes around spheres from +z by way of +x, its top at +y; lies on\n"
+    "meshes as vt say.\n"
     "\n"
     "camera --from 0,1,5 --to 0,0.5,0 --field 35\n"
     "environment --constant 1,1,1\n"
@@ -32,24 +33,18 @@ static const char preface[] =
     "sphere --centre 0,0.5,0 --radius 0.5 --material red-gold\n";
 
 static const char *const manual[STATEMENTS] = {
-    "film                               once at most, as camera, integrator and environment\n"
-    "  --width PIXELS, --height PIXELS  1 to 16384 (640, 360)\n",
-    "camera\n"
+    "camera                             once at most, as environment\n"
     "  --from X,Y,Z, --to X,Y,Z, --up X,Y,Z  (up: 0,1,0)\n"
-    "  --field DEGREES                  of view, across the height, 1 to 170 (40)\n",
-    "integrator\n"
+    "  --field DEGREES                  of view, across the height, 1 to 170 (40)\n"
+    "  --width PIXELS, --height PIXELS  of the film, 1 to 16384 (640, 360)\n"
     "  --depth N                        surfaces on a path at most, 1 to 10000 (12)\n"
     "  --samples N                      a pixel (64)\n"
     "  --exposure F                     brightness of a PNG (1)\n",
     "environment                        light from far away, 0 to 1e6\n"
     "  --constant R,G,B\n"
-    "  --image NAME                     longitude over latitude as seen from inside: its top row the\n"
+    "  --image IMAGE                    longitude over latitude as seen from inside: its top row the\n"
     "                                   zenith, its middle column -z, +x at its right\n"
     "    --scale F, --turn DEGREES      times F, turned about y (1, 0)\n",
-    "image NAME\n"
-    "  --file FILE.pfm\n"
-    "  --pattern tiles|grid|studio      checks; lines; soft boxes in a grey room, an environment\n"
-    "    --width PIXELS, --height PIXELS  (512, 512)\n",
     "material NAME\n"
     "  --conductor gold|silver|copper|aluminium\n"
     "  --eta R,G,B                      another conductor, 0 to 1000\n"
@@ -87,9 +82,9 @@ typedef struct reader {
     char command[PATH_BYTES]; /* "vndf render: NAME:LINE", which opens every complaint */
     arguments given;          /* what the line says */
     unsigned seen;            /* a bit for each statement */
-    const char *images[SCENE_IMAGES_MAX + 1], *materials[SCENE_MATERIALS_MAX + 1]; /* names, NULL at the end */
-    const char *tables[SCENE_TABLES_MAX + 1]; /* what those of the scene are made from */
-    size_t pixels;                            /* of all images so far */
+    size_t pixels;            /* of all images so far */
+    /* names of materials, what tables and images are made from, NULL at the end */
+    const char *materials[SCENE_MATERIALS_MAX + 1], *tables[SCENE_TABLES_MAX + 1], *images[SCENE_IMAGES_MAX + 1];
 } reader;
 
 #define wrong(r, ...) (complain((r)->command, __VA_ARGS__), 0)
@@ -135,30 +130,6 @@ static size_t find(const char *const *list, const char *word)
     return i;
 }
 
-/* Which of the names an option has: `what` were defined before. */
-static int read_name(reader *r, const char *option, const char *what, const char *const *list, size_t *chosen)
-{
-    const char *name = option_value(&r->given, option);
-    if (!name)
-        return wrong(r, "%s NAME is missing", option);
-    *chosen = find(list, name);
-    return list[*chosen] || wrong(r, "%s '%s' is no %s that is defined before this%s", option, name, what,
-                                  did_you_mean(name, list, *chosen));
-}
-
-/* A name that none of the things before it has; there may be `most`. */
-static int new_name(reader *r, const char *what, const char **list, size_t most)
-{
-    const char *name = r->given.positional.count == 1 ? r->given.positional.item[0] : NULL;
-    const size_t count = name ? find(list, name) : 0;
-    if (!name)
-        return wrong(r, "'%s' needs one name", what);
-    if (list[count])
-        return wrong(r, "there is another %s '%s' already", what, name);
-    list[count] = name;
-    return count < most || wrong(r, "these are more than %zu %ss", most, what);
-}
-
 /* The path relative to the working folder. */
 static int path_of(reader *r, const char *file, char path[PATH_BYTES])
 {
@@ -168,55 +139,91 @@ static int path_of(reader *r, const char *file, char path[PATH_BYTES])
            wrong(r, "a path has at most %d letters, with the folder of the scene", PATH_BYTES - 1);
 }
 
-/* The image that an option names, if it is there: its first channels have to be within a range. */
+/* All of a file of the scene, and its path, to be freed; NULL after a complaint. */
+static char *read_file(reader *r, const char *file, size_t most, char path[PATH_BYTES], size_t *size)
+{
+    return path_of(r, file, path) ? input_read(r->command, path, most, size) : NULL;
+}
+
+/* ---- images -------------------------------------------------------------------------------------- */
+
+/* From a file, whose numbers have to be floats: whole ones are no linear light. */
+static int read_pfm(reader *r, const char *file, image *made)
+{
+    vndf_error error = {VNDF_OK, ""};
+    char path[PATH_BYTES];
+    size_t size;
+    char *bytes = read_file(r, file, IMAGE_BYTES_MAX, path, &size);
+    const int good = bytes && image_read_bytes(made, path, bytes, size, &error);
+    free(bytes);
+    if (error.message[0])
+        return wrong(r, "%s", error.message);
+    return good && (made->quantum == 0 || wrong(r, "%s holds whole numbers; a PFM is needed", path));
+}
+
+/* "studio", "grid:4096,2048" or a file. */
+static int make_image(reader *r, const char *option, const char *text, image *made)
+{
+    static const char *const patterns[] = {"tiles", "grid", "studio", NULL};
+    char name[16];
+    double side[2] = {512, 512};
+    const size_t length = strcspn(text, ":");
+    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), text);
+    const size_t of = find(patterns, name);
+    if (!patterns[of])
+        return read_pfm(r, text, made);
+    if (text[length] && parse_numbers(r->command, option, text + length + 1, 1, IMAGE_SIDE_MAX, 2, 2, side) != 2)
+        return 0;
+    return image_make_pattern(made, (image_pattern)of, (int)side[0], (int)side[1]) ||
+           wrong(r, "there is no memory for %.0f x %.0f pixels", side[0], side[1]);
+}
+
+/* The image that an option names, if it is there: its first channels have to be within a range. The same text is one
+ * image. */
 static int find_image(reader *r, const char *option, int channels, double low, double high, const image **found)
 {
-    size_t chosen;
-    if (!option_value(&r->given, option))
+    const char *text = option_value(&r->given, option);
+    const size_t i = text ? find(r->images, text) : 0;
+    image *map = &r->made->images[i];
+    if (!text)
         return 1;
-    if (!read_name(r, option, "image", r->images, &chosen))
+    if (i == SCENE_IMAGES_MAX)
+        return wrong(r, "these are more than %d images", SCENE_IMAGES_MAX);
+    if (!map->rgb && !make_image(r, option, text, map))
         return 0;
-    const image *map = *found = &r->made->images[chosen];
-    for (int i = 0; i < map->width * map->height * 3; i++) {
-        const double value = (double)map->rgb[i];
-        if (i % 3 < channels && !(value >= low && value <= high))
+    r->pixels += r->images[i] ? 0 : (size_t)map->width * (size_t)map->height;
+    r->images[i] = text;
+    *found = map;
+    for (int k = 0; k < map->width * map->height * 3; k++) {
+        const double value = (double)map->rgb[k];
+        if (k % 3 < channels && !(value >= low && value <= high))
             return wrong(r, "as %s the image must be from %g to %g; it is %g in column %d of row %d", option, low,
-                         high, value, i / 3 % map->width, i / 3 / map->width);
+                         high, value, k / 3 % map->width, k / 3 / map->width);
     }
-    return 1;
+    return r->pixels <= PIXELS_MAX || wrong(r, "all images together have more than %d pixels", PIXELS_MAX);
 }
 
 /* ---- once in a scene ---- */
-
-static int read_film(reader *r)
-{
-    scene *s = r->made;
-    return read_whole(r, "--width", IMAGE_SIDE_MAX, &s->width) &&
-           read_whole(r, "--height", IMAGE_SIDE_MAX, &s->height) &&
-           ((int64_t)s->width * s->height <= IMAGE_PIXELS_MAX ||
-            wrong(r, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX));
-}
 
 static int read_camera(reader *r)
 {
     scene *s = r->made;
     if (!read_place(r, "--from", &s->from) || !read_place(r, "--to", &s->to) ||
         !read_three(r, "--up", -far_away, far_away, &s->up.x) ||
-        !option_number(&r->given, "--field", 1, 170, &s->field))
+        !option_number(&r->given, "--field", 1, 170, &s->field) ||
+        !read_whole(r, "--width", IMAGE_SIDE_MAX, &s->width) ||
+        !read_whole(r, "--height", IMAGE_SIDE_MAX, &s->height) || !read_whole(r, "--depth", 10000, &s->depth) ||
+        !read_whole(r, "--samples", 1e9, &s->samples) ||
+        !option_number(&r->given, "--exposure", 1e-6, 1e6, &s->exposure))
         return 0;
     const vec3 forward = subtract(s->to, s->from);
     s->field *= PI / 180;
+    if ((int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
+        return wrong(r, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
     if (!(length(forward) >= least_size))
         return wrong(r, "--from and --to are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
            wrong(r, "--up is the direction of the view");
-}
-
-static int read_integrator(reader *r)
-{
-    scene *s = r->made;
-    return read_whole(r, "--depth", 10000, &s->depth) && read_whole(r, "--samples", 1e9, &s->samples) &&
-           option_number(&r->given, "--exposure", 1e-6, 1e6, &s->exposure);
 }
 
 static int read_environment(reader *r)
@@ -231,27 +238,7 @@ static int read_environment(reader *r)
     return good;
 }
 
-/* ---- images and distributions ---- */
-
-static int read_image(reader *r)
-{
-    static const char *const ways[] = {"--file", "--pattern", NULL};
-    const char *file = option_value(&r->given, "--file");
-    int width = 512, height = 512;
-    vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
-    if (!new_name(r, "image", r->images, SCENE_IMAGES_MAX) || !option_alone(&r->given, ways) ||
-        !read_whole(r, "--width", IMAGE_SIDE_MAX, &width) || !read_whole(r, "--height", IMAGE_SIDE_MAX, &height) ||
-        (file && !path_of(r, file, path)))
-        return 0;
-    image *made = &r->made->images[r->made->image_count++];
-    if (file && !image_read_pfm(made, path, &error))
-        return wrong(r, "%s", error.message);
-    if (!file && !image_make_pattern(made, (image_pattern)option_choice(&r->given, "--pattern", 0), width, height))
-        return wrong(r, "there is no memory for %d x %d pixels", width, height);
-    r->pixels += (size_t)made->width * (size_t)made->height;
-    return r->pixels <= PIXELS_MAX || wrong(r, "all images together have more than %d pixels", PIXELS_MAX);
-}
+/* ---- distributions ---- */
 
 /* From the text of --distribution, which is no closed form. */
 static vndf_distribution *make_table(reader *r, const char *text)
@@ -295,7 +282,6 @@ static int read_distribution(reader *r, vndf_description *is)
         if (!(r->made->tables[i] = make_table(r, text)))
             return 0;
         r->tables[i] = text;
-        r->made->table_count++;
     }
     is->distribution = r->made->tables[i];
     return 1;
@@ -345,11 +331,19 @@ static int read_rough(reader *r, size_t kind, material *m)
 
 static int read_material(reader *r)
 {
-    if (!new_name(r, "material", r->materials, SCENE_MATERIALS_MAX) || !option_alone(&r->given, kinds))
+    const char *name = r->given.positional.count == 1 ? r->given.positional.item[0] : NULL;
+    if (!name)
+        return wrong(r, "'material' needs one name");
+    if (r->materials[find(r->materials, name)])
+        return wrong(r, "there is another material '%s' already", name);
+    if (r->made->material_count == SCENE_MATERIALS_MAX)
+        return wrong(r, "these are more than %d materials", SCENE_MATERIALS_MAX);
+    if (!option_alone(&r->given, kinds))
         return 0;
     const size_t kind = find(kinds, option_among(&r->given, kinds));
+    r->materials[r->made->material_count] = name;
     material *made = &r->made->materials[r->made->material_count++];
-    *made = (material){.name = r->given.positional.item[0], .colour = {1.0f, 1.0f, 1.0f}};
+    *made = (material){.name = name, .colour = {1.0f, 1.0f, 1.0f}};
     made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
     if (!option_value(&r->given, "--distribution") != (kind > SHAPE))
         return wrong(r, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
@@ -363,11 +357,21 @@ static int read_material(reader *r)
 
 /* ---- shapes ---- */
 
+/* 0 after a complaint. */
+static int read_its_material(reader *r, int *index)
+{
+    const char *name = option_value(&r->given, "--material");
+    if (!name)
+        return wrong(r, "--material NAME is missing");
+    const size_t of = find(r->materials, name);
+    *index = (int)of;
+    return r->materials[of] || wrong(r, "--material '%s' is no material that is defined before this%s", name,
+                                     did_you_mean(name, r->materials, of));
+}
+
 static int add_shape(reader *r, shape made)
 {
-    size_t of;
-    made.material = read_name(r, "--material", "material", r->materials, &of) ? (int)of : -1;
-    return made.material >= 0 &&
+    return read_its_material(r, &made.material) &&
            (geometry_add(&r->made->geometry, &made) || wrong(r, "there is no memory for this shape"));
 }
 
@@ -407,25 +411,27 @@ static int read_mesh(reader *r)
     vec3 move = {0, 0, 0};
     vndf_error error = {VNDF_OK, ""};
     char path[PATH_BYTES];
-    size_t of;
-    if (!read_name(r, "--material", "material", r->materials, &of) ||
-        !option_number(&r->given, "--scale", least_size, 1e6, &by) ||
+    size_t size;
+    int of;
+    if (!read_its_material(r, &of) || !option_number(&r->given, "--scale", least_size, 1e6, &by) ||
         !option_number(&r->given, "--turn", -360, 360, &turn) ||
         !read_three(r, "--move", -far_away, far_away, &move.x))
         return 0;
     if (!file || r->made->materials[of].kind == MATERIAL_LIGHT)
         return wrong(r, file ? "a light is a sphere or a rectangle, not a mesh" : "--file FILE.obj is missing");
-    if (!path_of(r, file, path) || !obj_read(g, path, (int)of, &error))
-        return *error.message ? wrong(r, "%s", error.message) : 0;
+    char *text = read_file(r, file, OBJ_BYTES_MAX, path, &size);
+    const int good = text && obj_read_text(g, path, text, size, of, &error);
+    free(text);
+    if (error.message[0])
+        return wrong(r, "%s", error.message);
     geometry_place(g, first, by, turn * (PI / 180), move);
-    return 1;
+    return good;
 }
 
 /* ---- all of it ---- */
 
-static int (*const readers[STATEMENTS])(reader *r) = {read_film,        read_camera,    read_integrator,
-                                                      read_environment, read_image,     read_material,
-                                                      read_sphere,      read_rectangle, read_mesh};
+static int (*const readers[STATEMENTS])(reader *r) = {read_camera, read_environment, read_material,
+                                                      read_sphere, read_rectangle,   read_mesh};
 
 static int read_statement(reader *r, lines *in)
 {
@@ -439,7 +445,7 @@ static int read_statement(reader *r, lines *in)
     r->seen |= 1u << of;
     if (!arguments_read(&r->given, r->command, manual[of], (int)in->count - 1, in->word + 1))
         return 0;
-    if (r->given.positional.count && of != IMAGE && of != MATERIAL)
+    if (r->given.positional.count && of != MATERIAL)
         return wrong(r, "'%s' is not expected", r->given.positional.item[0]);
     return readers[of](r);
 }
@@ -453,7 +459,7 @@ static int finish(reader *r)
     if (!geometry_build(&s->geometry))
         return wrong(r, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return wrong(r, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
+        return wrong(r, "these are more than %d lights", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
            wrong(r, "the scene ends without light: an environment, or a shape of a light");
@@ -485,11 +491,8 @@ scene *scene_read_text(const char *name, char *text, size_t length)
 
 scene *scene_read(const char *path)
 {
-    vndf_error error;
     size_t length;
-    char *text = bytes_read(path, BYTES_MAX, &length, &error);
-    if (!text)
-        complain("vndf render", "%s", error.message);
+    char *text = input_read("vndf render", path, BYTES_MAX, &length);
     return text ? scene_read_text(path, text, length) : NULL;
 }
 
@@ -497,11 +500,10 @@ void scene_free(scene *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < s->image_count; i++)
+    for (size_t i = 0; i < SCENE_IMAGES_MAX; i++)
         image_free(&s->images[i]);
-    for (size_t i = 0; i < s->table_count; i++)
+    for (size_t i = 0; i < SCENE_TABLES_MAX; i++)
         vndf_free(s->tables[i]);
-    free(s->environment.sums);
     free(s->text);
     geometry_free(&s->geometry);
     free(s);

@@ -21,20 +21,11 @@ typedef struct material {
     const image *colour_map, *alpha_map; /* multiply colour and alpha, by their red; NULL: none */
 } material;
 
-/* A shape that emits from its front, a sphere or a rectangle, and how likely it is drawn. */
-typedef struct emitter {
-    const shape *shape;
-    double part;
-} emitter;
-
-/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
- * drawn from its pixels, by their light, of which `sums` has the sum up to each, the last one 1. */
+/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. */
 typedef struct environment {
     float constant[3];
     const image *map;   /* NULL: the constant */
     double scale, turn; /* turn: a part of a full turn */
-    double *sums;       /* NULL: it is not drawn */
-    double part;        /* how likely it is */
 } environment;
 
 typedef struct scene {
@@ -43,15 +34,13 @@ typedef struct scene {
     int width, height;
     int depth, samples; /* the most surfaces on a path; a pixel */
     environment environment;
-    geometry geometry; /* owned, as are all below */
-    emitter lights[SCENE_LIGHTS_MAX];
+    geometry geometry;                     /* owned, as are all below */
+    const shape *lights[SCENE_LIGHTS_MAX]; /* which emit from their fronts: spheres and rectangles */
     size_t light_count;
     material materials[SCENE_MATERIALS_MAX];
     size_t material_count;
     image images[SCENE_IMAGES_MAX];
-    size_t image_count;
     vndf_distribution *tables[SCENE_TABLES_MAX];
-    size_t table_count;
     char *text; /* of the file, where the names are */
 } scene;
 
@@ -70,26 +59,23 @@ int scene_resize(scene *s, int width);
 /* How scenes are written, to stdout. */
 void scene_print_manual(void);
 
-/* ---- light that is drawn: spheres and rectangles that emit, and the image of an environment ---- */
+/* ---- light that is drawn: spheres and rectangles that emit ---- */
 
-/* Lists the lights of a scene and sums up its environment. 0 if there is no memory, or there are more than
- * SCENE_LIGHTS_MAX lights. */
+/* Lists the lights of a scene. 0 if there are more than SCENE_LIGHTS_MAX. */
 int lights_make(scene *s);
 
 typedef struct light_sample {
-    vec3 direction;  /* towards the light, unit */
-    double distance; /* infinite: the environment */
-    double density;  /* per steradian */
+    vec3 direction; /* towards the light, unit */
+    double distance;
+    double density; /* per steradian */
     float radiance[3];
 } light_sample;
 
-/* Whether there is light to draw. */
-int lights_any(const scene *s);
-
-/* Draws light from a place, by three uniform numbers in [0, 1). 0: the place does not see what was drawn. */
+/* Draws one of the lights, which are there, from a place, by three uniform numbers in [0, 1). 0: the place does not see
+ * what was drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, what a ray has met: a shape, or (NULL) the environment.
+/* The density with which lights_draw finds, from a place, the light that a ray has met; 0 for the environment (NULL).
  */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
