@@ -25,66 +25,6 @@ typedef float real;
 
 /* ---- choices ---- */
 
-#if defined(__SSE2__) && \
-    !defined(VNDF_KERNEL_DOUBLE) /* no branch, which random data would mispredict: lane 0 of 4 */
-#  include <emmintrin.h>
-#  define VNDF_KERNEL_SSE2 1
-typedef __m128 mask;
-
-/* Lane 0 is x; with gcc without an instruction that clears the others. */
-HERE __m128 lane(float x)
-{
-#  if defined(__clang__)
-    return _mm_set_ss(x);
-#  else
-    __m128 all;
-    __asm__("" : "=x"(all) : "0"(x));
-    return all;
-#  endif
-}
-
-HERE mask less(real a, real b)
-{
-    return _mm_cmplt_ss(lane(a), lane(b));
-}
-
-HERE mask at_most(real a, real b)
-{
-    return _mm_cmple_ss(lane(a), lane(b));
-}
-
-HERE mask same(int32_t a, int b)
-{
-    return _mm_castsi128_ps(_mm_cmpeq_epi32(_mm_cvtsi32_si128(a), _mm_cvtsi32_si128(b)));
-}
-
-HERE mask both(mask a, mask b)
-{
-    return _mm_and_ps(a, b);
-}
-
-HERE mask either(mask a, mask b)
-{
-    return _mm_or_ps(a, b);
-}
-
-HERE int any(mask m)
-{
-    return _mm_movemask_ps(m) & 1;
-}
-
-HERE real pick(mask m, real yes, real no)
-{
-    if (__builtin_constant_p(yes) && yes == 0.0f)
-        return _mm_cvtss_f32(_mm_andnot_ps(m, lane(no)));
-    if (__builtin_constant_p(no) && no == 0.0f)
-        return _mm_cvtss_f32(_mm_and_ps(m, lane(yes)));
-    __m128 other = lane(no);
-    return _mm_cvtss_f32(_mm_xor_ps(_mm_and_ps(_mm_xor_ps(lane(yes), other), m), other));
-}
-
-#else
-
 typedef int mask;
 
 HERE mask less(real a, real b)
@@ -121,8 +61,6 @@ HERE real pick(mask m, real yes, real no)
 {
     return m ? yes : no;
 }
-
-#endif
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
 HERE real least(real a, real b)
@@ -162,7 +100,21 @@ HERE real with_sign(real x, real y)
 #  include "kernel/rows.h"
 #endif
 
-#if defined(VNDF_KERNEL_SSE2)
+#if defined(__SSE2__) && !defined(VNDF_KERNEL_DOUBLE)
+#  include <emmintrin.h>
+#  define VNDF_KERNEL_SSE2 1
+
+/* Lane 0 is x; with gcc without an instruction that clears the others. */
+HERE __m128 lane(float x)
+{
+#  if defined(__clang__)
+    return _mm_set_ss(x);
+#  else
+    __m128 all;
+    __asm__("" : "=x"(all) : "0"(x));
+    return all;
+#  endif
+}
 
 /* How many of the first four lanes are set before one is not, added up over two masks. */
 HERE int count_ones(unsigned bits_set)

@@ -5,9 +5,8 @@
 
 #include "vndf_bsdf.h"
 
-/* vndf_affine_view_from in place: a view that is copied after it was written costs the time of the stores. `plain`: the
- * surface has roughness alone, and gets the bits of vndf_view_from. */
-void vndf_view_make(vndf_view *view, const vndf_affine *affine, vndf_vec3 wi, int plain);
+/* vndf_affine_view_from; `plain`: the surface has roughness alone, and gets the bits of vndf_view_from. */
+vndf_view vndf_view_make(const vndf_affine *affine, vndf_vec3 wi, int plain);
 
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the
  * view. */
