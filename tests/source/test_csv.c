@@ -129,6 +129,7 @@ static void test_points(void)
         {"theta_deg,ndf\n0,3\n80,0.171\n90,0\n", 11.430052302761343,
          4.933443377501309e-06}, /* it falls to 0 there */
         {"theta_deg,ndf\n0,3\n80,0.171\n90,0\n", 1e6, 9.624789422114103e-31},
+        {"theta_deg,ndf\n0,3\n80,0\n90,0\n", 1e6, 0},
     };
     for (size_t i = 0; i < sizeof points / sizeof *points; i++) {
         vndf_source *source = csv(points[i].text);
@@ -154,14 +155,12 @@ static void test_refused_texts(void)
 {
     static const char *const texts[][2] = {
         {"", "t.csv: line 1: no header line"},
-        {"slope\n0\n", "line 1: 1 field; two are needed"},
+        {"slope\n0\n", "line 1: fields: 1; two are needed"},
         {"\nangle,p22\n", "line 2: the first column is called 'angle'; the header names it theta_deg"},
         {"slope,D\n", "line 1: the second column is called 'D'; the header names it ndf or p22"},
-        {"slope,p22\n0,1\n", "line 2: the text ends with 1 row; at least two"},
-        {"slope,p22\n0,1\n1\n", "line 3: 1 field;"},
-        {"material,channel,alpha\n", "line 1: 3 fields; two are needed"},
+        {"slope,p22\n0,1\n", "line 2: rows of numbers: 1; at least two"},
+        {"material,channel,alpha\n", "line 1: fields: 3; two are needed"},
         {"slope,p22\n0,1\n#\n\n1,abc\n", "line 5: p22 is 'abc', which is no number"},
-        {"slope,p22\n0,1\n1,2x\n", "line 3: p22 is '2x', which is no number"},
         {"slope,p22\n0,1\n,2\n", "line 3: slope is '', which is no number"},
         {"slope,p22\n0,1\n1,nan\n", "line 3: p22 is 'nan', which is no number"},
         {"slope,p22\n0,1\n1,1e999\n", "line 3: p22 is '1e999', too large"},
@@ -196,6 +195,7 @@ static void test_refused_files(void)
             "no/such/file.csv: cannot be opened: ");
     refused(vndf_source_csv_file(NULL, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     refused(vndf_source_csv_file(VNDF_SOURCE_DIR, &error), &error, VNDF_ERROR_IO, "");
+    refused(vndf_source_csv_text(NULL, "", 0, &error), &error, VNDF_ERROR_SYNTAX, "unnamed: line 1: no");
     refused(vndf_source_csv_text("x", NULL, 0, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
 }
 

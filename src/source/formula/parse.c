@@ -72,8 +72,8 @@ static const char *const slips[][2] = {
 static const char *slip_of(const char *text, size_t size)
 {
     char word[16];
-    snprintf(word, sizeof word, " %.*s ", size < 12 ? (int)size : 0, text);
-    for (size_t i = 0; size < 12 && i < sizeof slips / sizeof *slips; i++)
+    snprintf(word, sizeof word, " %.*s ", (int)size, text);
+    for (size_t i = 0; i < sizeof slips / sizeof *slips; i++)
         if (strstr(slips[i][0], word))
             return slips[i][1];
     return NULL;
@@ -238,8 +238,9 @@ static int name_or_call(parser *p)
         if (!sum(p))
             return 0;
     }
-    return close_parenthesis(p, open) &&
-           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
+    if (!close_parenthesis(p, open))
+        return 0;
+    return emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
 }
 
 static int primary(parser *p)
@@ -274,7 +275,7 @@ static int power(parser *p)
         return 0;
     if (peek(p) != '^')
         return 1;
-    return inner_sign(p) && emit(p, (vndf_instruction){.operation = '^'}, -1);
+    return inner_sign(p) ? emit(p, (vndf_instruction){.operation = '^'}, -1) : 0;
 }
 
 static int sign(parser *p)
@@ -282,7 +283,9 @@ static int sign(parser *p)
     char c = peek(p);
     if (c != '-' && c != '+')
         return power(p);
-    return inner_sign(p) && (c == '+' || emit(p, (vndf_instruction){.operation = VNDF_NEGATE}, 0));
+    if (!inner_sign(p) || c == '+')
+        return c == '+';
+    return emit(p, (vndf_instruction){.operation = VNDF_NEGATE}, 0);
 }
 
 /* Operands between which one of these signs stands. */
@@ -292,8 +295,9 @@ static int chain(parser *p, int (*operand)(parser *), const char *signs)
         return 0;
     for (char c; (c = peek(p)) != '\0' && strchr(signs, c);) {
         p->at++;
-        if (!operand(p) || !emit(p, (vndf_instruction){.operation = c}, -1))
+        if (!operand(p))
             return 0;
+        emit(p, (vndf_instruction){.operation = c}, -1);
     }
     return 1;
 }
