@@ -124,8 +124,8 @@ unsigned char *vndf_read_all(FILE *file, size_t most, size_t *size)
 {
     vndf_writer all = {NULL, 0, 0, 0};
     unsigned char part[16384];
+    errno = EIO; /* where nothing else is said */
     size_t got = 1;
-    errno = EIO;                                         /* of what says no more */
     while (got > 0 && all.size <= most && !all.failed) { /* in steps, since a pipe does not tell its size */
         got = fread(part, 1, most + 1 - all.size < sizeof part ? most + 1 - all.size : sizeof part, file);
         vndf_write_bytes(&all, part, got);

