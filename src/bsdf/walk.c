@@ -165,6 +165,8 @@ VNDF_INLINE int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, 
     if (!e.met)
         return 0;
     double density = (double)vndf_visible(view, vndf_rounded(e.wm)) * e.jacobian;
+    if (!(density > 0.0))
+        return 0;
     double f[VNDF_WAVELENGTHS], mean = reflectances(b, e.facing, eta, f);
     for (int i = 0; i < b->material->is.wavelengths; i++)
         s->value[i] = density * (across ? 1.0 - f[i] : f[i]);

@@ -28,7 +28,6 @@ static const char *const accepted[] = {
     "(1+r*r)^-1.65",
     "step(1-r)",
     "exp(-((r-1)/0.02)^2)",
-    "step(r-1)*exp(-r)",
     "exp(-r*r)+1e4*exp(-1e4*r*r)",
     "1e30*exp(-r*r)",
     "exp(-((r-1)/1e-5)^2)",

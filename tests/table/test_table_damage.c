@@ -42,7 +42,6 @@ static const broken_rule RULES[] = {
     {FILE_START, SCALES + 12, WORD, 0xfff80000, "scale or normalization"},
     {FILE_START, COUNTS, WORD, 1, "outside the limits"},
     {FILE_START, COUNTS, WORD, 4096, "outside the limits"},
-    {FILE_START, COUNTS, WORD, 0xffffffff, "outside the limits"},
     {FILE_START, COUNTS, WORD, 200, "do not fill the file"},
     {FILE_START, COUNTS + 4, WORD, 1, "outside the limits"},
     {FILE_START, COUNTS + 4, WORD, 3, "do not fill the file"}, /* one array less */
