@@ -63,7 +63,7 @@ static int try_knots(builder *b, unsigned knots)
     if (good) {
         t->bytes = vndf_table_size(b->knots.count, b->moments, t->source, TOOL, t->notes);
         why = vndf_table_fill(t);
-        good = why || vndf_certificate_measure(&t->certificate, t, b->profile);
+        good = why || vndf_guard_stopped(guard) || vndf_certificate_measure(&t->certificate, t, b->profile);
     }
     if (!good)
         vndf_guard_starve(guard);
