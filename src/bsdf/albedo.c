@@ -144,7 +144,7 @@ static float kept_of(const vndf_material *lobe, int lobes, double cosine, double
                 sum += rest * (double)s.weight[0];
         }
     }
-    return all > 0.0 ? (float)(sum / all) : 1.0f;
+    return (float)(sum / all);
 }
 
 static void fill(vndf_albedo *albedo, const vndf_material *lobe, int lobes)

@@ -124,8 +124,8 @@ unsigned char *vndf_read_all(FILE *file, size_t most, size_t *size)
 {
     vndf_writer all = {NULL, 0, 0, 0};
     unsigned char part[16384];
+    errno = EIO; /* where nothing else is said */
     size_t got = 1;
-    errno = 0;
     while (got > 0 && all.size <= most && !all.failed) { /* in steps, since a pipe does not tell its size */
         got = fread(part, 1, most + 1 - all.size < sizeof part ? most + 1 - all.size : sizeof part, file);
         vndf_write_bytes(&all, part, got);
@@ -134,7 +134,7 @@ unsigned char *vndf_read_all(FILE *file, size_t most, size_t *size)
     *size = all.size - 1;
     if (!all.failed && !ferror(file))
         return all.bytes;
-    errno = all.failed ? ENOMEM : errno ? errno : EIO;
+    errno = all.failed ? ENOMEM : errno;
     free(all.bytes);
     return NULL;
 }
@@ -173,8 +173,8 @@ vndf_status vndf_frame_check(const vndf_frame *frame, const unsigned char *bytes
     if (version != frame->version)
         return vndf_fail(error, VNDF_ERROR_TABLE, "%s format version %u; this library reads version %u%s", name,
                          version, (unsigned)frame->version, version < frame->version ? ": build it again" : "");
-    if (stated < 64 || stated > frame->most)
-        return vndf_fail(error, VNDF_ERROR_TABLE, "the %s says that it has %u bytes; from 64 to %u are possible",
+    if (stated > frame->most)
+        return vndf_fail(error, VNDF_ERROR_TABLE, "the %s says that it has %u bytes; at most %u are possible",
                          name, stated, (unsigned)frame->most);
     if (stated < size)
         return vndf_fail(error, VNDF_ERROR_TABLE, "the %s says that it has %u bytes, and more follow", name,

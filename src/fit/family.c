@@ -51,7 +51,7 @@ static int show(double done, const char *what, void *user)
 {
     builder *b = user;
     char text[128];
-    snprintf(text, sizeof text, "%s%s%s", b->stage, what ? ": " : "", what ? what : "");
+    snprintf(text, sizeof text, "%s: %s", b->stage, what);
     return b->options.progress ? b->options.progress(b->begin + b->width * done, text, b->options.progress_user)
                                : 0;
 }
@@ -70,7 +70,7 @@ static double number_of(double p)
 static vndf_source *source_at(builder *b, double p)
 {
     const char *pattern = b->pattern, *place;
-    int alone = !strchr(pattern, ':') && !strstr(pattern, PLACE);
+    int alone = !strchr(pattern, ':');
     vndf_error error = {VNDF_OK, ""};
     vndf_writer text = {NULL, 0, 0, 0};
     for (; (place = strstr(pattern, PLACE)) != NULL; pattern = place + strlen(PLACE)) {
@@ -249,10 +249,6 @@ static void fill(builder *b, vndf_family *family)
         return;
     family->grazing = (float)fmin(grazing, 1);
     family->bytes = vndf_family_size(family);
-    if (family->bytes > VNDF_LIMIT_FAMILY_BYTES)
-        vndf_fail(vndf_guard_why(&b->guard), VNDF_ERROR_TARGET,
-                  "%lu tables take %lu bytes; at most %d are possible", (unsigned long)b->count,
-                  (unsigned long)family->bytes, VNDF_LIMIT_FAMILY_BYTES);
 }
 
 /* ---- the call ---- */
@@ -268,7 +264,7 @@ static vndf_status check(const char *pattern, double low, double high, const vnd
                          "'%s' does not say where the parameter stands; right would be {p} in its place, as in "
                          "abc:{p},0.8, or a name alone, as in student-t",
                          vndf_excerpt(excerpt, pattern, strlen(pattern)));
-    if (!(low < high && fabs(low) < 1e30 && fabs(high) < 1e30) || (float)low == (float)high)
+    if (!(fabs(low) < 1e30 && fabs(high) < 1e30 && (float)number_of(low) < (float)number_of(high)))
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,
                          "parameters from %.7g to %.7g: the first must be below the second, as floats, and both "
                          "between -1e30 and 1e30",

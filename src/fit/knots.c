@@ -68,8 +68,6 @@ static double miss_below(const view *v, size_t edge)
     vndf_drawn drawn = vndf_drawn_below(&v->cell, rho, 1, b1);
     size_t from = edge > v->from ? edge : v->from;
     double xi0 = k->xi[from - v->from], per = 1 / (1 - xi0), before = 0;
-    if (!(all > 0))
-        return 0;
     for (int round = 0; round < 2; round++) {
         if (round)
             drawn = (vndf_drawn){mass, edge > v->from ? 0 : drawn.d0, drawn.d1 / per};
@@ -97,7 +95,7 @@ static double area_miss_at(const view *v, size_t middle)
     const double smaller = 0.02;
     vndf_knots *k = v->knots;
     int tail = v->cell.power > 0;
-    if (middle <= v->from || middle >= v->end || middle > k->last)
+    if (middle > k->last)
         return 0;
     vndf_area a = *vndf_knots_area(k, v->from), m = *vndf_knots_area(k, middle), b = {0, 0, 0};
     if (!tail)
@@ -137,10 +135,9 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     const double small = 1e-3; /* a part of the mass below which D counts less */
     int tail = end == k->strips.count;
     double f1 = 2 * PI * k->profile->f1, far = k->rim[from].s1 / f1, density = 0, unused = 0;
-    if (tail && far / 8 > enough && from < k->last)
+    if (tail && far / 8 > enough)
         return far / 8;
-    if (!vndf_guard_spend(k->profile->guard, 8 * (double)(end - from)))
-        return 0;
+    vndf_guard_spend(k->profile->guard, 8 * (double)(end - from));
     view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
     double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
     if (from > 0 && !tail && k->strips.at[end].edge > WIDE * v.cell.r && mass > WIDE_MASS)
@@ -159,7 +156,7 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     double anyway = ANYWAY * fmin(enough / AT, 1);
     if (error <= enough && from > 0)
         error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - anyway));
-    if (error <= enough && middle > from)
+    if (error <= enough)
         error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - anyway));
     return error <= enough ? fmax(error, area_miss(&v)) : error;
 }
@@ -210,7 +207,7 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
     enum { STEPS = 24 };
     double low = ENOUGH / 2, high = MOST, error = 3 / pow(count, 3), best = MOST;
     unsigned n = 0;
-    for (int i = 0; i < STEPS && n != count && high > 1.02 * low && !vndf_guard_stopped(k->profile->guard); i++) {
+    for (int i = 0; i < STEPS && n != count && high > fmax(1.02 * low, ENOUGH); i++) {
         error = error > low && error < high ? error : sqrt(low * high);
         n = march(k, error, count);
         if (n > count)
@@ -218,8 +215,6 @@ void vndf_knots_place(vndf_knots *k, unsigned count)
         else
             best = high = error;
         error *= n <= count ? pow((double)n / count, 3) : high < MOST ? 1.3 : 4;
-        if (high <= ENOUGH)
-            break;
     }
     k->count = n == count ? n : march(k, best, count);
     k->count = k->count > count ? count : k->count;
@@ -281,7 +276,7 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
     k->profile = profile;
     double power = profile->tail;
     /* the least with which R^2 P22, by xi, stays finite in the tail */
-    while (k->squarings < VNDF_SQUARINGS_MAX && power > 3 && (power - 3) * (double)(1u << k->squarings) < 1 - 1e-3)
+    while (k->squarings < VNDF_SQUARINGS_MAX && (power - 3) * (double)(1u << k->squarings) < 1 - 1e-3)
         k->squarings++;
     int good = vndf_strips_from(&k->strips, profile, jump, jumps, most);
     size_t n = k->strips.count, next = jumps - 1;
@@ -307,7 +302,7 @@ int vndf_knots_from(vndf_knots *k, const vndf_profile *profile, unsigned most)
         k->last = k->last == 0 && k->rim[i].stop ? i : k->last;
         k->deep = k->deep == 0 && r <= RHO_MOST && k->rim[i].s1 > least ? i : k->deep;
     }
-    while (k->first < k->last && k->strips.at[k->first].edge < KNOT_LEAST)
+    while (k->strips.at[k->first].edge < KNOT_LEAST)
         k->first++;
     k->least = march(k, 2 * MOST, VNDF_CELLS_MAX + 1);
     k->least = k->least < 3 ? 3 : k->least;

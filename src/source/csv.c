@@ -157,7 +157,7 @@ static void fit(csv_source *s)
     s->last_slope = r1;
     s->last_p22 = y[last] * (is_ndf ? cosine4(r1) : 1);
     s->tail = least;
-    if (r0 > 0 && before > 0 && s->last_p22 > 0 && isfinite(r1))
+    if (r0 > 0 && before > 0 && s->last_p22 > 0)
         s->tail = fmax(least, log(before / s->last_p22) / log(r1 / r0));
 
     double first_step = x[1] - x[0], last_step = x[last] - x[last - 1];
@@ -348,8 +348,7 @@ static vndf_status read_lines(reader *r, vndf_span rest)
         for (size_t i = 0; i < line.size; i++)
             fields += line.text[i] == ',';
         if (fields != 2)
-            return refuse(r, "%zu field%s; two are needed, separated by a comma: an angle or slope, and a density",
-                          fields, fields == 1 ? "" : "s");
+            return refuse(r, "fields: %zu; two are needed: an angle or slope, a comma, a density", fields);
         vndf_span first = vndf_cut(&line, ',');
         const vndf_span field[2] = {trim(first), trim(line)};
         vndf_status status = r->first ? read_numbers(r, field) : read_header(r, field);
@@ -360,8 +359,7 @@ static vndf_status read_lines(reader *r, vndf_span rest)
     if (!r->first)
         return refuse(r, "no header line; one like theta_deg,ndf or slope,p22 is needed");
     if (r->to->count < 2)
-        return refuse(r, "the text ends with %zu row%s; at least two are needed", r->to->count,
-                      r->to->count == 1 ? "" : "s");
+        return refuse(r, "rows of numbers: %zu; at least two are needed", r->to->count);
     return VNDF_OK;
 }
 

@@ -157,12 +157,9 @@ vndf_source *vndf_source_from_description(const char *description, vndf_error *e
 
 vndf_source *vndf_source_of(const vndf_distribution *distribution, vndf_error *error)
 {
-    const char *description = distribution ? vndf_distribution_info(distribution).source : NULL;
-    if (description)
-        return vndf_source_from_description(description, error);
-    return vndf_fail(error, VNDF_ERROR_ARGUMENT,
-                     "the distribution is NULL or does not say what it was built from"),
-           NULL;
+    if (!distribution)
+        return vndf_fail(error, VNDF_ERROR_ARGUMENT, "the distribution is NULL"), NULL;
+    return vndf_source_from_description(vndf_distribution_info(distribution).source, error);
 }
 
 static vndf_status replace(char **text, const char *by, vndf_error *error)

@@ -119,7 +119,7 @@ vndf_span vndf_cut(vndf_span *rest, char separator)
 size_t vndf_character(const char *text, size_t size)
 {
     const unsigned char *at = (const unsigned char *)text;
-    const size_t length = *at >= 0xf0 && *at < 0xf5 ? 4 : *at >= 0xe0 && *at < 0xf0 ? 3 : *at >= 0xc2 ? 2 : 1;
+    const size_t length = *at < 0xc2 || *at > 0xf4 ? 1 : *at < 0xe0 ? 2 : *at < 0xf0 ? 3 : 4;
     size_t n = 1;
     while (n < length && n < size && (at[n] & 0xc0) == 0x80)
         n++;

@@ -1,4 +1,5 @@
 /* From the numbers on disk to those that are drawn with: widths, turns and sums beyond each knot, in double. */
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,7 +52,7 @@ static const char *numbers_invalid(const vndf_distribution *t)
     const float *knot = vndf_table_row(t, VNDF_KNOT, 0);
     if (knot[0] != 0.0f || !(knot[VNDF_STRIDE] > 1e-12f) || !(knot[VNDF_STRIDE * t->cells] < 1e14f))
         return "the knots do not run from 0 to below 1e14";
-    if (!(t->scale > 1e-18 && t->scale < 1e18) || !(t->normalization > 0.0) || !isfinite(t->normalization))
+    if (!in_range(t->scale, 1e-18, 1e18) || !in_range(t->normalization, DBL_TRUE_MIN, DBL_MAX))
         return "the scale or normalization is out of range";
     for (size_t i = 0; i <= (size_t)t->cells; i++) {
         const char *why = knot_invalid(t, i);
@@ -186,9 +187,6 @@ const char *vndf_table_fill(vndf_distribution *t)
     for (size_t i = 0; i < t->number_count; i++)
         if (!isfinite(t->numbers[i]))
             return "a sum of moments is not finite";
-    for (size_t i = 0; i <= (size_t)t->cells; i++)
-        if (!(vndf_table_row(t, VNDF_KNOT, i)[2] > 1e-30f))
-            return "two knots coincide";
     fill_columns(t);
     fill_first(t);
     return NULL;

@@ -40,7 +40,8 @@ static void refuse(const vndf_description *is, const char *text)
     vndf_bsdf_sample(&bsdf, u, &s);
     vndf_bsdf_eval(&bsdf, wo, 1, f);
     TEST(s.lobe == VNDF_LOBE_NONE && s.density == 0 && s.weight[0] == 0 && s.weight[1] == 0 && s.weight[2] == 0);
-    TEST(f[0] == 0 && f[1] == 0 && f[2] == 0 && vndf_bsdf_pdf(&bsdf, wo) == 0);
+    TEST(f[0] == 0 && f[1] == 0 && f[2] == 0 && vndf_bsdf_pdf(&bsdf, wo) == 0 &&
+         vndf_bsdf_cosine(&bsdf, (vndf_vec3){0, 0, 9}) == 0);
 }
 
 static int is_taken(const vndf_description *is)
@@ -160,6 +161,15 @@ static void test_numbers(void)
         .lobes = 2, .fresnel = VNDF_FRESNEL_SCHLICK, .scattering = VNDF_SCATTERING_MULTIPLE};
     const vndf_description straight = with(walk, AT(eta), 1);
     refuse(&straight, "eta is 1: a walk needs another");
+    vndf_description unbent = straight; /* a dielectric, through which light goes straight on */
+    vndf_material material;
+    vndf_bsdf b;
+    vndf_scattered s;
+    unbent.effects.fresnel = VNDF_FRESNEL_DIELECTRIC;
+    TEST(vndf_material_resolve(&unbent, &material, NULL) == VNDF_OK);
+    TEST(vndf_bsdf_at(&b, &material, (vndf_vec3){0.6f, 0, 0.8f}) && vndf_fresnel_dielectric(0.5f, 0) == 1);
+    vndf_bsdf_sample(&b, (float[3]){0.3f, 0.3f, 0.3f}, &s);
+    TEST(s.lobe == VNDF_LOBE_STRAIGHT && s.wo.x == -0.6f && s.weight[0] == 1 && vndf_bsdf_pdf(&b, s.wo) == 0);
     for (int i = 0; i < 4; i++) { /* a mean slope counts where the shape has one */
         const float means[] = {0.5f, 1e7f, INFINITY, NAN};
         vndf_description is = with((vndf_effects){.shape = VNDF_SHAPE_MATRIX}, AT(affine.mean_x), means[i]);
@@ -198,6 +208,8 @@ static void test_mixtures(void)
     }
     const vndf_mixture unseen = {2, {{sound, 1}, {singular, 0}}}; /* which is not looked at */
     is.mixture = &unseen;
+    TEST(is_taken(&is));
+    is.mixture = NULL; /* hits bring their own */
     TEST(is_taken(&is));
 }
 

@@ -54,7 +54,8 @@ static void test_refused(void)
         const char *message;
     } cases[] = {{{.max_bytes = 2047}, "max_bytes"},  {{.max_bytes = (1 << 20) + 1}, "max_bytes"},
                  {{.max_tv = -1}, "max_tv"},          {{.max_tv = 1}, "max_tv"},
-                 {{.max_tv = (double)NAN}, "max_tv"}, {{.moments = 5}, "moments is 5"}};
+                 {{.max_tv = (double)NAN}, "max_tv"}, {{.moments = 5}, "moments is 5"},
+                 {{.moments = 1}, "moments is 1"}};
     vndf_error error = {VNDF_OK, ""};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         TEST(!build("ggx", cases[i].options, NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
@@ -112,14 +113,17 @@ static void test_floor(const char *text, int moments)
     static const float bound[] = {3.3e-2f, 2.4e-3f, 3.6e-4f};
     const vndf_build_options large = {.max_bytes = 65536, .moments = moments};
     vndf_certificate claim = {.tv = 1}, again = {.tv = 0};
-    vndf_source *source = oracle_source(text, NULL);
+    vndf_source *source = oracle_source(text, NULL), *other = oracle_source("exp(-r)", NULL);
     vndf_distribution *table = vndf_build(source, &large, &claim, NULL);
     TEST(claim.floor_above < bound[moments - 2]);
     TEST_RELATIVE((double)claim.floor_above, (double)claim.tv_above, 0.1);
     TEST_RELATIVE((double)claim.floor, (double)claim.tv, 0.1);
     TEST(vndf_certify(table, source, &again, NULL) == VNDF_OK && memcmp(&again, &claim, sizeof claim) == 0);
+    TEST(vndf_certify(table, other, &again, NULL) == VNDF_ERROR_DISTRIBUTION);
+    TEST(vndf_certify(NULL, source, &again, NULL) && vndf_certify(table, source, NULL, NULL));
     vndf_free(table);
     vndf_source_free(source);
+    vndf_source_free(other);
 }
 
 /* What is said to reach a target reaches it. */

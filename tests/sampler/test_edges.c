@@ -100,6 +100,8 @@ static void check_invalid(const vndf_distribution *d)
         TEST(i == 5 || gives_nothing(&c));
     }
     seen none = seen_surface(NULL, 1, 1, wi);
+    TEST(!vndf_view_from(NULL, wi).distribution && !vndf_mixture_view_from(NULL, wi).count);
+    TEST(vndf_affine_p22(NULL, NAN, 0) + vndf_affine_p22(NULL, 0, NAN) == 0);
     TEST(gives_nothing(&none));
 }
 

@@ -16,8 +16,9 @@ static const char *const formulas[] = {
     "erfc(r-1)", "erfc(10*r)", "lgamma(r)", "lgamma(7)*r", "gamma(r+1)", "gamma(-0.5)*r", "abs(r-1)", "min(r,1)",
     "max(r,1/r)", "step(r-1)", "step(1-r)*exp(-r)", "r^2", "(r-1)^2", "(r-1)^3", "(r-1)^-2", "(r-1)^-1", "r^-1.7",
     "r^0.3", "(-r)^3", "(1-r)^0.5", "r^r", "2^(-r)", "pow(r,sin(r))", "cosh((r-1)/1e-4)^-2", "1/(1+exp((r-1)/1e-5))",
-    "1+5*exp(-((r-1)/1e-8)^2)", "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "exp(-abs(r-1)/1e-3)", "sqrt(1-r*r)",
+    "1+5*exp(-((r-1)/1e-8)^2)", "r^11*exp(-r^2)", "exp(r)/(1+exp(2*r))", "exp(-abs(r-1)/1e-3)", "(r-1)^0",
     "erf(r-1)-erf(r-2)", "exp(1e5*r)*exp(-1e5*r)", "1e300*r*1e300*1e-300*1e-300", "0^r", "0*log(r)", "log(r)^2",
+    "(1-r)^r", "(r-1)^2e6", "log1p(-2*r)", "erfc(1/(1-r))", "1/min(r-1,0)", "1/exp(exp(exp(r)))", "r*gamma(200)",
 };
 /* clang-format on */
 

@@ -81,6 +81,7 @@ static void test_ndf(void)
         TEST_RELATIVE(vndf_source_p22(callback, r), ndf(c, &factor) * pow(c, 4), 1e-14);
     }
     TEST_NEAR(vndf_source_p22(text, 1e200), 0, 0);
+    TEST(isinf(value_of("1/r", 0)));
     TEST_RELATIVE(vndf_source_p22(slope, 0.5), ndf(0.5, &factor), 0);
     vndf_source_free(text);
     vndf_source_free(callback);
@@ -135,7 +136,8 @@ static void test_limits(void)
     TEST_NEAR(value_of(repeated(2047, "1+", 0), 1), 2048, 0);
     refuse(repeated(64, "1+1*1^min(0,", 64), "nested deeper than 64 levels");
     refuse(repeated(65, "-", 0), "column 66: nested deeper than 64 levels");
-    refuse(repeated(65, "1^", 0), "nested deeper");
+    refuse(repeated(65, "(", 65), "nested deeper");
+    refuse(repeated(65, "abs(", 65), "nested deeper");
     refuse(repeated(2048, "1+", 0), "the expression has 4097 characters; at most 4096");
 }
 
@@ -158,7 +160,7 @@ static void test_numbers(void)
     TEST(vndf_number_read("1e", 2, &value) == 1 && vndf_number_read("-.5e+1x", 7, &value) == 6 && value == -5);
     TEST(vndf_number_read("0x10", 4, &value) == 1 && vndf_number_read("inf", 3, &value) == 0);
     TEST(vndf_number_read("", 0, &value) == 0 && vndf_number_read("-", 1, &value) == 0 &&
-         vndf_number_read("-.", 2, &value) == 0);
+         vndf_number_read("-.", 2, &value) == 0 && !vndf_number_read(repeated(4097, "1", 0), 4097, &value));
 }
 
 int main(void)

@@ -18,20 +18,19 @@ static const char *const syntax[][2] = {
     {"--slope 'r<1'", "column 2: unexpected '<'; did you mean 'step'? step(1-r) is 1 where r <= 1, else 0"},
     {"--slope r+é", "column 3: unexpected 'é'; a number, a name"},
     {"--slope r+\xe2\x88", "column 3: unexpected '?'; a number, a name"},
-    {"--slope foo(1)", "column 1: unknown name 'foo'; known are r, pi"},
     {"--slope exp(-r)*cso(r)", "column 9: unknown name 'cso'; did you mean 'cos'? known are"},
     {"--slope Exp(-r)", "column 1: unknown name 'Exp'; did you mean 'exp'?"},
-    {"--slope ''", "column 1: the expression ends here; a number, a name or '('"},
-    {"--slope '1 +'", "column 4: the expression ends here"},
-    {"--slope '1 + * 2'", "column 5: unexpected '*'; a number, a name or '(' would be right"},
+    {"--slope\t\n\r''", "column 1: the expression ends here; a number, a name or '('"},
+    {"--slope '(1+ * 2'", "column 5: unexpected '*'; a number, a name or '(' would be right"},
+    {"--slope *r", "column 1: unexpected '*'; a number"},
+    {"--slope {r}", "column 1: unexpected '{'; did you mean '('?"},
     {"--slope exp(-r**2)", "column 8: unexpected '*'; a power is written with ^, as in r^2"},
-    {"--slope '2 r'",
-     "column 3: unexpected 'r'; an operator (+ - * / ^) or the end would be right; a product is "},
+    {"--slope 'r 2'",
+     "column 3: unexpected '2'; an operator (+ - * / ^) or the end would be right; a product is "},
     {"--slope exp(-3r)",
      "column 7: unexpected 'r'; an operator, or ')' for the '(' of column 4, would be right; a "},
     {"--slope (r)(r)",
      "column 4: unexpected '('; an operator (+ - * / ^) or the end would be right; a product is "},
-    {"--slope 1.2.3", "column 4: unexpected '.'; an operator (+ - * / ^) or the end would be right"},
     {"--slope .", "column 1: unexpected '.'; a number has digits"},
     {"--slope 1e999", "column 1: the number 1e999 is too large"},
     {"--slope 2*(r+1", "column 7: the expression ends here; an operator, or ')' for the '(' of column 3"},
@@ -40,7 +39,7 @@ static const char *const syntax[][2] = {
     {"--slope r(2)", "column 2: unexpected '('; the name before it is no function"},
     {"--slope min(1)", "column 6: unexpected ')'; min, max and pow take two arguments"},
     {"--slope exp(1,2)", "column 6: unexpected ','; this function takes one argument"},
-    {"--slope r\x01", "column 2: unexpected '?'"},
+    {"--slope r\\", "column 2: unexpected '\\'"},
     {"--slope 'r", "column 9: a quote"},
     /* families */
     {"--family ''",
@@ -57,6 +56,7 @@ static const char *const syntax[][2] = {
     {"--family epd:0.04", "epd: P is 0.04; it must be at least 0.05 and at most 1000"},
     {"--family abc:1", "column 6: C is missing; right would be abc:B,C or abc:MATERIAL"},
     {"--family sgd:alum-bronz/r", "unknown material 'sgd:alum-bronz/r'; the nearest is sgd:alum-bronze/r"},
+    {"--family sgd:a\xf0\x9d\x9c\x8b\xff\xe2z\x7f\x01", "unknown material 'sgd:a\xf0\x9d\x9c\x8b?"},
     {"--family abc:gold", "unknown material 'abc:gold'; the nearest is "},
     {"--family mix", "column 4: unexpected ''; right would be mix:(W,S,FAMILY)+(W,S,FAMILY)"},
     {"--family mix:ggx", "column 5: unexpected 'ggx'"},
@@ -64,6 +64,7 @@ static const char *const syntax[][2] = {
     {"--family mix:(1,1,ggx)(1,1,ggx)", "column 14: unexpected '(1,1,ggx)'"},
     {"--family mix:(1,1,ggx)+(1,1,ggx)+(1,1,ggx)", "column 24: unexpected '+(1,1,ggx)'"},
     {"--family mix:(1,1,ggx)+(1,1,ggx", "column 16: unexpected '1,1,ggx'"},
+    {"--family mix:(x,1,ggx)+(1,1,ggx)", "column 6: 'x' is no number"},
     {"--family mix:(1,1,gggx)+(1,1,ggx)", "column 10: unknown family 'gggx'"},
     {"--family mix:(1,1,mix:(1,1,ggx)+(1,1,ggx))+(1,1,ggx)", "column 10: a mix is"},
     {"--family mix:(0,1,ggx)+(1,1,ggx)", "mix: the weight W is 0; it must be above 0 and at most 1e+12"},
@@ -80,13 +81,10 @@ static const char *const arguments[][2] = {
     {"--slope r --out x", "'--out'"},
     {"--family ggx --set a=1", "takes no --set"},
     {"--ndf c --set 1a=1", "'1a': a name is a letter"},
-    {"--ndf c --set =1", "a name is a letter"},
     {"--ndf c --set theta=1", "'theta': the name is taken"},
-    {"--ndf c --set pi=1", "'pi': the name is taken"},
     {"--ndf c*a --set a=1 --set a=1", "'a': the name is taken"},
     {"--ndf c --set a=1e999", "a finite number is needed"},
-    {"--ndf c --set k=1", "parameter 'k': the formula 'c' has no 'k'"},
-    {"--ndf c --set exp=1", "has no 'exp'"},
+    {"--ndf c --set k=1 --set j=1", "parameter 'k': the formula 'c' has no 'k'"},
 };
 
 static void refuse(const char *const cases[][2], size_t count, vndf_status status)
@@ -104,6 +102,7 @@ static void test_calls(void)
     refused(vndf_source_slope_expression(NULL, NULL, 0, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     refused(vndf_source_slope_expression("a", NULL, 1, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     refused(vndf_source_slope_expression("a", &nameless, 1, &error), &error, VNDF_ERROR_ARGUMENT, "a letter");
+    refused(vndf_source_of(NULL, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     refused(vndf_source_family(NULL, &error), &error, VNDF_ERROR_ARGUMENT, "NULL");
     char many[1024] = "--slope r";
     for (int i = 0; i <= VNDF_LIMIT_PARAMETERS; i++)

@@ -52,6 +52,8 @@ static void test_not_saved(void)
     TEST_HAS(error.message, "built or loaded");
     TEST(vndf_family_save(NULL, "x", NULL) == VNDF_ERROR_ARGUMENT);
     vndf_family_free(family);
+    TEST(!vndf_family_of(&ggx, NULL, 1, NULL) &&
+         vndf_family_parameter(NULL, 0) + vndf_family_distance(NULL, 0) == 0);
     TEST(!vndf_family_load(NULL, &error) && error.status == VNDF_ERROR_ARGUMENT);
     TEST(!vndf_family_load_memory(NULL, 9, &error) && error.status == VNDF_ERROR_ARGUMENT);
     TEST(!vndf_family_load(VNDF_SOURCE_DIR "/no such file", &error) && error.status == VNDF_ERROR_IO);

@@ -82,7 +82,7 @@ vndf_area vndf_profile_below(const vndf_profile *profile, double s, double c)
     double rho = c / s;
     const vndf_panel *p = profile->panel;
     size_t count = profile->count, i = vndf_last_before(&p->r, sizeof *p, count, rho), first = i;
-    if (!(s > 0.0) || rho >= p[count].r)
+    if (rho >= p[count].r)
         return sum;
     for (; i < count && p[i].r < FAR * rho && !(2 * (p[i].s + p[i].r * p[i].t0) < LITTLE * sum.below);)
         i = add_panels(&sum, profile, i, rho);

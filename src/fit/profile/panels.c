@@ -170,7 +170,7 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     size_t first = profile->count;
     resolve(profile, r0, middle, &l, depth + 1, least);
     resolve(profile, middle, r1, &r, depth + 1, least);
-    if (good && !seen && profile->count == first + 2 && !vndf_guard_stopped(profile->guard)) {
+    if (good && profile->count == first + 2) {
         profile->count = first; /* neither half needed more: the whole is enough */
         push(profile, r0, m0, m1, whole->point);
     }
@@ -188,7 +188,7 @@ void vndf_panels_sum(vndf_profile *profile)
     profile->pole = exponent(profile, p->r, p->r * WINDOW);
     double before = 0.0; /* the integral of P r^2 */
     profile->tail_m0 = profile->tail_m1 = 0.0;
-    if (last > 0.0 && power > 3.0 + VNDF_POWER_MARGIN && power < HUGE_VAL) {
+    if (last > 0.0 && power > 3.0 + VNDF_POWER_MARGIN) {
         profile->tail_m0 = last * end * end / (power - 2);
         profile->tail_m1 = last * end * end * end / (power - 3) - end * profile->tail_m0;
     }

@@ -109,7 +109,7 @@ static void look(vndf_profile *profile)
 static double median_of(const vndf_profile *profile)
 {
     size_t i = 0;
-    while (i + 1 < profile->count && profile->panel[i + 1].f0 < profile->f0 / 2)
+    while (profile->panel[i + 1].f0 < profile->f0 / 2)
         i++;
     const vndf_panel *p = &profile->panel[i];
     double low = p->r, high = p[1].r;

@@ -52,8 +52,6 @@ static void add(pieces *s, double low, double high, size_t panel)
 {
     const vndf_profile *profile = s->profile;
     vndf_reach reach = {0, 0, 0};
-    if (!(high > low) || s->count >= PIECES_MAX)
-        return;
     if (vndf_guard_spend(profile->guard, VNDF_REACH_OPERATIONS * profile->source->operations))
         reach = profile->source->reach(profile->source, low, high);
     double width = log(high / low);

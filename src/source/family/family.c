@@ -105,7 +105,7 @@ static vndf_status read_lobe(vndf_span whole, lobe *l, vndf_error *error)
         if (++l->form == vndf_family_forms + VNDF_FAMILY_FORMS)
             return unknown_family(name, error);
     int has_materials = strcmp(l->form->name, "sgd") == 0 || strcmp(l->form->name, "abc") == 0;
-    if (!has_materials || rest.size == 0 || (rest.text[0] | 32) < 'a' || (rest.text[0] | 32) > 'z')
+    if (!has_materials || (rest.text[0] | 32) < 'a' || (rest.text[0] | 32) > 'z')
         return read_parameters(rest, l, error);
     const vndf_material_fit *material = vndf_material_near(whole.text, whole.size);
     memcpy(l->parameter, material->parameter, sizeof l->parameter);

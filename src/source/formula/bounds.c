@@ -22,7 +22,7 @@ vndf_jet vndf_jet_number(double x)
 static int is_number(vndf_jet x)
 {
     vndf_wide low = x.at[0].low, high = x.at[0].high;
-    return x.constant && low.m == high.m && low.e == high.e && isfinite(low.m);
+    return x.constant && low.m == high.m && low.e == high.e;
 }
 
 /* A function of x of which only the value is known. */
@@ -221,7 +221,7 @@ static vndf_interval log1p_at(vndf_interval x)
     double low = vndf_interval_low(x);
     if (low > 1)
         return vndf_interval_log(vndf_interval_sum(vndf_interval_from(1, 1), x));
-    return low < -1 ? vndf_interval_from(-HUGE_VAL, -HUGE_VAL) : vndf_interval_of_library(log1p(low), log1p(low));
+    return vndf_interval_of_library(log1p(low), log1p(low)); /* all, where that is not a number */
 }
 
 static vndf_jet power_of(vndf_jet x, vndf_jet y)
@@ -229,7 +229,7 @@ static vndf_jet power_of(vndf_jet x, vndf_jet y)
     if (is_number(y))
         return power(x, low_of(y));
     if (x.at[0].low.m < 0) /* unless the exponent is whole there is no value */
-        return unsmooth(vndf_interval_all(), x.constant ? y : x);
+        return unsmooth(vndf_interval_all(), product(x, y));
     return exponential(product(y, logarithm(vndf_interval_log(x.at[0]), x)));
 }
 
@@ -244,7 +244,7 @@ static int meets(double low, double high, double place, double period)
 static vndf_interval circular(double (*f)(double), vndf_jet x, double top)
 {
     double low = low_of(x), high = high_of(x);
-    if (!(high - low < 2 * PI) || fabs(low) > 1e9 || fabs(high) > 1e9)
+    if (!(high - low < 2 * PI) || fabs(low) > 1e9)
         return vndf_interval_from(-1, 1);
     double a = f(low), b = f(high);
     vndf_interval y = vndf_interval_of_library(fmin(a, b), fmax(a, b));
@@ -308,7 +308,7 @@ static vndf_jet bell(vndf_jet x, double sign)
 static vndf_interval erfc_of_negative(vndf_interval x)
 {
     double d = vndf_interval_low(x);
-    if (d > -FAR || isinf(d))
+    if (d > -FAR)
         return vndf_interval_of_library(erfc(-d), erfc(-d));
     vndf_interval shape = vndf_interval_exp(vndf_interval_negative(vndf_interval_product(x, x)));
     vndf_interval part = vndf_interval_quotient(vndf_interval_from(0.5, 0.6), vndf_interval_negative(x));
@@ -346,8 +346,7 @@ static vndf_jet of_function(int function, vndf_jet x, vndf_jet y)
     switch (function) {
     case VNDF_EXP: return exponential(x);
     case VNDF_LOG: return logarithm(vndf_interval_log(value), x);
-    case VNDF_LOG1P:
-        return logarithm(high_of(x) < -1 ? vndf_interval_all() : rising(log1p_at, value), sum(one, x));
+    case VNDF_LOG1P: return logarithm(rising(log1p_at, value), sum(one, x));
     case VNDF_SQRT: return power(x, 0.5);
     case VNDF_SIN: return wave(x, circular(sin, x, PI / 2), circular(cos, x, 0), -1);
     case VNDF_COS: return wave(x, circular(cos, x, 0), vndf_interval_negative(circular(sin, x, PI / 2)), -1);

@@ -72,8 +72,8 @@ static const char *const slips[][2] = {
 static const char *slip_of(const char *text, size_t size)
 {
     char word[16];
-    snprintf(word, sizeof word, " %.*s ", size < 12 ? (int)size : 0, text);
-    for (size_t i = 0; size < 12 && i < sizeof slips / sizeof *slips; i++)
+    snprintf(word, sizeof word, " %.*s ", (int)size, text);
+    for (size_t i = 0; i < sizeof slips / sizeof *slips; i++)
         if (strstr(slips[i][0], word))
             return slips[i][1];
     return NULL;

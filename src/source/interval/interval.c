@@ -24,8 +24,8 @@ static vndf_wide settled(double m, double e)
     int shift = 0;
     if (m == 0 || (e == 0 && plain(m))) /* nearly always */
         return (vndf_wide){m, 0};
-    if (isnan(m) || isinf(m) || e > EXPONENT_LARGEST)
-        return (vndf_wide){isnan(m) ? m : m < 0 ? -HUGE_VAL : HUGE_VAL, 0};
+    if (!isfinite(m) || e > EXPONENT_LARGEST)
+        return (vndf_wide){m * HUGE_VAL, 0};
     m = frexp(m, &shift);
     e = fmax(e + shift, -EXPONENT_LARGEST);
     return e >= -399 && e <= 400 ? (vndf_wide){ldexp(m, (int)e), 0} : (vndf_wide){m, e};
@@ -47,7 +47,7 @@ static vndf_wide plus(vndf_wide a, vndf_wide b)
     vndf_wide large = a.e >= b.e ? a : b, small = a.e >= b.e ? b : a;
     if (large.e == small.e)
         return settled(a.m + b.m, a.e);
-    if (large.m == 0 || small.m == 0 || isinf(large.m) || isinf(small.m))
+    if (large.m == 0 || isinf(large.m) || isinf(small.m))
         return large.m == 0 || isinf(small.m) ? small : large;
     return settled(large.m + ldexp(small.m, (int)fmax(small.e - large.e, -3000)), large.e);
 }
@@ -92,7 +92,7 @@ static vndf_wide down(vndf_wide x, double part)
 /* Both ends moved by this part of them; the whole line if one is not a number. */
 static vndf_interval widened(vndf_wide low, vndf_wide high, double part)
 {
-    if (isnan(low.m) || isnan(high.m))
+    if (isnan(low.m + high.m))
         return vndf_interval_all();
     return (vndf_interval){down(low, part), minus(down(minus(high), part))};
 }
@@ -145,9 +145,10 @@ vndf_interval vndf_interval_size(vndf_interval a)
     return (vndf_interval){{0, 0}, larger(a.high, negative.high)};
 }
 
+/* Whether it is x, a whole number. */
 static int is_number(vndf_interval a, double x)
 {
-    return a.low.m == x && a.high.m == x && a.low.e == 0 && a.high.e == 0;
+    return a.low.m == x && a.high.m == x;
 }
 
 /* Whole numbers so small that their sum and product are exact: counts, signs, the limits of saturating functions. What
@@ -155,7 +156,7 @@ static int is_number(vndf_interval a, double x)
 static int is_small_whole(vndf_interval a)
 {
     double x = a.low.m;
-    return is_number(a, x) && fabs(x) < 0x1p26 && floor(x) == x;
+    return fabs(x) < 0x1p26 && floor(x) == x && is_number(a, x);
 }
 
 vndf_interval vndf_interval_sum(vndf_interval a, vndf_interval b)
@@ -242,7 +243,7 @@ vndf_interval vndf_interval_log(vndf_interval x)
 static vndf_wide power_end(vndf_wide x, double exponent, int outwards)
 {
     double size = exponent * logarithm(x);
-    if (x.m == 1 && x.e == 0)
+    if (x.m == 1)
         return x;
     if (x.m <= 0)
         return settled(exponent > 0 ? 0 : HUGE_VAL, 0);

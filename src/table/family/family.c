@@ -9,7 +9,7 @@
 
 vndf_family *vndf_family_allocate(size_t count)
 {
-    vndf_family *family = count ? calloc(1, sizeof *family) : NULL;
+    vndf_family *family = calloc(1, sizeof *family);
     if (family)
         family->count = count;
     return family;
