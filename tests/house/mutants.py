@@ -74,7 +74,7 @@ def plant(test, changed, unsound):
     with open(copy, "w") as file:
         file.write(unsound)
     built = [build_mutant(f"{build}/tests", target, changed)]
-    environment = {"VNDF_TEST_QUICK": "1"}
+    environment = {"VNDF_TEST_QUICK": "1", "VNDF_TEST_FIRST": "1"}
     compiled = [line for object, line in compilations.items() if object.endswith(f"/{target}.c.o")]
     if "-DVNDF_PROGRAM=" in compiled[0]:
         built.append(build_mutant(build, "vndf_program", changed))

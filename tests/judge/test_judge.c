@@ -1,6 +1,6 @@
 /* `vndf judge` passes right samplers - tools/judge/examples, and one whose density has 400 constant cells - and names
  * what is wrong with others, by words, exit status and a query that shows it; what it tells of GGX beside Beckmann is
- * known in closed form. `python` as an argument: that example alone; `sampler FAULT`: a sampler with this fault. */
+ * known in closed form. An argument is a part, `python`, `right` or a fault; `sampler FAULT`: a sampler with it. */
 #include "harness/run_program.h"
 #include "vndf.h"
 
@@ -149,7 +149,8 @@ static void test_query(const char *text, const char *fault)
         fprintf(stderr, "  %s: %s: %s, not %s", fault, query, again, answer);
 }
 
-static void test_wrong(void)
+/* Of one fault, or of all and of answers that are none. */
+static void test_wrong(const char *only)
 {
     static const char *const faults[][3] = {
         {"none", "result good\n", ""},
@@ -179,7 +180,9 @@ static void test_wrong(void)
         {"{exit 3}", "ended with status 3"},
     };
     const size_t all = sizeof faults / sizeof *faults;
-    for (size_t i = 0; i < test_amount(all - 3, all - 3, all); i += test_amount(3, 1, 1)) {
+    for (size_t i = 0; i < test_amount(all - 3, all - 3, all); i += only ? 1 : test_amount(3, 1, 1)) {
+        if (only && !is(faults[i][0], only))
+            continue;
         static char text[RUN_TEXT];
         const int is_right = strstr(faults[i][1], "good") != NULL;
         char line[1024];
@@ -190,6 +193,8 @@ static void test_wrong(void)
         else if (strstr(faults[i][1], "fails"))
             test_query(text, faults[i][0]);
     }
+    if (only)
+        return;
     for (size_t i = 0; i < sizeof broken / sizeof *broken; i++)
         if (!TEST_HAS(judged(2, example("0.3", broken[i][0]), ""), broken[i][1]))
             fprintf(stderr, "  %s\n", broken[i][0]);
@@ -207,14 +212,16 @@ int main(int argc, char **argv)
     self = argv[0];
     if (argc > 2)
         return sampler(argv[2]);
-    if (argc > 1 && system("python3 -c pass") != 0)
-        puts("SKIPPED: no python3");
-    else if (argc > 1)
+    const char *only = argc > 1 ? argv[1] : NULL;
+    if (only && is(only, "python")) {
+        if (system("python3 -c pass") != 0)
+            return puts("SKIPPED: no python3") < 0;
         TEST_HAS(judged(0, "python3 " VNDF_SOURCE_DIR "/tools/judge/examples/ggx_caps.py 0.3 0.1", ""),
                  "result good");
-    else {
-        test_right();
-        test_wrong();
+        return test_done();
     }
-    return argc > 1 && test_checks == 0 ? 0 : test_done();
+    if (!only || is(only, "right"))
+        test_right();
+    test_wrong(only);
+    return test_done();
 }

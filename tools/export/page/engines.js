@@ -51,17 +51,16 @@ function drawCube(light) {
   gl.generateMipmap(gl.TEXTURE_CUBE_MAP);
 }
 
-function drawEngines(samples) {
+function drawEngines() {
   const light = LIGHTS.indexOf(settings.light), alpha = surfaceOf(settings.a).alpha[0];
   const surface = {...surfaceOf(settings.a), alpha: [alpha, alpha], turn: 0, roughness: Math.min(Math.sqrt(alpha), 1)};
   for (const {name, pictures} of scenes) {
     pictures.forEach(fitPicture);
-    if (pictures[0].drawn >= ENOUGH) continue;
+    if (isDone(pictures[0])) continue;
     bakedTables = bakedTables || unpackTables();
     if (pictures[0].drawn === 0 && name === "sky") drawCube(light);
     const from = bakedTables.get(settings.engine === "own" ? settings.a : -1);
-    for (const picture of pictures)
-      refinePicture(picture, {...surface, ...from, wide: [5, cube && cube.texture]}, samples);
+    for (const picture of pictures) refinePicture(picture, {...surface, ...from, wide: [5, cube && cube.texture]});
     showDifference(name, pictures);
   }
 }

@@ -47,12 +47,10 @@ function drawStill() {
   stale = false;
 }
 
-// A fresh picture begins with as many samples as the address asks for; each later frame adds one.
 function drawSpheres() {
   for (const sphere of spheres) {
     fitPicture(sphere);
-    if (sphere.drawn < ENOUGH)
-      refinePicture(sphere, surfaceOf(settings[sphere.name]), sphere.drawn === 0 ? Math.max(settings.frames, 1) : 1);
+    if (!isDone(sphere)) refinePicture(sphere, surfaceOf(settings[sphere.name]));
   }
 }
 
@@ -97,11 +95,14 @@ function run() {
     if (anew) for (const picture of [...spheres, ...scenes.flatMap(({pictures}) => pictures)]) picture.drawn = 0;
     writeAddress();
   };
-  const frame = () => attempt(() => {
+  const draw = () => {
     if (gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
     if (stale) drawStill();
     drawSpheres();
-    drawEngines(1);
+    drawEngines();
+  };
+  const frame = () => attempt(() => { // without work once all is drawn, or a headless browser may never end
+    draw();
     requestAnimationFrame(frame);
   });
   listen(changed);
@@ -114,9 +115,7 @@ function run() {
     changed(true);
   });
   if (settings.frames > 0) {
-    drawStill();
-    drawSpheres();
-    drawEngines(settings.frames);
+    draw();
     tell();
   }
   requestAnimationFrame(frame);

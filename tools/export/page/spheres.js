@@ -1,6 +1,6 @@
 // ---- spheres --------------------------------------------------------------------------------------
 
-const ENOUGH = 1024; // samples of a pixel
+const ENOUGH = 1024; // samples of a pixel, where the address asks for no other number
 
 // Lamps: direction, angle of their edge, radiance; and how bright the picture is.
 const LAMPS = [
@@ -43,17 +43,19 @@ function fitPicture(picture) {
   picture.drawn = 0;
 }
 
-// Adds so many samples to each pixel of a picture, and shows what they say.
-function refinePicture(picture, surface, samples) {
+const isDone = ({drawn}) => drawn >= (settings.frames || ENOUGH);
+
+// Adds a sample to each pixel of a picture, or at once all that the address asks for, and shows what they say.
+function refinePicture(picture, surface) {
   const {size, targets, tells} = picture;
-  for (let i = 0; i < samples; i++) {
+  do {
     const n = picture.drawn++;
     const steps = Object.entries(STEPS).map(([name, step]) => [name, step.map((x) => (n * x) % 1)]);
     use(programs[picture.program], {...surface, light: LIGHTS.indexOf(settings.light), ...lampNow(), ...tells,
       material: MATERIALS.indexOf(settings.material), around: radians(settings.around),
       before: [1, targets[n % 2].textures[0]], first: n === 0, size: [size, size], ...Object.fromEntries(steps)});
     fill(targets[1 - n % 2]);
-  }
+  } while (settings.frames && !isDone(picture));
   const {exposure} = LAMPS[LIGHTS.indexOf(settings.light)];
   use(programs.show, {sums: [1, sumsOf(picture).textures[0]], exposure});
   fill({width: size, height: size});
