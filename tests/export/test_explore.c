@@ -33,7 +33,7 @@ static const struct {
     {"drawn", 1, 48, ""},
     {"error", 0, 0, ""},
     {"dots", 0.3, 1, ""},
-    {"miss", 0, 12, ""},
+    {"miss", 0, 12, ""}, /* of 255 */
     {"%c_whole", 0.999, 1.001, ""},
     {"%c_truth", 0.999, 1.001, ""},
     {"%c_facing_to_density", 0.999, 1.001, ""},
@@ -93,8 +93,7 @@ static void judge(const char *dom, const char *setting)
  * written back must not take the step back. */
 static const char steps[] =
     "<script>if (!gl) {\n"
-    "listen(() => {});\n"
-    "const slider = byId('alpha-x'); let stuck = 0; slider.value = 0;\n"
+    "listen(() => {}); const slider = byId('alpha-x'); let stuck = 0; slider.value = 0;\n"
     "for (let i = 1; i <= 200; i++) {\n"
     "slider.stepUp(); slider.dispatchEvent(new Event('input'));\n"
     "stuck += Math.abs(Number(slider.value) - i / 200) > 1e-6; }\n"
@@ -110,11 +109,11 @@ static const char steps[] =
     "const dots = mean(says.a.samples.dots.map(([x, y]) => pixel(x, y)[2] < 60));\n"
     "settings.dots = false; drawStill(); measureSamples(surfaceOf(settings.a));\n"
     "const density = readTarget(targets.samples, 0)[1], [, , xs, ys] = readTarget(targets.samples, 1);\n"
-    "const top = number('scale-high'), decades = Math.log10(top / number('scale-low'));\n"
+    "const [low, high] = ['low', 'high'].map((end) => number(`scale-${end}`));\n"
     "const miss = density.filter((_, i) => i % 20 === 0).map((d, i) => {\n"
-    "const at = clamped(5 + 5 * Math.log10(d / top) / decades, 0, 4.999), k = Math.floor(at);\n"
-    "const [low, high] = [0, 1].map((j) => RAMPS[theme()][k + j][1]);\n"
-    "return Math.abs(low + (at - k) * (high - low) - pixel(xs[20 * i], ys[20 * i])[1]); });\n"
+    "const at = clamped(5 * Math.log(d / low) / Math.log(high / low), 0, 4.999), k = Math.floor(at);\n"
+    "const [from, to] = [0, 1].map((j) => RAMPS[theme()][k + j][1]);\n"
+    "return Math.abs(from + (at - k) * (to - from) - pixel(xs[20 * i], ys[20 * i])[1]); });\n"
     "root.dataset.measured = JSON.stringify({...JSON.parse(root.dataset.measured), dots, miss: mean(miss)});\n"
     "}</script></body>";
 

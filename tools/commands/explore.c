@@ -38,7 +38,7 @@ static const char *const help[] = {
     "  -q               no progress\n"
     "\n"
     "Settings stand in the page's address, so that a link keeps them: PAGE.html#alpha=0.2,0.05&theta=70&light=lamp;\n"
-    "#frames=64 draws that many samples per pixel before the page is shown, for pictures.\n"
+    "#frames=64 draws that many samples per pixel before the page is shown and no more, for pictures.\n"
     "\n"
     "exit status: 0 good, 2 wrong use\n"
     "\n"

@@ -47,13 +47,6 @@ function drawStill() {
   stale = false;
 }
 
-function drawSpheres() {
-  for (const sphere of spheres) {
-    fitPicture(sphere);
-    if (!isDone(sphere)) refinePicture(sphere, surfaceOf(settings[sphere.name]));
-  }
-}
-
 // For tests and programs: what was measured, on the root of the document.
 function tell() {
   const all = {drawn: spheres[0].drawn, error: gl.getError()};
@@ -98,7 +91,7 @@ function run() {
   const draw = () => {
     if (gl.isContextLost()) throw new Trouble("The browser took the graphics away; load the page again.");
     if (stale) drawStill();
-    drawSpheres();
+    for (const sphere of spheres) refinePicture(sphere, surfaceOf(settings[sphere.name]));
     drawEngines();
   };
   const frame = () => attempt(() => { // without work once all is drawn, or a headless browser may never end

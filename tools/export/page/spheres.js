@@ -47,6 +47,8 @@ const isDone = ({drawn}) => drawn >= (settings.frames || ENOUGH);
 
 // Adds a sample to each pixel of a picture, or at once all that the address asks for, and shows what they say.
 function refinePicture(picture, surface) {
+  fitPicture(picture);
+  if (isDone(picture)) return;
   const {size, targets, tells} = picture;
   do {
     const n = picture.drawn++;
@@ -55,7 +57,7 @@ function refinePicture(picture, surface) {
       material: MATERIALS.indexOf(settings.material), around: radians(settings.around),
       before: [1, targets[n % 2].textures[0]], first: n === 0, size: [size, size], ...Object.fromEntries(steps)});
     fill(targets[1 - n % 2]);
-  } while (settings.frames && !isDone(picture));
+  } while (settings.frames > 0 && !isDone(picture));
   const {exposure} = LAMPS[LIGHTS.indexOf(settings.light)];
   use(programs.show, {sums: [1, sumsOf(picture).textures[0]], exposure});
   fill({width: size, height: size});
