@@ -97,7 +97,7 @@ static void test_error(const method_reference *reference, const vndf_distributio
     const method_reference ggx = {{vndf_ggx(), 1, 1}, 1, "ggx"};
     const method m = method_ours(small, "", METHOD_SAMPLE), caps = method_ggx_caps();
     double worst = 0, claimed = (double)vndf_distribution_info(small).certificate.tv_above;
-    for (double theta = 0; theta < 90; theta += 15) {
+    for (double theta = 8; theta < 90; theta += 15) { /* it is a saw over theta, with a top at 38 degrees */
         worst = fmax(worst, findings_of(&m, reference, theta, 16).tv);
         TEST(findings_of(&caps, &ggx, theta, 16).tv < 1e-6);
     }

@@ -253,7 +253,7 @@ static int fit_all(const bake_settings *s, baked_list *list, const part *parts, 
 {
     static target t;
     const size_t surfaces = n * ratios, all = surfaces * n * ratios, count[] = {ratios > 1 ? surfaces : n, n, n};
-    double p[NUMBERS] = {0}, of_surface[NUMBERS] = {0}, along_x[NUMBERS] = {0}, m[3][3];
+    double p[NUMBERS] = {0}, of_surface[NUMBERS] = {0}, along_x[NUMBERS] = {0}, other[NUMBERS], m[3][3];
     baked *b = list->table + list->count;
     for (int k = 0; k < tables; k++)
         if (!baked_add(list, parts[k].name, parts[k].holds, ratios > 1 ? 3 : 2, axis, count, parts[k].channels))
@@ -275,6 +275,15 @@ static int fit_all(const bake_settings *s, baked_list *list, const part *parts, 
             p[3] = p[4] = 0;
         minimise(&t, p, done ? 0.1 : 0.3);
         error_of(&t, p);
+        if (ratios > 1 && t.wrong >= 0.3) { /* a bad place: once more from the one along x, and farther */
+            const double wrong = t.wrong;
+            memcpy(other, along_x, sizeof other);
+            minimise(&t, other, 0.4);
+            error_of(&t, other);
+            if (t.wrong < wrong)
+                memcpy(p, other, sizeof p);
+            error_of(&t, p);
+        }
         if (phi == 0)
             memcpy(along_x, p, sizeof p);
         if (phi == 0 && theta == 0)
