@@ -62,7 +62,7 @@ static FILE *create_new(const char *name, const char *target)
 /* To the disk; not every file can be synced. */
 static int reaches_disk(FILE *file)
 {
-    return fsync(fileno(file)) == 0 || errno == EINVAL;
+    return fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS;
 }
 
 /* Of a write that failed before, the reason is lost; a byte more, which nobody will read, fails for the same. */
