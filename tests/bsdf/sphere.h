@@ -31,7 +31,7 @@ static inline double sphere_integrate(const vndf_bsdf *bsdf, double allowed, dou
     static const double BELT = 0.01;
     static quadrature_cell cells[CELLS_MAX];
     static quadrature_sum sum[FINE];
-    const quadrature q = {sphere_answer, (void *)bsdf, FINE, CELLS_MAX, allowed, 0, 20, 1, NULL, NULL, 0};
+    const quadrature q = {sphere_answer, (void *)bsdf, FINE, CELLS_MAX, allowed, 0, 20, 1, NULL, 0};
     double mass = 0, z[ROWS + 1], phi[COLUMNS + 1];
     for (int i = 0; i <= ROWS; i++)
         z[i] = abs(i - SPHERE_ROWS) == 1 ? (i - SPHERE_ROWS) * BELT : 2.0 * i / ROWS - 1;

@@ -35,7 +35,7 @@ static void take(integrating *of, quadrature_point *at, const exchange *its)
         judge_note(&fault[JUDGE_VALID], fault[JUDGE_VALID].worst + 1, NAN, its);
     judge_note(&fault[JUDGE_NORMALS], at->part * fabs(at->value[0] - at->value[1]), truth, its);
     judge_note(&fault[JUDGE_COVERS], at->value[0] > 0 ? 0 : at->part * at->value[1], truth, its);
-    if (p >= most->got.pdf)
+    if (at->value[0] >= most->got.pdf * sine)
         *most = *its;
 }
 
@@ -84,28 +84,20 @@ static void sum_up(judgement *j)
 int judge_integrate(const judge_task *task, progress *bar, judgement *j)
 {
     integrating of = {.task = task, .j = j, .bar = bar};
-    const quadrature q = {ask,
-                          &of,
-                          JUDGE_VIEWS * JUDGE_EACH,
-                          CELLS_MAX,
-                          CLOSE,
-                          0,
-                          ROUNDS,
-                          task->seed ^ 0x5851F42D4C957F2Du,
-                          j->known,
-                          j->observed,
-                          (double)task->samples};
+    const quadrature q = {.answer = ask,
+                          .of = &of,
+                          .bins = JUDGE_VIEWS * JUDGE_EACH,
+                          .most = CELLS_MAX,
+                          .close = CLOSE,
+                          .rounds = ROUNDS,
+                          .seed = task->seed ^ 0x5851F42D4C957F2Du,
+                          .observed = j->observed,
+                          .samples = (double)task->samples};
     quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
     size_t count = 0;
     for (size_t i = 0; i < JUDGE_VIEWS; i++) {
         const judge_view *v = &j->view[i];
         of.truth[i] = vndf_view_from(&task->surface, v->wi);
-        for (size_t k = 0; k < JUDGE_BINS; k++) {
-            const answer *a = &v->sample[k].got;
-            quadrature_point *known = &j->known[i * JUDGE_EACH + k];
-            judge_locate(v, a, &known->x, &known->y);
-            known->value[0] = a->pdf * sin(known->x);
-        }
         if (cells)
             count += bins_cells(v->ring, v->rings, v->sector, v->sectors, i * JUDGE_EACH, cells + count);
     }

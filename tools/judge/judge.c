@@ -52,7 +52,8 @@ static void place_views(judgement *j, size_t samples, random_stream *stream)
 enum { PILOTS = BINS_PILOTS, STRATA = JUDGE_STRATA, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
 enum { PAIRS = 16, PAIRED = 4 * 2 * PAIRS };
 
-void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi)
+/* theta and the azimuth from wi; NaN of what is no direction. */
+static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
 {
     *theta = isfinite(a->x + a->y + a->z) ? atan2(hypot(a->x, a->y), a->z) : NAN;
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
@@ -62,7 +63,7 @@ static void place_bins(judge_view *v, const answer *pilots)
 {
     double theta[BINS_PILOTS + BINS_EVEN], phi[BINS_PILOTS + BINS_EVEN];
     for (size_t i = 0; i < BINS_PILOTS; i++) {
-        judge_locate(v, &pilots[i], &theta[i], &phi[i]);
+        locate(v, &pilots[i], &theta[i], &phi[i]);
         phi[i] = isnan(theta[i]) ? 0 : phi[i];
         theta[i] = isnan(theta[i]) ? 0 : theta[i];
     }
@@ -82,7 +83,7 @@ static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
     judge_note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
     if (!(a->pdf > 0 && isfinite(a->pdf)))
         judge_note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
-    judge_locate(v, a, &theta, &phi);
+    locate(v, a, &theta, &phi);
     if (!(theta <= pi / 2 + 1e-6))
         return JUDGE_BINS;
     return bins_interval(v->ring, v->rings, theta) * v->sectors + bins_interval(v->sector, v->sectors, phi);

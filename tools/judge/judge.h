@@ -106,7 +106,6 @@ typedef struct judgement {
     judge_view view[JUDGE_VIEWS];
     double observed[JUDGE_VIEWS * JUDGE_EACH]; /* of all directions */
     quadrature_sum sum[JUDGE_VIEWS * JUDGE_EACH];
-    quadrature_point known[JUDGE_VIEWS * JUDGE_EACH]; /* the density of a sample */
     judge_fault fault[JUDGE_NUMBERS];
     double fits[2]; /* the roughness whose normals are nearest, and the total variation to them */
     double fits_tv;
@@ -118,9 +117,6 @@ int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 /* Its parts: the integrals over bins, 0 after a complaint; and what the counts say of them by JUDGE_TESTS tests. */
 int judge_integrate(const judge_task *task, progress *bar, judgement *j);
 void judge_counts(judgement *j, size_t samples);
-
-/* theta and the azimuth from wi; NaN of what is no direction. */
-void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi);
 
 /* Keeps the worst; what is no number is the worst of all. */
 void judge_note(judge_fault *f, double amount, double beside, const exchange *shown);

@@ -113,7 +113,7 @@ void bins_borders(double *border, size_t parts, double low, double high, double 
     border[parts] = high;
 }
 
-void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1])
+static void place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1])
 {
     double at[BINS_PILOTS + BINS_EVEN], azimuth;
     random_stream stream = random_from(seed ^ 0x5851F42D4C957F2Du); /* apart from the stream that is tested */
@@ -181,45 +181,42 @@ size_t bins_cells(const double *x, size_t rings, const double *y, size_t sectors
     return count;
 }
 
-double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
-                      quadrature_sum sum[BINS_COUNT], double *mass)
+static void integrate(const bins_sampler *judged, bins_result *to)
 {
     enum { CELLS_MAX = 200000 };
-    const quadrature q = {answer, (void *)judged, BINS_COUNT, CELLS_MAX, 1e-8, FINEST, 30, 1, NULL, NULL, 0};
+    const quadrature q = {answer, (void *)judged, BINS_COUNT, CELLS_MAX, 1e-8, FINEST, 30, 1, NULL, 0};
     quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
-    double ring[BINS_RINGS + 1], sector[BINS_SECTORS + 1], variance = 0, rounding = 0;
+    double ring[BINS_RINGS + 1], sector[BINS_SECTORS + 1], variance = 0;
     for (int i = 0; i <= BINS_RINGS; i++)
-        ring[i] = log(fmin(fmax(slope[i], LEAST), LARGEST));
+        ring[i] = log(fmin(fmax(to->slope[i], LEAST), LARGEST));
     for (int i = 0; i <= BINS_SECTORS; i++)
         sector[i] = 2 * (double)i / BINS_SECTORS - 1;
-    const int good =
-        cells && quadrature_run(&q, cells, bins_cells(ring, BINS_RINGS, sector, BINS_SECTORS, 0, cells), sum);
-    *mass = 0;
-    for (int i = 0; i < BINS_COUNT && good; i++) {
-        *mass += sum[i].value;
-        variance += sum[i].variance;
-        rounding += 2 * sum[i].distance;
+    const size_t count = cells ? bins_cells(ring, BINS_RINGS, sector, BINS_SECTORS, 0, cells) : 0;
+    if (!cells || !quadrature_run(&q, cells, count, to->sum))
+        to->error = -1;
+    for (int i = 0; i < BINS_COUNT && to->error >= 0; i++) {
+        to->mass += to->sum[i].value;
+        to->error += 2 * to->sum[i].distance;
+        variance += to->sum[i].variance;
     }
+    to->error += 4 * sqrt(variance);
     free(cells);
-    return good ? rounding + 4 * sqrt(variance) : -1;
 }
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed)
 {
-    double slope[BINS_RINGS + 1], expected[BINS_COUNT], observed[BINS_COUNT] = {0};
+    double expected[BINS_COUNT], observed[BINS_COUNT] = {0};
     bins_result result = {.mass = 0};
-    quadrature_sum sum[BINS_COUNT];
     random_stream stream = random_from(seed);
-    bins_place(judged, seed, slope);
+    place(judged, seed, result.slope);
     for (size_t i = 0; i < samples; i++) {
         float pdf = -1, u1 = random_float(&stream), u2 = random_float(&stream);
-        observed[bins_bin(&judged->frame, slope, judged->draw(judged->of, u1, u2, &pdf))] += 1;
+        observed[bins_bin(&judged->frame, result.slope, judged->draw(judged->of, u1, u2, &pdf))] += 1;
         result.unseen += !(pdf >= FLT_MIN && pdf <= FLT_MAX);
     }
-    result.error = bins_integrate(judged, slope, sum, &result.mass);
-    for (size_t i = 0; i < BINS_COUNT && result.error >= 0; i++)
-        expected[i] = sum[i].value * (double)samples;
-    if (result.error >= 0)
-        result.found = pearson_of(expected, observed, BINS_COUNT);
+    integrate(judged, &result);
+    for (size_t i = 0; i < BINS_COUNT; i++)
+        expected[i] = result.sum[i].value * (double)samples;
+    result.found = pearson_of(expected, observed, BINS_COUNT);
     return result;
 }

@@ -48,17 +48,14 @@ typedef struct bins_result {
     double mass, error; /* the integral of the density; and what it may err: four standard deviations, and by how
                            much one rounding of normals may move it; -1: there was no memory for it */
     size_t unseen;      /* samples whose density is not a positive float */
+    double slope[BINS_RINGS + 1];   /* borders of R, ascending */
+    quadrature_sum sum[BINS_COUNT]; /* ring by ring */
 } bins_result;
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
 
-/* Its parts: borders of R, ascending; the bin of a normal, ring by ring; and the integral of the density over each bin
- * and over all. Returns what that may err, -1 if there was no memory: of tables of one within 4e-6 of 1, jumps and
- * narrow peaks included (test_bins), but for rings so narrow that floats hardly tell slopes in them apart. */
-void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1]);
+/* The bin of a normal. */
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
-double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
-                      quadrature_sum sum[BINS_COUNT], double *mass);
 
 /* ---- for bins of other kinds --------------------------------------------------------------------- */
 

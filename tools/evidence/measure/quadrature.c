@@ -1,8 +1,8 @@
 /* Six points of a cell, its corners and one of a side each, make a polynomial of degree 2. Two pairs of other points,
  * drawn at random, each symmetric about the middle, tell how much the mean of the function is off that of the
- * polynomial: without bias whatever the function is, and to degree 3 where it is smooth. Its error is how much the
- * pairs differ, or two more points, and the one that is known, say if that is more. Where those are off the polynomial,
- * the cell is divided, the worst first: lines along which the function jumps, and peaks, show themselves there. */
+ * polynomial: without bias whatever the function is, and exactly for one of degree 3. Its error is how much the pairs
+ * differ, or two more points say if that is more. Where those are off the polynomial, the cell is divided, the worst
+ * first: lines along which the function jumps, and peaks, show themselves there. */
 #include "evidence/measure/quadrature.h"
 
 #include <math.h>
@@ -74,12 +74,7 @@ static polynomial fit(const quadrature_cell *c, const quadrature_point at[POINTS
 
 /* ---- cells --------------------------------------------------------------------------------------- */
 
-static int is_inside(const quadrature_cell *c, const quadrature_point *at)
-{
-    return fabs(part_of(c->x, at->x)) <= 1 && fabs(part_of(c->y, at->y)) <= 1;
-}
-
-static void measure(const quadrature *q, quadrature_cell *c, const quadrature_point at[POINTS])
+static void measure(quadrature_cell *c, const quadrature_point at[POINTS])
 {
     const double area = (c->x[1] - c->x[0]) * (c->y[1] - c->y[0]);
     double worst[2] = {0}, pair[2] = {0};
@@ -89,8 +84,6 @@ static void measure(const quadrature *q, quadrature_cell *c, const quadrature_po
         for (int k = PAIRS; k < POINTS; k++)
             worst[i] = fmax(worst[i], fabs(off(&p[i], c, &at[k], i)));
     }
-    if (q->known && is_inside(c, &q->known[c->bin]))
-        worst[0] = fmax(worst[0], fabs(off(&p[0], c, &q->known[c->bin], 0)));
     for (int k = SIDES; k < PAIRS; k++) {
         const double f = at[k].value[0], g = at[k].value[1], part = at[k].part;
         pair[k / 2 % 2] += off(&p[0], c, &at[k], 0) / 2;
@@ -122,7 +115,7 @@ static int ask(const quadrature *q, quadrature_cell *cells, size_t count, random
     next = at;
     for (size_t i = 0; i < count && good; i++)
         if (!cells[i].is_asked) {
-            measure(q, &cells[i], next);
+            measure(&cells[i], next);
             next += POINTS;
         }
     free(at);

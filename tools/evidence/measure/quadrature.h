@@ -29,11 +29,10 @@ typedef struct quadrature_cell {
 typedef struct quadrature {
     int (*answer)(void *of, quadrature_point *at, size_t count); /* fills values, which are 0; 0: it gives up */
     void *of;
-    size_t bins, most;       /* how many bins, and at most cells */
-    double close, finest;    /* what a cell may err, and the width along x below which it may err more */
-    int rounds;              /* times that points are asked for: a cell is halved less often */
-    uint64_t seed;           /* of the points */
-    quadrature_point *known; /* NULL or, of each bin, a point whose value is known, or one outside of it */
+    size_t bins, most;    /* how many bins, and at most cells */
+    double close, finest; /* what a cell may err, and the width along x below which it may err more */
+    int rounds;           /* times that points are asked for: a cell is halved less often */
+    uint64_t seed;        /* of the points */
     const double
         *observed;  /* NULL or, of each bin, how many of `samples` fell into it: where they are too many or */
     double samples; /* too few, it is looked at more closely */
