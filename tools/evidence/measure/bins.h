@@ -59,7 +59,8 @@ size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_ve
 
 /* ---- for bins of other kinds --------------------------------------------------------------------- */
 
-/* Borders that are quantiles of samples, the first of `at`, and of a fourth as many even numbers, which are put behind them. */
+/* Borders that are quantiles of samples, the first of `at`, and of a fourth as many even numbers, which are put behind
+ * them. */
 enum { BINS_PILOTS = 4000, BINS_EVEN = BINS_PILOTS / 4 };
 void bins_borders(double *border, size_t parts, double low, double high, double at[BINS_PILOTS + BINS_EVEN]);
 
