@@ -219,7 +219,7 @@ static int check_eval(const hit *h, size_t count, double least, const mean sampl
 static int check_density(const hit *h, double most, const mean sampled[BINS])
 {
     double fine[SPHERE_BINS + 1], expected[BINS] = {0}, distance = 0;
-    const double mass = sphere_integrate(&h->walk, 1e-7, fine);
+    const double mass = sphere_integrate(&h->walk, 1e-8, fine);
     for (size_t b = 0; b < SPHERE_BINS; b++)
         expected[bin_of(b)] += fine[b];
     for (int b = 0; b < BINS; b++)

@@ -34,10 +34,11 @@ static const char *const help[] = {
     "               steps of 2^-24.\n"
     "  chi-square   N samples per view against the density integrated over 65 x 48 bins, at 0, 30, 60, 80, 89\n"
     "               and 130 degrees, roughness 1 and 0.05 x 0.4 (azimuth 25 degrees). The bins divide the\n"
-    "               slopes over roughness, half of their borders evenly, half at quantiles, and at each the\n"
-    "               azimuths that are seen, evenly; bins of expected count < 5 are pooled. Significance 0.01\n"
-    "               for all tests together (Sidak); and the density has to integrate to 1 within 1e-5 and what\n"
-    "               one rounding of normals, 2^-23 of their slope, may add: 1e-3 for a ring of width 1e-4.\n"
+    "               slopes over roughness, a fifth of their borders evenly, the others at quantiles, and at each\n"
+    "               the azimuths that are seen, evenly; bins of expected count < 5 are pooled. Significance 0.01\n"
+    "               for all tests together (Sidak); and the density has to integrate to 1 within 1e-5, what the\n"
+    "               quadrature may err, some 2e-6, and what one rounding of normals, 2^-23 of their slope, may\n"
+    "               add: 1e-3 for a ring of width 1e-4.\n"
     "  hard         normals are unit, above the surface and face the incident direction, densities are positive,\n"
     "               masking is what it has to be. Directions at, beside and below the normal, the horizon and\n"
     "               straight down; roughness 1e-8 to 1e4, ratios up to 1e8; uniform numbers 0, the least float,\n"
@@ -224,11 +225,11 @@ static void check_chi_square(checking *c)
         const bins_sampler judged = bins_of_view(&view, &surface, wi);
         progress_show((double)i / TESTS, "chi-square", &c->bar);
         const bins_result of = bins_chi_square(&judged, (size_t)c->samples, c->seed + 1000 * (i + 1));
-        if (of.rounding < 0) {
+        if (of.error < 0) {
             c->to.failed = 1; /* there was no memory; figures_end says so */
             break;
         }
-        const double mass_limit = 1e-5 + of.rounding;
+        const double mass_limit = 1e-5 + of.error;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);
         tell(c, "alpha_x", "%.3g", (double)surface.alpha_x);

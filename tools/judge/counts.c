@@ -11,19 +11,19 @@
 #include "judge/judge.h"
 
 typedef struct counts {
-    double expected[JUDGE_BINS + 1], observed[JUDGE_BINS + 1];
+    double expected[JUDGE_EACH], observed[JUDGE_EACH];
 } counts;
 
 /* A density that is wrong by a factor alone has the right shape. */
 static void scale(judge_view *v, size_t samples, counts *c)
 {
     const double scale = v->total > 0 ? (double)samples / v->total : 0;
-    for (size_t i = 0; i <= JUDGE_BINS; i++) {
-        const double e = v->mass[i] * scale, variance = v->variance[i] * scale * scale;
+    for (size_t i = 0; i < JUDGE_EACH; i++) {
+        const double e = fmax(v->sum[i].value, 0) * scale, variance = v->sum[i].variance * scale * scale;
         const double kept = variance > 0 ? e / (e + variance) : 1;
         c->expected[i] = kept * e;
         c->observed[i] = kept * v->observed[i];
-        v->left_out += kept < 0.5 ? e / (double)samples : 0;
+        v->left_out = fmin(1, v->left_out + (kept < 0.5 ? e / (double)samples : 0));
     }
 }
 
@@ -104,7 +104,7 @@ static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, 
 {
     counts sum = {{0}, {0}};
     const size_t bins = rings * sectors;
-    for (size_t i = 0; i <= JUDGE_BINS; i++) {
+    for (size_t i = 0; i < JUDGE_EACH; i++) {
         const size_t ring = i / v->sectors * rings / v->rings, sector = i % v->sectors * sectors / v->sectors;
         const size_t to = i < v->rings * v->sectors ? ring * sectors + sector : bins;
         sum.expected[to] += c->expected[i];
@@ -135,7 +135,7 @@ void judge_counts(judgement *j, size_t samples)
         p = fmin(p, fmin(v->bins.p, v->block.p));
         fault->shown = p < least ? show(v, &c) : fault->shown;
         least = fmin(least, p);
-        for (size_t i = 0; i <= JUDGE_BINS; i++) {
+        for (size_t i = 0; i < JUDGE_EACH; i++) {
             c.expected[i] *= (double)(JUDGE_STRATA * JUDGE_STRATA) / (double)samples;
             c.observed[i] = v->stratified[i];
         }

@@ -7,7 +7,6 @@
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
-#include "evidence/measure/bins.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -28,12 +27,14 @@ static const struct {
                          {32, 43, 64}, {43, 53, 64}, {53, 62, 64},   {62, 70, 64},      {70, 77, 64},
                          {77, 82, 64}, {82, 86, 64}, {86, 89.9, 64}, {89.99, 89.99, 64}};
 
-static void place_views(judge_view *views, size_t samples, random_stream *stream)
+static void place_views(judgement *j, size_t samples, random_stream *stream)
 {
     const size_t coarser = samples < 50000 ? 2 : 1; /* bins are to expect samples */
     const size_t turn = random_bits(stream) >> 32, step = 2 * (random_bits(stream) >> 32) + 1;
     for (size_t i = 0; i < JUDGE_VIEWS; i++) {
-        judge_view *v = &views[i];
+        judge_view *v = &j->view[i];
+        v->observed = j->observed + i * JUDGE_EACH;
+        v->sum = j->sum + i * JUDGE_EACH;
         v->is_first = i == 0 || strata[i].to > 0;
         v->rings = strata[i].rings / coarser;
         v->sectors = JUDGE_BINS / strata[i].rings / coarser;
@@ -48,36 +49,26 @@ static void place_views(judge_view *views, size_t samples, random_stream *stream
 
 /* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
  * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
-enum { PILOTS = 4000, EVEN = PILOTS / 4, STRATA = JUDGE_STRATA, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
+enum { PILOTS = BINS_PILOTS, STRATA = JUDGE_STRATA, STRATIFIED = STRATA * STRATA, ENDS = 27 * 8 };
 enum { PAIRS = 16, PAIRED = 4 * 2 * PAIRS };
 
-void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi)
+/* theta and the azimuth from wi; NaN of what is no direction. */
+static void locate(const judge_view *v, const answer *a, double *theta, double *phi)
 {
     *theta = isfinite(a->x + a->y + a->z) ? atan2(hypot(a->x, a->y), a->z) : NAN;
     *phi = remainder(atan2(a->y, a->x) - v->turn, 2 * pi);
 }
 
-static void place_borders(double *border, size_t parts, double low, double high, double at[PILOTS + EVEN])
-{
-    for (size_t i = 0; i < EVEN; i++)
-        at[PILOTS + i] = low + (high - low) * ((double)i + 0.5) / EVEN;
-    sort_numbers(at, PILOTS + EVEN);
-    for (size_t i = 1; i < parts; i++)
-        border[i] = fmin(fmax(at[i * (PILOTS + EVEN) / parts], low), high);
-    border[0] = low;
-    border[parts] = high;
-}
-
 static void place_bins(judge_view *v, const answer *pilots)
 {
-    double theta[PILOTS + EVEN], phi[PILOTS + EVEN];
-    for (size_t i = 0; i < PILOTS; i++) {
-        judge_locate(v, &pilots[i], &theta[i], &phi[i]);
+    double theta[BINS_PILOTS + BINS_EVEN], phi[BINS_PILOTS + BINS_EVEN];
+    for (size_t i = 0; i < BINS_PILOTS; i++) {
+        locate(v, &pilots[i], &theta[i], &phi[i]);
         phi[i] = isnan(theta[i]) ? 0 : phi[i];
         theta[i] = isnan(theta[i]) ? 0 : theta[i];
     }
-    place_borders(v->ring, v->rings, 0, pi / 2, theta);
-    place_borders(v->sector, v->sectors, -pi, pi, phi);
+    bins_borders(v->ring, v->rings, 0, pi / 2, theta);
+    bins_borders(v->sector, v->sectors, -pi, pi, phi);
 }
 
 /* Its bin, JUDGE_BINS for none. */
@@ -92,7 +83,7 @@ static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
     judge_note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
     if (!(a->pdf > 0 && isfinite(a->pdf)))
         judge_note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
-    judge_locate(v, a, &theta, &phi);
+    locate(v, a, &theta, &phi);
     if (!(theta <= pi / 2 + 1e-6))
         return JUDGE_BINS;
     return bins_interval(v->ring, v->rings, theta) * v->sectors + bins_interval(v->sector, v->sectors, phi);
@@ -156,7 +147,7 @@ static int draw(const judge_task *task, judgement *j)
     const size_t each = PILOTS + task->samples + STRATIFIED + ENDS + PAIRED, count = each * JUDGE_VIEWS;
     random_stream stream = random_from(task->seed);
     query *asked = malloc(count * sizeof *asked);
-    place_views(j->view, task->samples, &stream);
+    place_views(j, task->samples, &stream);
     for (size_t i = 0; i < JUDGE_VIEWS && asked; i++)
         fill_samples(asked + i * each, &j->view[i], task->samples, 90 * (double)i, &stream);
     answer *got = process_ask(task, asked, count);

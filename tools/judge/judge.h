@@ -12,10 +12,11 @@
 #include <stdint.h>
 
 #include "cli/progress.h"
-#include "evidence/measure/statistics.h"
+#include "evidence/measure/bins.h"
 #include "vndf.h"
 
-enum { JUDGE_VIEWS = 14, JUDGE_BINS = 4096, JUDGE_SIDE = 1024 };
+/* Behind the bins of a direction comes one for samples that are in none. */
+enum { JUDGE_VIEWS = 14, JUDGE_BINS = 4096, JUDGE_SIDE = 1024, JUDGE_EACH = JUDGE_BINS + 1 };
 enum { JUDGE_STRATA = 64, JUDGE_ASKED = 1000, JUDGE_TESTS = JUDGE_VIEWS + 4 };
 
 /* ---- questions ----------------------------------------------------------------------------------- */
@@ -88,11 +89,11 @@ typedef struct judge_view {
     double turn;                                         /* the azimuth of wi, radians */
     size_t rings, sectors;                               /* at most JUDGE_BINS together, and JUDGE_SIDE each */
     double ring[JUDGE_SIDE + 1], sector[JUDGE_SIDE + 1]; /* borders, radians; azimuths from wi */
-    double observed[JUDGE_BINS + 1], stratified[JUDGE_BINS + 1]; /* ring by ring; the last: samples in no bin */
-    double mass[JUDGE_BINS + 1], variance[JUDGE_BINS + 1]; /* the integral of the density, and that of its error */
-    double total, error;                                   /* of all bins; four standard deviations of it */
-    exchange sample[JUDGE_BINS + 1], density[JUDGE_BINS];  /* one of a bin, and the greatest */
-    exchange first[JUDGE_ASKED];                           /* samples whose density is asked for as well */
+    double *observed, stratified[JUDGE_EACH];            /* ring by ring */
+    quadrature_sum *sum;                                 /* of the density, beside the true visible normals */
+    double total, error;                                 /* of all bins; four standard deviations of it */
+    exchange sample[JUDGE_EACH], density[JUDGE_BINS];    /* one of a bin, and the greatest */
+    exchange first[JUDGE_ASKED];                         /* samples whose density is asked for as well */
     pearson bins;
     judge_block block;
     double left_out;       /* the part of the mass in bins whose integral errs more than counts do */
@@ -103,6 +104,8 @@ typedef struct judge_view {
 
 typedef struct judgement {
     judge_view view[JUDGE_VIEWS];
+    double observed[JUDGE_VIEWS * JUDGE_EACH]; /* of all directions */
+    quadrature_sum sum[JUDGE_VIEWS * JUDGE_EACH];
     judge_fault fault[JUDGE_NUMBERS];
     double fits[2]; /* the roughness whose normals are nearest, and the total variation to them */
     double fits_tv;
@@ -114,9 +117,6 @@ int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 /* Its parts: the integrals over bins, 0 after a complaint; and what the counts say of them by JUDGE_TESTS tests. */
 int judge_integrate(const judge_task *task, progress *bar, judgement *j);
 void judge_counts(judgement *j, size_t samples);
-
-/* theta and the azimuth from wi; NaN of what is no direction. */
-void judge_locate(const judge_view *v, const answer *a, double *theta, double *phi);
 
 /* Keeps the worst; what is no number is the worst of all. */
 void judge_note(judge_fault *f, double amount, double beside, const exchange *shown);

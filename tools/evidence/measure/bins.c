@@ -11,7 +11,6 @@
 
 #include "cli/random.h"
 #include "cli/sort.h"
-#include "evidence/measure/quadrature.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -103,20 +102,29 @@ size_t bins_interval(const double *border, size_t parts, double x)
     return low;
 }
 
-void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1])
+void bins_borders(double *border, size_t parts, double low, double high, double at[BINS_PILOTS + BINS_EVEN])
 {
-    enum { PILOTS = 2001 };
-    double pilot[PILOTS], azimuth;
+    for (size_t i = 0; i < BINS_EVEN; i++)
+        at[BINS_PILOTS + i] = low + (high - low) * ((double)i + 0.5) / BINS_EVEN;
+    sort_numbers(at, BINS_PILOTS + BINS_EVEN);
+    for (size_t i = 1; i < parts; i++)
+        border[i] = fmin(fmax(at[i * (BINS_PILOTS + BINS_EVEN) / parts], low), high);
+    border[0] = low;
+    border[parts] = high;
+}
+
+static void place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1])
+{
+    double at[BINS_PILOTS + BINS_EVEN], azimuth;
     random_stream stream = random_from(seed ^ 0x5851F42D4C957F2Du); /* apart from the stream that is tested */
-    for (size_t i = 0; i < PILOTS; i++) {
+    for (size_t i = 0; i < BINS_PILOTS; i++) {
         float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
-        pilot[i] = atan(polar(&judged->frame, judged->draw(judged->of, u1, u2, &pdf), &azimuth));
+        at[i] = atan(polar(&judged->frame, judged->draw(judged->of, u1, u2, &pdf), &azimuth));
     }
-    sort_numbers(pilot, PILOTS);
-    for (size_t i = 0; i < BINS_RINGS; i++)
-        slope[i] = tan(i % 2 ? pilot[PILOTS * i / (BINS_RINGS + 1)] : pi / 2 * (double)i / (BINS_RINGS + 1));
+    bins_borders(slope, BINS_RINGS, 0, pi / 2, at);
+    for (size_t i = 1; i < BINS_RINGS; i++)
+        slope[i] = tan(slope[i]);
     slope[BINS_RINGS] = HUGE_VAL;
-    sort_numbers(slope, BINS_RINGS + 1);
 }
 
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm)
@@ -131,19 +139,28 @@ size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_ve
 /* ---- integrals ----------------------------------------------------------------------------------- */
 
 /* The density of log R and of the azimuth over its reach. */
+static double density(const bins_sampler *judged, double log_slope, double part)
+{
+    const bins_frame *f = &judged->frame;
+    const double slope = exp(log_slope), wide = reach(f, slope);
+    const double along = slope * cos(wide * part), across = slope * sin(wide * part);
+    const double u = f->x * along - f->y * across, v = f->y * along + f->x * across;
+    const double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
+    const double z = 1 / sqrt(1 + x * x + y * y);
+    const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
+    return wide > 0 ? (double)judged->pdf(judged->of, wm) * z * z * z * fabs(f->det) * slope * slope * wide : 0;
+}
+
+/* A normal is rounded by this part of its slope, and its density is that of a normal this far away (promise 2 of the
+ * library). Cells of some such steps are not halved. */
+static const double ONE_ROUNDING = 0x1p-23, FINEST = 32 * 0x1p-23;
+
+/* It is compared with that one rounding away, where it stands for a part. */
 static int answer(void *of, quadrature_point *at, size_t count)
 {
-    const bins_sampler *judged = of;
-    const bins_frame *f = &judged->frame;
     for (quadrature_point *p = at; p < at + count; p++) {
-        const double slope = exp(p->x), wide = reach(f, slope);
-        const double along = slope * cos(wide * p->y), across = slope * sin(wide * p->y);
-        const double u = f->x * along - f->y * across, v = f->y * along + f->x * across;
-        const double x = f->xx * u + f->xy * v - f->mean_x, y = f->yx * u + f->yy * v - f->mean_y;
-        const double z = 1 / sqrt(1 + x * x + y * y);
-        const vndf_vec3 wm = {(float)(x * z), (float)(y * z), (float)z};
-        if (wide > 0)
-            p->value = (double)judged->pdf(judged->of, wm) * z * z * z * fabs(f->det) * slope * slope * wide;
+        p->value[0] = density(of, p->x, p->y);
+        p->value[1] = p->part > 0 ? density(of, p->x + ONE_ROUNDING, p->y) : p->value[0];
     }
     return 1;
 }
@@ -152,65 +169,54 @@ static int answer(void *of, quadrature_point *at, size_t count)
  * there. */
 static const double LEAST = 0x1p-80, LARGEST = 0x1p100;
 
-/* Cells span a factor of 4 in R at most and end where the horizon enters, since the reach has a root there. */
-enum { RINGS_MAX = BINS_RINGS + 92 };
-
-static size_t divide(const bins_frame *f, const double slope[BINS_RINGS + 1], quadrature_cell *to)
+size_t bins_cells(const double *x, size_t rings, const double *y, size_t sectors, size_t first,
+                  quadrature_cell *to)
 {
-    const double enters = log(fabs(f->c) / f->s);
     size_t count = 0;
-    for (size_t ring = 0; ring < BINS_RINGS; ring++) {
-        const double end = log(fmin(slope[ring + 1], LARGEST));
-        for (double low = log(fmax(slope[ring], LEAST)), high; low < end; low = high) {
-            high = fmin(low + log(4), end);
-            high = enters > low && enters < high ? enters : high;
-            for (size_t i = 0; i < BINS_SECTORS; i++) {
-                const double from = 2 * (double)i / BINS_SECTORS - 1, wide = 2.0 / BINS_SECTORS;
-                to[count++] = (quadrature_cell){ring * BINS_SECTORS + i, {low, high}, {from, from + wide}, 0};
-            }
-        }
+    for (size_t i = 0; i < rings * sectors; i++) {
+        const double *ring = &x[i / sectors], *sector = &y[i % sectors];
+        if (ring[0] < ring[1] && sector[0] < sector[1])
+            to[count++] = (quadrature_cell){.bin = first + i, {ring[0], ring[1]}, {sector[0], sector[1]}};
     }
     return count;
 }
 
-/* A normal is rounded by this part of its slope, and its density is that of a normal this far away (promise 2 of the
- * library): the integral of what that adds is at most the change of the mass per log R, times this. Cells of this width
- * are not halved: normals are floats, which do not tell their slopes apart. */
-static const double ONE_ROUNDING = 0x1p-23;
-
-double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
-                      double probability[BINS_COUNT])
+static void integrate(const bins_sampler *judged, bins_result *to)
 {
-    const quadrature q = {answer, (void *)judged, 1e-9, 0, ONE_ROUNDING, 1024, 24};
-    quadrature_cell *cells = malloc(RINGS_MAX * BINS_SECTORS * sizeof *cells);
-    quadrature_sum *sum = calloc(BINS_COUNT, sizeof *sum);
-    double change = 0;
-    const int good = cells && sum && quadrature_run(&q, cells, divide(&judged->frame, slope, cells), sum);
-    for (size_t i = 0; i < BINS_COUNT; i++) {
-        probability[i] = good ? sum[i].value : (double)NAN;
-        change += good ? sum[i].change : 0;
+    enum { CELLS_MAX = 200000 };
+    const quadrature q = {answer, (void *)judged, BINS_COUNT, CELLS_MAX, 1e-8, FINEST, 30, 1, NULL, 0};
+    quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
+    double ring[BINS_RINGS + 1], sector[BINS_SECTORS + 1], variance = 0;
+    for (int i = 0; i <= BINS_RINGS; i++)
+        ring[i] = log(fmin(fmax(to->slope[i], LEAST), LARGEST));
+    for (int i = 0; i <= BINS_SECTORS; i++)
+        sector[i] = 2 * (double)i / BINS_SECTORS - 1;
+    const size_t count = cells ? bins_cells(ring, BINS_RINGS, sector, BINS_SECTORS, 0, cells) : 0;
+    if (!cells || !quadrature_run(&q, cells, count, to->sum))
+        to->error = -1;
+    for (int i = 0; i < BINS_COUNT && to->error >= 0; i++) {
+        to->mass += to->sum[i].value;
+        to->error += 2 * to->sum[i].distance;
+        variance += to->sum[i].variance;
     }
+    to->error += 4 * sqrt(variance);
     free(cells);
-    free(sum);
-    return good ? ONE_ROUNDING * change : -1;
 }
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed)
 {
-    double slope[BINS_RINGS + 1], expected[BINS_COUNT], observed[BINS_COUNT] = {0};
+    double expected[BINS_COUNT], observed[BINS_COUNT] = {0};
     bins_result result = {.mass = 0};
     random_stream stream = random_from(seed);
-    bins_place(judged, seed, slope);
+    place(judged, seed, result.slope);
     for (size_t i = 0; i < samples; i++) {
         float pdf = -1, u1 = random_float(&stream), u2 = random_float(&stream);
-        observed[bins_bin(&judged->frame, slope, judged->draw(judged->of, u1, u2, &pdf))] += 1;
+        observed[bins_bin(&judged->frame, result.slope, judged->draw(judged->of, u1, u2, &pdf))] += 1;
         result.unseen += !(pdf >= FLT_MIN && pdf <= FLT_MAX);
     }
-    result.rounding = bins_integrate(judged, slope, expected);
-    for (size_t i = 0; i < BINS_COUNT; i++) {
-        result.mass += expected[i];
-        expected[i] *= (double)samples;
-    }
+    integrate(judged, &result);
+    for (size_t i = 0; i < BINS_COUNT; i++)
+        expected[i] = result.sum[i].value * (double)samples;
     result.found = pearson_of(expected, observed, BINS_COUNT);
     return result;
 }

@@ -3,15 +3,15 @@
  * The frame is an affine image of the slopes, in polar form (R, a) about the direction, where the median slope is about
  * 1: there the roughness is undone, and at a given R the normals that are seen are those with |a| < A(R). The bins are
  * the product of intervals of R from 0 to infinity and of even intervals of a/A from -1 to 1, so that no border cuts
- * one. Half of the borders of R are even in atan(R), the other half are quantiles, so that half of the bins lie where
- * the normals do. Quantiles are those of normals drawn apart from those that are tested; the bins hold all normals
- * whatever they are. */
+ * one. The borders of R are quantiles of normals drawn apart from those that are tested, among a fourth as many even in
+ * atan(R), so that most bins lie where the normals do; the bins hold all normals whatever they are. */
 #ifndef TOOLS_EVIDENCE_MEASURE_BINS_H
 #define TOOLS_EVIDENCE_MEASURE_BINS_H
 
 #include <stddef.h>
 #include <stdint.h>
 
+#include "evidence/measure/quadrature.h"
 #include "evidence/measure/statistics.h"
 #include "vndf.h"
 
@@ -45,23 +45,30 @@ enum { BINS_RINGS = 65, BINS_SECTORS = 48, BINS_COUNT = BINS_RINGS * BINS_SECTOR
 
 typedef struct bins_result {
     pearson found;
-    double mass, rounding; /* the integral of the density, and by how much one rounding of normals may move it; -1:
-                              there was no memory for it */
-    size_t unseen;         /* samples whose density is not a positive float */
+    double mass, error; /* the integral of the density; and what it may err: four standard deviations, and by how
+                           much one rounding of normals may move it; -1: there was no memory for it */
+    size_t unseen;      /* samples whose density is not a positive float */
+    double slope[BINS_RINGS + 1];   /* borders of R, ascending */
+    quadrature_sum sum[BINS_COUNT]; /* ring by ring */
 } bins_result;
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
 
-/* Its parts: borders of R, ascending; the bin of a normal, ring by ring; and the integral of the density over each bin,
- * of whose cells none errs by more than 1e-9, but for rounding. The sum over all bins is within 2e-6 of 1 for a density
- * whose integral is 1, jumps and narrow peaks included (test_bins). Returns by how much rounding of normals and
- * densities may move that sum: next to nothing but for rings so narrow that floats hardly tell slopes in them apart. */
-void bins_place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1]);
+/* The bin of a normal. */
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
-double bins_integrate(const bins_sampler *judged, const double slope[BINS_RINGS + 1],
-                      double probability[BINS_COUNT]);
 
-/* For bins of other kinds: which of `parts` intervals of ascending borders holds x. */
+/* ---- for bins of other kinds --------------------------------------------------------------------- */
+
+/* Borders that are quantiles of samples, the first of `at`, and of a fourth as many even numbers, which are put behind
+ * them. */
+enum { BINS_PILOTS = 4000, BINS_EVEN = BINS_PILOTS / 4 };
+void bins_borders(double *border, size_t parts, double low, double high, double at[BINS_PILOTS + BINS_EVEN]);
+
+/* Which of `parts` intervals of ascending borders holds x. */
 size_t bins_interval(const double *border, size_t parts, double x);
+
+/* A cell for each bin that is not empty, bin by bin from the one that is `first`; returns how many. */
+size_t bins_cells(const double *x, size_t rings, const double *y, size_t sectors, size_t first,
+                  quadrature_cell *to);
 
 #endif

@@ -1,99 +1,204 @@
-/* A cell is measured by Lobatto's rule of 5 x 5 points, exact to degree 7 in x and y. Where Simpson's, on three of
- * them, differs too much along x or y, the cell is halved there, and asked for again. Both have points on the border of
- * the cell, drawn in by 1e-7 of half of it: a jump in a cell is seen wherever it is, one on its border from this
- * side. */
+/* Six points of a cell, its corners and one of a side each, make a polynomial of degree 2. Two pairs of other points,
+ * drawn at random, each symmetric about the middle, tell how much the mean of the function is off that of the
+ * polynomial: without bias whatever the function is, and exactly for one of degree 3. Its error is how much the pairs
+ * differ, or two more points say if that is more. Where those are off the polynomial, the cell is divided, the worst
+ * first: lines along which the function jumps, and peaks, show themselves there. */
 #include "evidence/measure/quadrature.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NODES = 5, POINTS = NODES * NODES };
-static const double node[NODES] = {-0.9999999, -0.65465367070797714, 0, 0.65465367070797714, 0.9999999};
-static const double lobatto[NODES] = {1.0 / 10, 49.0 / 90, 64.0 / 90, 49.0 / 90, 1.0 / 10};
-static const double simpson[NODES] = {1.0 / 3, 0, 4.0 / 3, 0, 1.0 / 3};
+#include "cli/random.h"
 
-static void place(const quadrature_cell *c, quadrature_point to[POINTS])
+enum { CORNERS = 4, SIDES = 6, PAIRS = 10, POINTS = 12 }; /* where they end */
+
+/* In the first rounds counts are heeded, unless one bin of so many is off: then it is the sampler. */
+enum { HEEDING = 5, OFTEN = 50 };
+
+/* ---- points -------------------------------------------------------------------------------------- */
+
+/* From -1 to 1 in the cell. Corners and sides are drawn in a little: a jump on the border is seen from this side. */
+static void place(const quadrature_cell *c, random_stream *stream, quadrature_point to[POINTS])
 {
-    const double x = (c->x[0] + c->x[1]) / 2, half_x = (c->x[1] - c->x[0]) / 2;
-    const double y = (c->y[0] + c->y[1]) / 2, half_y = (c->y[1] - c->y[0]) / 2;
+    static const double END = 1 - 2e-7;
+    double at[POINTS][2];
     for (int k = 0; k < POINTS; k++)
-        to[k] = (quadrature_point){c->bin, x + half_x * node[k / NODES], y + half_y * node[k % NODES], 0};
-}
-
-/* differs[]: by how much the two rules do, along x and along y. */
-static quadrature_sum measure(const quadrature_cell *c, const quadrature_point at[POINTS], double differs[2])
-{
-    const double half_y = (c->y[1] - c->y[0]) / 2, area = (c->x[1] - c->x[0]) / 2 * half_y;
-    double few[2] = {0}, along[NODES] = {0};
-    quadrature_sum sum = {0, 0, 0};
-    for (int k = 0; k < POINTS; k++) {
-        const int i = k / NODES, j = k % NODES;
-        sum.value += area * lobatto[i] * lobatto[j] * at[k].value;
-        few[0] += area * simpson[i] * lobatto[j] * at[k].value;
-        few[1] += area * lobatto[i] * simpson[j] * at[k].value;
-        along[i] += half_y * lobatto[j] * at[k].value;
-    }
-    for (int i = 0; i < 2; i++)
-        differs[i] = fabs(few[i] - sum.value);
-    for (int i = 1; i < NODES; i++)
-        sum.change += fabs(along[i] - along[i - 1]);
-    sum.error = fmax(differs[0], differs[1]);
-    return sum;
-}
-
-/* In both directions if both differ too much; returns how many cells there are. */
-static size_t halve(const quadrature_cell *c, const double differs[2], double allowed, quadrature_cell to[4])
-{
-    const int columns = differs[0] > allowed ? 2 : 1, count = columns * (differs[1] > allowed ? 2 : 1);
-    const double x[3] = {c->x[0], columns == 1 ? c->x[1] : (c->x[0] + c->x[1]) / 2, c->x[1]};
-    const double y[3] = {c->y[0], count == columns ? c->y[1] : (c->y[0] + c->y[1]) / 2, c->y[1]};
-    for (int k = 0; k < count; k++) {
-        const int i = k % columns, j = k / columns;
-        to[k] = (quadrature_cell){c->bin, {x[i], x[i + 1]}, {y[j], y[j + 1]}, c->halvings + 1};
-    }
-    return (size_t)count;
-}
-
-static void add(quadrature_sum *to, const quadrature_sum *of)
-{
-    to->value += of->value;
-    to->error += of->error;
-    to->change += of->change;
-}
-
-/* The cells that wait are a stack, so that there are never many. */
-int quadrature_run(const quadrature *q, const quadrature_cell *cells, size_t count, quadrature_sum *sum)
-{
-    quadrature_cell *waiting = malloc(count * sizeof *waiting);
-    int good = waiting != NULL;
-    if (good)
-        memcpy(waiting, cells, count * sizeof *waiting);
-    while (count > 0 && good) {
-        const size_t now = count < q->at_once ? count : q->at_once;
-        quadrature_cell *more = realloc(waiting, (count + 3 * now) * sizeof *more),
-                        *cell = malloc(now * sizeof *cell);
-        quadrature_point *at = malloc(now * POINTS * sizeof *at);
-        waiting = more ? more : waiting;
-        good = more && cell && at;
-        count -= now;
-        for (size_t i = 0; i < now && good; i++) {
-            cell[i] = waiting[count + i];
-            place(&cell[i], at + i * POINTS);
+        for (int i = 0; i < 2; i++) {
+            const double inside = 2 * random_double(stream) - 1;
+            at[k][i] = k < CORNERS          ? (k >> i & 1 ? END : -END)
+                       : k < SIDES          ? (k - CORNERS == i ? inside / 2 : copysign(END, inside))
+                       : k < PAIRS && k % 2 ? -at[k - 1][i]
+                                            : inside;
         }
-        good = good && q->answer(q->of, at, now * POINTS);
-        for (size_t i = 0; i < now && good; i++) {
-            double differs[2];
-            const quadrature_sum found = measure(&cell[i], at + i * POINTS, differs);
-            const double allowed = fmax(fmax(q->absolute, q->relative * found.value), q->rounding * found.change);
-            if (found.error <= allowed || cell[i].halvings == q->halvings)
-                add(&sum[cell[i].bin], &found);
-            else
-                count += halve(&cell[i], differs, allowed, waiting + count);
-        }
-        free(cell);
-        free(at);
+    const double half_x = (c->x[1] - c->x[0]) / 2, half_y = (c->y[1] - c->y[0]) / 2;
+    for (int k = 0; k < POINTS; k++)
+        to[k] = (quadrature_point){.bin = c->bin,
+                                   .x = c->x[0] + half_x * (1 + at[k][0]),
+                                   .y = c->y[0] + half_y * (1 + at[k][1]),
+                                   .part = k < SIDES || k >= PAIRS ? 0 : half_x * half_y};
+}
+
+/* What corners say, linear along x and along y, and a parabola along each. */
+typedef struct polynomial {
+    double mean, x, y, xy, xx, yy;
+} polynomial;
+
+static double part_of(const double of[2], double x)
+{
+    return (2 * x - of[0] - of[1]) / (of[1] - of[0]);
+}
+
+/* How much a value is off the polynomial. */
+static double off(const polynomial *p, const quadrature_cell *c, const quadrature_point *at, int which)
+{
+    const double x = part_of(c->x, at->x), y = part_of(c->y, at->y);
+    return at->value[which] - p->mean - x * p->x - y * p->y - x * y * p->xy - (1 - x * x) * p->xx -
+           (1 - y * y) * p->yy;
+}
+
+static polynomial fit(const quadrature_cell *c, const quadrature_point at[POINTS], int which)
+{
+    const double low = at[0].value[which], right = at[1].value[which];
+    const double up = at[2].value[which], high = at[3].value[which];
+    const double x = part_of(c->x, at[4].x), y = part_of(c->y, at[5].y);
+    polynomial p = {.mean = (low + right + up + high) / 4,
+                    .x = (right + high - low - up) / 4,
+                    .y = (up + high - low - right) / 4,
+                    .xy = (low + high - right - up) / 4};
+    const double along_x = off(&p, c, &at[4], which), along_y = off(&p, c, &at[5], which);
+    p.xx = along_x / (1 - x * x);
+    p.yy = along_y / (1 - y * y);
+    return p;
+}
+
+/* ---- cells --------------------------------------------------------------------------------------- */
+
+static void measure(quadrature_cell *c, const quadrature_point at[POINTS])
+{
+    const double area = (c->x[1] - c->x[0]) * (c->y[1] - c->y[0]);
+    double worst[2] = {0}, pair[2] = {0};
+    polynomial p[2];
+    for (int i = 0; i < 2; i++) {
+        p[i] = fit(c, at, i);
+        for (int k = PAIRS; k < POINTS; k++)
+            worst[i] = fmax(worst[i], fabs(off(&p[i], c, &at[k], i)));
     }
-    free(waiting);
+    for (int k = SIDES; k < PAIRS; k++) {
+        const double f = at[k].value[0], g = at[k].value[1], part = at[k].part;
+        pair[k / 2 % 2] += off(&p[0], c, &at[k], 0) / 2;
+        c->sum.distance += part * fabs(f - g) / 2;
+        c->sum.square += f > 0 ? part * g / f * g : 0;
+        c->sum.uncovered += f > 0 ? 0 : part * g;
+    }
+    const double error = area * fmax(fabs(pair[0] - pair[1]) / 2, worst[0] / 3);
+    c->sum.value = area * (p[0].mean + (p[0].xx + p[0].yy) * 2 / 3 + (pair[0] + pair[1]) / 2);
+    c->sum.variance = error * error;
+    c->urgency = area / 3 * fmax(worst[0], worst[1]);
+    c->along[0] = fabs(at[1].value[0] - at[0].value[0]) + fabs(at[3].value[0] - at[2].value[0]) + fabs(p[0].xx);
+    c->along[1] = fabs(at[2].value[0] - at[0].value[0]) + fabs(at[3].value[0] - at[1].value[0]) + fabs(p[0].yy);
+    c->is_asked = 1;
+}
+
+static int ask(const quadrature *q, quadrature_cell *cells, size_t count, random_stream *stream)
+{
+    size_t asked = 0;
+    for (size_t i = 0; i < count; i++)
+        asked += !cells[i].is_asked;
+    quadrature_point *at = malloc((asked + 1) * POINTS * sizeof *at), *next = at;
+    for (size_t i = 0; i < count && at; i++)
+        if (!cells[i].is_asked) {
+            place(&cells[i], stream, next);
+            next += POINTS;
+        }
+    const int good = q->answer(q->of, at, at ? asked * POINTS : 0) && at;
+    next = at;
+    for (size_t i = 0; i < count && good; i++)
+        if (!cells[i].is_asked) {
+            measure(&cells[i], next);
+            next += POINTS;
+        }
+    free(at);
     return good;
+}
+
+/* ---- rounds -------------------------------------------------------------------------------------- */
+
+static void add_up(const quadrature *q, const quadrature_cell *cells, size_t count, quadrature_sum *sum)
+{
+    memset(sum, 0, q->bins * sizeof *sum);
+    for (const quadrature_cell *c = cells; c < cells + count; c++) {
+        quadrature_sum *to = &sum[c->bin];
+        to->value += c->sum.value;
+        to->variance += c->sum.variance;
+        to->distance += c->sum.distance;
+        to->square += c->sum.square;
+        to->uncovered += c->sum.uncovered;
+    }
+}
+
+static int most_urgent(const void *a, const void *b)
+{
+    const double x = ((const quadrature_cell *)a)->urgency, y = ((const quadrature_cell *)b)->urgency;
+    return (x < y) - (x > y);
+}
+
+/* By bins: who answers may prepare what it needs for a whole. */
+static int in_order(const void *a, const void *b)
+{
+    const size_t x = ((const quadrature_cell *)a)->bin, y = ((const quadrature_cell *)b)->bin;
+    return (x > y) - (x < y);
+}
+
+static int is_accused(const quadrature *q, size_t bin, const quadrature_sum *sum)
+{
+    const double count = q->observed ? q->observed[bin] : 0;
+    const double expected = q->observed ? sum[bin].value * q->samples : 0;
+    return fabs(count - expected) > 3 * sqrt(fmax(count, expected)) + 1;
+}
+
+/* Along x, along y, or both if both matter, into the cell and behind the others; returns how many there are. */
+static size_t halve(quadrature_cell *of, quadrature_cell *cells, size_t count)
+{
+    const quadrature_cell c = *of;
+    const int columns = c.along[1] > 4 * c.along[0] ? 1 : 2, rows = c.along[0] > 4 * c.along[1] ? 1 : 2;
+    const double wide = (c.x[1] - c.x[0]) / columns, high = (c.y[1] - c.y[0]) / rows;
+    for (int k = 0; k < columns * rows; k++) {
+        const double x = c.x[0] + wide * (k % columns), y = c.y[0] + high * (double)(k / columns);
+        *(k ? &cells[count++] : of) = (quadrature_cell){.bin = c.bin, {x, x + wide}, {y, y + high}};
+    }
+    return count;
+}
+
+/* The worst first, and those of a bin whose count is far from its integral. */
+static size_t divide(const quadrature *q, quadrature_cell *cells, size_t count, const quadrature_sum *sum,
+                     int round)
+{
+    const size_t before = count;
+    size_t accused = 0;
+    for (size_t i = 0; i < q->bins; i++)
+        accused += (size_t)is_accused(q, i, sum);
+    const int is_heeded = round < HEEDING && accused < q->bins / OFTEN;
+    qsort(cells, before, sizeof *cells, most_urgent);
+    for (size_t i = 0; i < before && count + 3 <= q->most; i++)
+        if ((cells[i].urgency > q->close && cells[i].x[1] - cells[i].x[0] > q->finest) ||
+            (is_heeded && is_accused(q, cells[i].bin, sum)))
+            count = halve(&cells[i], cells, count);
+    qsort(cells, count, sizeof *cells, in_order);
+    return count;
+}
+
+int quadrature_run(const quadrature *q, quadrature_cell *cells, size_t count, quadrature_sum *sum)
+{
+    random_stream stream = random_from(q->seed);
+    for (int round = 0;; round++) {
+        if (!ask(q, cells, count, &stream))
+            return 0;
+        add_up(q, cells, count, sum);
+        const size_t before = count;
+        if (round + 1 < q->rounds)
+            count = divide(q, cells, count, sum, round);
+        if (count == before)
+            return 1;
+    }
 }
