@@ -59,7 +59,7 @@ static void test_view(const view_case *at)
     const int is_narrow = at->bin_error == 0, is_cut = strcmp(at->slope, "(1+r*r)^-1.55") == 0;
     const bins_result found = bins_chi_square(&of, 0, 7);
     if (!(TEST_NEAR(found.mass, 1, is_cut ? 3e-3 : fmin(found.error, is_narrow ? 1 : 4e-6)) &
-          TEST(found.error < (is_narrow ? 2e-3 : 1e-5))))
+          TEST(found.error < (is_narrow ? 2e-3 : 2e-5))))
         fprintf(stderr, "  of %s: error %g\n", at->slope, found.error);
     for (size_t bin = BINS_SECTORS; !is_narrow && bin < BINS_COUNT - 2 * BINS_SECTORS;
          bin += test_amount(331, 131, 131)) {
