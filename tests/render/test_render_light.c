@@ -4,8 +4,8 @@
  * integral over a sky, a rough floor f of the library under a small lamp. All samplers show the same of metals
  * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
  * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
- * own surface, by weights of drawn light; a sky that is turned or off by a row, choices that forget a
- * light; wrong densities, areas and cosines, lights that shine backwards, shadow rays that end
+ * own surface, by weights of drawn light; rows and pixels of a sky that are off by one, choices that
+ * forget a light; wrong densities, areas and cosines, lights that shine backwards, shadow rays that end
  * too early or too late, candidates that are not kept in proportion to their weight. */
 #include "render_case.h"
 
@@ -108,9 +108,17 @@ static void test_sky(void)
                           "environment --image studio:24,14 --turn 40\n" LAMP
                           "sphere --centre 2,1.5,0 --radius 0.05 --material lamp\n");
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
+    unsigned long long state = 4;
+    TEST(s->environment.is_drawn);
     float up[3]; /* at a pole there is its row alone */
     environment_radiance(&s->environment, vec(0, 1, 0), up);
     TEST_RELATIVE((double)up[0], (double)image_pixel(s->environment.map, 0, 0)[0], 1e-6);
+    for (int i = 0; i < 1000; i++) { /* the density of what is drawn is that of where it is */
+        const double u[3] = {0, test_uniform_double(&state), test_uniform_double(&state)};
+        light_sample l;
+        TEST(lights_draw(s, vec(1, 0, 0), u, &l) && !isfinite(l.distance));
+        TEST_RELATIVE(lights_density(s, vec(1, 0, 0), l.direction, NULL), l.density, 1e-9);
+    }
     for (int i = 0; i < WIDTH * HEIGHT * FINER * FINER; i++) {
         const double u = (i % (WIDTH * FINER) + 0.5) / (WIDTH * FINER),
                      longitude = 2 * PI * (u - 0.5 - 40.0 / 360);

@@ -210,7 +210,7 @@ static int go_on(walk *w, const surface *p, const hit *h)
         return 0;
     for (int i = 0; i < 3; i++)
         w->throughput[i] *= (double)b.weight[i] * (double)p->colour[i];
-    w->density = side > 0 && w->plan->scene->light_count > 0 ? b.density : 0;
+    w->density = side > 0 && lights_any(w->plan->scene) ? b.density : 0;
     w->place = h->place;
     w->ray = ray_from(h, direction);
     return 1;
@@ -238,7 +238,7 @@ void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t se
         }
         if (count > (unsigned)s->depth || !begin(&p, plan, &h, w.ray.direction))
             break;
-        if (s->light_count > 0)
+        if (lights_any(s))
             reach_light(&w, &p, &h);
         if (!go_on(&w, &p, &h))
             break;

@@ -459,7 +459,7 @@ static int finish(reader *r)
     if (!geometry_build(&s->geometry))
         return wrong(r, "there is no memory for a hierarchy of its shapes");
     if (!lights_make(s))
-        return wrong(r, "these are more than %d lights", SCENE_LIGHTS_MAX);
+        return wrong(r, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
            wrong(r, "the scene ends without light: an environment, or a shape of a light");
@@ -504,6 +504,7 @@ void scene_free(scene *s)
         image_free(&s->images[i]);
     for (size_t i = 0; i < SCENE_TABLES_MAX; i++)
         vndf_free(s->tables[i]);
+    free(s->environment.sums);
     free(s->text);
     geometry_free(&s->geometry);
     free(s);

@@ -21,11 +21,14 @@ typedef struct material {
     const image *colour_map, *alpha_map; /* multiply colour and alpha, by their red; NULL: none */
 } material;
 
-/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. */
+/* Light from far away: a constant, or an image of longitude over latitude, y up, turned about y. Directions are
+ * drawn from its pixels, by their light, of which `sums` has the sum up to each. */
 typedef struct environment {
     float constant[3];
     const image *map;   /* NULL: the constant */
     double scale, turn; /* turn: a part of a full turn */
+    double *sums;       /* owned */
+    int is_drawn;       /* not if every direction finds its light */
 } environment;
 
 typedef struct scene {
@@ -59,9 +62,9 @@ int scene_resize(scene *s, int width);
 /* How scenes are written, to stdout. */
 void scene_print_manual(void);
 
-/* ---- light that is drawn: spheres and rectangles that emit ---- */
+/* ---- light that is drawn ---- */
 
-/* Lists the lights of a scene. 0 if there are more than SCENE_LIGHTS_MAX. */
+/* Lists the lights of a scene. 0 if there are more than SCENE_LIGHTS_MAX, or there is no memory. */
 int lights_make(scene *s);
 
 typedef struct light_sample {
@@ -71,12 +74,14 @@ typedef struct light_sample {
     float radiance[3];
 } light_sample;
 
-/* Draws one of the lights, which are there, from a place, by three uniform numbers in [0, 1). 0: the place does not see
- * what was drawn. */
+/* Whether there is light to draw. */
+int lights_any(const scene *s);
+
+/* Draws light, which is there, from a place, by three uniform numbers in [0, 1). 0: the place does not see what was
+ * drawn. */
 int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
 
-/* The density with which lights_draw finds, from a place, the light that a ray has met; 0 for the environment (NULL).
- */
+/* The density with which lights_draw finds, from a place, what a ray has met: a light, or (NULL) the environment. */
 double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
 
 /* The light that comes from far away. */
