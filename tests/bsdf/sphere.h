@@ -23,8 +23,8 @@ static inline int sphere_answer(void *of, quadrature_point *at, size_t count)
 }
 
 /* The integral of the density over every bin, and what they leave of 1 for the last; returns that of all. A cell may
- * err by `allowed`. The first are quarters of bins, since a peak may be narrow; next to the horizon, where rough grazing
- * facets gather what they scatter, those in a narrow belt are apart. */
+ * err by `allowed`. The first are quarters of bins, since a peak may be narrow; next to the horizon, where rough
+ * grazing facets gather what they scatter, those in a narrow belt are apart. */
 static inline double sphere_integrate(const vndf_bsdf *bsdf, double allowed, double probability[SPHERE_BINS + 1])
 {
     enum { ROWS = 2 * SPHERE_ROWS, COLUMNS = 2 * SPHERE_COLUMNS, FINE = ROWS * COLUMNS, CELLS_MAX = 100000 };
