@@ -151,18 +151,15 @@ static void fill_first(vndf_distribution *t)
 /* Entry `at` of the levels is knot i. */
 static void fill_level(const vndf_distribution *t, int at, int i)
 {
-    const float none[VNDF_SEARCHED] = {HUGE_VALF, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
-    const float r = i <= t->cells ? vndf_table_row(t, VNDF_KNOT, (size_t)i)[0] : 0.0f;
-    for (int c = 0; c < VNDF_SEARCHED; c++) {
-        float *to = &t->layout->level[c][at];
-        if (i > t->cells)
-            *to = none[c];
-        else if (c <= VNDF_AT_R)
-            *to = c == VNDF_AT_R ? r : r * r;
-        else
-            *to = c < VNDF_AT_N1 ? vndf_table_row(t, VNDF_TAIL, (size_t)i)[c - VNDF_AT_T1]
-                                 : vndf_table_row(t, VNDF_LOW, (size_t)i)[c - VNDF_AT_N1];
+    float of[VNDF_SEARCHED] = {HUGE_VALF, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
+    if (i <= t->cells) {
+        const float r = vndf_table_row(t, VNDF_KNOT, (size_t)i)[0], *tail = vndf_table_row(t, VNDF_TAIL, (size_t)i),
+                    *low = vndf_table_row(t, VNDF_LOW, (size_t)i);
+        const float knot[VNDF_SEARCHED] = {r * r, r, tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
+        memcpy(of, knot, sizeof of);
     }
+    for (int c = 0; c < VNDF_SEARCHED; c++)
+        t->layout->level[c][at] = of[c];
 }
 
 static void fill_layout(const vndf_distribution *t)
