@@ -153,8 +153,8 @@ static void fill_level(const vndf_distribution *t, int at, int i)
 {
     float of[VNDF_SEARCHED] = {HUGE_VALF, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
     if (i <= t->cells) {
-        const float r = vndf_table_row(t, VNDF_KNOT, (size_t)i)[0], *tail = vndf_table_row(t, VNDF_TAIL, (size_t)i),
-                    *low = vndf_table_row(t, VNDF_LOW, (size_t)i);
+        const float r = vndf_table_row(t, VNDF_KNOT, (size_t)i)[0],
+                    *tail = vndf_table_row(t, VNDF_TAIL, (size_t)i), *low = vndf_table_row(t, VNDF_LOW, (size_t)i);
         const float knot[VNDF_SEARCHED] = {r * r, r, tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
         memcpy(of, knot, sizeof of);
     }
