@@ -254,34 +254,19 @@ HERE whole most_whole(whole a, whole b)
 
 /* ---- tables ---- */
 
-/* Steps of a search in one register, and in registers; how often an entry is in its column. */
+/* Steps of a search in one register, and in registers. */
 #if VNDF_LANES == 16
-enum { FIRST_LEVELS = 4, LEVELS = 7, COPIES = 1 };
+enum { FIRST_LEVELS = 4, LEVELS = 7 };
 #elif VNDF_LANES == 8
-enum { FIRST_LEVELS = 3, LEVELS = 6, COPIES = 1 };
+enum { FIRST_LEVELS = 3, LEVELS = 6 };
 #else
-enum { FIRST_LEVELS = 1, LEVELS = 3, COPIES = LANES };
+enum { FIRST_LEVELS = 1, LEVELS = 3 };
 #endif
-
-enum { COPIED = 128 }; /* tables of fewer cells have columns, with 16 lanes */
-
-/* What searches compare: R^2, R, sums beyond the knot. */
-enum { AT_KNOT, AT_R, AT_T1, AT_T0, AT_TQ, AT_T4, AT_N1, AT_N2, SEARCHED };
-
-/* Entries 2^l to 2^(l+1) - 1 of `level` are the knots that the step l of a search compares with, in ascending order. */
-typedef struct table_copies {
-    float level[SEARCHED][COPIES << LEVELS];
-#if VNDF_LANES == 16
-    float column[VNDF_GROUPS][4][COPIED];
-    float first[(VNDF_RHO_PARTS + 63) / 64 * 64]; /* bits of whole numbers */
-#endif
-} table_copies __attribute__((aligned(64)));
 
 /* A table as the kernel reads it (table/table.h). */
 typedef struct table {
     const float *numbers;
-    const table_copies *copies;
-    const uint16_t *first;
+    const vndf_layout *layout;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
     int levels, stride; /* steps that `level` serves, and what is left for the others: 2^(steps - levels) */
     int copied;         /* registers of a column in pairs: 2 or 4, 0 if there are no columns */
@@ -353,34 +338,22 @@ HERE real look_column(table t, const float *c, whole i)
     return r;
 }
 
-HERE void copy_columns(table t, table_copies *copies)
-{
-    const whole lanes = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
-    for (int first = 0; first < 32 * t.copied; first += 16)
-        for (int g = 0; g < VNDF_GROUPS; g++) {
-            quad q = look_rows(t, g, least_whole(lanes + first, set_whole(t.cells)));
-            store(copies->column[g][0] + first, q.a);
-            store(copies->column[g][1] + first, q.b);
-            store(copies->column[g][2] + first, q.c);
-            store(copies->column[g][3] + first, q.d);
-        }
-}
-
 #endif
 
 /* The knot where the law begins, by the eighth of an octave of rho. */
 HERE whole look_first(table t, whole eighth)
 {
 #if VNDF_LANES == 16
-    real first = look_64(t.copies->first, eighth);
+    const float *parts = (const float *)(const void *)t.layout->first;
+    real first = look_64(parts, eighth);
     LANES_UNROLLED
     for (int n = 64; n < VNDF_RHO_PARTS; n += 64)
-        first = pick(less_whole(eighth, set_whole(n)), first, look_64(t.copies->first + n, eighth));
+        first = pick(less_whole(eighth, set_whole(n)), first, look_64(parts + n, eighth));
     return bits(first);
 #else
     LANES_UNROLLED
     for (int l = 0; l < LANES; l++)
-        eighth[l] = t.first[eighth[l]];
+        eighth[l] = t.layout->first[eighth[l]];
     return eighth;
 #endif
 }
@@ -390,7 +363,7 @@ HERE quad look(table t, int group, whole i)
 {
 #if VNDF_LANES == 16
     if (t.copied) {
-        const float(*c)[COPIED] = t.copies->column[group];
+        const float(*c)[VNDF_COPIED] = t.layout->column[group];
         quad q = {look_column(t, c[0], i), look_column(t, c[1], i), look_column(t, c[2], i),
                   look_column(t, c[3], i)};
         return q;
@@ -399,48 +372,15 @@ HERE quad look(table t, int group, whole i)
     return look_rows(t, group, i);
 }
 
-/* Entry `at` of the levels is knot i; a knot that is not there fails all comparisons. */
-HERE void copy_knot(table t, table_copies *copies, int at, int i)
+HERE table table_of(const vndf_distribution *d)
 {
-    const float none = __builtin_inff(), *row = t.numbers + VNDF_STRIDE * i, *tail = row + 4 * VNDF_TAIL,
-                *low = row + 4 * VNDF_LOW;
-    float of[SEARCHED] = {none, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
-    if (i <= t.cells) {
-        const float knot[SEARCHED] = {row[0] * row[0], row[0], tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
-        memcpy(of, knot, sizeof of);
-    }
-    for (int c = 0; c < SEARCHED; c++)
-        for (int n = 0; n < COPIES; n++)
-            copies->level[c][COPIES * at + n] = of[c];
-}
-
-/* A table, and its copies for a call. */
-HERE table table_of(const vndf_distribution *d, table_copies *copies)
-{
-    table t = {d->numbers + VNDF_HEAD,
-               copies,
-               d->first,
-               d->cells,
-               d->moments,
-               d->squarings,
-               d->highest,
-               d->steps,
-               0,
-               1,
-               0};
-    t.levels = t.steps > LEVELS ? LEVELS : t.steps < FIRST_LEVELS ? FIRST_LEVELS : t.steps;
-    for (int level = t.steps; level > t.levels; level--)
-        t.stride *= 2;
-    for (int level = 0; level < t.levels; level++)
-        for (int n = 1 << level; n < 2 << level; n++)
-            copy_knot(t, copies, n, (2 * n + 1 - (2 << level)) * (t.stride << (t.levels - level - 1)));
-#if VNDF_LANES == 16
-    t.copied = t.cells < 64 ? 2 : t.cells < COPIED ? 4 : 0;
-    copy_columns(t, copies);
-    memset(copies->first, 0, sizeof copies->first);
-    for (int i = 0; i < VNDF_RHO_PARTS; i++)
-        memcpy(&copies->first[i], &(int32_t){d->first[i]}, sizeof(int32_t));
-#endif
+    const int steps = d->steps > VNDF_STEPS_LEAST ? d->steps : VNDF_STEPS_LEAST,
+              levels = steps < LEVELS ? steps : LEVELS,
+              copied = d->cells < 64            ? 2
+                       : d->cells < VNDF_COPIED ? 4
+                                                : 0;
+    table t = {d->numbers + VNDF_HEAD, d->layout, d->cells, d->moments, d->squarings, d->highest, d->steps, levels,
+               1 << (steps - levels),  copied};
     return t;
 }
 
@@ -475,14 +415,14 @@ HERE real pick_bit(whole at, int bit, real yes, real no)
 /* Entry `at` of a column, which is one of step `level`. */
 HERE real look_level(table t, int column, whole at, int level)
 {
-    const float *c = t.copies->level[column];
+    const float *c = t.layout->level[column];
 #if VNDF_LANES == 16
     if (level < 5)
         return (real)_mm512_permutexvar_ps((__m512i)at, _mm512_load_ps(c + (level < 4 ? 0 : 16)));
     return level == 5 ? look_32(c + 32, at) : look_64(c + 64, at);
 #else
     enum { BITS = VNDF_LANES == 8 ? 3 : 0 }; /* of an entry's place in a register */
-    const float *first = c + (COPIES << level);
+    const float *first = c + (1 << level);
     int registers = level > BITS ? 1 << (level - BITS) : 1, bit = BITS;
     real r[8] = {{0}};
     LANES_UNROLLED
@@ -490,7 +430,7 @@ HERE real look_level(table t, int column, whole at, int level)
 #  if VNDF_LANES == 8
         r[n] = (real)_mm256_permutevar8x32_ps(_mm256_load_ps((level < BITS ? c : first) + 8 * n), (__m256i)at);
 #  else
-        r[n] = load(first + 4 * n);
+        r[n] = set(first[n]);
 #  endif
     LANES_UNROLLED
     for (; registers > 1; registers /= 2, bit++)

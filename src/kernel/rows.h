@@ -64,21 +64,21 @@ typedef struct quad {
 /* A table as the kernel reads it (table/table.h). */
 typedef struct table {
     const float *numbers, *columns;
-    const uint16_t *first;
+    const vndf_layout *layout;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
     int column, pivots;                            /* table/table.h */
 } table;
 
 HERE table table_of(const vndf_distribution *d)
 {
-    table t = {d->numbers + VNDF_HEAD, d->columns, d->first, d->cells,  d->moments,
-               d->squarings,           d->highest, d->steps, d->column, d->pivots};
+    table t = {d->numbers + VNDF_HEAD, d->columns, d->layout, d->cells,  d->moments,
+               d->squarings,           d->highest, d->steps,  d->column, d->pivots};
     return t;
 }
 
 HERE whole look_first(table t, whole eighth)
 {
-    return t.first[eighth];
+    return t.layout->first[eighth];
 }
 
 /* A row of knot i. */

@@ -137,6 +137,7 @@ void vndf_free(vndf_distribution *distribution)
         return;
     free(distribution->numbers);
     free(distribution->columns);
+    free(distribution->room);
     free((char *)distribution->source);
     free((char *)distribution->tool);
     free((char *)distribution->notes);

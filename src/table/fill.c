@@ -1,6 +1,7 @@
 /* From the numbers on disk to those that are drawn with: widths, turns and sums beyond each knot, in double. */
 #include <float.h>
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -143,8 +144,41 @@ static void fill_first(vndf_distribution *t)
         } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
         while (knot < t->cells && vndf_table_row(t, VNDF_KNOT, (size_t)knot + 1)[3] <= middle.rho)
             knot++;
-        t->first[i] = (uint16_t)knot;
+        t->layout->first[i] = knot;
     }
+}
+
+/* Entry `at` of the levels is knot i. */
+static void fill_level(const vndf_distribution *t, int at, int i)
+{
+    float of[VNDF_SEARCHED] = {HUGE_VALF, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
+    if (i <= t->cells) {
+        const float r = vndf_table_row(t, VNDF_KNOT, (size_t)i)[0],
+                    *tail = vndf_table_row(t, VNDF_TAIL, (size_t)i), *low = vndf_table_row(t, VNDF_LOW, (size_t)i);
+        const float knot[VNDF_SEARCHED] = {r * r, r, tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
+        memcpy(of, knot, sizeof of);
+    }
+    for (int c = 0; c < VNDF_SEARCHED; c++)
+        t->layout->level[c][at] = of[c];
+}
+
+static void fill_layout(const vndf_distribution *t)
+{
+    const int steps = t->steps > VNDF_STEPS_LEAST ? t->steps : VNDF_STEPS_LEAST;
+    for (int level = 0; level < VNDF_LEVELS && level < steps; level++)
+        for (int n = 1 << level; n < 2 << level; n++)
+            fill_level(t, n, (2 * n + 1 - (2 << level)) << (steps - level - 1));
+    for (int i = 0; i < VNDF_COPIED && t->cells < VNDF_COPIED; i++)
+        for (int g = 0; g < VNDF_GROUPS; g++)
+            for (int k = 0; k < 4; k++)
+                t->layout->column[g][k][i] = vndf_table_row(t, g, (size_t)(i < t->cells ? i : t->cells))[k];
+}
+
+enum { LINE = 64 }; /* bytes of a line of a cache, and of the widest register */
+
+static size_t layout_bytes(const vndf_distribution *t)
+{
+    return t->cells < VNDF_COPIED ? sizeof(vndf_layout) : offsetof(vndf_layout, column);
 }
 
 static size_t column_floats(const vndf_distribution *t)
@@ -165,8 +199,11 @@ vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigne
     t->number_count = VNDF_HEAD + VNDF_STRIDE * ((size_t)cells + 1);
     t->numbers = calloc(t->number_count, sizeof(float));
     t->columns = malloc(column_floats(t) * sizeof(float));
-    if (t->numbers && t->columns)
+    t->room = calloc(1, layout_bytes(t) + LINE);
+    if (t->numbers && t->columns && t->room) {
+        t->layout = (vndf_layout *)(void *)((char *)t->room + LINE - (uintptr_t)t->room % LINE);
         return t;
+    }
     vndf_free(t);
     return NULL;
 }
@@ -189,6 +226,7 @@ const char *vndf_table_fill(vndf_distribution *t)
             return "a sum of moments is not finite";
     fill_columns(t);
     fill_first(t);
+    fill_layout(t);
     return NULL;
 }
 
@@ -196,7 +234,7 @@ size_t vndf_table_memory(const vndf_distribution *table)
 {
     size_t floats = table->number_count + column_floats(table);
     size_t letters = strlen(table->source) + strlen(table->tool) + strlen(table->notes);
-    return sizeof *table + floats * sizeof(float) + letters + 3;
+    return sizeof *table + floats * sizeof(float) + layout_bytes(table) + LINE + letters + 3;
 }
 
 size_t vndf_numbers(const vndf_distribution *distribution, float *numbers, size_t capacity)

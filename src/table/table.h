@@ -46,6 +46,18 @@ enum {
  * eight. Padding fails every comparison of a search. */
 enum { VNDF_COLUMNS = 5, VNDF_COLUMN_STEP = 8 };
 
+/* What lanes read, laid out when a table is loaded. Entries 2^l to 2^(l+1) - 1 of `level` are the knots that step l of
+ * a search by halves compares with, in ascending order: R^2, R, and sums beyond the knot. A knot that is not there
+ * fails all comparisons. Searches take VNDF_STEPS_LEAST steps at least. */
+enum { VNDF_AT_KNOT, VNDF_AT_R, VNDF_AT_T1, VNDF_AT_T0, VNDF_AT_TQ, VNDF_AT_T4, VNDF_AT_N1, VNDF_AT_N2 };
+enum { VNDF_SEARCHED = VNDF_AT_N2 + 1, VNDF_LEVELS = 7, VNDF_STEPS_LEAST = 4, VNDF_COPIED = 128 };
+
+typedef struct vndf_layout {
+    float level[VNDF_SEARCHED][1 << VNDF_LEVELS];
+    int32_t first[(VNDF_RHO_PARTS + 63) / 64 * 64]; /* where the law of k~ begins, for each part of rho */
+    float column[VNDF_GROUPS][4][VNDF_COPIED];      /* of tables of fewer cells; beyond them the last knot's */
+} vndf_layout;
+
 typedef enum vndf_kind { VNDF_KIND_TABLE, VNDF_KIND_GGX, VNDF_KIND_BECKMANN } vndf_kind;
 
 struct vndf_distribution {
@@ -55,11 +67,12 @@ struct vndf_distribution {
     float unit;                        /* scale, rounded: 1 for closed forms */
     float *numbers;
     size_t number_count;
-    float *columns;                 /* slopes and sums beyond them once more, each in a column (above) */
-    int32_t column, pivots;         /* floats of one, up to the end of its last block; its pivots, four by four */
-    uint16_t first[VNDF_RHO_PARTS]; /* where the law of k~ begins, for each part of rho */
-    double normalization;           /* the source was multiplied by it */
-    double scale;                   /* canonical slope 1 is this slope of the source */
+    float *columns;         /* slopes and sums beyond them once more, each in a column (above) */
+    int32_t column, pivots; /* floats of one, up to the end of its last block; its pivots, four by four */
+    vndf_layout *layout;    /* at a multiple of 64 bytes in `room` */
+    void *room;
+    double normalization; /* the source was multiplied by it */
+    double scale;         /* canonical slope 1 is this slope of the source */
     vndf_certificate certificate;
     const char *source, *tool, *notes; /* owned by tables */
     size_t bytes;                      /* of the file */

@@ -39,19 +39,11 @@ static void run_one(const vndf_call *c, size_t i)
             c->write[w][i] = to[w];
 }
 
-static void prepare_nothing(const vndf_distribution *distribution, vndf_prepared *prepared)
-{
-    (void)distribution;
-    (void)prepared;
-}
-
-static void run_elements(const vndf_call *call)
+void vndf_one_by_one(const vndf_call *call)
 {
     for (size_t i = 0; i < call->count; i++)
         run_one(call, call->at ? (size_t)call->at[i] : i);
 }
-
-const vndf_lanes vndf_one_by_one = {prepare_nothing, run_elements};
 
 /* ---- instruction sets ---- */
 
@@ -70,22 +62,19 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-/* Sixteen lanes first put a table into columns, which takes as long as they gain on 256 samples. */
-const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit)
+vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit)
 {
     const vndf_instructions used = vndf_instructions_used(limit);
-    (void)used, (void)table;
+    (void)used;
 #if VNDF_HAS_WIDE_LANES
-    if (count > 1 && used == VNDF_INSTRUCTIONS_AVX512 && !(table && count <= 256))
-        return &vndf_lanes_16;
     if (count > 1 && used >= VNDF_INSTRUCTIONS_AVX2)
-        return &vndf_lanes_8;
+        return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16 : vndf_lanes_8;
 #endif
 #if defined(__GNUC__)
     if (count > 1)
-        return &vndf_lanes_4;
+        return vndf_lanes_4;
 #endif
-    return &vndf_one_by_one;
+    return vndf_one_by_one;
 }
 
 /* ---- calls ---- */
@@ -104,21 +93,17 @@ vndf_call vndf_call_of(const vndf_batch *b)
 
 static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
-    vndf_prepared prepared;
     vndf_call call = vndf_call_of(b);
     if (b->lobes) {
         vndf_run_mixtures(b, task, a);
         return;
     }
     const int one_by_one = !call.distribution || task == VNDF_TASK_INVERT;
-    const vndf_lanes *lanes =
-        one_by_one ? &vndf_one_by_one : vndf_lanes_for(call.count, vndf_is_table(call.distribution), b->limit);
+    vndf_lanes *lanes = one_by_one ? vndf_one_by_one : vndf_lanes_for(call.count, b->limit);
     call.task = task;
-    call.prepared = &prepared;
     memcpy(call.read + VNDF_READ_A, a.given, sizeof a.given);
     memcpy(call.write, a.write, sizeof a.write);
-    lanes->prepare(call.distribution, &prepared);
-    lanes->run(&call);
+    lanes(&call);
 }
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)

@@ -26,15 +26,9 @@ enum { VNDF_READ_A = VNDF_READ_WI_Z + 1, VNDF_READ_B, VNDF_READ_C, VNDF_READS };
  * numbers of an inverse; else one. */
 enum { VNDF_WRITES = 5 };
 
-/* A distribution as lanes read it, which is made once for a call. */
-typedef struct vndf_prepared {
-    _Alignas(64) unsigned char bytes[1 << 14];
-} vndf_prepared;
-
 typedef struct vndf_call {
     vndf_task task;
     const vndf_distribution *distribution;
-    const vndf_prepared *prepared;
     unsigned shared;               /* bit i: read[i] points to one number for all */
     const float *read[VNDF_READS]; /* NULL for zeros */
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
@@ -43,24 +37,16 @@ typedef struct vndf_call {
     int diagonal;  /* roughness alone: xx and yy have to be above 0 */
 } vndf_call;
 
-/* Element i of what `run` writes equals, to the bit, the call for one element. No distribution is NULL in lanes. */
-typedef struct vndf_lanes {
-    void (*prepare)(const vndf_distribution *distribution, vndf_prepared *prepared);
-    void (*run)(const vndf_call *call);
-} vndf_lanes;
-
-#if defined(__GNUC__)
-extern const vndf_lanes vndf_lanes_4;
-#endif
-#if VNDF_HAS_WIDE_LANES /* the build compiles them */
-extern const vndf_lanes vndf_lanes_8, vndf_lanes_16;
-#endif
+/* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL in lanes; those of
+ * 8 and 16 are there where the build compiles them. */
+typedef void vndf_lanes(const vndf_call *call);
+vndf_lanes vndf_lanes_4, vndf_lanes_8, vndf_lanes_16;
 
 /* The same by the calls for one: the distribution may be NULL. */
-extern const vndf_lanes vndf_one_by_one;
+vndf_lanes vndf_one_by_one;
 
-/* The best lanes up to `limit` for so many elements; `table`: of a table that is prepared for this call alone. */
-const vndf_lanes *vndf_lanes_for(size_t count, int table, vndf_instructions limit);
+/* The best lanes up to `limit` for so many elements. */
+vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit);
 
 /* The surfaces and directions of a batch. */
 vndf_call vndf_call_of(const vndf_batch *batch);

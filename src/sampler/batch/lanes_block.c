@@ -96,7 +96,7 @@ HERE whole knot_of(table t, whole at, int level)
 /* One step: entries that follow `at`. */
 HERE whole step_slope(table t, real square, real under, whole at, int level)
 {
-    return follow(at, at_most(look_level(t, AT_KNOT, at, level) * under, square));
+    return follow(at, at_most(look_level(t, VNDF_AT_KNOT, at, level) * under, square));
 }
 
 /* The cells of slopes whose squares have these two parts. */
@@ -139,18 +139,18 @@ HERE reached step_cell(table t, seen v, aim a, reached r, int level, const int b
     quad tail = zero, low = zero;
     real beyond;
     mask passes;
-    tail.c = look_level(t, AT_TQ, r.i, level);
+    tail.c = look_level(t, VNDF_AT_TQ, r.i, level);
     if (below) {
-        real knot = look_level(t, AT_R, r.i, level);
-        low.a = look_level(t, AT_N1, r.i, level);
-        low.b = look_level(t, AT_N2, r.i, level);
+        real knot = look_level(t, VNDF_AT_R, r.i, level);
+        low.a = look_level(t, VNDF_AT_N1, r.i, level);
+        low.b = look_level(t, VNDF_AT_N2, r.i, level);
         beyond = law_sum_below(v.w, knot, most(knot - v.rho, set(0.0f)), tail, low);
         passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
     } else {
-        tail.a = look_level(t, AT_T1, r.i, level);
-        tail.b = look_level(t, AT_T0, r.i, level);
+        tail.a = look_level(t, VNDF_AT_T1, r.i, level);
+        tail.b = look_level(t, VNDF_AT_T0, r.i, level);
         if (t.moments > 3)
-            tail.d = look_level(t, AT_T4, r.i, level);
+            tail.d = look_level(t, VNDF_AT_T4, r.i, level);
         beyond = sum_beyond(t, a.w, tail);
         passes = at_most(a.left, beyond);
     }
@@ -626,21 +626,7 @@ STEP void run_sorts(const block *of, const vndf_call *call, elements e, const in
 
 /* ---- calls ---- */
 
-typedef struct prepared {
-    table t;
-    table_copies copies;
-} prepared;
-
-_Static_assert(sizeof(prepared) <= sizeof(vndf_prepared), "vndf_prepared is too small");
-
-static void prepare(const vndf_distribution *d, vndf_prepared *room)
-{
-    prepared *p = (prepared *)(void *)room;
-    if (d->kind == VNDF_KIND_TABLE)
-        p->t = table_of(d, &p->copies);
-}
-
-static void run(const vndf_call *call)
+void LANES_ENTRY(const vndf_call *call)
 {
     static const row zeros;
     row shared[VNDF_READS];
@@ -649,7 +635,7 @@ static void run(const vndf_call *call)
     const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
     block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->diagonal};
     if (b.kind == VNDF_KIND_TABLE)
-        b.t = ((const prepared *)(const void *)call->prepared)->t;
+        b.t = table_of(d);
     for (int r = 0; r < VNDF_READS; r++) {
         b.read[r] = call->read[r] ? shared[r] : zeros;
         for (int g = 0; call->read[r] && call->shared >> r & 1 && g < GROUPS; g++)
@@ -665,7 +651,5 @@ static void run(const vndf_call *call)
             run_sorts(&b, call, e, sided, &c);
     }
 }
-
-const vndf_lanes LANES_ENTRY = {prepare, run};
 
 #endif

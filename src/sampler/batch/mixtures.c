@@ -11,9 +11,8 @@ enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
 /* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
  * a task found. */
 typedef struct mixed {
-    const vndf_lanes *lanes;
+    vndf_lanes *lanes;
     vndf_call call[LOBES];
-    vndf_prepared prepared[LOBES];
     size_t first;
     int lobes, count;
     float weight[LOBES][BLOCK], share[LOBES][BLOCK], value[LOBES][BLOCK];
@@ -35,7 +34,7 @@ static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int c
     call.at = at;
     call.count = (size_t)count;
     if (count > 0)
-        m->lanes->run(&call);
+        m->lanes(&call);
 }
 
 static void set_shares(mixed *m, vndf_task area)
@@ -174,10 +173,10 @@ static void invert_mixtures(const mixed *m, const vndf_batch *b, const float *co
 static void set_lobes(mixed *m, const vndf_batch *b)
 {
     m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
-    m->lanes = vndf_lanes_for(b->count, 0, b->limit);
+    m->lanes = vndf_lanes_for(b->count, b->limit);
     m->call[0] = vndf_call_of(b);
     for (int l = 0; l < m->lobes; l++)
-        m->lanes = b->lobe[l].distribution ? m->lanes : &vndf_one_by_one;
+        m->lanes = b->lobe[l].distribution ? m->lanes : vndf_one_by_one;
     for (int l = 0; l < m->lobes; l++) {
         const vndf_lobe_batch *a = &b->lobe[l];
         const float *const read[] = {a->xx, a->xy, a->yx, a->yy, a->mean_x, a->mean_y};
@@ -185,8 +184,6 @@ static void set_lobes(mixed *m, const vndf_batch *b)
         memcpy(m->call[l].read, read, sizeof read);
         m->call[l].distribution = a->distribution;
         m->call[l].diagonal = 0;
-        m->call[l].prepared = &m->prepared[l];
-        m->lanes->prepare(a->distribution, &m->prepared[l]);
     }
 }
 
