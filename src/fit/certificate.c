@@ -249,6 +249,12 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 
 /* ---- areas ---- */
 
+/* Whether there is more of an area below the horizon than claims end at. */
+static int is_claimed(const survey *s, double sine, double cosine, double below)
+{
+    return below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(sine, cosine);
+}
+
 /* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. What is
  * left of c below the horizon loses digits of floats (law_area_in). */
 static double area_error_at(const survey *s, int cell, double rho)
@@ -260,7 +266,7 @@ static double area_error_at(const survey *s, int cell, double rho)
     double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below,
            above = below + cosine;
     double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / above - 1);
-    if (below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1) {
+    if (is_claimed(s, sine, cosine, below)) {
         double lost =
             below > digits * above ? floats * fmin((below / above - digits) * 625, 1) * above / below : 0;
         double left = law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1);
@@ -269,31 +275,56 @@ static double area_error_at(const survey *s, int cell, double rho)
     return error;
 }
 
-/* By places in all cells, then about the worst. */
+/* Keeps the larger error, and where it is: z = 1/(1 + rho). */
+static int note_area(const survey *s, int cell, double z, double *worst, double *where)
+{
+    double error = area_error_at(s, cell, 1 / z - 1);
+    if (!(error > *worst))
+        return 0;
+    *worst = error;
+    *where = z;
+    return 1;
+}
+
+/* The last place, 1/(1 + rho), where there is enough area, within 1/64 of its cell. */
+static double last_claimed(const survey *s)
+{
+    int low = 0, high = s->table.cells;
+    double from = 1, width;
+    while (low < high) {
+        int i = (low + high + 1) / 2;
+        double z = look(s->table, VNDF_KNOT, i).b;
+        int claimed = is_claimed(s, z, 1 - z, vndf_profile_below(s->profile, z, 1 - z).below);
+        *(claimed ? &low : &high) = claimed ? i : i - 1;
+    }
+    quad k = look(s->table, VNDF_KNOT, low);
+    from = k.b;
+    width = low < s->table.cells ? k.c : k.b;
+    for (int n = 0; n < 6; n++) {
+        double z = from - (width /= 2);
+        from = is_claimed(s, z, 1 - z, vndf_profile_below(s->profile, z, 1 - z).below) ? z : from;
+    }
+    return from;
+}
+
+/* By places in all cells, and before the last that is claimed, where errors are large; then about the worst. */
 static double area_error(const survey *s)
 {
     enum { PLACES = 3, HALVINGS = 3 };
-    double worst = 0, where = 1, step = 0; /* 1/(1 + rho) */
+    double worst = 0, where = 1, step = 0, last = last_claimed(s);
     for (int i = 0; i <= s->table.cells; i++) {
         quad k = look(s->table, VNDF_KNOT, i);
-        double width = (i < s->table.cells ? k.c : k.b) / (PLACES + 1);
-        for (int n = 1; n <= PLACES; n++) {
-            double z = k.b - n * width, rho = 1 / z - 1;
-            double error = width > VNDF_GRAIN * z * (1 - z) ? area_error_at(s, i, rho) : 0;
-            if (error > worst) {
-                worst = error;
-                where = z;
+        double end = k.b - (i < s->table.cells ? k.c : k.b), width = (k.b - end) / (PLACES + 1);
+        if (last > end && last < k.b)
+            width = (k.b - last) / PLACES;
+        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.b * (1 - k.b); n++)
+            if (note_area(s, i, k.b - n * width, &worst, &where))
                 step = width;
-            }
-        }
     }
     for (int n = 0; n < 2 * HALVINGS; n++) {
         step = n % 2 ? -step : -step / 2;
-        double z = where + step, rho = 1 / z - 1, error = area_error_at(s, find_knot(s->table, rho * rho, 1), rho);
-        if (error > worst) {
-            worst = error;
-            where = z;
-        }
+        double rho = 1 / (where + step) - 1;
+        note_area(s, find_knot(s->table, rho * rho, 1), where + step, &worst, &where);
     }
     return worst;
 }

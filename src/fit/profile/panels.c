@@ -150,6 +150,24 @@ static int agree(double a, double b, double least)
     return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
 }
 
+/* Whether P22 jumps between an end of a panel and the point next to it, where no point would show it. */
+static int jumps_at_end(const vndf_profile *profile, double r0, double r1, const vndf_profile_point *point)
+{
+    const double far = 4, little = 0.02; /* times the next step; of the largest */
+    const double r[2] = {r0 + (point[0].r - r0) / 1024, r1 - (r1 - point[VNDF_GAUSS - 1].r) / 1024};
+    double p[2], f[VNDF_GAUSS], most = 0;
+    vndf_profile_p22_many(profile, r, 2, p);
+    for (int i = 0; i < VNDF_GAUSS; i++)
+        most = fmax(most, f[i] = point[i].weight / vndf_gauss_weight[i]);
+    for (int k = 0; k < 2; k++) {
+        int first = k ? VNDF_GAUSS - 1 : 0, next = k ? VNDF_GAUSS - 2 : 1;
+        double end = log1p((r1 - r0) / r0) * r[k] * r[k] * p[k];
+        if (fabs(end - f[first]) > far * fabs(f[first] - f[next]) + little * fmax(most, end))
+            return 1;
+    }
+    return 0;
+}
+
 static void resolve(vndf_profile *profile, double r0, double r1, const estimate *whole, int depth, double least)
 {
     double middle = r0 + r0 * expm1(VNDF_UNEVEN * log1p((r1 - r0) / r0)), gap = middle - r0;
@@ -160,8 +178,10 @@ static void resolve(vndf_profile *profile, double r0, double r1, const estimate 
     double slack = least + whole->noise + l.noise + r.noise;
     int seen = depth > 0, good = 0;
     for (int rough = 0; !good && rough <= (depth >= DEPTH_ROUGH); rough++) {
-        slack += rough ? roughness(profile, r0, r1) : 0;
-        good = agree(m0, whole->m0, slack) && agree(m1, whole->m1, slack * gap + ROUNDED * r0 * m0);
+        double more = rough ? roughness(profile, r0, r1) : 0;
+        slack += more;
+        good = agree(m0, whole->m0, slack) && agree(m1, whole->m1, slack * gap + ROUNDED * r0 * m0) &&
+               (more > 1e-3 * m0 || !jumps_at_end(profile, r0, r1, whole->point));
     }
     if (good ? seen : depth >= DEPTH_MAX) {
         push(profile, r0, m0, m1, whole->point);
