@@ -113,9 +113,11 @@ void bins_borders(double *border, size_t parts, double low, double high, double 
     border[parts] = high;
 }
 
-static void place(const bins_sampler *judged, uint64_t seed, double slope[BINS_RINGS + 1])
+/* at: borders are some of these angles, in order. */
+static void place(const bins_sampler *judged, uint64_t seed, double at[BINS_PILOTS + BINS_EVEN],
+                  double slope[BINS_RINGS + 1])
 {
-    double at[BINS_PILOTS + BINS_EVEN], azimuth;
+    double azimuth;
     random_stream stream = random_from(seed ^ 0x5851F42D4C957F2Du); /* apart from the stream that is tested */
     for (size_t i = 0; i < BINS_PILOTS; i++) {
         float pdf, u1 = random_float(&stream), u2 = random_float(&stream);
@@ -181,17 +183,24 @@ size_t bins_cells(const double *x, size_t rings, const double *y, size_t sectors
     return count;
 }
 
-static void integrate(const bins_sampler *judged, bins_result *to)
+/* Cells begin as quarters of rings by what was drawn: a narrow lobe may be in one ring with much that is wide. */
+static void integrate(const bins_sampler *judged, const double at[BINS_PILOTS + BINS_EVEN], bins_result *to)
 {
-    enum { CELLS_MAX = 200000 };
+    enum { CELLS_MAX = 200000, PARTS = 4, ALL = BINS_PILOTS + BINS_EVEN };
+    size_t count = 0;
     const quadrature q = {answer, (void *)judged, BINS_COUNT, CELLS_MAX, 1e-8, FINEST, 30, 1, NULL, 0};
     quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
-    double ring[BINS_RINGS + 1], sector[BINS_SECTORS + 1], variance = 0;
-    for (int i = 0; i <= BINS_RINGS; i++)
-        ring[i] = log(fmin(fmax(to->slope[i], LEAST), LARGEST));
+    double sector[BINS_SECTORS + 1], variance = 0;
     for (int i = 0; i <= BINS_SECTORS; i++)
         sector[i] = 2 * (double)i / BINS_SECTORS - 1;
-    const size_t count = cells ? bins_cells(ring, BINS_RINGS, sector, BINS_SECTORS, 0, cells) : 0;
+    for (size_t i = 0; cells && i < (size_t)BINS_RINGS * PARTS; i++) {
+        double ring[2];
+        for (size_t k = i; k < i + 2; k++) {
+            double slope = k % PARTS ? tan(at[k * ALL / (BINS_RINGS * PARTS)]) : to->slope[k / PARTS];
+            ring[k - i] = log(fmin(fmax(slope, LEAST), LARGEST));
+        }
+        count += bins_cells(ring, 1, sector, BINS_SECTORS, i / PARTS * BINS_SECTORS, cells + count);
+    }
     if (!cells || !quadrature_run(&q, cells, count, to->sum))
         to->error = -1;
     for (int i = 0; i < BINS_COUNT && to->error >= 0; i++) {
@@ -205,16 +214,16 @@ static void integrate(const bins_sampler *judged, bins_result *to)
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed)
 {
-    double expected[BINS_COUNT], observed[BINS_COUNT] = {0};
+    double expected[BINS_COUNT], observed[BINS_COUNT] = {0}, at[BINS_PILOTS + BINS_EVEN];
     bins_result result = {.mass = 0};
     random_stream stream = random_from(seed);
-    place(judged, seed, result.slope);
+    place(judged, seed, at, result.slope);
     for (size_t i = 0; i < samples; i++) {
         float pdf = -1, u1 = random_float(&stream), u2 = random_float(&stream);
         observed[bins_bin(&judged->frame, result.slope, judged->draw(judged->of, u1, u2, &pdf))] += 1;
         result.unseen += !(pdf >= FLT_MIN && pdf <= FLT_MAX);
     }
-    integrate(judged, &result);
+    integrate(judged, at, &result);
     for (size_t i = 0; i < BINS_COUNT; i++)
         expected[i] = result.sum[i].value * (double)samples;
     result.found = pearson_of(expected, observed, BINS_COUNT);
