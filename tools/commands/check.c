@@ -36,7 +36,7 @@ static const char *const help[] = {
     "               and 130 degrees, roughness 1 and 0.05 x 0.4 (azimuth 25 degrees). The bins divide the\n"
     "               slopes over roughness, a fifth of their borders evenly, the others at quantiles, and at each\n"
     "               the azimuths that are seen, evenly; bins of expected count < 5 are pooled. Significance 0.01\n"
-    "               for all tests together (Sidak); and the density has to integrate to 1 within 1e-5, what the\n"
+    "               for all tests together (Sidak); and the density has to integrate to 1 within 1e-4, what the\n"
     "               quadrature may err, some 2e-6, and what one rounding of normals, 2^-23 of their slope, may\n"
     "               add: 1e-3 for a ring of width 1e-4.\n"
     "  hard         normals are unit, above the surface and face the incident direction, densities are positive,\n"
@@ -229,7 +229,7 @@ static void check_chi_square(checking *c)
             c->to.failed = 1; /* there was no memory; figures_end says so */
             break;
         }
-        const double mass_limit = 1e-5 + of.error;
+        const double mass_limit = 1e-4 + of.error;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);
         tell(c, "alpha_x", "%.3g", (double)surface.alpha_x);
