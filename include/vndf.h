@@ -228,8 +228,8 @@ typedef struct vndf_view {
 
 /* wi may have any length: |x| + |y| + |z| within [1e-20, 1e20]. Invalid input gives an invalid view: NULL, another
  * length, NaN; and of the matrix times the scale of the distribution (vndf_info; 1 for closed forms) an entry above
- * 1e15, a determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x or
- * y. From an invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
+ * 1e15, a determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x
+ * or y. From an invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: the density is D(wm) cos(theta_m), and u1
  * turns the normal from -x through +x. From straight below no normal is visible: samples have density 0 and may be
@@ -244,9 +244,9 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
  *
  * The map from (u1, u2) to the normal is continuous, and monotone in each number within rounding, so stratified
  * and quasi-random points keep their worth. In the frame of the slopes u, seen from (M^T wi_xy, wi'.z): of tables u2
- * moves the normal away from z, and u1 turns it about z over the visible arc, from its end behind wi (0) through the side
- * of wi (1/2) to the other end (1). Of GGX both move the direction that the normal mirrors wi to, in the same way. Of
- * Beckmann u1 moves the slope along wi, and u2 across it. */
+ * moves the normal away from z, and u1 turns it about z over the visible arc, from its end behind wi (0) through the
+ * side of wi (1/2) to the other end (1). Of GGX both move the direction that the normal mirrors wi to, in the same way.
+ * Of Beckmann u1 moves the slope along wi, and u2 across it. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* The same, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an estimator with Dv

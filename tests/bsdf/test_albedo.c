@@ -231,7 +231,7 @@ static void test_refusals(const subject *mirror, const subject *glass)
     const vndf_description is = describe(mirror, WAYS[0], 0.3f), other = describe(glass, WAYS[0], 0.3f);
     vndf_description bad[] = {is, is, is, is, is, other, other, other, other};
     static const char *const says[] = {"albedo is NULL",  "eta", "albedo is that of", "MASKING_HEIGHT_CORRELATED",
-                                       "SHAPE_AFFINE",    "eta", "DIELECTRIC",        "LOBES_BOTH",
+                                       "SHAPE_TILTED",    "eta", "DIELECTRIC",        "LOBES_BOTH",
                                        "LOBES_REFLECTION"};
     bad[0].albedo = NULL;
     bad[1].albedo = glass->albedo;

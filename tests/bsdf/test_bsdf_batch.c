@@ -1,7 +1,7 @@
 /* A batch of a BSDF gives the bits of its calls for one - directions, facets, lobes, weights, values and densities -
  * and writes nothing past its end: for every sensible set of effects and shape, walks among them, with all instruction
- * sets and without, for batches of one to several blocks that end anywhere, shared or own directions,
- * surfaces, plain and sheared, and mixtures, wi on either side. Whatever bits go in, no NaN and nothing infinite or negative comes out:
+ * sets and without, for batches of one to several blocks that end anywhere, shared or own directions, surfaces, plain
+ * and sheared, and mixtures, wi on either side. Whatever bits go in, no NaN and nothing infinite or negative comes out:
  * directions that are NaN, infinite or zero, at either end, and matrices that are singular, scatter nothing; numbers
  * outside [0, 1] are as good as any. A call that is made for another shape scatters nothing. */
 #include <float.h>

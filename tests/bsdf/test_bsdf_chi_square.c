@@ -31,8 +31,8 @@ static int is_tried(const vndf_effects *e)
            e->masking == masking && e->transport == VNDF_TRANSPORT_RADIANCE;
 }
 
-/* Roughness, every third time turned; else a sheared and mirrored matrix, with a mean slope that leans towards wi; and a
- * second lobe a tenth as wide. */
+/* Roughness, every third time turned; else a sheared and mirrored matrix, with a mean slope that leans towards wi; and
+ * a second lobe a tenth as wide. */
 static void shape_of(vndf_description *is, const oracle_ndf *ndf, const setting *at, vndf_vec3 wi,
                      unsigned long long seed, vndf_mixture *lobes)
 {

@@ -25,8 +25,8 @@ static unsigned long long hash_floats(unsigned long long hash, const float *valu
 /* Of a radian. */
 static const float COSINE = 0.540302277f, SINE = 0.841470957f;
 
-/* A material's sample, its value and its density there, every other time turned by a radian; a set of effects that makes
- * no sense is refused. */
+/* A material's sample, its value and its density there, half of them turned by a radian; a set of effects that makes no
+ * sense is refused. */
 static unsigned long long hash_material(unsigned long long hash, const vndf_surface *surface, unsigned long i,
                                         vndf_vec3 wi, const float u[3])
 {
