@@ -3,13 +3,13 @@
  * README.md has an example.
  *
  *     distributions   vndf_load, vndf_load_memory, vndf_free; vndf_ggx, vndf_beckmann; vndf_distribution_info
- *     surfaces        vndf_surface {distribution, alpha_x, alpha_y}, vndf_affine {distribution, matrix, mean},
- *                     vndf_mixture of up to eight of these
- *     one direction   vndf_view_from, vndf_affine_view_from: a view; then vndf_sample, vndf_sample_weight,
- *                     vndf_pdf, vndf_visible, vndf_invert; vndf_mixture_view_from with calls of its own
+ *     surfaces        vndf_surface {distribution, matrix, mean slope}, made by vndf_rough from alpha_x and alpha_y;
+ *                     vndf_mixture of up to eight surfaces with weights
+ *     one direction   vndf_view_from: a view; then vndf_sample, vndf_sample_weight, vndf_pdf, vndf_visible,
+ *                     vndf_invert; vndf_mixture_view_from with calls of its own
  *     any direction   vndf_ndf, vndf_p22, vndf_projected_area, vndf_lambda, vndf_g1, vndf_g2, and the same
- *                     with vndf_affine_ and vndf_mixture_
- *     many at once    the same calls with _n at their ends, for surfaces of all three kinds
+ *                     with vndf_mixture_
+ *     many at once    the same calls with _n at their ends, for surfaces and mixtures
  *     families        vndf_family_load, vndf_family_at: a parameter of the distribution that is a texture
  *     GPUs            vndf_numbers, and the kernels of `vndf export`
  *
@@ -171,11 +171,51 @@ VNDF_API size_t vndf_numbers(const vndf_distribution *distribution, float *numbe
 
 /* ---- a surface and one incident direction ------------------------------------------------------ */
 
-/* A rough surface, a plain value: alpha_x, alpha_y > 0 scale the slopes of the distribution. */
+/* A surface, a plain value: its slopes are s = M u + mean, where u are slopes of the distribution and the matrix M =
+ * (xx xy; yx yy) stretches, turns and shears them, as roughness, anisotropy along a direction and filtered normal maps
+ * do. A mean slope (m, 0) with m > 0 leans the surface towards -x.
+ *
+ * With wi'.z = wi.z - wi.x mean.x - wi.y mean.y, the projection of wi on the mean plane, A(wi) - A(-wi) = wi'.z
+ * takes the place of cos(theta) (Dupuy et al., "Linear Efficient Antialiased Displacement and Reflectance
+ * Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z - 1 and G1(wi) = wi'.z/A(wi). A direction above the horizon
+ * may be below the mean plane, wi'.z < 0: then G1 is 0, and Lambda(wi) = -1 - Lambda(-wi). */
 typedef struct vndf_surface {
     const vndf_distribution *distribution;
-    float alpha_x, alpha_y;
+    float xx, xy, yx, yy;
+    float mean_x, mean_y;
 } vndf_surface;
+
+/* The surface with roughness alone, alpha_x and alpha_y along x and y; of other numbers than those above 0 it is
+ * invalid. */
+static inline vndf_surface vndf_rough(const vndf_distribution *distribution, float alpha_x, float alpha_y)
+{
+    const vndf_surface s = {
+        distribution, alpha_x > 0.0f ? alpha_x : 0.0f, 0.0f, 0.0f, alpha_y > 0.0f ? alpha_y : 0.0f, 0.0f, 0.0f};
+    return s;
+}
+
+/* A surface turned about z by the angle with this cosine and sine. Brushed metal under a normal map: the brush runs at
+ * the angle phi from x, the roughness is `along` it and `across` it in the plane z = 0, and n is the normal of the
+ * map, n.z > 0:
+ *
+ *     vndf_surface brushed = vndf_rotated(vndf_rough(metal, along, across), cosf(phi), sinf(phi));
+ *     brushed.mean_x = -n.x / n.z;
+ *     brushed.mean_y = -n.y / n.z;
+ *     const vndf_view view = vndf_view_from(&brushed, wi);
+ *     float pdf;
+ *     const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
+ */
+static inline vndf_surface vndf_rotated(vndf_surface s, float cosine, float sine)
+{
+    const vndf_surface turned = {s.distribution,
+                                 cosine * s.xx - sine * s.yx,
+                                 cosine * s.xy - sine * s.yy,
+                                 sine * s.xx + cosine * s.yx,
+                                 sine * s.xy + cosine * s.yy,
+                                 cosine * s.mean_x - sine * s.mean_y,
+                                 sine * s.mean_x + cosine * s.mean_y};
+    return turned;
+}
 
 /* Everything that depends on a surface and wi alone: a plain value, valid while the distribution lives. */
 enum { VNDF_VIEW_NUMBERS = 40 };
@@ -187,12 +227,15 @@ typedef struct vndf_view {
 } vndf_view;
 
 /* wi may have any length: |x| + |y| + |z| within [1e-20, 1e20]. Invalid input gives an invalid view: NULL, another
- * length, NaN, alpha times the scale of the distribution (vndf_info; 1 for closed forms) outside [1e-15, 1e15]. From an
- * invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
+ * length, NaN; and of the matrix times the scale of the distribution (vndf_info; 1 for closed forms) an entry above
+ * 1e15, a determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x
+ * or y. From an invalid view samples are (0, 0, 1) with density 0, and all other results are 0.
  *
  * From straight above, wi.x = wi.y = 0 < wi.z, every normal is visible: the density is D(wm) cos(theta_m), and u1
  * turns the normal from -x through +x. From straight below no normal is visible: samples have density 0 and may be
- * turned away; so it is where |alpha_x wi.x| + |alpha_y wi.y|, times that scale, is at most 1e-15 |wi.z|. */
+ * turned away; so it is where |x| + |y| of M^T wi_xy, times that scale, is at most 1e-15 |wi'.z|. Where the singular
+ * values of a sheared matrix are k apart, rounding moves a normal k times as far, and its density beside vndf_pdf with
+ * it. */
 VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
 
 /* A visible normal from two uniform numbers in [0, 1] (a number outside is clamped, NaN is 0). It has unit length
@@ -200,10 +243,10 @@ VNDF_API vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi);
  * which the normal was drawn, within [FLT_MIN, FLT_MAX].
  *
  * The map from (u1, u2) to the normal is continuous, and monotone in each number within rounding, so stratified
- * and quasi-random points keep their worth. Of tables, where slopes are divided by alpha, u2 moves the normal away
- * from z, and u1 turns it about z over the visible arc, from its end behind wi (0) through the side of wi (1/2) to
- * the other end (1). Of GGX both move the direction that the normal mirrors wi to, in the same way. Of Beckmann u1
- * moves the slope along wi, and u2 across it. */
+ * and quasi-random points keep their worth. In the frame of the slopes u, seen from (M^T wi_xy, wi'.z): of tables u2
+ * moves the normal away from z, and u1 turns it about z over the visible arc, from its end behind wi (0) through the
+ * side of wi (1/2) to the other end (1). Of GGX both move the direction that the normal mirrors wi to, in the same way.
+ * Of Beckmann u1 moves the slope along wi, and u2 across it. */
 VNDF_API vndf_vec3 vndf_sample(const vndf_view *view, float u1, float u2, float *pdf);
 
 /* The same, and the weight vndf_visible/vndf_pdf: true density over drawn density, by which an estimator with Dv
@@ -221,7 +264,7 @@ VNDF_API float vndf_pdf(const vndf_view *view, vndf_vec3 wm);
 VNDF_API float vndf_visible(const vndf_view *view, vndf_vec3 wm);
 
 /* The uniform numbers that vndf_sample turns into wm. Of the normals that vndf_sample drew 99.9% come back within
- * 1e-5 and 99.99% within 1e-4, measured between unit normals whose slopes are divided by alpha, or their numbers
+ * 1e-5 and 99.99% within 1e-4, measured between unit normals of the slopes u, or their numbers
  * come back within eight steps of 2^-24. Only the range [0, 1] is promised within 2^-22 of the border of the unit
  * square, for directions that see less than 1e-10 of the area at grazing incidence, and from straight below. */
 VNDF_API void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2);
@@ -239,27 +282,28 @@ typedef enum vndf_instructions {
 /* The set that a batch runs on if it may go up to `limit`: one of the last three. */
 VNDF_API vndf_instructions vndf_instructions_used(vndf_instructions limit);
 
-/* `count` surfaces and incident directions, the arguments of vndf_view_from. An array holds `count` numbers; if
- * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment.
- *
- * With any of xy, yx, mean_x and mean_y surfaces are vndf_affine (below), M = (alpha_x xy; yx alpha_y), and NULL is for
- * 0; VNDF_SHARED_ALPHA is for all of them. With `lobes` above 0 they are vndf_mixture: the same arrays of each lobe
- * count, and weights, not those of the batch. */
-enum { VNDF_SHARED_ALPHA = 1, VNDF_SHARED_WI = 2, VNDF_SHARED_WEIGHT = 4, VNDF_MIXTURE_LOBES = 8 };
+enum { VNDF_SHARED_SURFACE = 1, VNDF_SHARED_WI = 2, VNDF_SHARED_WEIGHT = 4, VNDF_MIXTURE_LOBES = 8 };
+
+/* Surfaces of one distribution, structure of arrays. Any of xy, yx, mean_x and mean_y may be NULL, for 0. */
+typedef struct vndf_surface_batch {
+    const vndf_distribution *distribution;
+    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y;
+} vndf_surface_batch;
 
 typedef struct vndf_lobe_batch {
-    const vndf_distribution *distribution;
-    const float *xx, *xy, *yx, *yy, *mean_x, *mean_y, *weight;
+    vndf_surface_batch surface;
+    const float *weight;
 } vndf_lobe_batch;
 
+/* `count` surfaces and incident directions, the arguments of vndf_view_from. An array holds `count` numbers; if
+ * its bit is set in `shared`, it points to one number that serves all elements. No array needs an alignment.
+ * With `lobes` above 0 these are mixtures (below), and their lobes count in the place of `surface`. */
 typedef struct vndf_batch {
-    const vndf_distribution *distribution;
+    vndf_surface_batch surface;
     size_t count;
-    unsigned shared; /* a sum of VNDF_SHARED_ALPHA, VNDF_SHARED_WI and VNDF_SHARED_WEIGHT, or 0 */
+    unsigned shared; /* a sum of VNDF_SHARED_SURFACE, VNDF_SHARED_WI and VNDF_SHARED_WEIGHT, or 0 */
     vndf_instructions limit;
-    const float *alpha_x, *alpha_y;
     const float *wi_x, *wi_y, *wi_z;
-    const float *xy, *yx, *mean_x, *mean_y;
     int lobes;  /* 0, or the number of lobes of each mixture */
     int *drawn; /* NULL, or what receives the index of the lobe of each sample of a mixture, -1 if it is invalid */
     vndf_lobe_batch lobe[VNDF_MIXTURE_LOBES];
@@ -316,47 +360,6 @@ typedef enum vndf_g2_model {
 /* G2: masking and shadowing for two directions above the horizon, in [0, 1]; 0 if either is below. */
 VNDF_API float vndf_g2(const vndf_surface *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
 
-/* ---- any linear map of slopes ------------------------------------------------------------------ */
-
-/* A rough surface whose slopes are s = M u + mean, where u are slopes of the distribution and M = (xx xy; yx yy)
- * stretches, turns and shears them, as anisotropy along a direction and filtered normal maps do. A mean slope (m,
- * 0) with m > 0 leans the surface towards -x. vndf_surface is the case M = (alpha_x 0; 0 alpha_y), mean = 0, and
- * gives the same bits.
- *
- * With wi'.z = wi.z - wi.x mean.x - wi.y mean.y, the projection of wi on the mean plane, A(wi) - A(-wi) = wi'.z
- * takes the place of cos(theta) (Dupuy et al., "Linear Efficient Antialiased Displacement and Reflectance
- * Mapping", TOG 32(6), 2013): Lambda(wi) = A(wi)/wi'.z - 1 and G1(wi) = wi'.z/A(wi). A direction above the horizon
- * may be below the mean plane, wi'.z < 0: then G1 is 0, and Lambda(wi) = -1 - Lambda(-wi).
- *
- * Brushed metal under a normal map: the brush runs at the angle phi from x, the roughness is `along` it and
- * `across` it in the plane z = 0, and n is the normal of the map, n.z > 0:
- *
- *     const float c = cosf(phi), s = sinf(phi);
- *     const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
- *     const vndf_view view = vndf_affine_view_from(&brushed, wi);
- *     float pdf;
- *     const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
- */
-typedef struct vndf_affine {
-    const vndf_distribution *distribution;
-    float xx, xy, yx, yy;
-    float mean_x, mean_y;
-} vndf_affine;
-
-/* The view of an affine surface. Invalid are, of the matrix times the scale of the distribution, an entry above 1e15, a
- * determinant below 1e-15 times the largest entry or outside [1e-36, 1e36], and a mean slope above 1e6 along x or y.
- * The numbers u1 and u2 mean what they mean for vndf_sample in the frame of the slopes u, seen from (M^T wi_xy, wi'.z),
- * which say what is straight below, too. Where the singular values of a sheared matrix are k apart, rounding moves a
- * normal k times as far, and its density beside vndf_pdf with it. */
-VNDF_API vndf_view vndf_affine_view_from(const vndf_affine *surface, vndf_vec3 wi);
-
-VNDF_API float vndf_affine_ndf(const vndf_affine *surface, vndf_vec3 wm);
-VNDF_API float vndf_affine_p22(const vndf_affine *surface, float x, float y);
-VNDF_API float vndf_affine_projected_area(const vndf_affine *surface, vndf_vec3 w);
-VNDF_API float vndf_affine_lambda(const vndf_affine *surface, vndf_vec3 w);
-VNDF_API float vndf_affine_g1(const vndf_affine *surface, vndf_vec3 w);
-VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model);
-
 /* ---- several lobes on one surface --------------------------------------------------------------- */
 
 /* A surface with D = sum of w_i D_i, w_i the weights divided by their sum: a core and a haze, or neighbours of a
@@ -365,7 +368,7 @@ VNDF_API float vndf_affine_g2(const vndf_affine *surface, vndf_vec3 wi, vndf_vec
  * 2023). Weights are >= 0 and finite; a lobe of weight 0, or of one that is 0 when it is divided by the
  * largest, is not read. A plain value without memory of its own. */
 typedef struct vndf_mixture_lobe {
-    vndf_affine surface;
+    vndf_surface surface;
     float weight;
 } vndf_mixture_lobe;
 
@@ -403,7 +406,7 @@ VNDF_API float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
 VNDF_API int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2);
 
 /* Of the whole mixture. Its mean slope is the sum of w_i mean_i, and wi'.z = wi.z - wi.mean takes the place of
- * cos(theta), as for vndf_affine. */
+ * cos(theta), as for one surface. */
 VNDF_API float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm);
 VNDF_API float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y);
 VNDF_API float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w);
@@ -488,7 +491,7 @@ typedef enum vndf_family_place {
  *     float pdf;
  *     const vndf_vec3 wm = vndf_mixture_sample(&view, u[0], u[1], &pdf, NULL);
  */
-VNDF_API vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_affine *shape,
+VNDF_API vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_surface *shape,
                                           vndf_mixture *mixture);
 
 #ifdef __cplusplus

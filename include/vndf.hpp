@@ -14,7 +14,7 @@
 //         const auto table = vndf::build(*source);
 //         if (!table)
 //             return std::puts(table.message()), 1;
-//         const vndf_surface metal = {*table, 0.3f, 0.1f};
+//         const vndf_surface metal = vndf_rough(*table, 0.3f, 0.1f);
 //         const vndf_view view = vndf_view_from(&metal, {0.6f, 0.0f, 0.8f});
 //         float pdf;
 //         const vndf_vec3 wm = vndf_sample(&view, 0.25f, 0.5f, &pdf);

@@ -1,6 +1,6 @@
 /* vndf_bsdf.h - reflection and refraction on a rough surface of any distribution of normals.
  *
- * A material is a distribution (table, GGX, Beckmann), its roughness, its optics and a set of effects, which is
+ * A material is a surface (vndf.h: distribution, roughness or matrix), its optics and a set of effects, which is
  * resolved once: an effect that is not chosen costs nothing when a ray arrives. At a hit vndf_bsdf_at forms everything
  * that depends on the incident direction alone; samples, values and densities start from that.
  *
@@ -30,7 +30,7 @@
  * A call carries one to four wavelengths at once, as the material says: three unless it says another number.
  * Dispersion and absorption belong to the renderer.
  *
- * Mean slopes (VNDF_SHAPE_AFFINE, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
+ * Mean slopes (VNDF_SHAPE_TILTED, VNDF_SHAPE_MIXTURE). The mean plane of the surface takes the place of the plane
  * z = 0, as it does in masking (vndf.h): it divides reflection from transmission, and with its unit normal n all
  * cosines above are those to n, cos_i = n.wi, cos_o = n.wo; f has D n.z, the density per area of that plane. So f
  * is reciprocal, and f |n.wo| is what a renderer sums; vndf_bsdf_cosine returns n.wo. Without mean slopes n is z.
@@ -52,7 +52,7 @@
  * too small, but not 0.
  *
  * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
- * nothing set but distribution and roughness is a rough white mirror: it has no Fresnel term. */
+ * nothing set but its surface is a rough white mirror: it has no Fresnel term. */
 #ifndef VNDF_BSDF_H
 #define VNDF_BSDF_H
 
@@ -160,13 +160,11 @@ typedef enum vndf_transport {
     VNDF_TRANSPORT_IMPORTANCE /* paths from the light */
 } vndf_transport;
 
-/* How the distribution is stretched at a hit, and the call that takes it from a texture. */
+/* What the surface of a hit is. */
 typedef enum vndf_shape {
-    VNDF_SHAPE_ALIGNED, /* alpha_x along x, alpha_y along y: vndf_bsdf_rough */
-    VNDF_SHAPE_ROTATED, /* alpha_x at an angle: vndf_bsdf_rough */
-    VNDF_SHAPE_MATRIX,  /* any 2x2 matrix of slopes: vndf_bsdf_affine, of which the mean slope is not read */
-    VNDF_SHAPE_AFFINE,  /* a matrix and a mean slope, as filtered normal maps have it: vndf_bsdf_affine */
-    VNDF_SHAPE_MIXTURE  /* several lobes, each with its distribution and matrix: vndf_bsdf_mixture */
+    VNDF_SHAPE_LEVEL,  /* one surface, of which the mean slope is not read */
+    VNDF_SHAPE_TILTED, /* one with its mean slope, as filtered normal maps have it */
+    VNDF_SHAPE_MIXTURE /* several lobes, each with its distribution and matrix: vndf_bsdf_mixture */
 } vndf_shape;
 
 /* Where reflected light goes. */
@@ -194,16 +192,12 @@ typedef struct vndf_effects {
 /* The parts of a material. A member that the effects do not need is not read. What it points to must outlive the
  * material. */
 typedef struct vndf_description {
-    const vndf_distribution *distribution; /* not read for mixtures, whose lobes have their own */
+    vndf_surface surface; /* of hits by vndf_bsdf_at; not read for mixtures, whose lobes have their own */
     vndf_effects effects;
-    float alpha_x, alpha_y; /* roughness, > 0, of hits by vndf_bsdf_at */
-    float rotation;         /* angle from x to the axis of alpha_x, radians, within 1e4 */
-    vndf_affine affine;     /* of hits by vndf_bsdf_at; its distribution is not read, and its mean slope only for
-                             * VNDF_SHAPE_AFFINE */
     const vndf_mixture *mixture; /* of hits by vndf_bsdf_at; may be NULL if every hit has its own */
     int wavelengths;             /* 1 to VNDF_WAVELENGTHS; 0: 3 */
     /* For Turquin and Kulla & Conty: of this distribution, for a mirror where the material only reflects, else for
-     * its eta. It knows isotropic roughness: sqrt(alpha_x alpha_y) takes the place of two numbers. */
+     * its eta. It knows isotropic roughness: the root of the determinant takes the place of a matrix. */
     const vndf_albedo *albedo;
     float eta;                             /* index on the side of -z over that on the side of z, 0.01 to 100 */
     float f0[VNDF_WAVELENGTHS];            /* Schlick: reflectance at normal incidence, 0 to 1 */
@@ -214,20 +208,12 @@ typedef struct vndf_description {
     unsigned order_limit;
 } vndf_description;
 
-/* The roughness of one hit, from a texture, say. Cosine and sine of the rotation are read if the shape is rotated;
- * they are unit within 1e-6. */
-typedef struct vndf_roughness {
-    float alpha_x, alpha_y;
-    float cos_rotation, sin_rotation;
-} vndf_roughness;
-
 /* A resolved material: a plain value, valid while its distribution lives. */
 typedef struct vndf_material {
     vndf_description is; /* as it was given, but for the numbers that stand for a default */
     struct {
         const struct vndf_routines *routines; /* of its scattering */
-        vndf_affine surface;                  /* of hits that bring none */
-        vndf_roughness rough;                 /* of hits that bring no rotation */
+        vndf_surface surface;                 /* of hits that bring none */
         double per_wavelength;                /* one over their number */
         float reflectance0[VNDF_WAVELENGTHS]; /* F at normal incidence, */
         float reflectance[VNDF_WAVELENGTHS];  /* and its mean over the hemisphere */
@@ -272,26 +258,22 @@ typedef struct vndf_bsdf {
         vndf_vec3 wi;     /* so that this is above */
         float rise, area; /* of wi: its projection on the mean plane, and the projected area */
         float tilt;       /* length of (mean slope, 1) */
-        vndf_affine surface; /* not of a mixture */
+        vndf_surface surface; /* not of a mixture */
         struct vndf_compensation compensation;
         struct vndf_hit_view view; /* of wi */
     } own;                         /* private */
 } vndf_bsdf;
 
-/* Prepares a hit with the roughness, matrix or mixture of the material. wi is unit within 2e-6. A material that does
+/* Prepares a hit with the surface or mixture of the material. wi is unit within 2e-6. A material that does
  * not transmit and has no Fresnel term for a dielectric is seen from z > 0 only (from above the mean plane), any other
  * from both sides. Returns 0 if the material scatters nothing from there, or has no mixture where it needs one. */
 VNDF_API int vndf_bsdf_at(vndf_bsdf *bsdf, const vndf_material *material, vndf_vec3 wi);
 
-/* The same with the roughness of the hit; NULL: the roughness of the material. */
-VNDF_API int vndf_bsdf_rough(vndf_bsdf *bsdf, const vndf_material *material, const vndf_roughness *roughness,
-                             vndf_vec3 wi);
-
-/* The same with the matrix and mean slope, or the mixture, of the hit; neither is kept, and the distribution of
- * the matrix is not read. NULL: those of the material. Returns 0, and scatters nothing, for an invalid matrix or
- * mixture, and for another shape than the material's. */
-VNDF_API int vndf_bsdf_affine(vndf_bsdf *bsdf, const vndf_material *material, const vndf_affine *affine,
-                              vndf_vec3 wi);
+/* The same with the surface, or the mixture, of the hit, from a texture, say; neither is kept, and the distribution of
+ * the surface is not read: it is the material's. NULL: those of the material. Returns 0, and scatters nothing, for an
+ * invalid surface or mixture, and for another shape than the material's. */
+VNDF_API int vndf_bsdf_on(vndf_bsdf *bsdf, const vndf_material *material, const vndf_surface *surface,
+                          vndf_vec3 wi);
 VNDF_API int vndf_bsdf_mixture(vndf_bsdf *bsdf, const vndf_material *material, const vndf_mixture *mixture,
                                vndf_vec3 wi);
 
@@ -334,16 +316,14 @@ VNDF_API float vndf_bsdf_cosine(const vndf_bsdf *bsdf, vndf_vec3 wo);
 /* ---- many at once ------------------------------------------------------------------------------- */
 
 /* `count` hits of one material as a structure of arrays; `shared` and `limit` are as in vndf_batch. The arrays of the
- * material's shape are read: alpha_x and alpha_y together, cos_rotation and sin_rotation together, `affine` (without
- * its distribution), `mixture`. They are shared if VNDF_SHARED_ALPHA is set, and NULL for what the material has. */
+ * material's shape are read: those of `surface` (but its distribution; xx and yy together), or `mixture`. They are
+ * shared if VNDF_SHARED_SURFACE is set, and NULL for what the material has. */
 typedef struct vndf_bsdf_batch {
     const vndf_material *material;
     size_t count;
     unsigned shared;
     vndf_instructions limit;
-    const float *alpha_x, *alpha_y;
-    const float *cos_rotation, *sin_rotation;
-    const vndf_affine *affine;
+    vndf_surface_batch surface;
     const vndf_mixture *mixture;
     const float *wi_x, *wi_y, *wi_z;
 } vndf_bsdf_batch;

@@ -129,11 +129,11 @@ static float kept_of(const vndf_material *lobe, int lobes, double cosine, double
 {
     enum { POINTS = 2584, STEP = 1597 }; /* neighbours in Fibonacci's series */
     const float c = cosine > 1e-15 ? (float)cosine : 1e-15f, rough = (float)alpha;
-    const vndf_roughness of = {rough, rough, 1.0f, 0.0f};
+    const vndf_surface of = vndf_rough(NULL, rough, rough);
     vndf_bsdf hit[2];
     double sum = 0.0, all = 0.0;
     for (int k = 0; k < lobes; k++)
-        vndf_bsdf_rough(&hit[k], &lobe[k], &of, vndf_vec3_of(sqrtf((1.0f - c) * (1.0f + c)), 0.0f, side ? -c : c));
+        vndf_bsdf_on(&hit[k], &lobe[k], &of, vndf_vec3_of(sqrtf((1.0f - c) * (1.0f + c)), 0.0f, side ? -c : c));
     for (int i = 0; i < POINTS; i++) {
         double t = (i + 0.5) / POINTS, u = t * STEP - floor(t * STEP), rest = 1.0 - t;
         vndf_drawn_normal n = vndf_sample_visible(&hit[0].own.view.of.one, (float)u, (float)(1.0 - rest * rest));
@@ -182,7 +182,7 @@ vndf_albedo *vndf_albedo_build(const vndf_distribution *distribution, float eta,
         return NULL;
     *albedo = (vndf_albedo){.eta = eta, .scale = (float)info.scale, .from = eta > 0.0f ? 0.03f : 0.0f};
     memcpy(albedo->source, info.source, letters);
-    vndf_description is = {.distribution = distribution, .alpha_x = 1.0f, .alpha_y = 1.0f, .wavelengths = 1};
+    vndf_description is = {.surface = vndf_rough(distribution, 1.0f, 1.0f), .wavelengths = 1};
     vndf_material lobe[2];
     is.eta = eta;
     is.effects.fresnel = eta > 0.0f ? VNDF_FRESNEL_DIELECTRIC : VNDF_FRESNEL_NONE;
@@ -203,7 +203,7 @@ void vndf_albedo_free(vndf_albedo *albedo)
 /* An albedo of something else would keep the wrong energy. */
 vndf_status vndf_albedo_check(const vndf_description *is, vndf_error *error)
 {
-    const char *source = vndf_distribution_info(is->distribution).source;
+    const char *source = vndf_distribution_info(is->surface.distribution).source;
     float eta = is->effects.lobes == VNDF_LOBES_BOTH ? is->eta : 0.0f;
     if (!is->albedo)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT,

@@ -1,4 +1,4 @@
-/* The calls of many. The visible normals of an aligned surface are drawn a block at a time, in lanes
+/* The calls of many. The visible normals of a level surface are drawn a block at a time, in lanes
  * (vndf_sample_weight_n), and scattered by the routine of the call of one. The rest is done one after the other. */
 #include "bsdf/bsdf.h"
 
@@ -10,60 +10,54 @@ static vndf_vec3 wi_at(const vndf_bsdf_batch *b, size_t i)
     return vndf_vec3_of(b->wi_x[at], b->wi_y[at], b->wi_z[at]);
 }
 
+static vndf_surface surface_of(const vndf_bsdf_batch *b, size_t i)
+{
+    return b->surface.xx ? vndf_surface_at(&b->surface, b->shared & VNDF_SHARED_SURFACE ? 0 : i)
+                         : b->material->own.surface;
+}
+
 /* Makes hit i, unless all elements are one hit that is made. */
 static void step_to(const vndf_bsdf_batch *b, size_t i, vndf_bsdf *hit)
 {
-    const vndf_material *m = b->material;
-    const vndf_vec3 wi = wi_at(b, i);
-    int one_shape =
-        (b->shared & VNDF_SHARED_ALPHA) || (!b->alpha_x && !b->cos_rotation && !b->affine && !b->mixture);
-    size_t at = one_shape ? 0 : i;
-    vndf_roughness r = m->own.rough;
+    const int one_shape = (b->shared & VNDF_SHARED_SURFACE) || (!b->surface.xx && !b->mixture);
+    const vndf_surface surface = surface_of(b, i);
     if (i > 0 && one_shape && (b->shared & VNDF_SHARED_WI))
         return;
-    if (b->alpha_x) {
-        r.alpha_x = b->alpha_x[at];
-        r.alpha_y = b->alpha_y[at];
-    }
-    if (b->cos_rotation) {
-        r.cos_rotation = b->cos_rotation[at];
-        r.sin_rotation = b->sin_rotation[at];
-    }
-    if (m->is.effects.shape == VNDF_SHAPE_MIXTURE)
-        vndf_bsdf_mixture(hit, m, b->mixture ? b->mixture + at : NULL, wi);
-    else if (m->is.effects.shape > VNDF_SHAPE_ROTATED)
-        vndf_bsdf_affine(hit, m, b->affine ? b->affine + at : NULL, wi);
+    if (b->material->is.effects.shape == VNDF_SHAPE_MIXTURE)
+        vndf_bsdf_mixture(hit, b->material, b->mixture ? b->mixture + (one_shape ? 0 : i) : NULL, wi_at(b, i));
     else
-        vndf_bsdf_rough(hit, m, &r, wi);
+        vndf_bsdf_on(hit, b->material, &surface, wi_at(b, i));
 }
 
 /* ---- samples ---- */
 
 typedef struct block {
-    float wi[3][BLOCK], wm[3][BLOCK], density[BLOCK], weight[BLOCK];
+    float wi[3][BLOCK], matrix[4][BLOCK], wm[3][BLOCK], density[BLOCK], weight[BLOCK];
 } block;
 
 /* Draws the normals of the elements from `first` on, whose directions are turned to the side where hits are. */
 static void draw_block(const vndf_bsdf_batch *b, const float *const u[3], size_t first, block *to)
 {
-    const vndf_material *m = b->material;
-    size_t shape = b->shared & VNDF_SHARED_ALPHA ? 0 : first, rest = b->count - first;
+    const vndf_surface *own = &b->material->own.surface;
     const vndf_normals wm = {to->wm[0], to->wm[1], to->wm[2]};
-    vndf_batch part = {.distribution = m->is.distribution,
-                       .count = rest < BLOCK ? rest : BLOCK,
-                       .shared = b->shared | (b->alpha_x ? 0u : (unsigned)VNDF_SHARED_ALPHA),
-                       .limit = b->limit,
-                       .alpha_x = b->alpha_x ? b->alpha_x + shape : &m->is.alpha_x,
-                       .alpha_y = b->alpha_x ? b->alpha_y + shape : &m->is.alpha_y,
-                       .wi_x = to->wi[0],
-                       .wi_y = to->wi[1],
-                       .wi_z = to->wi[2]};
-    for (size_t i = 0; i < (b->shared & VNDF_SHARED_WI ? 1 : part.count); i++) {
-        vndf_vec3 wi = wi_at(b, first + i);
-        float side = wi.z < 0.0f ? -1.0f : 1.0f;
+    const size_t rest = b->count - first, count = rest < BLOCK ? rest : BLOCK;
+    const int turns = b->surface.xx ? b->surface.xy || b->surface.yx : own->xy != 0.0f || own->yx != 0.0f;
+    const vndf_batch part = {.surface = {own->distribution, to->matrix[0], turns ? to->matrix[1] : NULL,
+                                         turns ? to->matrix[2] : NULL, to->matrix[3], NULL, NULL},
+                             .count = count,
+                             .limit = b->limit,
+                             .wi_x = to->wi[0],
+                             .wi_y = to->wi[1],
+                             .wi_z = to->wi[2]};
+    for (size_t i = 0; i < count; i++) {
+        const vndf_vec3 wi = wi_at(b, first + i);
+        const vndf_surface s = surface_of(b, first + i);
+        const float side = wi.z < 0.0f ? -1.0f : 1.0f, matrix[] = {s.xx, s.xy, s.yx, s.yy};
         to->wi[0][i] = side * wi.x;
         to->wi[1][i] = side * wi.y;
         to->wi[2][i] = side * wi.z;
+        for (int k = 0; k < 4; k++)
+            to->matrix[k][i] = matrix[k];
     }
     vndf_sample_weight_n(&part, u[0] + first, u[1] + first, wm, to->density, to->weight);
 }
@@ -72,7 +66,7 @@ void vndf_bsdf_sample_n(const vndf_bsdf_batch *b, const float *const u[3], vndf_
 {
     const vndf_material *m = b->material;
     const vndf_effects *e = &m->is.effects;
-    int in_blocks = e->shape == VNDF_SHAPE_ALIGNED && e->normals == VNDF_NORMALS_VISIBLE &&
+    int in_blocks = e->shape == VNDF_SHAPE_LEVEL && e->normals == VNDF_NORMALS_VISIBLE &&
                     e->reflection == VNDF_REFLECTION_SPECULAR && m->own.routines == &vndf_routines_single;
     vndf_bsdf hit;
     block drawn;

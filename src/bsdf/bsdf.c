@@ -12,11 +12,11 @@ static int nothing(vndf_bsdf *b, const vndf_material *material)
 }
 
 /* Of a mixture, or of a surface where that is NULL. A refused material has no routines, an invalid view no area. */
-VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_affine *surface, const vndf_mixture *mixture,
+VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_surface *surface, const vndf_mixture *mixture,
                     vndf_vec3 wi)
 {
     struct vndf_hit_view *view = &b->own.view;
-    int is_plain = 0, below;
+    int below;
     if (!m->own.routines || !vndf_is_near_unit(wi))
         return nothing(b, m);
     b->material = m;
@@ -27,8 +27,6 @@ VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_affine *sur
     } else {
         b->own.surface = *surface;
         view->kind = surface->mean_x == 0.0f && surface->mean_y == 0.0f ? VNDF_HIT_LEVEL : VNDF_HIT_TILTED;
-        is_plain = view->kind == VNDF_HIT_LEVEL && surface->xy == 0.0f && surface->yx == 0.0f &&
-                   surface->xx > 0.0f && surface->yy > 0.0f;
         below = wi.z < wi.x * surface->mean_x + wi.y * surface->mean_y;
     }
     b->own.side = below && m->own.two_sided ? -1.0f : 1.0f;
@@ -38,7 +36,7 @@ VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_affine *sur
                          : 1.0;
     b->own.wi = vndf_turned(wi, b->own.side);
     if (!mixture)
-        view->of.one = vndf_view_make(&b->own.surface, b->own.wi, is_plain);
+        view->of.one = vndf_view_from(&b->own.surface, b->own.wi);
     else if (b->own.side < 0.0f)
         view->of.mixture = vndf_mixture_view_from(mixture, b->own.wi);
     b->own.rise = vndf_hit_cosine(view, b->own.wi);
@@ -57,49 +55,20 @@ VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_affine *sur
     return 1;
 }
 
-int vndf_surface_of(const vndf_material *material, const vndf_roughness *r, vndf_affine *surface)
-{
-    float c = 1.0f, s = 0.0f;
-    if (material->is.effects.shape == VNDF_SHAPE_ROTATED) {
-        float off = r->cos_rotation * r->cos_rotation + r->sin_rotation * r->sin_rotation - 1.0f;
-        c = r->cos_rotation * (1.0f - 0.5f * off); /* unit, where they are nearly so */
-        s = r->sin_rotation * (1.0f - 0.5f * off);
-        if (!(fabsf(off) < 1e-3f))
-            return 0;
-    }
-    *surface =
-        (vndf_affine){.distribution = material->is.distribution, .xx = c * r->alpha_x, .yx = s * r->alpha_x};
-    surface->xy = 0.0f - s * r->alpha_y; /* not -0 */
-    surface->yy = c * r->alpha_y;
-    return r->alpha_x > 0.0f && r->alpha_y > 0.0f;
-}
-
 int vndf_bsdf_at(vndf_bsdf *b, const vndf_material *material, vndf_vec3 wi)
 {
     return material->is.effects.shape == VNDF_SHAPE_MIXTURE ? vndf_bsdf_mixture(b, material, NULL, wi)
                                                             : hit(b, material, &material->own.surface, NULL, wi);
 }
 
-int vndf_bsdf_rough(vndf_bsdf *b, const vndf_material *material, const vndf_roughness *roughness, vndf_vec3 wi)
-{
-    vndf_affine surface;
-    if (!roughness)
-        return vndf_bsdf_at(b, material, wi);
-    if (material->is.effects.shape > VNDF_SHAPE_ROTATED || !vndf_surface_of(material, roughness, &surface))
-        return nothing(b, material);
-    return hit(b, material, &surface, NULL, wi);
-}
-
-int vndf_bsdf_affine(vndf_bsdf *b, const vndf_material *material, const vndf_affine *affine, vndf_vec3 wi)
+int vndf_bsdf_on(vndf_bsdf *b, const vndf_material *material, const vndf_surface *given, vndf_vec3 wi)
 {
     vndf_shape shape = material->is.effects.shape;
-    if (shape != VNDF_SHAPE_MATRIX && shape != VNDF_SHAPE_AFFINE)
+    vndf_surface surface = given ? *given : material->own.surface;
+    if (shape == VNDF_SHAPE_MIXTURE)
         return nothing(b, material);
-    if (!affine)
-        return vndf_bsdf_at(b, material, wi);
-    vndf_affine surface = *affine;
-    surface.distribution = material->is.distribution;
-    if (shape == VNDF_SHAPE_MATRIX)
+    surface.distribution = material->is.surface.distribution;
+    if (shape == VNDF_SHAPE_LEVEL)
         surface.mean_x = surface.mean_y = 0.0f;
     return hit(b, material, &surface, NULL, wi);
 }

@@ -77,9 +77,6 @@ VNDF_INLINE int vndf_compensates(const vndf_effects *e)
 /* Whether a compensated material has the albedos of its distribution and eta; else an error (albedo.c). */
 vndf_status vndf_albedo_check(const vndf_description *is, vndf_error *error);
 
-/* The surface of a roughness; 0 if it is none. */
-int vndf_surface_of(const vndf_material *material, const vndf_roughness *roughness, vndf_affine *surface);
-
 /* bsdf.c: a lost sample. */
 extern const vndf_scattered vndf_scattered_nothing;
 

@@ -63,7 +63,7 @@ static int prepare_lobe(vndf_bsdf *b, float lost)
 void vndf_compensation_prepare(vndf_bsdf *b)
 {
     const vndf_material *m = b->material;
-    const vndf_affine *s = &b->own.surface;
+    const vndf_surface *s = &b->own.surface;
     struct vndf_compensation *c = &b->own.compensation;
     double determinant = fabs((double)s->xx * s->yy - (double)s->xy * s->yx);
     *c = (struct vndf_compensation){.alpha = (float)sqrt(determinant)};

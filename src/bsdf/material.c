@@ -5,7 +5,6 @@
 
 #include "bsdf/bsdf.h"
 #include "core/error.h"
-#include "math/turn.h"
 
 /* ---- numbers ---- */
 
@@ -29,8 +28,6 @@ static vndf_status check_plain_numbers(const vndf_description *is, vndf_error *e
 {
     const vndf_effects *e = &is->effects;
     int bends = e->lobes != VNDF_LOBES_REFLECTION || e->fresnel == VNDF_FRESNEL_DIELECTRIC;
-    int turns = e->shape == VNDF_SHAPE_ROTATED, is_rough = turns || e->shape == VNDF_SHAPE_ALIGNED;
-    double scale = is->distribution ? vndf_distribution_info(is->distribution).scale : 1.0;
     const number numbers[] = {
         {"effects.lobes", (int)e->lobes, 0, VNDF_LOBES_BOTH, 1},
         {"effects.fresnel", (int)e->fresnel, 0, VNDF_FRESNEL_CONDUCTOR, 1},
@@ -41,9 +38,6 @@ static vndf_status check_plain_numbers(const vndf_description *is, vndf_error *e
         {"effects.shape", (int)e->shape, 0, VNDF_SHAPE_MIXTURE, 1},
         {"effects.reflection", (int)e->reflection, 0, VNDF_REFLECTION_RETRO, 1},
         {"wavelengths", is->wavelengths, 0, VNDF_WAVELENGTHS, 1},
-        {"alpha_x", (double)is->alpha_x, 1e-15 / scale, 1e15 / scale, is_rough},
-        {"alpha_y", (double)is->alpha_y, 1e-15 / scale, 1e15 / scale, is_rough},
-        {"rotation", (double)is->rotation, -1e4, 1e4, turns},
         {"eta", (double)is->eta, (double)0.01f, 100, bends},
     };
     return check_numbers(numbers, sizeof numbers / sizeof *numbers, error);
@@ -76,7 +70,7 @@ static vndf_status check_combination(const vndf_description *is, vndf_error *err
     const vndf_effects *e = &is->effects;
     int transmits = e->lobes != VNDF_LOBES_REFLECTION, both = e->lobes == VNDF_LOBES_BOTH;
     int walks = e->scattering == VNDF_SCATTERING_MULTIPLE, compensates = vndf_compensates(e);
-    int is_retro = e->reflection == VNDF_REFLECTION_RETRO, tilts = e->shape >= VNDF_SHAPE_AFFINE;
+    int is_retro = e->reflection == VNDF_REFLECTION_RETRO, tilts = e->shape != VNDF_SHAPE_LEVEL;
     int by_height = e->masking == VNDF_MASKING_HEIGHT_CORRELATED, sees = e->normals == VNDF_NORMALS_VISIBLE;
     const struct {
         int is_wrong;
@@ -93,14 +87,14 @@ static vndf_status check_combination(const vndf_description *is, vndf_error *err
          "normals is VNDF_NORMALS_V_CAVITY, so masking must be VNDF_MASKING_V_CAVITIES"},
         {compensates && (!by_height || tilts || (transmits && !(both && e->fresnel == VNDF_FRESNEL_DIELECTRIC))),
          "scattering is VNDF_SCATTERING_TURQUIN or VNDF_SCATTERING_KULLA_CONTY, by albedos of one distribution: "
-         "masking must be VNDF_MASKING_HEIGHT_CORRELATED, shape not VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, and lobes "
+         "masking must be VNDF_MASKING_HEIGHT_CORRELATED, shape not VNDF_SHAPE_TILTED or VNDF_SHAPE_MIXTURE, and lobes "
          "VNDF_LOBES_REFLECTION, or for Turquin VNDF_LOBES_BOTH with VNDF_FRESNEL_DIELECTRIC"},
         {transmits && e->scattering == VNDF_SCATTERING_KULLA_CONTY,
          "scattering is VNDF_SCATTERING_KULLA_CONTY: lobes must be VNDF_LOBES_REFLECTION"},
         {is_retro && e->lobes == VNDF_LOBES_TRANSMISSION,
          "reflection is VNDF_REFLECTION_RETRO and lobes is VNDF_LOBES_TRANSMISSION: nothing is reflected"},
         {tilts && (!sees || e->masking == VNDF_MASKING_V_CAVITIES || is_retro || walks),
-         "shape is VNDF_SHAPE_AFFINE or VNDF_SHAPE_MIXTURE, a surface with a mean slope: normals must be "
+         "shape is VNDF_SHAPE_TILTED or VNDF_SHAPE_MIXTURE, a surface with a mean slope: normals must be "
          "VNDF_NORMALS_VISIBLE, masking not VNDF_MASKING_V_CAVITIES, scattering VNDF_SCATTERING_SINGLE and reflection "
          "VNDF_REFLECTION_SPECULAR"},
         {walks && (!by_height || !sees || e->lobes == VNDF_LOBES_TRANSMISSION),
@@ -118,30 +112,14 @@ static vndf_status check_combination(const vndf_description *is, vndf_error *err
 
 /* ---- surfaces ---- */
 
-/* The surface of hits that bring none. */
-static void set_surface(vndf_material *m)
-{
-    const vndf_description *is = &m->is;
-    double cosine = 1.0, sine = 0.0;
-    if (is->effects.shape == VNDF_SHAPE_ROTATED)
-        vndf_turn_of((double)is->rotation * 0.15915494309189535, &cosine, &sine);
-    m->own.rough = (vndf_roughness){is->alpha_x, is->alpha_y, (float)cosine, (float)sine};
-    m->own.surface = is->affine;
-    if (is->effects.shape <= VNDF_SHAPE_ROTATED)
-        vndf_surface_of(m, &m->own.rough, &m->own.surface);
-    m->own.surface.distribution = is->distribution;
-    if (is->effects.shape != VNDF_SHAPE_AFFINE)
-        m->own.surface.mean_x = m->own.surface.mean_y = 0.0f;
-}
-
 /* Of the material or a lobe of its mixture; hits bring others, whose errors have a result. A view is valid if it has
  * an area, which straight from above is 1. */
-static vndf_status check_map(const char *name, const vndf_affine *a, vndf_error *error)
+static vndf_status check_map(const char *name, const vndf_surface *a, vndf_error *error)
 {
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
     if (!a->distribution)
         return vndf_fail(error, VNDF_ERROR_ARGUMENT, "%s has the distribution NULL", name);
-    vndf_view view = vndf_affine_view_from(a, up);
+    vndf_view view = vndf_view_from(a, up);
     if (vndf_view_area(&view, up) > 0.0f)
         return VNDF_OK;
     return vndf_fail(error, VNDF_ERROR_ARGUMENT,
@@ -193,9 +171,11 @@ vndf_status vndf_material_resolve(const vndf_description *is, vndf_material *m, 
     m->is = *is;
     m->is.order_limit = is->order_limit ? is->order_limit : 64;
     m->is.wavelengths = wavelengths;
-    set_surface(m);
+    m->own.surface = is->surface;
+    if (e->shape == VNDF_SHAPE_LEVEL)
+        m->own.surface.mean_x = m->own.surface.mean_y = 0.0f;
     if (!is_mixture)
-        status = check_map(e->shape <= VNDF_SHAPE_ROTATED ? "the material" : "affine", &m->own.surface, error);
+        status = check_map("surface", &m->own.surface, error);
     else if (is->mixture)
         status = check_mixture(is->mixture, error);
     if (status == VNDF_OK && vndf_compensates(e))

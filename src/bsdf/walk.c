@@ -89,7 +89,7 @@ VNDF_INLINE int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
     if (back.z < 0.0f && !(r->depth > 0.0))
         return 0;
     r->from = back;
-    r->view = vndf_view_make(&b->own.surface, back, 0);
+    r->view = vndf_view_from(&b->own.surface, back);
     return 1;
 }
 
@@ -194,7 +194,7 @@ VNDF_INLINE int scatter(const vndf_bsdf *b, const vndf_view *view, vndf_vec3 v, 
 /* Of the cosine lobes. s^2 is the product of the areas along both axes of an aligned surface. */
 static double share_of(const vndf_bsdf *b)
 {
-    const vndf_affine *m = &b->own.surface;
+    const vndf_surface *m = &b->own.surface;
     double across = (double)vndf_view_area(&b->own.view.of.one, vndf_vec3_of(1.0f, 0.0f, 0.0f));
     double determinant = fabs((double)m->xx * m->yy - (double)m->xy * m->yx), cosine = (double)b->own.wi.z;
     double slope2 = across * across * determinant / ((double)m->xx * m->xx + (double)m->xy * m->xy);
@@ -331,7 +331,7 @@ static void add_walk(const vndf_bsdf *b, const end *from, const end *to, uint64_
     vndf_vec3 along;
     if (limit < 2 || !step(b, &r, &along))
         return;
-    vndf_view view = vndf_affine_view_from(&b->own.surface, along);
+    vndf_view view = vndf_view_from(&b->own.surface, along);
     if (scatter(b, &view, along, r.eta, from->up, r.turned, &s))
         begin = s.drawn * leaving_from(depth, 0, from) / (double)from->up.z *
                 (to->beyond ? from->eta * from->eta : 1.0);
@@ -355,8 +355,7 @@ static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value
     if (!value)
         return 1;
     end near = {b->own.eta, b->own.view.of.one, b->own.wi, 0.0, beyond};
-    end far = {beyond ? 1.0 / b->own.eta : b->own.eta, vndf_affine_view_from(&b->own.surface, up), up, 0.0,
-               beyond};
+    end far = {beyond ? 1.0 / b->own.eta : b->own.eta, vndf_view_from(&b->own.surface, up), up, 0.0, beyond};
     for (end *e = &near; e; e = e == &near ? &far : NULL)
         e->lambda = (double)vndf_view_area(&e->view, vndf_turned(e->up, -1.0f)) / (double)e->up.z;
     scattered once = {{0.0}, 0.0};

@@ -9,8 +9,8 @@
 
 #include "kernel/math.h"
 
-/* M, in units of the table's slopes, and the mean slope. A `plain` surface has roughness alone, xx and yy above 0: its
- * other numbers are not read. */
+/* M, in units of the table's slopes, and the mean slope. Of a `plain` surface xx and yy alone are not 0:
+ * its other numbers are not read, and it has the same bits without them. */
 typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
     int plain;
@@ -36,10 +36,10 @@ HERE affine_map affine_measured(affine_map bare)
  * squares and cubes; mean slopes up to 1e6. NaN fails all comparisons, and makes the determinant NaN. */
 HERE mask affine_is_valid(affine_map m)
 {
-    real determinant = size(m.determinant), largest = most(m.xx, m.yy);
+    real determinant = size(m.determinant), largest = most(size(m.xx), size(m.yy));
     mask small = at_most(determinant, set(1e36f));
     if (m.plain == 0) {
-        largest = most(most(size(m.xx), size(m.xy)), most(size(m.yx), size(m.yy)));
+        largest = most(largest, most(size(m.xy), size(m.yx)));
         small = both(small, both(at_most(size(m.mean_x), set(1e6f)), at_most(size(m.mean_y), set(1e6f))));
     }
     mask large = at_most(most(largest * 1e-15f, set(1e-36f)), determinant);
@@ -70,14 +70,14 @@ typedef struct triple {
     real x, y, z;
 } triple;
 
-/* w of the direction (x, y, z), unscaled. */
+/* w of the direction (x, y, z), unscaled. a - (0 - b) is a + b, but a where b is a zero of either sign and a is -0. */
 HERE triple affine_stretched(affine_map m, real x, real y, real z)
 {
     triple w = {m.xx * x, m.yy * y, z};
     if (m.plain == 0) {
-        w.x = w.x + m.yx * y;
-        w.y = m.xy * x + w.y;
-        w.z = z - (x * m.mean_x + y * m.mean_y);
+        w.x = w.x - (0.0f - m.yx * y);
+        w.y = w.y - (0.0f - m.xy * x);
+        w.z = z - ((0.0f + x * m.mean_x) + y * m.mean_y);
     }
     return w;
 }
@@ -179,8 +179,8 @@ HERE sampled_normal frame_sampled(frame f, drawn n)
     affine_map m = f.m;
     drawn w = {m.xx * n.x, m.yy * n.y, n.z, n.density};
     if (m.plain == 0) {
-        w.x = (w.x + m.xy * n.y) - m.mean_x * n.z;
-        w.y = (m.yx * n.x + w.y) - m.mean_y * n.z;
+        w.x = (w.x - (0.0f - m.xy * n.y)) - (0.0f + m.mean_x * n.z);
+        w.y = (w.y - (0.0f - m.yx * n.x)) - (0.0f + m.mean_y * n.z);
     }
     real square = (w.x * w.x + w.y * w.y) + w.z * w.z, reach = root(square);
     mask close = at_most((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * (reach + 2e-11f));

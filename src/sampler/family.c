@@ -3,7 +3,7 @@
 
 #include "table/family/family.h"
 
-static void put_lobe(const vndf_family *family, size_t knot, double weight, const vndf_affine *shape,
+static void put_lobe(const vndf_family *family, size_t knot, double weight, const vndf_surface *shape,
                      vndf_mixture *mixture)
 {
     vndf_mixture_lobe *lobe = &mixture->lobe[mixture->count++];
@@ -26,7 +26,7 @@ static size_t knot_below(const vndf_family *family, float p)
     return low;
 }
 
-vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_affine *shape,
+vndf_family_place vndf_family_at(const vndf_family *family, float parameter, const vndf_surface *shape,
                                  vndf_mixture *mixture)
 {
     mixture->count = 0;

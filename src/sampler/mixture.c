@@ -1,4 +1,4 @@
-/* Mixtures of affine surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz &
+/* Mixtures of surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz &
  * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A, in which A_i is the area
  * that is drawn of it, and the density is the whole sum. Shares are kept themselves, never as differences of running
  * sums: that of a faint lobe has all its digits. */
@@ -38,7 +38,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         vndf_mixture_part *part = &view.part[view.count];
         if (weight[i] == 0.0f)
             continue;
-        part->view = vndf_view_make(&mixture->lobe[i].surface, wi, 0);
+        part->view = vndf_view_from(&mixture->lobe[i].surface, wi);
         if (!part->view.distribution) {
             view.count = 0;
             return view;
@@ -154,7 +154,7 @@ float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w)
 }
 
 /* A function of the surfaces, weighed. */
-typedef float of_surface(const vndf_affine *surface, vndf_vec3 w);
+typedef float of_surface(const vndf_surface *surface, vndf_vec3 w);
 
 static float weighed_sum(const vndf_mixture *mixture, of_surface *function, vndf_vec3 w)
 {
@@ -166,19 +166,19 @@ static float weighed_sum(const vndf_mixture *mixture, of_surface *function, vndf
     return least(sum, FLT_MAX);
 }
 
-static float cosine_of(const vndf_affine *s, vndf_vec3 w)
+static float cosine_of(const vndf_surface *s, vndf_vec3 w)
 {
     return w.z - (w.x * s->mean_x + w.y * s->mean_y);
 }
 
 float vndf_mixture_ndf(const vndf_mixture *mixture, vndf_vec3 wm)
 {
-    return weighed_sum(mixture, vndf_affine_ndf, wm);
+    return weighed_sum(mixture, vndf_ndf, wm);
 }
 
-static float p22_at(const vndf_affine *s, vndf_vec3 slope)
+static float p22_at(const vndf_surface *s, vndf_vec3 slope)
 {
-    return vndf_affine_p22(s, slope.x, slope.y);
+    return vndf_p22(s, slope.x, slope.y);
 }
 
 float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y)
@@ -189,7 +189,7 @@ float vndf_mixture_p22(const vndf_mixture *mixture, float x, float y)
 
 float vndf_mixture_projected_area(const vndf_mixture *mixture, vndf_vec3 w)
 {
-    return weighed_sum(mixture, vndf_affine_projected_area, w);
+    return weighed_sum(mixture, vndf_projected_area, w);
 }
 
 float vndf_mixture_lambda(const vndf_mixture *mixture, vndf_vec3 w)

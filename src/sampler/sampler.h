@@ -3,10 +3,8 @@
 #ifndef VNDF_SAMPLER_SAMPLER_H
 #define VNDF_SAMPLER_SAMPLER_H
 
+#include "core/inline.h"
 #include "vndf_bsdf.h"
-
-/* vndf_affine_view_from; `plain`: the surface has roughness alone, and gets the bits of vndf_view_from. */
-vndf_view vndf_view_make(const vndf_affine *affine, vndf_vec3 wi, int plain);
 
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the
  * view. */
@@ -34,6 +32,19 @@ vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2)
  * surfaces without a mean slope, wi.z > 0. */
 vndf_drawn_normal vndf_sample_by(const vndf_view *view, vndf_normals_drawn law, float u1, float u2);
 float vndf_pdf_by(const vndf_view *view, vndf_normals_drawn law, vndf_vec3 wm);
+
+/* Surface i of a batch. */
+VNDF_INLINE vndf_surface vndf_surface_at(const vndf_surface_batch *b, size_t i)
+{
+    const vndf_surface s = {b->distribution,
+                            b->xx[i],
+                            b->xy ? b->xy[i] : 0.0f,
+                            b->yx ? b->yx[i] : 0.0f,
+                            b->yy[i],
+                            b->mean_x ? b->mean_x[i] : 0.0f,
+                            b->mean_y ? b->mean_y[i] : 0.0f};
+    return s;
+}
 
 /* G2 from both G1. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model);

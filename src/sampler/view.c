@@ -1,5 +1,6 @@
 /* The calls for one element: views, samples, densities and what goes with them, by the text of the kernel. */
 #include <float.h>
+#include <string.h>
 
 #include "sampler/sampler.h"
 #include "sampler/state.h"
@@ -10,30 +11,40 @@ typedef struct vndf_mapped {
     affine_map m;
 } vndf_mapped;
 
-VNDF_INLINE vndf_mapped mapped(const vndf_affine *a, const int plain)
+VNDF_INLINE uint32_t bits_of(float x)
 {
-    vndf_mapped s = {0};
-    if (!a->distribution || (plain && (!(a->xx > 0.0f) || !(a->yy > 0.0f))))
-        return s;
-    float unit = a->distribution->unit;
-    affine_map m = {a->xx * unit, a->xy * unit, a->yx * unit, a->yy * unit, a->mean_x, a->mean_y, plain, 0.0f};
-    s.m = affine_measured(m);
-    s.distribution = any(affine_is_valid(s.m)) ? a->distribution : NULL;
+    uint32_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+/* Whether all but xx and yy are 0, of either sign. */
+VNDF_INLINE int is_plain(const vndf_surface *s)
+{
+    return (bits_of(s->xy) | bits_of(s->yx) | bits_of(s->mean_x) | bits_of(s->mean_y)) << 1 == 0;
+}
+
+VNDF_INLINE vndf_mapped mapped_as(const vndf_surface *surface, const int plain)
+{
+    float unit = surface->distribution->unit;
+    affine_map m = {surface->xx * unit, 0.0f, 0.0f, surface->yy * unit, 0.0f, 0.0f, plain, 0.0f};
+    if (!plain) {
+        m.xy = surface->xy * unit;
+        m.yx = surface->yx * unit;
+        m.mean_x = surface->mean_x;
+        m.mean_y = surface->mean_y;
+    }
+    m = affine_measured(m);
+    const vndf_mapped s = {any(affine_is_valid(m)) ? surface->distribution : NULL, m};
     return s;
 }
 
-VNDF_INLINE vndf_mapped affine_mapped(const vndf_affine *a)
+VNDF_INLINE vndf_mapped mapped(const vndf_surface *surface)
 {
-    const vndf_affine none = {0};
-    return mapped(a ? a : &none, 0);
-}
-
-VNDF_INLINE vndf_mapped surface_mapped(const vndf_surface *s)
-{
-    vndf_affine a = {0};
-    if (s)
-        a.distribution = s->distribution, a.xx = s->alpha_x, a.yy = s->alpha_y;
-    return mapped(&a, 1);
+    const vndf_mapped none = {0};
+    if (!surface || !surface->distribution)
+        return none;
+    return is_plain(surface) ? mapped_as(surface, 1) : mapped_as(surface, 0);
 }
 
 VNDF_INLINE int is_direction(vndf_vec3 w)
@@ -45,66 +56,52 @@ VNDF_INLINE int is_direction(vndf_vec3 w)
 
 /* A view by the text of one kind. It is built where the caller wants it: gcc copies what was written through a pointer,
  * and the loads of that copy wait for the stores (14 of 41 ns of GGX). */
-VNDF_INLINE vndf_view view_of(const vndf_affine *affine, vndf_vec3 wi, const int plain, const int kind)
+VNDF_INLINE vndf_view view_of(const vndf_surface *surface, vndf_vec3 wi, const int kind)
 {
     vndf_view view;
     view.distribution = NULL;
     view.wi = wi;
-    vndf_mapped surface = mapped(affine, plain);
-    if (!surface.distribution || !is_direction(wi))
+    vndf_mapped map = mapped(surface);
+    if (!map.distribution || !is_direction(wi))
         return view;
     vndf_state *s = (vndf_state *)(void *)view.numbers;
-    frame f = frame_of(surface.m, wi.x, wi.y, wi.z);
-    view.distribution = surface.distribution;
+    frame f = frame_of(map.m, wi.x, wi.y, wi.z);
+    view.distribution = map.distribution;
     s->f = f;
     if (kind == VNDF_KIND_GGX)
         s->of.ggx = ggx_see(f.ux, f.uy, f.uz);
     else if (kind == VNDF_KIND_BECKMANN)
         s->of.beckmann = beckmann_see(f.ux, f.uy, f.uz);
     else if (f.uz < 0.0f)
-        s->of.table = table_view_of(table_of(surface.distribution), f, 1);
+        s->of.table = table_view_of(table_of(map.distribution), f, 1);
     else
-        s->of.table = table_view_of(table_of(surface.distribution), f, 0);
+        s->of.table = table_view_of(table_of(map.distribution), f, 0);
     return view;
 }
 
 /* Each kind has a function of its own, since a common one would keep the numbers of all kinds in registers. */
-VNDF_RARE vndf_view view_of_ggx(const vndf_affine *affine, vndf_vec3 wi, int plain)
+VNDF_RARE vndf_view view_of_ggx(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(affine, wi, plain, VNDF_KIND_GGX);
+    return view_of(surface, wi, VNDF_KIND_GGX);
 }
 
-VNDF_RARE vndf_view view_of_beckmann(const vndf_affine *affine, vndf_vec3 wi, int plain)
+VNDF_RARE vndf_view view_of_beckmann(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(affine, wi, plain, VNDF_KIND_BECKMANN);
+    return view_of(surface, wi, VNDF_KIND_BECKMANN);
 }
 
-VNDF_RARE vndf_view view_of_table(const vndf_affine *affine, vndf_vec3 wi, int plain)
+VNDF_RARE vndf_view view_of_table(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(affine, wi, plain, VNDF_KIND_TABLE);
-}
-
-vndf_view vndf_view_make(const vndf_affine *affine, vndf_vec3 wi, int plain)
-{
-    if (affine->distribution && affine->distribution->kind == VNDF_KIND_GGX)
-        return view_of_ggx(affine, wi, plain);
-    if (affine->distribution && affine->distribution->kind == VNDF_KIND_BECKMANN)
-        return view_of_beckmann(affine, wi, plain);
-    return view_of_table(affine, wi, plain);
-}
-
-vndf_view vndf_affine_view_from(const vndf_affine *affine, vndf_vec3 wi)
-{
-    const vndf_affine none = {0};
-    return vndf_view_make(affine ? affine : &none, wi, 0);
+    return view_of(surface, wi, VNDF_KIND_TABLE);
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    vndf_affine a = {0};
-    if (surface)
-        a.distribution = surface->distribution, a.xx = surface->alpha_x, a.yy = surface->alpha_y;
-    return vndf_view_make(&a, wi, 1);
+    if (surface && surface->distribution && surface->distribution->kind == VNDF_KIND_GGX)
+        return view_of_ggx(surface, wi);
+    if (surface && surface->distribution && surface->distribution->kind == VNDF_KIND_BECKMANN)
+        return view_of_beckmann(surface, wi);
+    return view_of_table(surface, wi);
 }
 
 /* ---- samples ---- */
@@ -258,39 +255,20 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
     return least(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
 }
 
-VNDF_INLINE float ndf_of(vndf_mapped surface, vndf_vec3 wm)
-{
-    if (!surface.distribution || !(wm.z >= 0.0f))
-        return 0.0f;
-    frame f = frame_of(surface.m, 0.0f, 0.0f, 1.0f);
-    return least(unit_ndf(surface.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
-}
-
-float vndf_affine_ndf(const vndf_affine *affine, vndf_vec3 wm)
-{
-    return ndf_of(affine_mapped(affine), wm);
-}
-
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
 {
-    return ndf_of(surface_mapped(surface), wm);
+    vndf_mapped s = mapped(surface);
+    if (!s.distribution || !(wm.z >= 0.0f))
+        return 0.0f;
+    frame f = frame_of(s.m, 0.0f, 0.0f, 1.0f);
+    return least(unit_ndf(s.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
 }
 
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
-VNDF_INLINE float p22_of(vndf_mapped surface, float x, float y)
-{
-    vndf_vec3 normal = {-x, -y, 1.0f};
-    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? ndf_of(surface, normal) : 0.0f;
-}
-
-float vndf_affine_p22(const vndf_affine *affine, float x, float y)
-{
-    return p22_of(affine_mapped(affine), x, y);
-}
-
 float vndf_p22(const vndf_surface *surface, float x, float y)
 {
-    return p22_of(surface_mapped(surface), x, y);
+    vndf_vec3 normal = {-x, -y, 1.0f};
+    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? vndf_ndf(surface, normal) : 0.0f;
 }
 
 /* ---- area and masking ---- */
@@ -315,14 +293,15 @@ VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
     return law_area(t, v, f->uz < 0.0f) * frame_reach(*f);
 }
 
-static look_at look_along(vndf_mapped surface, vndf_vec3 w)
+static look_at look_along(const vndf_surface *surface, vndf_vec3 w)
 {
     look_at at = {0.0f, 0.0f};
-    if (!surface.distribution || !is_direction(w))
+    vndf_mapped s = mapped(surface);
+    if (!s.distribution || !is_direction(w))
         return at;
-    frame f = frame_of(surface.m, w.x, w.y, w.z);
+    frame f = frame_of(s.m, w.x, w.y, w.z);
     at.cosine = f.uz * f.size;
-    at.area = area_along(surface.distribution, &f) * f.size;
+    at.area = area_along(s.distribution, &f) * f.size;
     return at;
 }
 
@@ -365,42 +344,20 @@ float vndf_g2_of(float gi, float go, vndf_g2_model model)
     return lesser * (greater / (greater + lesser * (1.0f - greater)));
 }
 
-float vndf_affine_projected_area(const vndf_affine *affine, vndf_vec3 w)
-{
-    return look_along(affine_mapped(affine), w).area;
-}
-
-float vndf_affine_lambda(const vndf_affine *affine, vndf_vec3 w)
-{
-    look_at at = look_along(affine_mapped(affine), w);
-    return lambda_of(at.area, at.cosine);
-}
-
-float vndf_affine_g1(const vndf_affine *affine, vndf_vec3 w)
-{
-    look_at at = look_along(affine_mapped(affine), w);
-    return g1_of(at.area, at.cosine);
-}
-
-float vndf_affine_g2(const vndf_affine *affine, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
-{
-    return vndf_g2_of(vndf_affine_g1(affine, wi), vndf_affine_g1(affine, wo), model);
-}
-
 float vndf_projected_area(const vndf_surface *surface, vndf_vec3 w)
 {
-    return look_along(surface_mapped(surface), w).area;
+    return look_along(surface, w).area;
 }
 
 float vndf_lambda(const vndf_surface *surface, vndf_vec3 w)
 {
-    look_at at = look_along(surface_mapped(surface), w);
+    look_at at = look_along(surface, w);
     return lambda_of(at.area, at.cosine);
 }
 
 float vndf_g1(const vndf_surface *surface, vndf_vec3 w)
 {
-    look_at at = look_along(surface_mapped(surface), w);
+    look_at at = look_along(surface, w);
     return g1_of(at.area, at.cosine);
 }
 

@@ -99,7 +99,7 @@ static void light(const vndf_distribution *d, float alpha_x, float alpha_y, doub
                   const bake_cosine *c, float all, double sum[2])
 {
     enum { SIDE = 96 };
-    const vndf_description of = {.distribution = d, .alpha_x = alpha_x, .alpha_y = alpha_y};
+    const vndf_description of = {.surface = vndf_rough(d, alpha_x, alpha_y)};
     const double r = sqrt(1 - cosine * cosine);
     const vndf_vec3 wi = {(float)(r * cos(azimuth)), (float)(r * sin(azimuth)), (float)cosine};
     vndf_material material;

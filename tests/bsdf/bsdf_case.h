@@ -25,13 +25,13 @@ static inline float bsdf_around(float most, unsigned long long *state)
     return most * (2 * test_uniform(state) - 1);
 }
 
-/* R diag R of singular values from 0.01 to 3, mirrored half of the time; with a mean slope or without. */
-static inline vndf_affine bsdf_affine(const vndf_distribution *d, float mean, unsigned long long *state)
+/* A surface: R diag R of singular values from 0.01 to 3, mirrored half of the time; with a mean slope or without. */
+static inline vndf_surface bsdf_sheared(const vndf_distribution *d, float mean, unsigned long long *state)
 {
     double x = exp(log(0.01) + log(300) * test_uniform_double(state)), p = 2 * PI * test_uniform_double(state);
     double y = exp(log(0.01) + log(300) * test_uniform_double(state)), q = 2 * PI * test_uniform_double(state);
     double flip = test_uniform(state) < 0.5f ? -1 : 1;
-    vndf_affine a = oracle_turned(d, x, y * flip, q, p);
+    vndf_surface a = oracle_turned(d, x, y * flip, q, p);
     a.mean_x = bsdf_around(mean, state);
     a.mean_y = bsdf_around(mean, state);
     return a;
@@ -42,25 +42,30 @@ typedef struct bsdf_subject {
     vndf_description is;
     vndf_mixture mixture;
     const oracle_ndf *ndf[ORACLE_LOBES];
+    float alpha[2];
+    int is_rough; /* of this roughness, along x and y or turned, and level */
 } bsdf_subject;
 
 /* Of the distributions `all`, the first of them where there is one. Roughness from the list, half of the time
- * anisotropic; index ratios 1/1.5, 1.001, 1.33, 2.4 and what they are from the other side. */
+ * anisotropic, or a matrix; index ratios 1/1.5, 1.001, 1.33, 2.4 and what they are from the other side. */
 static inline void bsdf_material(bsdf_subject *s, const oracle_ndf *all, size_t ndfs, const vndf_effects *effects,
                                  const float *alphas, size_t count, unsigned long long *state)
 {
     static const float etas[] = {1 / 1.5f, 1.001f, 1.33f, 2.4f, 1.5f, 1 / 1.001f, 1 / 1.33f, 1 / 2.4f};
     vndf_description *is = &s->is;
-    *is = (vndf_description){.distribution = all->distribution, .effects = *effects, .mixture = &s->mixture};
-    is->alpha_x = is->alpha_y = bsdf_pick(alphas, count, state);
+    *is = (vndf_description){.effects = *effects, .mixture = &s->mixture};
+    s->alpha[0] = s->alpha[1] = bsdf_pick(alphas, count, state);
     if (test_uniform(state) < 0.5f)
-        is->alpha_y = bsdf_pick(alphas, count, state);
-    is->rotation = bsdf_around(10, state);
-    is->affine = bsdf_affine(all->distribution, test_uniform(state) < 0.8f ? 1.4f : 0, state);
+        s->alpha[1] = bsdf_pick(alphas, count, state);
+    const float turn = test_uniform(state) < 0.5f ? 0 : bsdf_around(10, state);
+    s->is_rough = effects->shape == VNDF_SHAPE_LEVEL && test_uniform(state) < 0.7f;
+    is->surface =
+        s->is_rough ? vndf_rotated(vndf_rough(all->distribution, s->alpha[0], s->alpha[1]), cosf(turn), sinf(turn))
+                    : bsdf_sheared(all->distribution, test_uniform(state) < 0.8f ? 1.4f : 0, state);
     s->mixture.count = 1 + (int)(ORACLE_LOBES * test_uniform(state));
     for (int i = 0; i < s->mixture.count; i++) {
         s->ndf[i] = &all[i ? (size_t)((float)ndfs * test_uniform(state)) : 0];
-        s->mixture.lobe[i].surface = bsdf_affine(s->ndf[i]->distribution, 1.4f, state);
+        s->mixture.lobe[i].surface = bsdf_sheared(s->ndf[i]->distribution, 1.4f, state);
         s->mixture.lobe[i].weight = 0.05f + test_uniform(state);
     }
     is->eta = bsdf_pick(etas, 8, state);
@@ -124,9 +129,11 @@ static inline void bsdf_describe(const vndf_description *is, const char *ndf, vn
         stderr,
         "  lobes %d, fresnel %d, masking %d, normals %d, scattering %d, transport %d, shape %d, reflection %d\n",
         e->lobes, e->fresnel, e->masking, e->normals, e->scattering, e->transport, e->shape, e->reflection);
-    fprintf(stderr, "    %s, alpha %.9g %.9g, eta %.9g, rotation %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n",
-            ndf, (double)is->alpha_x, (double)is->alpha_y, (double)is->eta, (double)is->rotation, (double)wi.x,
-            (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
+    const vndf_surface *a = &is->surface;
+    fprintf(stderr,
+            "    %s, (%.9g %.9g; %.9g %.9g) mean %.9g %.9g, eta %.9g, wi %.9g %.9g %.9g, wo %.9g %.9g %.9g\n", ndf,
+            (double)a->xx, (double)a->xy, (double)a->yx, (double)a->yy, (double)a->mean_x, (double)a->mean_y,
+            (double)is->eta, (double)wi.x, (double)wi.y, (double)wi.z, (double)wo.x, (double)wo.y, (double)wo.z);
 }
 
 #endif

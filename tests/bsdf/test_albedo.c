@@ -28,7 +28,7 @@ typedef struct subject {
 static vndf_description describe(const subject *s, vndf_scattering way, float alpha)
 {
     vndf_description is = {
-        .distribution = s->distribution, .alpha_x = alpha, .alpha_y = alpha, .albedo = s->albedo, .eta = s->eta};
+        .surface = vndf_rough(s->distribution, alpha, alpha), .albedo = s->albedo, .eta = s->eta};
     is.effects = (vndf_effects){.scattering = way, .transport = VNDF_TRANSPORT_IMPORTANCE};
     if (s->eta > 0) {
         is.effects.lobes = VNDF_LOBES_BOTH;
@@ -217,7 +217,7 @@ static void test_values(const subject *s)
             wo.z = fabsf(wo.z);
         }
         check_pair(s, alpha, wi, wo);
-        is.alpha_y *= k % 3 ? 1 : 0.3f;
+        is.surface.yy *= k % 3 ? 1 : 0.3f;
         if (s->ways > 1 && k % 4 == 1) /* what glass reflects inside */
             is.effects.fresnel = VNDF_FRESNEL_DIELECTRIC, is.eta = 1.5f, wi.z = -wi.z;
         check_sample(hit_from(&h, &is, wi), u);
@@ -231,13 +231,13 @@ static void test_refusals(const subject *mirror, const subject *glass)
     const vndf_description is = describe(mirror, WAYS[0], 0.3f), other = describe(glass, WAYS[0], 0.3f);
     vndf_description bad[] = {is, is, is, is, is, other, other, other, other};
     static const char *const says[] = {"albedo is NULL",  "eta", "albedo is that of", "MASKING_HEIGHT_CORRELATED",
-                                       "SHAPE_AFFINE",    "eta", "DIELECTRIC",        "LOBES_BOTH",
+                                       "SHAPE_TILTED",    "eta", "DIELECTRIC",        "LOBES_BOTH",
                                        "LOBES_REFLECTION"};
     bad[0].albedo = NULL;
     bad[1].albedo = glass->albedo;
-    bad[2].distribution = vndf_beckmann();
+    bad[2].surface.distribution = vndf_beckmann();
     bad[3].effects.masking = VNDF_MASKING_SEPARABLE;
-    bad[4].effects.shape = VNDF_SHAPE_AFFINE;
+    bad[4].effects.shape = VNDF_SHAPE_TILTED;
     bad[5].eta = 1.4f;
     bad[6].effects.fresnel = VNDF_FRESNEL_SCHLICK;
     bad[7].effects.lobes = VNDF_LOBES_TRANSMISSION;

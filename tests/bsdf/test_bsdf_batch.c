@@ -1,8 +1,8 @@
 /* A batch of a BSDF gives the bits of its calls for one - directions, facets, lobes, weights, values and densities -
  * and writes nothing past its end: for every sensible set of effects and shape, walks among them, with all instruction
- * sets and without, for batches of one to several blocks that end anywhere, shared or own directions, roughness,
- * matrices and mixtures, wi on either side. Whatever bits go in, no NaN and nothing infinite or negative comes out:
- * directions that are NaN, infinite or zero, at either end, and roughness that is not above 0, scatter nothing; numbers
+ * sets and without, for batches of one to several blocks that end anywhere, shared or own directions, surfaces, plain
+ * and sheared, and mixtures, wi on either side. Whatever bits go in, no NaN and nothing infinite or negative comes out:
+ * directions that are NaN, infinite or zero, at either end, and matrices that are singular, scatter nothing; numbers
  * outside [0, 1] are as good as any. A call that is made for another shape scatters nothing. */
 #include <float.h>
 
@@ -11,8 +11,8 @@
 enum { COUNT = 600, SPARE = 32, BYTE = 99 }; /* every byte of results before the calls */
 
 typedef struct inputs {
-    float wi[3][COUNT], wo[3][COUNT], u[3][COUNT], alpha[2][COUNT], turn[2][COUNT];
-    vndf_affine affine[COUNT];
+    float wi[3][COUNT], wo[3][COUNT], u[3][COUNT];
+    float xx[COUNT], xy[COUNT], yx[COUNT], yy[COUNT], mean_x[COUNT], mean_y[COUNT];
     vndf_mixture mixture[COUNT];
     uint64_t seed[COUNT];
 } inputs;
@@ -43,21 +43,21 @@ static void fill(inputs *in, const bsdf_subject *s, size_t count, int hostile, u
     float least = 2e-4f + test_uniform(state) * test_uniform(state);
     for (size_t i = 0; i < count; i++) {
         const vndf_vec3 w[2] = {bsdf_direction(state), bsdf_direction(state)};
-        float u[3], angle = 7 * test_uniform(state);
-        float *const all[] = {&in->wi[0][i], &in->wi[1][i],    &in->wi[2][i],    &in->wo[0][i],  &in->wo[1][i],
-                              &in->wo[2][i], &in->alpha[0][i], &in->alpha[1][i], &in->turn[0][i]};
+        float u[3];
+        float *const all[] = {&in->wi[0][i], &in->wi[1][i], &in->wi[2][i], &in->wo[0][i], &in->wo[1][i],
+                              &in->wo[2][i], &in->xx[i],    &in->yy[i],    &in->xy[i]};
         bsdf_numbers(state, u);
         for (int k = 0; k < 3; k++)
             in->u[k][i] = test_random_bits(state) >> (hostile ? 61 : 59) ? u[k] : hard(state);
-        in->alpha[0][i] = least * (1 + 9 * test_uniform(state));
-        in->alpha[1][i] = test_random_bits(state) >> 63 ? in->alpha[0][i] : least * (1 + 9 * test_uniform(state));
+        const float x = least * (1 + 9 * test_uniform(state)), y = least * (1 + 9 * test_uniform(state));
+        const vndf_surface a =
+            i % 3 ? bsdf_sheared(NULL, i % 2 ? 1.0f : 0.0f, state) : vndf_rough(NULL, x, i % 2 ? x : y);
+        in->xx[i] = a.xx, in->xy[i] = a.xy, in->yx[i] = a.yx, in->yy[i] = a.yy;
+        in->mean_x[i] = a.mean_x, in->mean_y[i] = a.mean_y;
         in->wi[0][i] = w[0].x, in->wi[1][i] = w[0].y, in->wi[2][i] = w[0].z;
         in->wo[0][i] = w[1].x, in->wo[1][i] = w[1].y, in->wo[2][i] = w[1].z;
-        in->turn[0][i] = cosf(angle);
-        in->turn[1][i] = sinf(angle);
-        in->affine[i] = bsdf_affine(NULL, 1, state);
         in->mixture[i] = s->mixture;
-        in->mixture[i].lobe[0].surface = bsdf_affine(s->is.distribution, 1, state);
+        in->mixture[i].lobe[0].surface = bsdf_sheared(s->is.surface.distribution, 1, state);
         in->mixture[i].lobe[0].weight = i % 5 ? test_uniform(state) : -1.0f;
         in->seed[i] = i;
         for (int k = 0; k < 9 && hostile; k++)
@@ -98,35 +98,34 @@ static void run(const vndf_bsdf_batch *b, const inputs *in, int with_wm, results
     vndf_bsdf_eval_pdf_n(b, given, NULL, NULL, r->pdf[1]);
 }
 
+/* Also calls for another shape, or for none. */
 static int hit_at(const vndf_bsdf_batch *b, const inputs *in, size_t i, vndf_bsdf *hit)
 {
     const vndf_material *m = b->material;
-    size_t at = b->shared & VNDF_SHARED_ALPHA ? 0 : i, from = b->shared & VNDF_SHARED_WI ? 0 : i;
+    size_t at = b->shared & VNDF_SHARED_SURFACE ? 0 : i, from = b->shared & VNDF_SHARED_WI ? 0 : i;
     vndf_vec3 wi = {in->wi[0][from], in->wi[1][from], in->wi[2][from]};
-    vndf_roughness r = {in->alpha[0][at], in->alpha[1][at], in->turn[0][at], in->turn[1][at]};
-    vndf_shape shape = m->is.effects.shape;
-    int seen = shape == VNDF_SHAPE_MIXTURE  ? vndf_bsdf_mixture(hit, m, b->mixture ? &in->mixture[at] : NULL, wi)
-               : shape > VNDF_SHAPE_ROTATED ? vndf_bsdf_affine(hit, m, b->affine ? &in->affine[at] : NULL, wi)
-                                            : vndf_bsdf_rough(hit, m, b->alpha_x ? &r : NULL, wi);
-    int is_rough = shape <= VNDF_SHAPE_ROTATED, is_affine = !is_rough && shape != VNDF_SHAPE_MIXTURE;
+    vndf_surface a = {NULL, in->xx[at], 0, 0, in->yy[at], 0, 0}, singular = {NULL, 1, 2, 2, 4, 0, 0};
+    const int mixed = m->is.effects.shape == VNDF_SHAPE_MIXTURE;
+    if (b->surface.xy)
+        a.xy = in->xy[at], a.yx = in->yx[at], a.mean_x = in->mean_x[at], a.mean_y = in->mean_y[at];
+    int seen = mixed ? vndf_bsdf_mixture(hit, m, b->mixture ? &in->mixture[at] : NULL, wi)
+                     : vndf_bsdf_on(hit, m, b->surface.xx ? &a : NULL, wi);
+    double determinant = (double)a.xx * (double)a.yy - (double)a.xy * (double)a.yx;
     TEST(!seen || is_direction(wi));
-    TEST(!seen || !is_rough || !b->alpha_x ||
-         (sound(r.alpha_x) && sound(r.alpha_y) && r.alpha_x > 0 && r.alpha_y > 0));
-    const vndf_affine singular = {NULL, 1, 2, 2, 4, 0, 0}; /* calls for another shape, or for none */
+    TEST(!seen || mixed || !b->surface.xx || (isfinite(determinant) && determinant != 0));
     vndf_mixture none = in->mixture[at];
     vndf_bsdf other;
     none.count = 0;
-    TEST(is_rough || !vndf_bsdf_rough(&other, m, &r, wi));
-    TEST(is_affine || !vndf_bsdf_affine(&other, m, &in->affine[at], wi));
-    TEST((!is_rough && !is_affine) || !vndf_bsdf_mixture(&other, m, &in->mixture[at], wi));
-    TEST(!vndf_bsdf_affine(&other, m, &singular, wi) && !vndf_bsdf_mixture(&other, m, &none, wi));
+    TEST(!mixed || !vndf_bsdf_on(&other, m, &a, wi));
+    TEST(mixed || !vndf_bsdf_mixture(&other, m, &in->mixture[at], wi));
+    TEST(!vndf_bsdf_on(&other, m, &singular, wi) && !vndf_bsdf_mixture(&other, m, &none, wi));
     return seen;
 }
 
 /* What one hit gave. */
 static int is_sound(const vndf_bsdf *b, int seen, const vndf_scattered *s, vndf_vec3 wo, const float *f, float pdf)
 {
-    int nothing = !seen || !is_direction(wo) || (b->material->is.effects.shape < VNDF_SHAPE_AFFINE && wo.z == 0);
+    int nothing = !seen || !is_direction(wo) || (b->material->is.effects.shape == VNDF_SHAPE_LEVEL && wo.z == 0);
     int good =
         TEST((s->lobe == VNDF_LOBE_NONE) == (s->density == 0) && (seen || s->lobe == VNDF_LOBE_NONE)) &
         TEST(sound(s->density) && sound(pdf) && is_direction(s->wo) && (!nothing || pdf == 0) && !isnan(s->wm.x));
@@ -193,9 +192,9 @@ static void test_material(const oracle_ndf *ndf, const vndf_effects *e, size_t n
     fill(&in, &s, b.count, hostile, state);
     b.wi_x = in.wi[0], b.wi_y = in.wi[1], b.wi_z = in.wi[2];
     if (own) {
-        b.alpha_x = in.alpha[0], b.alpha_y = in.alpha[1];
-        b.cos_rotation = in.turn[0], b.sin_rotation = in.turn[1];
-        b.affine = in.affine;
+        b.surface = (vndf_surface_batch){.xx = in.xx, .yy = in.yy};
+        if (n % 5 < 4)
+            b.surface = (vndf_surface_batch){NULL, in.xx, in.xy, in.yx, in.yy, in.mean_x, in.mean_y};
         b.mixture = in.mixture;
     }
     run(&b, &in, n % 4 > 0, &got);

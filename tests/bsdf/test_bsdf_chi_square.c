@@ -21,8 +21,8 @@ enum { SETTING_COUNT = 7, KIND_COUNT = 3 };
 /* Lobes, normals and shapes; Fresnel and masking do not change what is drawn but for the choice of the lobe. */
 static int is_tried(const vndf_effects *e)
 {
-    int turned = e->shape == VNDF_SHAPE_ROTATED;
-    vndf_fresnel fresnel = e->lobes == VNDF_LOBES_BOTH || (e->lobes == VNDF_LOBES_REFLECTION && turned)
+    int leans = e->shape == VNDF_SHAPE_TILTED;
+    vndf_fresnel fresnel = e->lobes == VNDF_LOBES_BOTH || (e->lobes == VNDF_LOBES_REFLECTION && leans)
                                ? VNDF_FRESNEL_DIELECTRIC
                                : VNDF_FRESNEL_NONE;
     vndf_masking masking =
@@ -31,15 +31,18 @@ static int is_tried(const vndf_effects *e)
            e->masking == masking && e->transport == VNDF_TRANSPORT_RADIANCE;
 }
 
-/* A sheared and mirrored matrix, a mean slope that leans towards wi, and a second lobe a tenth as wide. */
-static void shape_of(vndf_description *is, vndf_vec3 wi, vndf_mixture *lobes)
+/* Roughness, every third time turned; else a sheared and mirrored matrix, with a mean slope that leans towards wi; and
+ * a second lobe a tenth as wide. */
+static void shape_of(vndf_description *is, const oracle_ndf *ndf, const setting *at, vndf_vec3 wi,
+                     unsigned long long seed, vndf_mixture *lobes)
 {
-    float lean = wi.z < 0 ? 0.4f : -0.4f;
-    is->affine = (vndf_affine){is->distribution,    0.8f * is->alpha_x, 0.5f * is->alpha_y, 0.6f * is->alpha_x,
-                               -0.9f * is->alpha_y, lean * wi.x,        lean * wi.y};
-    lobes->count = 2;
-    lobes->lobe[0] = (vndf_mixture_lobe){is->affine, 0.7f};
-    lobes->lobe[1] = (vndf_mixture_lobe){{vndf_ggx(), 0.1f * is->alpha_x, 0, 0, 0.1f * is->alpha_y, 0, 0}, 0.2f};
+    const float lean = wi.z < 0 ? 0.4f : -0.4f, x = at->alpha_x, y = at->alpha_y;
+    const vndf_surface rough = vndf_rough(ndf->distribution, x, y),
+                       sheared = {rough.distribution, 0.8f * x,    0.5f * y,   0.6f * x,
+                                  -0.9f * y,          lean * wi.x, lean * wi.y};
+    const int kind = is->effects.shape == VNDF_SHAPE_LEVEL ? (int)(seed % 3) : 2;
+    is->surface = kind == 0 ? rough : kind == 1 ? vndf_rotated(rough, cosf(0.7f), sinf(0.7f)) : sheared;
+    *lobes = (vndf_mixture){2, {{sheared, 0.7f}, {vndf_rough(vndf_ggx(), 0.1f * x, 0.1f * y), 0.2f}}};
     is->mixture = lobes;
 }
 
@@ -71,19 +74,14 @@ static void test_hit(const vndf_bsdf *bsdf, vndf_vec3 wi, unsigned long long see
 static void test_one(const oracle_ndf *ndf, const vndf_effects *effects, const setting *at,
                      unsigned long long seed, double samples, double level)
 {
-    vndf_description is = {.distribution = ndf->distribution,
-                           .effects = *effects,
-                           .alpha_x = at->alpha_x,
-                           .alpha_y = at->alpha_y,
-                           .rotation = 0.7f,
-                           .eta = at->eta};
+    vndf_description is = {.effects = *effects, .eta = at->eta};
     vndf_vec3 wi = oracle_toward((double)at->z, (double)at->phi);
     vndf_mixture lobes;
     vndf_material material;
     vndf_bsdf bsdf;
     if (!oracle_bsdf_two_sided(effects))
         wi.z = fabsf(wi.z);
-    shape_of(&is, wi, &lobes);
+    shape_of(&is, ndf, at, wi, seed, &lobes);
     if (TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK && vndf_bsdf_at(&bsdf, &material, wi)))
         test_hit(&bsdf, wi, seed, samples, level);
 }

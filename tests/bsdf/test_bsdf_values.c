@@ -85,9 +85,9 @@ static int check_formulas(hit *h, vndf_vec3 wo, finding *found)
 {
     float f[VNDF_WAVELENGTHS], pdf;
     reading want[READINGS], *density = &want[VNDF_WAVELENGTHS];
-    int good = 1, plain = h->of.is.effects.shape < VNDF_SHAPE_MATRIX;
+    int good = 1, plain = h->of.is_rough;
     vndf_bsdf_eval_pdf(&h->bsdf, wo, 1, f, &pdf);
-    if (plain && fminf(h->of.is.alpha_x, h->of.is.alpha_y) < 0.01f)
+    if (plain && fminf(h->of.alpha[0], h->of.alpha[1]) < 0.01f)
         return 1;
     read_formulas(&h->oracle, h->wi, wo, want);
     if (!plain && fabsf(h->wi.z + wo.z) < 1e-6f) /* level facets divide 0 by 0 here */
@@ -111,7 +111,7 @@ static int check_formulas(hit *h, vndf_vec3 wo, finding *found)
 static int check_weight(hit *h, const vndf_scattered *s, int is_even, finding *found)
 {
     bsdf_look at = bsdf_look_at(&h->bsdf, s->wo), spread = bsdf_spread(&h->bsdf, s->wo, &at);
-    int is_plain = h->of.is.effects.shape < VNDF_SHAPE_MATRIX;
+    int is_plain = h->of.is_rough;
     double worst = 0;
     /* G2 of transmission through V-cavities is a difference: as exact as what it is taken from */
     double least = h->of.is.effects.masking == VNDF_MASKING_V_CAVITIES ? 2 : is_plain ? 1e-30 : 1e-3;
@@ -148,12 +148,12 @@ static int check_weight(hit *h, const vndf_scattered *s, int is_even, finding *f
 static int check_bound(const hit *h, const vndf_scattered *s, int is_even)
 {
     const vndf_effects *e = &h->of.is.effects;
-    const vndf_info info = vndf_distribution_info(h->of.is.distribution);
+    const vndf_info info = vndf_distribution_info(h->of.is.surface.distribution);
     double most = info.bytes > 0 ? (double)info.certificate.max_weight : 1;
-    if (is_even && e->normals == VNDF_NORMALS_BOUNDED && info.bytes > 0 && e->shape < VNDF_SHAPE_MATRIX &&
-        h->of.is.alpha_x == h->of.is.alpha_y)
+    if (is_even && e->normals == VNDF_NORMALS_BOUNDED && info.bytes > 0 && h->of.is_rough &&
+        h->of.alpha[0] == h->of.alpha[1])
         return TEST(s->lobe != VNDF_LOBE_NONE);
-    if (e->normals != VNDF_NORMALS_VISIBLE || e->shape > VNDF_SHAPE_MATRIX || s->lobe != VNDF_LOBE_REFLECTION ||
+    if (e->normals != VNDF_NORMALS_VISIBLE || e->shape != VNDF_SHAPE_LEVEL || s->lobe != VNDF_LOBE_REFLECTION ||
         fabsf(h->wi.z) < 0.01f || e->masking == VNDF_MASKING_NONE || e->masking == VNDF_MASKING_V_CAVITIES ||
         (e->lobes == VNDF_LOBES_BOTH && e->fresnel != VNDF_FRESNEL_DIELECTRIC))
         return 1;
@@ -229,11 +229,11 @@ static void test_hit(const oracle_ndf *all, size_t ndfs, int is_even, const vndf
     bsdf_numbers(state, u);
     if (test_uniform(state) < 0.1f) /* far out, or beside the pole */
         u[1] = test_uniform(state) < 0.5f ? u[1] * 1e-5f : 1 - u[1] * 1e-5f;
-    if (!oracle_bsdf_two_sided(effects) && effects->shape < VNDF_SHAPE_AFFINE && test_uniform(state) < 0.9f)
+    if (!oracle_bsdf_two_sided(effects) && effects->shape == VNDF_SHAPE_LEVEL && test_uniform(state) < 0.9f)
         h.wi.z = fabsf(h.wi.z);
     oracle_from_vec3(h.wi, wi);
     double rise = oracle_bsdf_rise(&h.oracle, wi);
-    if (effects->shape >= VNDF_SHAPE_AFFINE && fabs(rise) < 1e-5) /* along the mean plane: rounding decides */
+    if (effects->shape != VNDF_SHAPE_LEVEL && fabs(rise) < 1e-5) /* along the mean plane: rounding decides */
         return;
     TEST(vndf_material_resolve(&h.of.is, &h.material, NULL) == VNDF_OK);
     int seen = vndf_bsdf_at(&h.bsdf, &h.material, h.wi);

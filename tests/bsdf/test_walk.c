@@ -63,9 +63,7 @@ static void hit_at(hit *h, const vndf_description *is, const oracle_ndf *ndf, co
     float per = 1 / (float)vndf_distribution_info(ndf->distribution).scale;
     vndf_bsdf *to[4] = {&h->walk, &h->single, &h->once, &h->radiant};
     h->is = *is;
-    h->is.distribution = ndf->distribution;
-    h->is.alpha_x = alpha[0] * per;
-    h->is.alpha_y = alpha[1] * per;
+    h->is.surface = vndf_rough(ndf->distribution, alpha[0] * per, alpha[1] * per);
     h->passes = is->effects.lobes != VNDF_LOBES_REFLECTION;
     for (int i = 0; i < 4; i++) {
         vndf_description of = h->is;
@@ -267,8 +265,8 @@ static void test_subject(const oracle_ndf *ndf, size_t subject)
         if (s->distance < 1 && kind != METAL) /* that of a mirror */
             good &= check_density(&h, s->distance, bins);
         if (!good)
-            fprintf(stderr, "  %s, alpha %g %g, cos %g, walk %d\n", ndf->name, (double)h.is.alpha_x,
-                    (double)h.is.alpha_y, s->cosine, kind);
+            fprintf(stderr, "  %s, alpha %g %g, cos %g, walk %d\n", ndf->name, (double)h.is.surface.xx,
+                    (double)h.is.surface.yy, s->cosine, kind);
     }
 }
 

@@ -40,15 +40,15 @@ static void test_surfaces(void)
 {
     vndf_distribution *table = vndf_load("table", NULL);
     vndf_family *family = vndf_family_load("two.vndfs", NULL);
-    vndf_affine map = {table, 0.1f, 0, 0, 0.3f, 0, 0};
+    vndf_surface map = vndf_rough(table, 0.1f, 0.3f);
     vndf_mixture of_family = {.count = 0};
     if (!TEST(table && family))
         return;
     test_densities("table" ROUGH, &(vndf_mixture){1, {{map, 1}}}, 60, 30);
-    map = (vndf_affine){vndf_beckmann(), 0.2f, 0.1f, -0.05f, 0.3f, 0.3f, -0.2f};
+    map = (vndf_surface){vndf_beckmann(), 0.2f, 0.1f, -0.05f, 0.3f, 0.3f, -0.2f};
     test_densities("beckmann --theta 110 --matrix 0.2,0.1,-0.05,0.3 --mean 0.3,-0.2",
                    &(vndf_mixture){1, {{map, 1}}}, 110, 0);
-    map = (vndf_affine){vndf_ggx(), 0.3f, 0, 0, 0.3f, 0, 0};
+    map = vndf_rough(vndf_ggx(), 0.3f, 0.3f);
     vndf_family_at(family, 2.4f, &map, &of_family);
     test_densities("two.vndfs@2.4 --theta 70 --alpha 0.3", &of_family, 70, 0);
     vndf_free(table);

@@ -13,7 +13,7 @@
 
 int main(int argc, char **argv)
 {
-    const vndf_surface surface = {vndf_ggx(), 1.0f, 1.0f};
+    const vndf_surface surface = vndf_rough(vndf_ggx(), 1.0f, 1.0f);
     const vndf_vec3 up = {0.0f, 0.0f, 1.0f};
     const vndf_view view = vndf_view_from(&surface, up);
     float pdf = 0.0f;

@@ -106,8 +106,7 @@ void test_errors()
     vndf_description mirror = {};
     vndf_material material;
     TEST(!vndf::done(vndf_material_resolve, &mirror, &material));
-    mirror.distribution = vndf_ggx();
-    mirror.alpha_x = mirror.alpha_y = 0.3f;
+    mirror.surface = vndf_rough(vndf_ggx(), 0.3f, 0.3f);
     TEST(vndf::done(vndf_material_resolve, &mirror, &material));
 }
 

@@ -99,7 +99,7 @@ static void test_effects(void)
                                 (!is_bare || most <= (is_table ? 1.3 : 1.00001))))
             fprintf(stderr, "  %.*s\n", (int)strcspn(at, "\n"), at);
     }
-    TEST(count == 3 * 25);
+    TEST(count == 3 * 24);
     TEST_HAS(text, "\"walk, both lobes\"");
 }
 

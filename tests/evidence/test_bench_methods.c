@@ -38,7 +38,7 @@ static double chi_square_of(const method *m, vndf_instructions set, const vndf_d
                             float alpha)
 {
     static block b;
-    const vndf_surface surface = {d, alpha, alpha};
+    const vndf_surface surface = vndf_rough(d, alpha, alpha);
     const vndf_vec3 wi = direction_from(theta, 25);
     const drawn of = {m, vndf_view_from(&surface, wi), &b};
     const bins_sampler judged = {bins_frame_of(&surface, wi), draw, density, &of};
@@ -94,7 +94,7 @@ static void test_unbiased(method m, const method_reference *reference)
  * none, but for rounding. */
 static void test_error(const method_reference *reference, const vndf_distribution *small)
 {
-    const method_reference ggx = {{vndf_ggx(), 1, 1}, 1, "ggx"};
+    const method_reference ggx = {vndf_rough(vndf_ggx(), 1, 1), 1, "ggx"};
     const method m = method_ours(small, "", METHOD_SAMPLE), caps = method_ggx_caps();
     double worst = 0, claimed = (double)vndf_distribution_info(small).certificate.tv_above;
     for (double theta = 8; theta < 90; theta += 15) { /* it is a saw over theta, with a top at 38 degrees */
@@ -166,7 +166,7 @@ static void test_verify_material(void)
 {
     static block b[2];
     const effect_set set = {.name = "conductor", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}};
-    const vndf_surface surface = {vndf_ggx(), 0.3f, 0.3f};
+    const vndf_surface surface = vndf_rough(vndf_ggx(), 0.3f, 0.3f);
     const block_law law = effect_law(&set);
     vndf_error error;
     method m = method_effect(&set, &surface, &error);

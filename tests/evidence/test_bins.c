@@ -49,7 +49,7 @@ static double sum_over(const bins_sampler *of, const double slopes[BINS_RINGS + 
 static void test_view(const view_case *at)
 {
     vndf_distribution *table = oracle_build(at->slope, 0, NULL, NULL);
-    const vndf_surface surface = {table, at->alpha_x, at->alpha_y};
+    const vndf_surface surface = vndf_rough(table, at->alpha_x, at->alpha_y);
     const vndf_vec3 wi = oracle_direction(at->theta, at->phi);
     if (!TEST(table != NULL))
         return;
@@ -73,7 +73,7 @@ static void test_view(const view_case *at)
 /* Normals at the pole and at the horizon, and slopes so large that an angle would not tell them from it. */
 static void test_ends(void)
 {
-    const vndf_surface surface = {vndf_ggx(), 1, 1};
+    const vndf_surface surface = vndf_rough(vndf_ggx(), 1, 1);
     const vndf_vec3 wi = oracle_direction(30, 0);
     const vndf_view view = vndf_view_from(&surface, wi);
     const bins_sampler of = bins_of_view(&view, &surface, wi);

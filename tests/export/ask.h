@@ -23,13 +23,13 @@ HERE answer ask(question q)
 {
     const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
-    const vndf_view view = vndf_view_of(surface, wi);
+    const vndf_view view = vndf_view_from(surface, wi);
     const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
     vndf_mixture mixture = vndf_family_at(VNDF_TAILS, q.wo_x, surface);
-    mixture.lobe[2] = vndf_surface_of(VNDF_GGX, 0.3f, 0.3f);
+    mixture.lobe[2] = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
     mixture.weight[2] = 0.6f;
     mixture.count = 3;
-    const vndf_mixture_view lobes = vndf_mixture_view_of(mixture, wi);
+    const vndf_mixture_view lobes = vndf_mixture_view_from(mixture, wi);
     const vndf_mixed mixed = vndf_mixture_sample(lobes, q.u1, q.u2);
     const vec3 wm = drawn.wm, of_all = mixed.wm;
     const answer a = {wm.x,
@@ -61,7 +61,7 @@ HERE answer ask(question q)
     material.f0 = vec3(0.0f, 0.04f, 0.9f);           /* only fresnel=schlick */
     material.conductor_eta = vec3(0.2f, 0.9f, 1.5f); /* only fresnel=conductor */
     material.conductor_k = vec3(3.9f, 2.4f, 1.9f);   /* only fresnel=conductor */
-    const vndf_bsdf bsdf = vndf_bsdf_of(material, vec3(q.wi_x, q.wi_y, q.wi_z));
+    const vndf_bsdf bsdf = vndf_bsdf_at(material, vec3(q.wi_x, q.wi_y, q.wi_z));
     const vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(q.u1, q.u2, q.u3));
     const vec3 wo = vec3(q.wo_x, q.wo_y, q.wo_z), f = vndf_bsdf_eval(bsdf, wo), own = vndf_bsdf_eval(bsdf, s.wo);
     const answer a = {s.wo.x,     s.wo.y,     s.wo.z, s.weight.x,

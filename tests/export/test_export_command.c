@@ -20,7 +20,7 @@ static const struct {
      "vndf_family_at("},
     {TABLE("hazy"), "VNDF_HAZY", "vndf_family_at("}, /* of the default size */
     {"tails.vndfs --buffer two.f32", "VNDF_TAILS|parameters from 2 to 4|vndf_family_at(", "vndf_bsdf_sample("},
-    {SMALL " --only view,sample", "vndf_surface_of(|vndf_view_of(|vndf_sample(",
+    {SMALL " --only view,sample", "vndf_rough(|vndf_view_from(|vndf_sample(",
      "vndf_pdf(|vndf_table_pdf(|vndf_mixture_pdf("},
     {SMALL " --bsdf both --fresnel dielectric",
      "lobes=both fresnel=dielectric masking=correlated|vndf_bsdf_sample(|vndf_bsdf_eval(|vndf_bsdf_pdf(|"

@@ -104,12 +104,12 @@ static void put(float *to, vndf_vec3 v)
     to[2] = v.z;
 }
 
-static vndf_affine surface_of(const record *q)
+static vndf_surface surface_of(const record *q)
 {
     int i = 0;
     while (i + 1 < SUBJECTS && subject[i].base != q->n[OF])
         i++;
-    const vndf_affine m = {subject[i].is, q->n[XX], q->n[XY], q->n[YX], q->n[YY], q->n[MEAN_X], q->n[MEAN_Y]};
+    const vndf_surface m = {subject[i].is, q->n[XX], q->n[XY], q->n[YX], q->n[YY], q->n[MEAN_X], q->n[MEAN_Y]};
     return m;
 }
 
@@ -138,18 +138,17 @@ static void turn(random_stream *stream, record *q)
  * ask.h. */
 static vndf_material material_of(const vndf_effects *effects, record *q)
 {
-    vndf_description is = {.affine = surface_of(q),
+    vndf_description is = {.surface = surface_of(q),
                            .effects = *effects,
                            .eta = 1.5f,
                            .f0 = {0.0f, 0.04f, 0.9f},
                            .conductor_eta = {0.2f, 0.9f, 1.5f},
                            .conductor_k = {3.9f, 2.4f, 1.9f}};
     vndf_material material;
-    is.distribution = is.affine.distribution;
-    is.effects.shape = VNDF_SHAPE_AFFINE;
+    is.effects.shape = VNDF_SHAPE_TILTED;
     if (vndf_material_resolve(&is, &material, NULL) == VNDF_OK)
         return material;
-    is.effects.shape = VNDF_SHAPE_MATRIX;
+    is.effects.shape = VNDF_SHAPE_LEVEL;
     q->n[MEAN_X] = q->n[MEAN_Y] = 0;
     TEST(vndf_material_resolve(&is, &material, NULL) == VNDF_OK);
     return material;
@@ -248,20 +247,20 @@ static int is_refused(const record *q, const float *wm, float pdf)
  * densities are of the normals that the kernel drew; whether it is refused. *marked: it has other bits. */
 static int compare_normal(const record *q, const record *a, double *off, int *marked)
 {
-    const vndf_affine m = surface_of(q);
+    const vndf_surface m = surface_of(q);
     const vndf_vec3 wi = vector(q->n + WI), wm = vector(a->n);
     const float u1 = q->n[U], u2 = q->n[U + 1];
     const int at_edge = u1 < 1e-6f || u1 > 1 - 1e-6f || u2 < 1e-6f || u2 > 1 - 1e-6f;
     record own;
-    vndf_view view = vndf_affine_view_from(&m, wi);
+    vndf_view view = vndf_view_from(&m, wi);
     put(own.n, vndf_sample(&view, u1, u2, &own.n[3]));
     own.n[4] = vndf_pdf(&view, wm);
     own.n[5] = vndf_visible(&view, wm);
-    own.n[6] = vndf_affine_ndf(&m, wm);
-    own.n[7] = vndf_affine_lambda(&m, wi);
-    own.n[8] = vndf_affine_g1(&m, wi);
-    own.n[9] = vndf_affine_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
-    own.n[10] = vndf_affine_projected_area(&m, wi);
+    own.n[6] = vndf_ndf(&m, wm);
+    own.n[7] = vndf_lambda(&m, wi);
+    own.n[8] = vndf_g1(&m, wi);
+    own.n[9] = vndf_g2(&m, wi, wm, VNDF_G2_HEIGHT_CORRELATED);
+    own.n[10] = vndf_projected_area(&m, wi);
     vndf_mixture mixture;
     vndf_family_at(tails, q->n[WO], &m, &mixture);
     const size_t exact = mixture.count == 2 ? 11 : NUMBERS;

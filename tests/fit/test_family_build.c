@@ -12,7 +12,7 @@ enum { SLOPES = 16000, BYTES = 4096 };
 static void measure(const vndf_family *family, const char *name, float p, double *slopes, double *grazing)
 {
     static double mixed[SLOPES + 1], own[SLOPES + 1], slope[SLOPES + 1];
-    const vndf_affine shape = {NULL, 1, 0, 0, 1, 0, 0};
+    const vndf_surface shape = vndf_rough(NULL, 1, 1);
     int count = (int)test_amount(4000, 4000, SLOPES);
     double first = log(1e-7), step = (log(1e28) - first) / count, mixed_area = 0, mass = 0, area = 0,
            d[2] = {0, 0};

@@ -8,7 +8,7 @@
 
 static void load_and_use(const uint8_t *data, size_t size, int forged)
 {
-    static const vndf_affine shape = {NULL, 0.5f, 0.1f, -0.1f, 0.3f, 0.2f, 0.0f};
+    static const vndf_surface shape = {NULL, 0.5f, 0.1f, -0.1f, 0.3f, 0.2f, 0.0f};
     vndf_error of_table = {VNDF_OK, ""}, of_family = {VNDF_OK, ""};
     vndf_distribution *distribution = vndf_load_memory(data, size, &of_table);
     vndf_family *family = vndf_family_load_memory(data, size, &of_family);

@@ -34,15 +34,15 @@ static inline int is_density(float pdf, float area, int forged)
 static inline int is_safe_at(const vndf_mixture *of, vndf_vec3 wi, float u1, float u2, int forged)
 {
     float pdf = -1, own = -1, v1 = -1, v2 = -1;
-    const vndf_affine *first = &of->lobe[0].surface;
-    const vndf_view view_of_first = vndf_affine_view_from(first, wi);
+    const vndf_surface *first = &of->lobe[0].surface;
+    const vndf_view view_of_first = vndf_view_from(first, wi);
     const vndf_mixture_view view = vndf_mixture_view_from(of, wi);
     const vndf_vec3 wm = vndf_mixture_sample(&view, u1, u2, &pdf, NULL);
     const float again = vndf_mixture_pdf(&view, wm), area = vndf_mixture_projected_area(of, wi);
     const double length = sqrt((double)wm.x * wm.x + (double)wm.y * wm.y + (double)wm.z * wm.z);
     vndf_mixture_invert(&view, wm, -1, &v1, &v2);
     vndf_sample(&view_of_first, u1, u2, &own);
-    return is_density(own, vndf_affine_projected_area(first, wi), forged) &&
+    return is_density(own, vndf_projected_area(first, wi), forged) &&
            (forged ? isfinite(length) : fabs(length - 1) < 1e-6) && wm.z >= 0 && is_density(pdf, area, forged) &&
            is_density(again, area, forged) && vndf_mixture_ndf(of, wm) >= 0 && area >= 0 &&
            (forged || isfinite(area)) && v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1 &&

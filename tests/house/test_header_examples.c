@@ -17,9 +17,7 @@ static void test_glass(void)
     vndf_bsdf bsdf;
     vndf_scattered s;
     /* example: README.md */
-    vndf_description glass = {.distribution = vndf_ggx(),
-                              .alpha_x = 0.3f,
-                              .alpha_y = 0.1f,
+    vndf_description glass = {.surface = vndf_rough(vndf_ggx(), 0.3f, 0.1f),
                               .eta = 1.5f,
                               .effects = {.lobes = VNDF_LOBES_BOTH, .fresnel = VNDF_FRESNEL_DIELECTRIC}};
     vndf_material_resolve(&glass, &material, &error); /* VNDF_OK, or why these effects do not go together */
@@ -35,22 +33,23 @@ static void test_brushed(const vndf_distribution *metal, float phi, float along,
 {
     const vndf_vec3 n = {-0.33f, 0.19f, 0.95f};
     /* example: vndf.h */
-    const float c = cosf(phi), s = sinf(phi);
-    const vndf_affine brushed = {metal, c * along, -s * across, s * along, c * across, -n.x / n.z, -n.y / n.z};
-    const vndf_view view = vndf_affine_view_from(&brushed, wi);
+    vndf_surface brushed = vndf_rotated(vndf_rough(metal, along, across), cosf(phi), sinf(phi));
+    brushed.mean_x = -n.x / n.z;
+    brushed.mean_y = -n.y / n.z;
+    const vndf_view view = vndf_view_from(&brushed, wi);
     float pdf;
     const vndf_vec3 wm = vndf_sample(&view, u[0], u[1], &pdf);
     /* end */
-    const float x = -n.x / n.z, y = -n.y / n.z;
+    const float x = -n.x / n.z, y = -n.y / n.z, c = cosf(phi), s = sinf(phi);
     const double middle = 1 / (PI * (double)along * (double)across);
     TEST_RELATIVE((double)pdf, (double)vndf_pdf(&view, wm), 1e-5);
-    TEST_RELATIVE((double)vndf_affine_p22(&brushed, x, y), middle, 1e-4);
-    TEST_RELATIVE((double)vndf_affine_p22(&brushed, x + c * along, y + s * along), middle / 4, 1e-4);
-    TEST_RELATIVE((double)vndf_affine_p22(&brushed, x - s * across, y + c * across), middle / 4, 1e-4);
+    TEST_RELATIVE((double)vndf_p22(&brushed, x, y), middle, 1e-4);
+    TEST_RELATIVE((double)vndf_p22(&brushed, x + c * along, y + s * along), middle / 4, 1e-4);
+    TEST_RELATIVE((double)vndf_p22(&brushed, x - s * across, y + c * across), middle / 4, 1e-4);
 }
 
-static void test_families(const vndf_family *metals, float p, const vndf_affine *narrow, const vndf_family *tails,
-                          float q, const vndf_affine *wide, vndf_vec3 wi, const float u[2])
+static void test_families(const vndf_family *metals, float p, const vndf_surface *narrow, const vndf_family *tails,
+                          float q, const vndf_surface *wide, vndf_vec3 wi, const float u[2])
 {
     vndf_mixture core, tail;
     TEST(vndf_family_at(metals, p, narrow, &core) == VNDF_FAMILY_INSIDE);
@@ -113,7 +112,7 @@ int main(void)
 {
     const vndf_distribution *const two[2] = {vndf_ggx(), vndf_beckmann()};
     const float parameters[2] = {1, 2}, u[2] = {0.3f, 0.6f};
-    const vndf_affine narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
+    const vndf_surface narrow = {NULL, 0.1f, 0, 0, 0.05f, 0.1f, 0}, wide = {NULL, 0.4f, 0.1f, 0, 0.4f, 0, 0};
     vndf_family *family = vndf_family_of(two, parameters, 2, NULL);
     test_glass();
     test_brushed(vndf_ggx(), 0.4f, 0.05f, 0.3f, (vndf_vec3){0.48f, 0.64f, 0.6f}, u);

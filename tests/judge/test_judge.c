@@ -44,7 +44,7 @@ static double density(const char *fault, const vndf_view *view, vndf_vec3 wi, vn
 
 static int sampler(const char *fault)
 {
-    const vndf_surface surface = {vndf_ggx(), 0.3f, 0.1f};
+    const vndf_surface surface = vndf_rough(vndf_ggx(), 0.3f, 0.1f);
     vndf_vec3 wi, x;
     for (char kind; scanf(" %c %f %f %f %f %f %f", &kind, &wi.x, &wi.y, &wi.z, &x.x, &x.y, &x.z) == 7;) {
         const vndf_view view = vndf_view_from(&surface, wi);

@@ -74,7 +74,7 @@ static void test_light(data_file *file, const vndf_surface *surface, const doubl
 static void test_round_trip(const vndf_distribution *distribution, float alpha)
 {
     const rgl_form form = {alpha, 3, {0.25, 0.5, 0.75}, 0, {0}, "made by the test"};
-    const vndf_surface surface = {distribution, alpha, alpha};
+    const vndf_surface surface = vndf_rough(distribution, alpha, alpha);
     profile rows;
     double off = 0;
     FILE *written = tmpfile();

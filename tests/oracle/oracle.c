@@ -53,7 +53,7 @@ double oracle_p22(const oracle *o, double r)
 /* ---- surfaces ---- */
 
 /* The matrix times the scale is rounded to float: that is the surface, which matters where M is nearly singular. */
-oracle_surface oracle_surface_from(const oracle *of, const vndf_affine *shape)
+oracle_surface oracle_surface_from(const oracle *of, const vndf_surface *shape)
 {
     float scale = of->table ? (float)of->table->scale : 1;
     const float m[4] = {scale * shape->xx, scale * shape->xy, scale * shape->yx, scale * shape->yy};
@@ -181,11 +181,11 @@ int oracle_wanted(int arguments, char **argument, size_t index, const char *name
     return arguments < 2 || strcmp(argument[1], number) == 0 || (name && strcmp(argument[1], name) == 0);
 }
 
-vndf_affine oracle_turned(const vndf_distribution *d, double a, double b, double before, double after)
+vndf_surface oracle_turned(const vndf_distribution *d, double a, double b, double before, double after)
 {
     const double c = cos(after), s = sin(after), e = cos(before), f = sin(before);
     const float xx = (float)(c * a * e - s * b * f), xy = (float)(-c * a * f - s * b * e);
-    return (vndf_affine){d, xx, xy, (float)(s * a * e + c * b * f), (float)(-s * a * f + c * b * e), 0, 0};
+    return (vndf_surface){d, xx, xy, (float)(s * a * e + c * b * f), (float)(-s * a * f + c * b * e), 0, 0};
 }
 
 vndf_vec3 oracle_direction(double theta, double phi)

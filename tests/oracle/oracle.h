@@ -47,7 +47,7 @@ typedef struct oracle_surface {
 } oracle_surface;
 
 /* The matrix and the mean slope of `shape`; its distribution is not read. */
-oracle_surface oracle_surface_from(const oracle *of, const vndf_affine *shape);
+oracle_surface oracle_surface_from(const oracle *of, const vndf_surface *shape);
 
 /* The unit problem: wi stretched is (s, 0, c), and (x, y) its unit part across, which azimuths are counted from. */
 typedef struct oracle_look {
@@ -68,7 +68,7 @@ double oracle_surface_visible(const oracle_surface *surface, const double wi[3],
 /* ---- for tests ---- */
 
 /* A matrix with these singular values, turned before and after. */
-vndf_affine oracle_turned(const vndf_distribution *d, double a, double b, double before, double after);
+vndf_surface oracle_turned(const vndf_distribution *d, double a, double b, double before, double after);
 
 /* wi at theta and phi in degrees; exactly horizontal at 90. */
 vndf_vec3 oracle_direction(double theta, double phi);

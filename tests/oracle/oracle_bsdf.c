@@ -66,11 +66,9 @@ oracle_bsdf oracle_bsdf_from(const vndf_description *is, const oracle_ndf *const
 {
     const vndf_shape shape = is->effects.shape;
     const vndf_mixture *mixture = shape == VNDF_SHAPE_MIXTURE ? is->mixture : NULL;
-    double turn = shape == VNDF_SHAPE_ROTATED ? (double)is->rotation : 0, c = cos(turn), s = sin(turn), sum = 0;
-    float xx = (float)(c * is->alpha_x), xy = (float)(-s * is->alpha_y), yx = (float)(s * is->alpha_x),
-          yy = (float)(c * is->alpha_y);
-    vndf_affine a = shape > VNDF_SHAPE_ROTATED ? is->affine : (vndf_affine){NULL, xx, xy, yx, yy, 0, 0};
-    if (shape == VNDF_SHAPE_MATRIX)
+    double sum = 0;
+    vndf_surface a = is->surface;
+    if (shape == VNDF_SHAPE_LEVEL)
         a.mean_x = a.mean_y = 0;
     oracle_bsdf o = {.is = *is, .count = mixture ? mixture->count : 1};
     for (int i = 0; i < o.count; i++) {
@@ -273,9 +271,9 @@ vndf_effects oracle_effects(size_t index)
     e.masking = (vndf_masking)(index / 12 % 4);
     e.normals = (vndf_normals_drawn)(index / 48 % 4);
     e.transport = (vndf_transport)(index / 192 % 2);
-    e.shape = (vndf_shape)(index / 384 % 5);
-    e.scattering = (vndf_scattering)(index / 1920 % 2);
-    e.reflection = (vndf_reflection)(index / 3840 % 2);
+    e.shape = (vndf_shape)(index / 384 % 3);
+    e.scattering = (vndf_scattering)(index / 1152 % 2);
+    e.reflection = (vndf_reflection)(index / 2304 % 2);
     return e;
 }
 
@@ -287,7 +285,7 @@ int oracle_effects_sensible(const vndf_effects *e)
            !(e->lobes == VNDF_LOBES_BOTH && e->fresnel == VNDF_FRESNEL_NONE) && /* F says nothing of the lobe */
            !(e->normals == VNDF_NORMALS_V_CAVITY && e->masking != VNDF_MASKING_V_CAVITIES) &&
            !((retro || walk) && e->lobes == VNDF_LOBES_TRANSMISSION) &&
-           !(e->shape >= VNDF_SHAPE_AFFINE &&
+           !(e->shape != VNDF_SHAPE_LEVEL &&
              (walk || retro || !visible || e->masking == VNDF_MASKING_V_CAVITIES)) &&
            !(walk && (e->masking != VNDF_MASKING_HEIGHT_CORRELATED || !visible));
 }

@@ -54,7 +54,7 @@ double oracle_bsdf_cosine(const oracle_bsdf *o, const double w[3]);
 int oracle_bsdf_two_sided(const vndf_effects *effects);
 
 /* All of them but compensation, sensible or not, numbered from 0. */
-enum { ORACLE_EFFECT_SETS = 3 * 4 * 4 * 4 * 2 * 5 * 2 * 2 };
+enum { ORACLE_EFFECT_SETS = 3 * 4 * 4 * 4 * 2 * 3 * 2 * 2 };
 vndf_effects oracle_effects(size_t index);
 
 /* By what vndf_bsdf.h says of each effect. */

@@ -28,7 +28,7 @@ int main()
     vndf_distribution *table = vndf_load(VNDF_SOURCE_DIR "/tables/student-t-2.5.vndf", nullptr);
     VndfDistribution normals(table, 0.3f, 0.15f);
     const Vector3f above = {0.48f, 0.64f, 0.6f}, below = {0.8f, 0, -0.6f}, across = {-0.6f, 0, 0.8f};
-    const vndf_surface same = {table, 0.3f, 0.15f}, ggx = {vndf_ggx(), 0.2f, 0.4f};
+    const vndf_surface same = vndf_rough(table, 0.3f, 0.15f), ggx = vndf_rough(vndf_ggx(), 0.2f, 0.4f);
     for (const Vector3f w : {above, below, across})
         look(normals, same, w);
     look(VndfDistribution(0.2f, 0.4f), ggx, above);

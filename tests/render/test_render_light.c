@@ -137,7 +137,7 @@ static void test_sky(void)
 /* A rough floor under a lamp so small that f is the same all over it. */
 static void test_gloss(float alpha)
 {
-    const vndf_description is = {.distribution = vndf_ggx(), .alpha_x = alpha, .alpha_y = alpha};
+    const vndf_description is = {.surface = vndf_rough(vndf_ggx(), alpha, alpha)};
     const vec3 lamp = vec(0.3, 2, -2.5), to = unit(lamp);
     vndf_material resolved;
     vndf_bsdf bsdf;

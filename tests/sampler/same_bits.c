@@ -22,19 +22,20 @@ static unsigned long long hash_floats(unsigned long long hash, const float *valu
     return hash;
 }
 
-/* A material's sample, its value and its density there; a set of effects that makes no sense is refused. */
+/* Of a radian. */
+static const float COSINE = 0.540302277f, SINE = 0.841470957f;
+
+/* A material's sample, its value and its density there, half of them turned by a radian; a set of effects that makes no
+ * sense is refused. */
 static unsigned long long hash_material(unsigned long long hash, const vndf_surface *surface, unsigned long i,
                                         vndf_vec3 wi, const float u[3])
 {
-    vndf_description is = {.distribution = surface->distribution,
+    const vndf_surface turned = vndf_rotated(*surface, COSINE, SINE);
+    vndf_description is = {.surface = i / 768 % 2 ? turned : *surface,
                            .effects = {(vndf_lobes)(i % 3), (vndf_fresnel)(i / 3 % 4), (vndf_masking)(i / 12 % 4),
                                        (vndf_normals_drawn)(i / 48 % 4), (vndf_scattering)(i / 192 % 2),
-                                       (vndf_transport)(i / 384 % 2), (vndf_shape)(i / 768 % 2),
-                                       VNDF_REFLECTION_SPECULAR},
+                                       (vndf_transport)(i / 384 % 2), VNDF_SHAPE_LEVEL, VNDF_REFLECTION_SPECULAR},
                            .eta = 1.5f,
-                           .alpha_x = surface->alpha_x,
-                           .alpha_y = surface->alpha_y,
-                           .rotation = 1.0f,
                            .f0 = {0.1f, 0.5f, 0.9f},
                            .conductor_eta = {0.2f, 0.9f, 1.5f},
                            .conductor_k = {3.9f, 2.4f, 0.0f}};
@@ -64,7 +65,7 @@ static unsigned long long hash_step(unsigned long long hash, const vndf_distribu
     const float x = test_uniform(state), y = test_uniform(state), z = test_uniform(state);
     const float r1 = test_uniform(state), r2 = test_uniform(state);
     const float u[3] = {i % 7 ? r1 : (float)(i % 2), i % 11 ? r2 : (float)(i % 2), x};
-    const vndf_surface surface = {distribution, alphas[i % 5], alphas[i / 5 % 5]};
+    const vndf_surface surface = vndf_rough(distribution, alphas[i % 5], alphas[i / 5 % 5]);
     const vndf_vec3 wi = {2.0f * x - 1.0f, 2.0f * y - 1.0f, 2.0f * z - 1.0f};
     const vndf_view view = vndf_view_from(&surface, wi);
     float pdf, v1 = 0.0f, v2 = 0.0f;

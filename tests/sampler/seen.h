@@ -1,4 +1,4 @@
-/* What the tests of the sampler ask: surfaces of every kind from one direction, by the calls of their kind. */
+/* What the tests of the sampler ask: a surface or a mixture from one direction, by its calls. */
 #ifndef TESTS_SAMPLER_SEEN_H
 #define TESTS_SAMPLER_SEEN_H
 
@@ -11,38 +11,29 @@
 #  include <xmmintrin.h>
 #endif
 
-typedef enum seen_kind { SEEN_SURFACE, SEEN_AFFINE, SEEN_MIXTURE } seen_kind;
+typedef enum seen_kind { SEEN_SURFACE, SEEN_MIXTURE } seen_kind;
 
 typedef struct seen {
     seen_kind kind;
-    vndf_mixture of; /* of the first two kinds one lobe */
-    vndf_surface surface;
+    vndf_mixture of; /* of a surface one lobe */
     vndf_vec3 wi;
     vndf_view view;
     vndf_mixture_view mixture;
 } seen;
 
-static inline vndf_affine seen_straight(const vndf_distribution *d, float alpha_x, float alpha_y)
-{
-    return (vndf_affine){d, alpha_x, 0, 0, alpha_y, 0, 0};
-}
-
 static inline seen seen_from(seen_kind kind, const vndf_mixture *of, vndf_vec3 wi)
 {
-    const vndf_affine *first = &of->lobe[0].surface;
-    seen s = {.kind = kind, .of = *of, .surface = {first->distribution, first->xx, first->yy}, .wi = wi};
+    seen s = {.kind = kind, .of = *of, .wi = wi};
     if (kind == SEEN_SURFACE)
-        s.view = vndf_view_from(&s.surface, wi);
-    else if (kind == SEEN_AFFINE)
-        s.view = vndf_affine_view_from(first, wi);
+        s.view = vndf_view_from(&of->lobe[0].surface, wi);
     else
         s.mixture = vndf_mixture_view_from(&s.of, wi);
     return s;
 }
 
-static inline seen seen_surface(const vndf_distribution *d, float alpha_x, float alpha_y, vndf_vec3 wi)
+static inline seen seen_surface(vndf_surface surface, vndf_vec3 wi)
 {
-    const vndf_mixture one = {1, {{seen_straight(d, alpha_x, alpha_y), 1}}};
+    const vndf_mixture one = {1, {{surface, 1}}};
     return seen_from(SEEN_SURFACE, &one, wi);
 }
 
@@ -65,19 +56,15 @@ static const char *const quantity_names[QUANTITIES] = {"pdf", "visible", "ndf", 
 /* The first three at w, the others from w. */
 static inline float seen_quantity(const seen *s, quantity which, vndf_vec3 w)
 {
-    const vndf_affine *a = s->kind == SEEN_AFFINE ? &s->of.lobe[0].surface : NULL;
-    const vndf_surface *one = s->kind == SEEN_SURFACE ? &s->surface : NULL;
+    const vndf_surface *one = s->kind == SEEN_SURFACE ? &s->of.lobe[0].surface : NULL;
     switch (which) {
     case DENSITY: return seen_pdf(s, w);
-    case VISIBLE: return one || a ? vndf_visible(&s->view, w) : vndf_mixture_visible(&s->mixture, w);
-    case NDF: return one ? vndf_ndf(one, w) : a ? vndf_affine_ndf(a, w) : vndf_mixture_ndf(&s->of, w);
-    case LAMBDA: return one ? vndf_lambda(one, w) : a ? vndf_affine_lambda(a, w) : vndf_mixture_lambda(&s->of, w);
-    case G1: return one ? vndf_g1(one, w) : a ? vndf_affine_g1(a, w) : vndf_mixture_g1(&s->of, w);
-    default: break;
+    case VISIBLE: return one ? vndf_visible(&s->view, w) : vndf_mixture_visible(&s->mixture, w);
+    case NDF: return one ? vndf_ndf(one, w) : vndf_mixture_ndf(&s->of, w);
+    case LAMBDA: return one ? vndf_lambda(one, w) : vndf_mixture_lambda(&s->of, w);
+    case G1: return one ? vndf_g1(one, w) : vndf_mixture_g1(&s->of, w);
+    default: return one ? vndf_projected_area(one, w) : vndf_mixture_projected_area(&s->of, w);
     }
-    return one ? vndf_projected_area(one, w)
-           : a ? vndf_affine_projected_area(a, w)
-               : vndf_mixture_projected_area(&s->of, w);
 }
 
 /* Whether more than this part is seen of what is seen at grazing incidence. */
@@ -96,7 +83,7 @@ static inline void seen_print(const seen *s, const char *name)
 {
     fprintf(stderr, "  %s: wi %.9g %.9g %.9g\n", name, (double)s->wi.x, (double)s->wi.y, (double)s->wi.z);
     for (int i = 0; i < s->of.count && i < VNDF_MIXTURE_LOBES; i++) {
-        const vndf_affine *a = &s->of.lobe[i].surface;
+        const vndf_surface *a = &s->of.lobe[i].surface;
         fprintf(stderr, "    (%.9g %.9g; %.9g %.9g) mean %.9g %.9g weight %.9g\n", (double)a->xx, (double)a->xy,
                 (double)a->yx, (double)a->yy, (double)a->mean_x, (double)a->mean_y, (double)s->of.lobe[i].weight);
     }

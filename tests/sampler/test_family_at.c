@@ -7,7 +7,7 @@
 
 enum { KNOTS = 3 };
 static const float parameters[KNOTS] = {0.5f, 1.7f, 40};
-static const vndf_affine shape = {NULL, 0.3f, 0.1f, -0.05f, 0.2f, 0.15f, -0.3f};
+static const vndf_surface shape = {NULL, 0.3f, 0.1f, -0.05f, 0.2f, 0.15f, -0.3f};
 
 /* What is to be found at p. */
 static void test_at(const vndf_family *family, float p, vndf_family_place place)
@@ -24,7 +24,7 @@ static void test_at(const vndf_family *family, float p, vndf_family_place place)
     int count = t > 0 ? 2 : 1;
     TEST(vndf_family_at(family, p, &shape, &m) == place && m.count == count);
     for (int i = 0; i < count; i++) {
-        vndf_affine want = shape;
+        vndf_surface want = shape;
         want.distribution = family->distribution[knot + (size_t)i];
         TEST(memcmp(&m.lobe[i].surface, &want, sizeof want) == 0);
         TEST(fabs((double)m.lobe[i].weight - (i ? t : 1 - t)) <= 1e-6 && m.lobe[i].weight >= 0);

@@ -24,7 +24,7 @@ typedef struct point {
 
 /* ---- points ---- */
 
-static vndf_affine random_shape(const vndf_distribution *d, family f, unsigned long long *state)
+static vndf_surface random_shape(const vndf_distribution *d, family f, unsigned long long *state)
 {
     double a = random_decade(state, -4, 4), b = f == ROUGH ? a : a * random_decade(state, -4, 4);
     double p = random_between(state, -PI, PI), q = random_between(state, -PI, PI);
@@ -32,7 +32,7 @@ static vndf_affine random_shape(const vndf_distribution *d, family f, unsigned l
         a = random_decade(state, -4, 4), b = a * random_decade(state, -8, 0);
     if (f == LEANING || f == MIXED)
         a = random_decade(state, -2, 0), b = random_decade(state, -2, 0);
-    vndf_affine m = f >= SHEARED ? oracle_turned(d, a, b, q, p) : seen_straight(d, (float)a, (float)b);
+    vndf_surface m = f >= SHEARED ? oracle_turned(d, a, b, q, p) : vndf_rough(d, (float)a, (float)b);
     if (f == LEANING || f == MIXED)
         m.mean_x = (float)random_between(state, -1, 1), m.mean_y = (float)random_between(state, -1, 1);
     return m;
@@ -44,7 +44,7 @@ static point random_point(const oracle *of, const vndf_distribution *d, family f
     static const oracle second = {.shape = ORACLE_GGX, .norm = 1 / PI};
     vndf_mixture m = {f == MIXED ? 2 : 1,
                       {{random_shape(d, f, state), 0.25f}, {random_shape(vndf_ggx(), f, state), 0.5f}}};
-    const vndf_affine *a = &m.lobe[0].surface;
+    const vndf_surface *a = &m.lobe[0].surface;
     point p;
     float u1 = test_uniform(state), u2 = test_uniform(state);
     vndf_vec3 wi = random_direction(state, f == ROUGH ? -1 : -0.5);
@@ -54,7 +54,7 @@ static point random_point(const oracle *of, const vndf_distribution *d, family f
         double length = sqrt((double)wi.x * wi.x + (double)wi.y * wi.y + z * z);
         wi.x = (float)(wi.x / length), wi.y = (float)(wi.y / length), wi.z = (float)(z / length);
     }
-    p.s = seen_from(f == MIXED ? SEEN_MIXTURE : f >= SHEARED ? SEEN_AFFINE : SEEN_SURFACE, &m, wi);
+    p.s = seen_from(f == MIXED ? SEEN_MIXTURE : SEEN_SURFACE, &m, wi);
     vndf_vec3 wm = seen_draw(&p.s, u1, u2, &p.drawn);
     p.weight = -1;
     if (f == ROUGH)
@@ -84,9 +84,7 @@ static double ask(const point *p, int q)
     if (q == WEIGHT || q == DRAWN)
         return (double)(q == WEIGHT ? p->weight : p->drawn);
     if (q == G2 && p->s.kind == SEEN_SURFACE)
-        return (double)vndf_g2(&p->s.surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
-    if (q == G2 && p->s.kind == SEEN_AFFINE)
-        return (double)vndf_affine_g2(&p->s.of.lobe[0].surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
+        return (double)vndf_g2(&p->s.of.lobe[0].surface, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
     if (q == G2)
         return (double)vndf_mixture_g2(&p->s.of, p->s.wi, p->s.wi, VNDF_G2_HEIGHT_CORRELATED);
     return (double)seen_quantity(&p->s, (quantity)q, q < AREA ? vec3_of(p->wm) : p->s.wi);

@@ -33,7 +33,7 @@ static void test_table(const vndf_distribution *d, const char *text, size_t samp
     for (int i = 0; i < DIRECTIONS; i++) {
         double theta = i < 40 ? 2.25 * i : 90 - 10 * pow(0.6, i - 40), low = HUGE_VAL, high = 0, mean = 0,
                square = 0;
-        const vndf_surface surface = {d, i % 3 ? 0.5f : 1, i % 2 ? 0.5f : 0.1f};
+        const vndf_surface surface = vndf_rough(d, i % 3 ? 0.5f : 1, i % 2 ? 0.5f : 0.1f);
         const vndf_view view = vndf_view_from(&surface, oracle_direction(theta, 25 * i));
         for (size_t j = 0; j < samples; j++) {
             float weight, u1 = test_uniform(&state), u2 = test_uniform(&state);

@@ -17,7 +17,7 @@ vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], siz
 {
     const vndf_bsdf_batch batch = {.material = material,
                                    .count = count,
-                                   .shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI,
+                                   .shared = VNDF_SHARED_SURFACE | VNDF_SHARED_WI,
                                    .wi_x = &wi[0],
                                    .wi_y = &wi[1],
                                    .wi_z = &wi[2]};
@@ -39,9 +39,7 @@ void bake_sample(const vndf_material *material, const double wi[3], size_t count
 
 vndf_description bake_mirror(const bake_settings *s, float alpha)
 {
-    const vndf_description of = {.distribution = s->distribution,
-                                 .alpha_x = alpha,
-                                 .alpha_y = alpha,
+    const vndf_description of = {.surface = vndf_rough(s->distribution, alpha, alpha),
                                  .effects = {.fresnel = VNDF_FRESNEL_SCHLICK, .masking = s->masking},
                                  .wavelengths = 2,
                                  .f0 = {1, 0}};
@@ -53,9 +51,8 @@ vndf_description bake_mirror(const bake_settings *s, float alpha)
 bake_sum bake_mean(const vndf_description *of, const double wi[3], int side, int masks_alike)
 {
     static bake_points p;
-    const vndf_surface surface = {of->distribution, of->alpha_x, of->alpha_y};
     const vndf_vec3 in = {(float)wi[0], (float)wi[1], (float)wi[2]};
-    const double lambda = masks_alike ? 1 + (double)vndf_lambda(&surface, in) : 0;
+    const double lambda = masks_alike ? 1 + (double)vndf_lambda(&of->surface, in) : 0;
     vndf_description drawn = *of;
     vndf_material material;
     vndf_error error;
@@ -78,7 +75,7 @@ bake_sum bake_mean(const vndf_description *of, const double wi[3], int side, int
         const vndf_vec3 out = {p.wo[0][i], p.wo[1][i], fabsf(p.wo[2][i])};
         whole += part;
         if (masks_alike && p.weight[0][i] > 0)
-            part /= lambda + (double)vndf_lambda(&surface, out);
+            part /= lambda + (double)vndf_lambda(&of->surface, out);
         sum.all += part * (double)p.weight[0][i];
         sum.grazing += part * (double)p.weight[1][i];
     }
@@ -167,7 +164,7 @@ static bake_sum scattered(const hit *h, double x, double y)
 bake_sum bake_reference(const bake_settings *s, float alpha, double cosine, double eta)
 {
     enum { PANELS = 72, AZIMUTHS = 256 };
-    hit h = {s, {s->distribution, alpha, alpha}, {sqrt(1 - cosine * cosine), 0, cosine}, 0, eta};
+    hit h = {s, vndf_rough(s->distribution, alpha, alpha), {sqrt(1 - cosine * cosine), 0, cosine}, 0, eta};
     const vndf_vec3 up = {0, 0, 1}, in = {(float)h.wi[0], 0, (float)cosine};
     const vndf_view straight = vndf_view_from(&h.surface, up);
     const int is_table = vndf_distribution_info(s->distribution).bytes > 0;

@@ -135,7 +135,7 @@ static int target_of(target *t, const bake_settings *s, const float alpha[2], co
         p->u[1][i] = ((float)(i / SIDE) + 0.5f) / SIDE;
         p->u[2][i] = 0.5f;
     }
-    of.alpha_y = alpha[1];
+    of.surface.yy = alpha[1];
     if (vndf_material_resolve(&of, &t->material, &error) != VNDF_OK)
         return 0;
     bake_sample(&t->material, wi, SAMPLES, p);

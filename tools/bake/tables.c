@@ -199,7 +199,7 @@ int bake_prefilter(const bake_settings *s, baked_list *list)
         return 0;
     for (size_t i = 0; i < LEVELS; i++) {
         float alpha = bake_alpha(s->mapping, (double)(i + 1) / LEVELS);
-        const vndf_surface surface = {s->distribution, alpha, alpha};
+        const vndf_surface surface = vndf_rough(s->distribution, alpha, alpha);
         const vndf_view view = vndf_view_from(&surface, up);
         double sum = 0;
         for (size_t k = 0; k < TAPS; k++) {

@@ -154,7 +154,6 @@ int roughness_from(const char *command, const char *text, vndf_surface *surface)
 {
     double alpha[2] = {1, 1};
     size_t count = text ? parse_numbers(command, "--alpha", text, narrowest, widest, 1, 2, alpha) : 2;
-    surface->alpha_x = (float)alpha[0];
-    surface->alpha_y = (float)alpha[count == 2];
+    *surface = vndf_rough(NULL, (float)alpha[0], (float)alpha[count == 2]);
     return count != 0;
 }

@@ -97,8 +97,8 @@ static int run(const arguments *given)
         !option_number(given, "--seconds", 0.01, 3600, &plan.seconds) ||
         !option_number(given, "--theta", 0, 89.9, &plan.theta))
         return STATUS_USE;
-    plan.alpha_x = surface.alpha_x;
-    plan.alpha_y = surface.alpha_y;
+    plan.alpha_x = surface.xx;
+    plan.alpha_y = surface.yy;
     vndf_source *source = source_from_words(given, "student-t:2.5");
     if (!source)
         return STATUS_USE;

@@ -170,7 +170,7 @@ static int check_consistency(checking *c)
         const double theta = 180 * random_double(&stream), phi = 360 * random_double(&stream);
         const double x = pow(0.02, random_double(&stream)), y = pow(0.02, random_double(&stream));
         const float u1 = random_float(&stream), u2 = random_float(&stream);
-        const vndf_surface surface = {c->distribution, (float)(x * per), (float)(y * per)};
+        const vndf_surface surface = vndf_rough(c->distribution, (float)(x * per), (float)(y * per));
         const vndf_vec3 wi = direction_from(theta, phi);
         const int side = wi.z >= 0 ? ABOVE : BELOW;
         if (vndf_projected_area(&surface, wi) < 1e-12f)
@@ -218,7 +218,7 @@ static void check_chi_square(checking *c)
     figures_list(&c->to, "chi_square");
     for (size_t i = 0; i < TESTS; i++) {
         const int is_flat = i >= ANGLES; /* narrow, and turned to */
-        const vndf_surface surface = {c->distribution, is_flat ? 0.05f : 1, is_flat ? 0.4f : 1};
+        const vndf_surface surface = vndf_rough(c->distribution, is_flat ? 0.05f : 1, is_flat ? 0.4f : 1);
         const double theta = angles[i % ANGLES];
         const vndf_vec3 wi = direction_from(theta, is_flat ? 25 : 0);
         const vndf_view view = vndf_view_from(&surface, wi);
@@ -232,8 +232,8 @@ static void check_chi_square(checking *c)
         const double mass_limit = 1e-4 + of.error;
         const int is_blind = of.mass == 0 && of.unseen == c->samples; /* every density is 0 */
         figures_record(&c->to);
-        tell(c, "alpha_x", "%.3g", (double)surface.alpha_x);
-        tell(c, "alpha_y", "%.3g", (double)surface.alpha_y);
+        tell(c, "alpha_x", "%.3g", (double)surface.xx);
+        tell(c, "alpha_y", "%.3g", (double)surface.yy);
         figures_number(&c->to, "theta", "%.3g", theta, "degrees");
         if (is_blind)
             figures_truth(&c->to, "blind", 1);

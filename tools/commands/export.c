@@ -65,10 +65,11 @@ static int read_effects(const arguments *given, export_document *document)
                                   .masking = (vndf_masking)option_choice(given, "--masking", 0),
                                   .transport = (vndf_transport)option_choice(given, "--transport", 0),
                                   .reflection = (vndf_reflection)option_choice(given, "--reflection", 0)};
-    vndf_description is = {.distribution = vndf_ggx(), .effects = effects, .conductor_eta = {1.0f, 1.0f, 1.0f}};
+    vndf_description is = {
+        .surface = vndf_rough(vndf_ggx(), 1.0f, 1.0f), .effects = effects, .conductor_eta = {1.0f, 1.0f, 1.0f}};
     vndf_material material;
     vndf_error refusal = {VNDF_OK, ""};
-    is.alpha_x = is.alpha_y = 1.0f, is.eta = 1.5f;
+    is.eta = 1.5f;
     document->scatters = option_value(given, "--bsdf") != NULL;
     document->effects = effects;
     if (document->scatters && vndf_material_resolve(&is, &material, &refusal) != VNDF_OK)
@@ -169,7 +170,7 @@ static int export_rgl(const arguments *given)
 static int export_kernel(const arguments *given, export_document *document)
 {
     const char *prefix = option_value(given, "--prefix"), *wanted = option_value(given, "--only");
-    char only[2 * LISTED_LENGTH] = "vndf_surface_of vndf_bsdf_of vndf_bsdf_cosine", *end = only + strlen(only);
+    char only[2 * LISTED_LENGTH] = "vndf_rough vndf_bsdf_at vndf_bsdf_cosine", *end = only + strlen(only);
     unsigned long long lobes = 4;
     if (!option_value(given, "--language"))
         return complain(name, "--language is missing: c, cpp, cuda, opencl, glsl, hlsl, wgsl or msl");

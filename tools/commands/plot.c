@@ -39,7 +39,7 @@ static int draw_figure(FILE *file, const vndf_surface *surface, const double *th
     snprintf(text, sizeof text, "Visible normals of %.*s%s", (int)shown, source,
              strlen(source) > shown ? "..." : "");
     svg_text(file, "large ink", SVG_START, margin, 30, text);
-    snprintf(text, sizeof text, "αx = %.4g, αy = %.4g", (double)surface->alpha_x, (double)surface->alpha_y);
+    snprintf(text, sizeof text, "αx = %.4g, αy = %.4g", (double)surface->xx, (double)surface->yy);
     svg_text(file, "quiet", SVG_START, margin, 50, text);
     panel_ndf(file, (svg_box){margin, header, left_width, height - header - 80}, surface);
     int good = panel_key(file, margin + 20, height - 72);

@@ -36,24 +36,22 @@ static const char *const help[] = {
 /* ---- the surface --------------------------------------------------------------------------------- */
 
 /* --alpha or --matrix, and --mean, of ggx. 1, or 0 after a complaint. */
-static int read_map(const arguments *given, vndf_affine *map)
+static int read_map(const arguments *given, vndf_surface *map)
 {
     const char *alpha = option_value(given, "--alpha"), *matrix = option_value(given, "--matrix");
     const char *mean = option_value(given, "--mean");
     double m[4] = {1, 0, 0, 1}, shift[2] = {0, 0};
-    vndf_surface plain;
     if (alpha && matrix)
         return complain(name, "--alpha and --matrix are given; one of them is possible"), 0;
-    if (!roughness_from(name, alpha, &plain) ||
+    if (!roughness_from(name, alpha, map) ||
         (matrix && !parse_numbers(name, "--matrix", matrix, -1e18, 1e18, 4, 4, m)) ||
         (mean && !parse_numbers(name, "--mean", mean, -1e6, 1e6, 2, 2, shift)))
         return 0;
-    *map = (vndf_affine){vndf_ggx(),  (float)m[0],     (float)m[1],    (float)m[2],
-                         (float)m[3], (float)shift[0], (float)shift[1]};
-    if (!matrix) {
-        map->xx = plain.alpha_x;
-        map->yy = plain.alpha_y;
-    }
+    map->distribution = vndf_ggx();
+    if (matrix)
+        map->xx = (float)m[0], map->xy = (float)m[1], map->yx = (float)m[2], map->yy = (float)m[3];
+    map->mean_x = (float)shift[0];
+    map->mean_y = (float)shift[1];
     const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
     if (vndf_mixture_view_from(&alone, (vndf_vec3){0, 0, 1}).count != 1)
         return complain(
@@ -70,7 +68,7 @@ static int read_surface(const arguments *given, vndf_mixture *surface, chosen_di
     const char *word = given->positional.item[0], *at = strstr(word, ".vndfs@");
     char path[4096];
     double p;
-    vndf_affine map;
+    vndf_surface map;
     if (is_family_file(word))
         return complain(name, "'%s' is a family; say at which parameter, as in %s@2.5", word, word), 0;
     snprintf(path, sizeof path, "%.*s", at ? (int)(at - word) + 6 : (int)strlen(word), word);

@@ -31,14 +31,14 @@ static double round_angle(double degrees)
 void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
 {
     static chart_point point[2][POINTS];
-    const double roughest = fmax((double)surface->alpha_x, (double)surface->alpha_y),
+    const double roughest = fmax((double)surface->xx, (double)surface->yy),
                  scale = vndf_distribution_info(surface->distribution).scale;
     const double widest = scale > 0 ? round_angle(atan(8 * scale * roughest) * 180 / pi) : 90;
-    const int is_round = surface->alpha_x == surface->alpha_y,
+    const int is_round = surface->xx == surface->yy,
               has_ggx = is_round && scale > 0 && surface->distribution != vndf_ggx();
     /* GGX at alpha = 1 has the median slope 1, so alpha times the scale is the GGX of the same median. */
-    const float alpha = (float)((double)surface->alpha_x * scale);
-    const vndf_surface ggx = {vndf_ggx(), alpha, alpha};
+    const float alpha = (float)((double)surface->xx * scale);
+    const vndf_surface ggx = vndf_rough(vndf_ggx(), alpha, alpha);
     for (int i = 0; i < POINTS; i++) {
         const double x = widest * fmax(i, 0.3) / (POINTS - 1); /* at the pole itself D may be unbounded */
         point[0][i] = (chart_point){.x = x, .y = (double)vndf_ndf(surface, direction_from(x, 0))};

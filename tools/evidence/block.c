@@ -49,7 +49,8 @@ void block_fill(block *b, const block_law *law, uint64_t seed)
             b->u[k][i] = random_float(&stream);
     }
     if (law->seen) {
-        vndf_batch batch = {.distribution = law->seen, .count = BLOCK, .alpha_x = b->alpha, .alpha_y = b->alpha};
+        vndf_batch batch = {.surface = {.distribution = law->seen, .xx = b->alpha, .yy = b->alpha},
+                            .count = BLOCK};
         batch.wi_x = b->wi[0], batch.wi_y = b->wi[1], batch.wi_z = b->wi[2];
         vndf_sample_n(&batch, b->u[0], b->u[1], (vndf_normals){b->given[0], b->given[1], b->given[2]}, NULL);
     }

@@ -112,14 +112,14 @@ static void list_normals(evidence *to)
 
 static vndf_status list_materials(evidence *to, const method_reference *of)
 {
-    const vndf_surface surface = {of->canonical.distribution, to->plan->alpha_x, to->plan->alpha_y};
+    const vndf_surface surface = vndf_rough(of->canonical.distribution, to->plan->alpha_x, to->plan->alpha_y);
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
         evidence_row *r = add(to, of, method_effect(set, &surface, to->error));
         if (!r)
             return to->error->status;
         r->law = effect_law(set);
-        r->number[COL_ALPHA_X] = (double)surface.alpha_x;
-        r->number[COL_ALPHA_Y] = (double)surface.alpha_y;
+        r->number[COL_ALPHA_X] = (double)surface.xx;
+        r->number[COL_ALPHA_Y] = (double)surface.yy;
         r->beside = find(to, effect_sets[EFFECT_BARE].name, of);
         r->normals = find(to, set->visible, of);
     }

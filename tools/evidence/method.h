@@ -136,8 +136,9 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
 typedef struct effect_set {
     const char *name;
     vndf_effects effects;
-    int is_rough;        /* a roughness for each hit, by vndf_bsdf_rough in the place of vndf_bsdf_at */
+    int is_rough;        /* a roughness for each hit, by vndf_bsdf_on in the place of vndf_bsdf_at */
     int stretched;       /* alpha_y is a quarter of alpha_x */
+    int turned;          /* and their axes are, by half a radian */
     const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effect_set;
 
@@ -150,7 +151,7 @@ extern const size_t effect_set_count;
  * point to its material. */
 typedef struct effect_case {
     const effect_set *set;
-    vndf_mixture mixture; /* its first lobe is the affine surface of sets that have one */
+    vndf_mixture mixture; /* its first lobe is the surface of sets that are turned */
     vndf_albedo *albedo;  /* owned; NULL unless energy is compensated */
     vndf_material material;
 } effect_case;

@@ -234,8 +234,8 @@ static int write_normals(html_page *page, const report *r)
 {
     static const double thetas[] = {0, 60, 100};
     for (size_t i = 0; i < r->count; i++) {
-        const vndf_surface advised = {r->subject[i].table[SIZE_PLAIN], 1, 1},
-                           finest = {r->subject[i].table[SIZE_FINE], 1, 1};
+        const vndf_surface advised = vndf_rough(r->subject[i].table[SIZE_PLAIN], 1, 1),
+                           finest = vndf_rough(r->subject[i].table[SIZE_FINE], 1, 1);
         fputs("<h3>", page->html);
         svg_escape(page->html, r->subject[i].name);
         fputs("</h3>\n<figure class=\"panels\">\n", page->html);

@@ -34,7 +34,7 @@ findings worth_of_normals(const method *m, const method_reference *reference, do
                           block *b)
 {
     const float alpha = (float)alpha_measured / reference->scale;
-    const vndf_surface surface = {reference->canonical.distribution, alpha, alpha};
+    const vndf_surface surface = vndf_rough(reference->canonical.distribution, alpha, alpha);
     const vndf_vec3 wi = direction_from(theta, 0), light = direction_from(fabs(theta - 15), 160);
     const double area = (double)vndf_projected_area(&surface, wi), lambda = (double)vndf_lambda(&surface, wi);
     const double count = (double)replicates * BLOCK, cone = cos(5 * acos(-1.0) / 180);

@@ -148,7 +148,7 @@ static void put_table(FILE *to, const export_document *document, const exported_
 }
 
 static const char head[] =
-    "//\n// vndf_surface_of or a vndf_surface, then vndf_view_of(surface, wi), then vndf_sample(view, u1, u2): a\n"
+    "//\n// vndf_rough or a vndf_surface, then vndf_view_from(surface, wi), then vndf_sample(view, u1, u2): a\n"
     "// normal wm that faces wi, its density per steradian, and the true density over that. vndf_pdf, vndf_visible\n"
     "// and vndf_ndf are of a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area of directions. A\n"
     "// vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
@@ -156,7 +156,7 @@ static const char head[] =
     "// for 99.99% of samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static const char bsdf_head[] =
-    "// vndf_bsdf_of(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"
+    "// vndf_bsdf_at(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"
     "// wo with three uniform numbers, f |cosine|/density of three wavelengths and the density per steradian;\n"
     "// vndf_bsdf_eval is f without the cosine, which is vndf_bsdf_cosine; vndf_bsdf_pdf is the density of a given\n"
     "// wo. Directions with z < 0 are on the other side of the surface.\n";
@@ -255,8 +255,8 @@ int document_write(const export_document *document, FILE *to, const char *more)
 {
     const language *in = document->to;
     const int guarded = !(in->is & LANGUAGE_APART);
-    const char *calls = document->scatters ? "vndf_surface_of vndf_bsdf"
-                                           : "vndf_surface_of vndf_view vndf_sample vndf_pdf vndf_visible "
+    const char *calls = document->scatters ? "vndf_rough vndf_bsdf"
+                                           : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible "
                                              "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area "
                                              "vndf_mixture vndf_family_at";
     char *whole = whole_text(document, more);

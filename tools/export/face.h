@@ -10,7 +10,7 @@ typedef struct vndf_surface {
 } vndf_surface;
 
 /* The surface with roughness alpha_x and alpha_y along x and y. */
-HERE vndf_surface vndf_surface_of(int distribution, float alpha_x, float alpha_y)
+HERE vndf_surface vndf_rough(int distribution, float alpha_x, float alpha_y)
 {
     const vndf_surface m = {distribution, alpha_x, 0.0f, 0.0f, alpha_y, 0.0f, 0.0f};
     return m;
@@ -47,7 +47,7 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
 }
 
 /* wi is unit, and may be below the surface. */
-HERE vndf_view vndf_view_of(vndf_surface m, vec3 wi)
+HERE vndf_view vndf_view_from(vndf_surface m, vec3 wi)
 {
     vndf_view view = placed(m, wi);
     if (m.distribution == VNDF_GGX)
@@ -167,13 +167,13 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 /* Lambda(w) = A(w)/cos - 1, where cos is w.z less what the mean slope takes of it. */
 HERE float vndf_lambda(vndf_surface m, vec3 w)
 {
-    vndf_view view = vndf_view_of(m, w);
+    vndf_view view = vndf_view_from(m, w);
     return lambda_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
 HERE float vndf_g1(vndf_surface m, vec3 w)
 {
-    vndf_view view = vndf_view_of(m, w);
+    vndf_view view = vndf_view_from(m, w);
     return g1_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
@@ -234,7 +234,7 @@ HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
     return lobes;
 }
 
-HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
+HERE vndf_mixture_view vndf_mixture_view_from(vndf_mixture mixture, vec3 wi)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     vndf_mixture_view view;
@@ -242,7 +242,7 @@ HERE vndf_mixture_view vndf_mixture_view_of(vndf_mixture mixture, vec3 wi)
     view.count = lobes.count;
     for (int i = 0; i < VNDF_LOBES; i++)
         if (i < lobes.count) {
-            view.lobe[i] = vndf_view_of(lobes.lobe[i], wi);
+            view.lobe[i] = vndf_view_from(lobes.lobe[i], wi);
             view.weight[i] = lobes.weight[i];
             view.share[i] = lobes.weight[i] * drawn_area(view.lobe[i]);
             area = area + view.share[i];

@@ -32,7 +32,7 @@ HERE vec3 scaled(float factor, vec3 w)
 }
 
 /* wi is unit, towards the viewer. */
-HERE vndf_bsdf vndf_bsdf_of(vndf_material material, vec3 wi)
+HERE vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
 {
     const vndf_surface m = material.surface;
     vndf_bsdf b;
@@ -46,7 +46,7 @@ HERE vndf_bsdf vndf_bsdf_of(vndf_material material, vec3 wi)
         b.eta = 1.0f / material.eta;
     }
     /* end */
-    b.view = vndf_view_of(m, scaled(b.side, wi));
+    b.view = vndf_view_from(m, scaled(b.side, wi));
     b.rise = projected(m, b.view.wi);
     b.area = vndf_projected_area(b.view);
     b.tilt = root(1.0f + (m.mean_x * m.mean_x + m.mean_y * m.mean_y));
@@ -111,7 +111,7 @@ HERE lobe_share share_of(vndf_bsdf b, meeting m)
 HERE float masked(vndf_bsdf b, meeting m)
 {
     const event e = m.e;
-    const float area_o = vndf_projected_area(vndf_view_of(b.material.surface, e.up)); /* only smith */
+    const float area_o = vndf_projected_area(vndf_view_from(b.material.surface, e.up)); /* only smith */
     float carried = 1.0f;
     /* only transmits transport=radiance */
     if (m.reflects == 0)

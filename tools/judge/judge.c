@@ -207,7 +207,7 @@ static int agree(const judge_task *task, judgement *j)
  * samples whose density was asked for will do. */
 static double apart(const judgement *j, const vndf_distribution *distribution, float alpha_x, float alpha_y)
 {
-    const vndf_surface surface = {distribution, alpha_x, alpha_y};
+    const vndf_surface surface = vndf_rough(distribution, alpha_x, alpha_y);
     double sum = 0;
     for (const judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
         const vndf_view view = vndf_view_from(&surface, v->wi);
@@ -225,7 +225,7 @@ static double apart(const judgement *j, const vndf_distribution *distribution, f
  * first, down to 2^(1/1024). */
 static void fit_roughness(const judge_task *task, judgement *j)
 {
-    double at[2] = {log2((double)task->surface.alpha_x), log2((double)task->surface.alpha_y)}, step = 3;
+    double at[2] = {log2((double)task->surface.xx), log2((double)task->surface.yy)}, step = 3;
     j->fits_tv = HUGE_VAL;
     while (step > 0x1p-10) {
         const double from[2] = {at[0], at[1]}, before = j->fits_tv;

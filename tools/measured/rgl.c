@@ -255,7 +255,7 @@ int rgl_write(FILE *file, const vndf_distribution *distribution, const rgl_form 
     rgl_arrays *a = calloc(1, sizeof *a);
     if (!a)
         return 0;
-    a->surface = (vndf_surface){distribution, form->alpha, form->alpha};
+    a->surface = vndf_rough(distribution, form->alpha, form->alpha);
     fill_normals(a);
     for (int i = 0; i < INCIDENTS; i++) { /* closest to grazing incidence, where most changes */
         const double left = 1 - (double)i / (INCIDENTS - 1);

@@ -36,7 +36,7 @@ class VndfDistribution
     }
     // The table has to outlive this. Roughness below 1e-4 is a mirror to EffectivelySmooth.
     VndfDistribution(const vndf_distribution *table, Float alpha_x, Float alpha_y)
-        : surface{table, std::max(float(alpha_x), 1e-4f), std::max(float(alpha_y), 1e-4f)}
+        : surface(vndf_rough(table, std::max(float(alpha_x), 1e-4f), std::max(float(alpha_y), 1e-4f)))
     {
     }
 
@@ -46,7 +46,7 @@ class VndfDistribution
     }
     bool EffectivelySmooth() const
     {
-        return std::max(surface.alpha_x, surface.alpha_y) < 1e-3f;
+        return std::max(surface.xx, surface.yy) < 1e-3f;
     }
     Float G1(Vector3f w) const
     {
@@ -85,13 +85,13 @@ class VndfDistribution
     }
     void Regularize()
     {
-        for (float *alpha : {&surface.alpha_x, &surface.alpha_y})
+        for (float *alpha : {&surface.xx, &surface.yy})
             *alpha = *alpha < 0.3f ? std::clamp(2 * *alpha, 0.1f, 0.3f) : *alpha;
     }
     std::string ToString() const
     {
-        return "[ VndfDistribution alpha_x: " + std::to_string(surface.alpha_x) +
-               " alpha_y: " + std::to_string(surface.alpha_y) + " ]";
+        return "[ VndfDistribution alpha_x: " + std::to_string(surface.xx) +
+               " alpha_y: " + std::to_string(surface.yy) + " ]";
     }
 
   private:

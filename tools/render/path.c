@@ -70,8 +70,8 @@ static int begin(surface *s, const path_plan *plan, const hit *h, vec3 direction
         return s->wi.z > 0.0f;
     if (is->alpha_map)
         image_bilinear(is->alpha_map, h->u, h->v, map);
-    const vndf_roughness r = {is->is.alpha_x * map[0], is->is.alpha_y * map[0], 1.0f, 0.0f};
-    return vndf_bsdf_rough(&s->bsdf, &plan->materials[h->shape->material], is->alpha_map ? &r : NULL, s->wi);
+    const vndf_surface rough = vndf_rough(NULL, is->is.surface.xx * map[0], is->is.surface.yy * map[0]);
+    return vndf_bsdf_on(&s->bsdf, &plan->materials[h->shape->material], is->alpha_map ? &rough : NULL, s->wi);
 }
 
 /* f |cos| without the colour; returns the density with which the material draws wo. Perfect sampling of an albedo

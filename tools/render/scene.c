@@ -268,9 +268,7 @@ static int read_distribution(reader *r, vndf_description *is)
     const int is_ggx = strcmp(text, "ggx") == 0, is_closed = is_ggx || strcmp(text, "beckmann") == 0;
     double both[2] = {1, 1};
     const size_t count = alpha ? parse_numbers(r->command, "--alpha", alpha, 1e-6, 1e3, 1, 2, both) : 1;
-    is->alpha_x = (float)both[0];
-    is->alpha_y = (float)both[count == 2];
-    is->distribution = is_ggx ? vndf_ggx() : vndf_beckmann();
+    is->surface = vndf_rough(is_ggx ? vndf_ggx() : vndf_beckmann(), (float)both[0], (float)both[count == 2]);
     if (!count)
         return 0;
     if (is_closed)
@@ -283,7 +281,7 @@ static int read_distribution(reader *r, vndf_description *is)
             return 0;
         r->tables[i] = text;
     }
-    is->distribution = r->made->tables[i];
+    is->surface.distribution = r->made->tables[i];
     return 1;
 }
 
@@ -323,8 +321,8 @@ static int read_rough(reader *r, size_t kind, material *m)
     is->effects.lobes = kind == DIELECTRIC ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
     is->effects.scattering =
         option_choice(&r->given, "--scattering", 0) ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
-    const double least = 1e-6 / fmin((double)is->alpha_x, (double)is->alpha_y);
-    const double most = 1e3 / fmax((double)is->alpha_x, (double)is->alpha_y);
+    const double least = 1e-6 / fmin((double)is->surface.xx, (double)is->surface.yy);
+    const double most = 1e3 / fmax((double)is->surface.xx, (double)is->surface.yy);
     return find_image(r, "--alpha-map", 1, least, most, &m->alpha_map) &&
            (vndf_material_resolve(is, &resolved, &error) == VNDF_OK || wrong(r, "%s", error.message));
 }

@@ -10,14 +10,11 @@
 
 static void run_one(const vndf_call *c, size_t i)
 {
-    vndf_affine s = vndf_call_surface(c, i);
+    const vndf_surface s = vndf_call_surface(c, i);
     const vndf_vec3 wi = vndf_call_vec3(c, VNDF_READ_WI_X, i), given = vndf_call_vec3(c, VNDF_READ_A, i);
-    const vndf_surface rough = {s.distribution, s.xx, s.yy};
-    const vndf_view view = c->diagonal ? vndf_view_from(&rough, wi) : vndf_affine_view_from(&s, wi);
+    const vndf_view view = vndf_view_from(&s, wi);
     vndf_vec3 wm;
     float to[VNDF_WRITES] = {0.0f};
-    if (c->diagonal && !(s.xx > 0.0f && s.yy > 0.0f))
-        s.distribution = NULL; /* which is invalid */
     switch (c->task) {
     case VNDF_TASK_SAMPLE:
         wm = c->write[4] ? vndf_sample_weight(&view, given.x, given.y, &to[3], &to[4])
@@ -27,10 +24,10 @@ static void run_one(const vndf_call *c, size_t i)
     case VNDF_TASK_PDF: to[0] = vndf_pdf(&view, given); break;
     case VNDF_TASK_VISIBLE: to[0] = vndf_visible(&view, given); break;
     case VNDF_TASK_INVERT: vndf_invert(&view, given, &to[0], &to[1]); break;
-    case VNDF_TASK_NDF: to[0] = vndf_affine_ndf(&s, given); break;
-    case VNDF_TASK_LAMBDA: to[0] = vndf_affine_lambda(&s, wi); break;
-    case VNDF_TASK_G1: to[0] = vndf_affine_g1(&s, wi); break;
-    case VNDF_TASK_AREA: to[0] = vndf_affine_projected_area(&s, wi); break;
+    case VNDF_TASK_NDF: to[0] = vndf_ndf(&s, given); break;
+    case VNDF_TASK_LAMBDA: to[0] = vndf_lambda(&s, wi); break;
+    case VNDF_TASK_G1: to[0] = vndf_g1(&s, wi); break;
+    case VNDF_TASK_AREA: to[0] = vndf_projected_area(&s, wi); break;
     case VNDF_TASK_DRAWN_AREA: to[0] = view.distribution ? vndf_view_drawn_area(&view) : 0.0f; break;
     }
     to[1] = c->task == VNDF_TASK_AREA || c->task == VNDF_TASK_DRAWN_AREA ? view.distribution != NULL : to[1];
@@ -79,21 +76,21 @@ vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit)
 
 /* ---- calls ---- */
 
-vndf_call vndf_call_of(const vndf_batch *b)
+vndf_call vndf_call_of(const vndf_batch *b, const vndf_surface_batch *s)
 {
     const unsigned surface = (1u << VNDF_READ_WI_X) - 1, direction = (1u << VNDF_READ_A) - 1 - surface;
-    const vndf_call call = {
-        .distribution = b->distribution,
-        .count = b->count,
-        .shared = (b->shared & VNDF_SHARED_ALPHA ? surface : 0) | (b->shared & VNDF_SHARED_WI ? direction : 0),
-        .read = {b->alpha_x, b->xy, b->yx, b->alpha_y, b->mean_x, b->mean_y, b->wi_x, b->wi_y, b->wi_z},
-        .diagonal = !b->xy && !b->yx && !b->mean_x && !b->mean_y};
+    const vndf_call call = {.distribution = s->distribution,
+                            .count = b->count,
+                            .shared = (b->shared & VNDF_SHARED_SURFACE ? surface : 0) |
+                                      (b->shared & VNDF_SHARED_WI ? direction : 0),
+                            .read = {s->xx, s->xy, s->yx, s->yy, s->mean_x, s->mean_y, b->wi_x, b->wi_y, b->wi_z},
+                            .plain = !s->xy && !s->yx && !s->mean_x && !s->mean_y};
     return call;
 }
 
 static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
-    vndf_call call = vndf_call_of(b);
+    vndf_call call = vndf_call_of(b, &b->surface);
     if (b->lobes) {
         vndf_run_mixtures(b, task, a);
         return;

@@ -34,7 +34,7 @@ typedef struct vndf_call {
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
     size_t count;
     const int *at; /* which elements of the arrays; NULL: the first */
-    int diagonal;  /* roughness alone: xx and yy have to be above 0 */
+    int plain;     /* surfaces are matrices of xx and yy alone */
 } vndf_call;
 
 /* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL in lanes; those of
@@ -48,8 +48,8 @@ vndf_lanes vndf_one_by_one;
 /* The best lanes up to `limit` for so many elements. */
 vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit);
 
-/* The surfaces and directions of a batch. */
-vndf_call vndf_call_of(const vndf_batch *batch);
+/* These surfaces, and the directions of a batch. */
+vndf_call vndf_call_of(const vndf_batch *batch, const vndf_surface_batch *surface);
 
 /* What is read beside the surface, numbers u1 and u2 or a normal, and what is written. */
 typedef struct vndf_arrays {
@@ -67,12 +67,12 @@ static inline float vndf_call_number(const vndf_call *call, int which, size_t i)
     return array ? array[call->shared >> which & 1 ? 0 : i] : 0.0f;
 }
 
-static inline vndf_affine vndf_call_surface(const vndf_call *call, size_t i)
+static inline vndf_surface vndf_call_surface(const vndf_call *call, size_t i)
 {
     float of[VNDF_READ_WI_X];
     for (int r = 0; r < VNDF_READ_WI_X; r++)
         of[r] = vndf_call_number(call, r, i);
-    return (vndf_affine){call->distribution, of[0], of[1], of[2], of[3], of[4], of[5]};
+    return (vndf_surface){call->distribution, of[0], of[1], of[2], of[3], of[4], of[5]};
 }
 
 static inline vndf_vec3 vndf_call_vec3(const vndf_call *call, int first, size_t i)

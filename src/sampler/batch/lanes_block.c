@@ -535,8 +535,6 @@ HERE void run_entered(const block *b, const vndf_call *call, const elements *e)
 HERE mask valid_at(const block *b, int g)
 {
     mask valid = affine_is_valid(map_at(b, g, b->plain));
-    if (b->plain)
-        valid = both(valid, less(set(0.0f), least(input(b, VNDF_READ_XX, g), input(b, VNDF_READ_YY, g))));
     if (b->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                                                input(b, VNDF_READ_WI_Z, g)));
@@ -633,7 +631,7 @@ void LANES_ENTRY(const vndf_call *call)
     copies c;
     const vndf_distribution *d = call->distribution;
     const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
-    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->diagonal};
+    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->plain};
     if (b.kind == VNDF_KIND_TABLE)
         b.t = table_of(d);
     for (int r = 0; r < VNDF_READS; r++) {

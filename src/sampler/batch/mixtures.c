@@ -174,16 +174,10 @@ static void set_lobes(mixed *m, const vndf_batch *b)
 {
     m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
     m->lanes = vndf_lanes_for(b->count, b->limit);
-    m->call[0] = vndf_call_of(b);
-    for (int l = 0; l < m->lobes; l++)
-        m->lanes = b->lobe[l].distribution ? m->lanes : vndf_one_by_one;
+    m->call[0] = vndf_call_of(b, &b->lobe[0].surface);
     for (int l = 0; l < m->lobes; l++) {
-        const vndf_lobe_batch *a = &b->lobe[l];
-        const float *const read[] = {a->xx, a->xy, a->yx, a->yy, a->mean_x, a->mean_y};
-        m->call[l] = vndf_call_of(b);
-        memcpy(m->call[l].read, read, sizeof read);
-        m->call[l].distribution = a->distribution;
-        m->call[l].diagonal = 0;
+        m->lanes = b->lobe[l].surface.distribution ? m->lanes : vndf_one_by_one;
+        m->call[l] = vndf_call_of(b, &b->lobe[l].surface);
     }
 }
 

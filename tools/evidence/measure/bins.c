@@ -16,7 +16,7 @@ static const double pi = 3.14159265358979323846;
 
 /* ---- the frame ----------------------------------------------------------------------------------- */
 
-bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi)
+bins_frame bins_frame_of(const vndf_surface *shape, vndf_vec3 wi)
 {
     const double info = vndf_distribution_info(shape->distribution).scale, scale = info > 0 ? info : 1;
     const double length = hypot(hypot((double)wi.x, (double)wi.y), (double)wi.z);
@@ -31,12 +31,6 @@ bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi)
     if (f.s > 0)
         f.x = a / f.s, f.y = b / f.s;
     return f;
-}
-
-bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi)
-{
-    const vndf_affine shape = {surface->distribution, surface->alpha_x, 0, 0, surface->alpha_y, 0, 0};
-    return bins_frame_from(&shape, wi);
 }
 
 void bins_over(const bins_frame *f, vndf_vec3 wm, double n[3])

@@ -20,8 +20,7 @@ typedef struct bins_frame {
     double s, c, x, y;                          /* the direction in it: (s, 0, c) */
 } bins_frame;
 
-/* Of the matrix of `shape` times its distribution's median slope, its mean slope, and wi; and of two roughnesses. */
-bins_frame bins_frame_from(const vndf_affine *shape, vndf_vec3 wi);
+/* Of the matrix of a surface times its distribution's median slope, its mean slope, and wi. */
 bins_frame bins_frame_of(const vndf_surface *surface, vndf_vec3 wi);
 
 /* The normal where its slopes are over the matrix, unit, turned to wi. */

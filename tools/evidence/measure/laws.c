@@ -245,9 +245,9 @@ static void look_from(laws *l, double rho)
     }
     if (!(area > AREA_LEAST * hypot(s, c * l->scale) * l->mass[1] / PI))
         return;
-    vndf_batch batch = {.distribution = l->surface.distribution, .count = end - from};
-    batch.shared = VNDF_SHARED_ALPHA | VNDF_SHARED_WI;
-    batch.alpha_x = batch.alpha_y = &l->surface.alpha_x;
+    vndf_batch batch = {.surface = {.distribution = l->surface.distribution}, .count = end - from};
+    batch.shared = VNDF_SHARED_SURFACE | VNDF_SHARED_WI;
+    batch.surface.xx = batch.surface.yy = &l->surface.xx;
     batch.wi_x = &wi.x, batch.wi_y = &wi.y, batch.wi_z = &wi.z;
     vndf_pdf_n(&batch, (vndf_normals){l->x + from, l->y, l->z + from}, l->pdf + from);
     double drawn = 0, rarely = beyond / area, often = 0, unsure = 0;
@@ -354,7 +354,7 @@ int laws_measure(const vndf_distribution *table, const vndf_source *source, int 
         found[i] = (laws_figure){names[i], (double)stored[i], -1, NAN, 0};
     l->source = source;
     const float alpha = (float)(1 / info.scale);
-    l->surface = (vndf_surface){table, alpha, alpha};
+    l->surface = vndf_rough(table, alpha, alpha);
     l->scale = 1 / (double)alpha;
     l->worst = found;
     l->unit = info.normalization * l->scale * l->scale;

@@ -60,7 +60,7 @@ void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points,
                        double error[STRATIFIED_LIGHTS])
 {
     const double scale = vndf_distribution_info(surface->distribution).scale, n = (double)scrambles;
-    const double width = fmin(1, (scale > 0 ? scale : 1) * (double)surface->alpha_x);
+    const double width = fmin(1, (scale > 0 ? scale : 1) * (double)surface->xx);
     const vndf_view view = vndf_view_from(surface, wi);
     double sum[STRATIFIED_LIGHTS] = {0}, squares[STRATIFIED_LIGHTS] = {0};
     for (size_t i = 0; i < scrambles; i++) {
@@ -93,7 +93,7 @@ double stratified_beside_caps(const vndf_distribution *distribution, float alpha
     static const double thetas[VIEWS] = {5, 25, 45, 60, 75, 85};
     const double scale = vndf_distribution_info(distribution).scale;
     const float same = alpha * (float)(scale > 0 ? scale : 1);
-    const vndf_surface ours = {distribution, alpha, alpha}, caps = {vndf_ggx(), same, same};
+    const vndf_surface ours = vndf_rough(distribution, alpha, alpha), caps = vndf_rough(vndf_ggx(), same, same);
     double sum = 0;
     for (int i = 0; i < VIEWS; i++) {
         const vndf_vec3 wi = direction_from(thetas[i], 36.87);

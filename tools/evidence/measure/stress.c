@@ -172,7 +172,7 @@ stress_result stress_run(const vndf_distribution *distribution, size_t every, ui
             result.outside++;
             continue;
         }
-        const vndf_surface surface = {distribution, x, y};
+        const vndf_surface surface = vndf_rough(distribution, x, y);
         const vndf_vec3 wi = direction(i % DIRECTIONS),
                         wo = direction((size_t)(random_bits(&stream) % DIRECTIONS));
         const vndf_view view = vndf_view_from(&surface, wi);

@@ -24,9 +24,8 @@ const effect_set effect_sets[] = {
      .visible = "V-cavity masking"},
     {.name = "two roughnesses", .stretched = 1},
     {.name = "roughness per hit", .is_rough = 1},
-    {.name = "rotated axes", .effects = {.shape = VNDF_SHAPE_ROTATED}, .stretched = 1},
-    {.name = "matrix", .effects = {.shape = VNDF_SHAPE_MATRIX}, .stretched = 1},
-    {.name = "matrix and mean slope", .effects = {.shape = VNDF_SHAPE_AFFINE}, .stretched = 1},
+    {.name = "matrix", .stretched = 1, .turned = 1},
+    {.name = "matrix and mean slope", .effects = {.shape = VNDF_SHAPE_TILTED}, .stretched = 1, .turned = 1},
     {.name = "two lobes", .effects = {.shape = VNDF_SHAPE_MIXTURE}},
     {.name = "retroreflection", .effects = {.reflection = VNDF_REFLECTION_RETRO}},
     {.name = "transmission alone",
@@ -58,9 +57,9 @@ block_law effect_law(const effect_set *set)
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
     if (of->set->is_rough) {
-        const vndf_description *is = &of->material.is;
-        const vndf_roughness r = {in->alpha * is->alpha_x, in->alpha * is->alpha_y, 1.0f, 0.0f};
-        vndf_bsdf_rough(bsdf, &of->material, &r, in->wi);
+        const vndf_surface *s = &of->material.is.surface,
+                           rough = vndf_rough(NULL, in->alpha * s->xx, in->alpha * s->yy);
+        vndf_bsdf_on(bsdf, &of->material, &rough, in->wi);
     } else {
         vndf_bsdf_at(bsdf, &of->material, in->wi);
     }
@@ -123,26 +122,26 @@ static void batch(const method *m, block *b)
 /* The roughness of the surface at an angle, with a mean slope, and a second lobe three times as wide. */
 static void lobes_of(vndf_mixture *mixture, const vndf_surface *surface, int leans)
 {
-    const float c = 0.8776f, s = 0.4794f, ax = surface->alpha_x, ay = surface->alpha_y;
-    const vndf_affine core = {surface->distribution, c * ax, -s * ay, s * ax, c * ay, leans ? 0.2f : 0.0f,
-                              leans ? -0.1f : 0.0f};
-    const vndf_affine haze = {surface->distribution, 3 * ax, 0, 0, 3 * ay, 0, 0};
+    vndf_surface core = vndf_rotated(*surface, 0.8776f, 0.4794f);
+    const vndf_surface haze = vndf_rough(surface->distribution, 3 * surface->xx, 3 * surface->yy);
+    core.mean_x = leans ? 0.2f : 0.0f;
+    core.mean_y = leans ? -0.1f : 0.0f;
     *mixture = (vndf_mixture){.count = 2, .lobe = {{core, 0.7f}, {haze, 0.3f}}};
 }
 
 double effect_cosine(const effect_case *of, vndf_vec3 w)
 {
-    const vndf_affine *a = &of->mixture.lobe[0].surface;
+    const vndf_surface *a = &of->mixture.lobe[0].surface;
     double x = (double)a->mean_x, y = (double)a->mean_y;
     return ((double)w.z - (double)w.x * x - (double)w.y * y) / sqrt(1 + x * x + y * y);
 }
 
 static vndf_status make(effect_case *of, const effect_set *set, const vndf_surface *surface, vndf_error *error)
 {
-    const vndf_surface s = {surface->distribution, surface->alpha_x,
-                            set->stretched ? surface->alpha_x / 4 : surface->alpha_y};
+    vndf_surface s = *surface;
+    s.yy = set->stretched ? s.xx / 4 : s.yy;
     of->set = set;
-    lobes_of(&of->mixture, &s, set->effects.shape == VNDF_SHAPE_AFFINE);
+    lobes_of(&of->mixture, &s, set->effects.shape == VNDF_SHAPE_TILTED);
     if (set->effects.scattering >= VNDF_SCATTERING_TURQUIN)
         of->albedo = vndf_albedo_build(surface->distribution, 0.0f, error);
     /* gold at 650, 550 and 450 nm for conductors; a dielectric under Schlick's approximation */
@@ -151,8 +150,7 @@ static vndf_status make(effect_case *of, const effect_set *set, const vndf_surfa
                            .conductor_eta = {0.16f, 0.42f, 1.35f},
                            .conductor_k = {3.5f, 2.35f, 1.9f}};
     is.effects = set->effects, is.albedo = of->albedo;
-    is.distribution = surface->distribution, is.alpha_x = s.alpha_x, is.alpha_y = s.alpha_y, is.rotation = 0.5f;
-    is.affine = of->mixture.lobe[0].surface, is.mixture = &of->mixture;
+    is.surface = set->turned ? of->mixture.lobe[0].surface : s, is.mixture = &of->mixture;
     return vndf_material_resolve(&is, &of->material, error);
 }
 

@@ -1,5 +1,5 @@
 /* The library itself: view, sample and density, one by one or by batches up to a set of instructions; the other
- * calls, which are only timed; surfaces beyond two roughnesses: affine ones and two lobes; and what `vndf export
+ * calls, which are only timed; surfaces beyond two roughnesses: sheared ones and two lobes; and what `vndf export
  * --language c` writes, beside them: the build writes the kernel (tools/export/write_kernel.c). */
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,7 +14,7 @@ static const float core = 0.7f, haze = 0.3f; /* of two lobes */
 
 static inline vndf_view view_of(const method *m, const method_input *in)
 {
-    const vndf_surface surface = {m->d, in->alpha, in->alpha};
+    const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
     return vndf_view_from(&surface, in->wi);
 }
 
@@ -41,15 +41,15 @@ static void shared(const method *m, block *b)
 }
 
 /* Turned, sheared, and with a mean slope. */
-static inline vndf_affine oblique(const method *m, float alpha)
+static inline vndf_surface oblique(const method *m, float alpha)
 {
-    return (vndf_affine){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
+    return (vndf_surface){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
 }
 
 /* The other calls, and the surfaces: a core and a haze three times as rough are the two lobes. */
 static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
 {
-    const vndf_surface surface = {m->d, in->alpha, in->alpha};
+    const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
     const float a = in->alpha, b = 3 * a;
     vndf_vec3 wm = {0, 0, 0};
     vndf_view view;
@@ -58,13 +58,13 @@ static inline vndf_vec3 one_call(const method *m, const method_input *in, float 
         return wm;
     }
     if (m->call == METHOD_TWO_LOBES) {
-        vndf_mixture mixture = {2, {{{m->d, a, 0, 0, a, 0, 0}, core}, {{m->d, b, 0, 0, b, 0, 0}, haze}}};
+        vndf_mixture mixture = {2, {{vndf_rough(m->d, a, a), core}, {vndf_rough(m->d, b, b), haze}}};
         vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, in->wi);
         return vndf_mixture_sample(&lobes, in->u[0], in->u[1], pdf, NULL);
     }
     if (m->call == METHOD_AFFINE) {
-        vndf_affine affine = oblique(m, a);
-        view = vndf_affine_view_from(&affine, in->wi);
+        vndf_surface sheared = oblique(m, a);
+        view = vndf_view_from(&sheared, in->wi);
         return vndf_sample(&view, in->u[0], in->u[1], pdf);
     }
     view = vndf_view_from(&surface, in->wi);
@@ -89,8 +89,8 @@ static void each_call(const method *m, block *b)
 static inline vndf_vec3 one_exported(const method *m, const method_input *in, float *pdf)
 {
     const float *numbers = m->state;
-    exported_surface surface = exported_surface_of(numbers ? 0 : EXPORTED_GGX, in->alpha, in->alpha);
-    exported_view view = exported_view_of(numbers, surface, (exported_vec3){in->wi.x, in->wi.y, in->wi.z});
+    exported_surface surface = exported_rough(numbers ? 0 : EXPORTED_GGX, in->alpha, in->alpha);
+    exported_view view = exported_view_from(numbers, surface, (exported_vec3){in->wi.x, in->wi.y, in->wi.z});
     exported_sampled drawn = exported_sample(numbers, view, in->u[0], in->u[1]);
     *pdf = drawn.pdf;
     return (vndf_vec3){drawn.wm.x, drawn.wm.y, drawn.wm.z};
@@ -105,8 +105,8 @@ static void each_exported(const method *m, block *b)
 
 static vndf_batch batch_of(const method *m, const block *b)
 {
-    vndf_batch of = {.distribution = m->d, .count = b->count, .limit = b->limit};
-    of.alpha_x = of.alpha_y = b->alpha;
+    vndf_batch of = {
+        .surface = {.distribution = m->d, .xx = b->alpha, .yy = b->alpha}, .count = b->count, .limit = b->limit};
     of.wi_x = b->wi[0], of.wi_y = b->wi[1], of.wi_z = b->wi[2];
     return of;
 }
@@ -127,14 +127,13 @@ static void batch_affine(const method *m, block *b)
 {
     float of[6][BLOCK];
     for (size_t i = 0; i < b->count; i++) {
-        vndf_affine a = oblique(m, b->alpha[i]);
+        vndf_surface a = oblique(m, b->alpha[i]);
         const float number[6] = {a.xx, a.xy, a.yx, a.yy, a.mean_x, a.mean_y};
         for (int k = 0; k < 6; k++)
             of[k][i] = number[k];
     }
     vndf_batch batch = batch_of(m, b);
-    batch.alpha_x = of[0], batch.xy = of[1], batch.yx = of[2], batch.alpha_y = of[3];
-    batch.mean_x = of[4], batch.mean_y = of[5];
+    batch.surface = (vndf_surface_batch){m->d, of[0], of[1], of[2], of[3], of[4], of[5]};
     vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
@@ -146,8 +145,8 @@ static void batch_lobes(const method *m, block *b)
     vndf_batch batch = batch_of(m, b);
     batch.shared = VNDF_SHARED_WEIGHT;
     batch.lobes = 2;
-    batch.lobe[0] = (vndf_lobe_batch){m->d, b->alpha, NULL, NULL, b->alpha, NULL, NULL, &core};
-    batch.lobe[1] = (vndf_lobe_batch){m->d, rough, NULL, NULL, rough, NULL, NULL, &haze};
+    batch.lobe[0] = (vndf_lobe_batch){{.distribution = m->d, .xx = b->alpha, .yy = b->alpha}, &core};
+    batch.lobe[1] = (vndf_lobe_batch){{.distribution = m->d, .xx = rough, .yy = rough}, &haze};
     vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
@@ -201,7 +200,7 @@ method_reference method_reference_of(const vndf_distribution *d, const char *nam
 {
     double scale = vndf_distribution_info(d).scale;
     float alpha = (float)(1 / (scale > 0 ? scale : 1));
-    return (method_reference){{d, alpha, alpha}, 1 / alpha, name};
+    return (method_reference){vndf_rough(d, alpha, alpha), 1 / alpha, name};
 }
 
 void method_release(method *m)

@@ -115,7 +115,7 @@ static void normals_each(const method *m, block *b)
 static double sine2_at(const vndf_surface *surface, double mass)
 {
     if (surface->distribution == vndf_beckmann())
-        return 1 / (1 + 1 / (-log1p(-mass) * (double)surface->alpha_x * (double)surface->alpha_x));
+        return 1 / (1 + 1 / (-log1p(-mass) * (double)surface->xx * (double)surface->xx));
     vndf_view view = vndf_view_from(surface, (vndf_vec3){0, 0, 1});
     vndf_vec3 wm = vndf_sample(&view, 0.5f, (float)mass, NULL);
     return (double)wm.x * (double)wm.x + (double)wm.y * (double)wm.y;

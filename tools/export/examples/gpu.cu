@@ -72,7 +72,7 @@ template <int DISTRIBUTION> struct normals {
     static __device__ answer draw(const float *numbers, asked q)
     {
         const normals_view v =
-            normals_view_of(numbers, normals_surface_of(DISTRIBUTION, q.alpha_x, q.alpha_y), q.wi);
+            normals_view_from(numbers, normals_rough(DISTRIBUTION, q.alpha_x, q.alpha_y), q.wi);
         const normals_sampled s = normals_sample(numbers, v, q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }
@@ -82,7 +82,7 @@ struct embedded {
     static __device__ answer draw(const float *, asked q)
     {
         const embedded_view v =
-            embedded_view_of(embedded_surface_of(EMBEDDED_STUDENT_T_2_5_SMALL, q.alpha_x, q.alpha_y), q.wi);
+            embedded_view_from(embedded_rough(EMBEDDED_STUDENT_T_2_5_SMALL, q.alpha_x, q.alpha_y), q.wi);
         const embedded_sampled s = embedded_sample(v, q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }
@@ -92,11 +92,11 @@ struct two_tables {
     static __device__ answer draw(const float *numbers, asked q)
     {
         normals_mixture m = {2};
-        m.lobe[0] = normals_surface_of(NORMALS_STUDENT_T_2_5, q.alpha_x, q.alpha_y);
-        m.lobe[1] = normals_surface_of(NORMALS_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y);
+        m.lobe[0] = normals_rough(NORMALS_STUDENT_T_2_5, q.alpha_x, q.alpha_y);
+        m.lobe[1] = normals_rough(NORMALS_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y);
         m.weight[0] = 0.6f;
         m.weight[1] = 0.4f;
-        const normals_mixed s = normals_mixture_sample(numbers, normals_mixture_view_of(numbers, m, q.wi), q.u.x, q.u.y);
+        const normals_mixed s = normals_mixture_sample(numbers, normals_mixture_view_from(numbers, m, q.wi), q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }
 };
@@ -104,8 +104,8 @@ struct two_tables {
 struct glass { /* a table's dielectric with both lobes: direction, weight and density */
     static __device__ answer draw(const float *numbers, asked q)
     {
-        const glass_material m = {glass_surface_of(GLASS_STUDENT_T_2_5_SMALL, q.alpha_x, q.alpha_y), 1.5f};
-        const glass_scattered s = glass_bsdf_sample(numbers, glass_bsdf_of(numbers, m, q.wi), q.u);
+        const glass_material m = {glass_rough(GLASS_STUDENT_T_2_5_SMALL, q.alpha_x, q.alpha_y), 1.5f};
+        const glass_scattered s = glass_bsdf_sample(numbers, glass_bsdf_at(numbers, m, q.wi), q.u);
         const float square = s.wo.x * s.wo.x + s.wo.y * s.wo.y + s.wo.z * s.wo.z;
         return {s.wo, s.pdf + s.weight.x,
                 !(fabsf(square - 1) < 3e-6f && s.weight.x >= 0 && s.weight.x < 3e38f && s.pdf >= 0 &&

@@ -17,7 +17,7 @@ void main() {
     float edge = clamp((1.0 - length(p)) * 0.5 * size.x + 0.5, 0.0, 1.0);
     float density = 0.0;
     if (edge > 0.0) {
-        density = vndf_pdf(vndf_view_of(surface_here(), incident), normal_from_disc(p));
+        density = vndf_pdf(vndf_view_from(surface_here(), incident), normal_from_disc(p));
     }
     vec3 shade = ramp(1.0 + log(max(density, 1e-30) / top) / (decades * log(10.0)));
     colour = vec4(shade * edge, edge);

@@ -5,7 +5,7 @@ layout(location = 1) out vec4 light_out; // G2/G1 of the reflected direction, fa
 void main() {
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     vec2 u = (vec2(pixel) + random_at(uvec3(pixel, 11u)).xy) / size;
-    vndf_view view = vndf_view_of(surface_here(), incident);
+    vndf_view view = vndf_view_from(surface_here(), incident);
     vndf_sampled drawn = vndf_sample(view, u.x, u.y);
     float facing = dot(incident, drawn.wm);
     float pdf = vndf_pdf(view, drawn.wm);

@@ -82,7 +82,7 @@ vec3 shaded(vec3 at, vec3 normal, vec3 to_eye, vec2 u_normal, vec2 u_lamp, vec2 
     frame f = frame(x, cross(normal, x), normal);
     vec3 wi = local(f, to_eye);
     wi.z = max(wi.z, 1e-3);
-    vndf_view view = vndf_view_of(surface_here(), normalize(wi));
+    vndf_view view = vndf_view_from(surface_here(), normalize(wi));
     vec3 gets = vec3(0.0);
     for (int kind = 0; kind < (shine == vec3(0.0) ? 1 : 2); kind += 1) {
         gets += mirrored(f, at, view, kind == 1, kind == 1 ? u_lamp : u_normal);

@@ -71,7 +71,7 @@ class Batch:
 
     def shared(self) -> int:
         """The same of all groups, as C takes it."""
-        bits = {"shape": "VNDF_SHARED_ALPHA", "wi": "VNDF_SHARED_WI", "weight": "VNDF_SHARED_WEIGHT"}
+        bits = {"shape": "VNDF_SHARED_SURFACE", "wi": "VNDF_SHARED_WI", "weight": "VNDF_SHARED_WEIGHT"}
         return sum(constant(bit) for name, bit in bits.items() if name in self.groups and self.is_shared(name))
 
     def whole(self, name: str) -> Floats:

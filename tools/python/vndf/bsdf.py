@@ -15,7 +15,7 @@ import numpy as np
 from ._arrays import Batch, Floats, Numbers, addresses_of, components, stacked, uniform
 from ._library import Owner, checked, constant, library, struct, want, words
 from .distribution import Distribution
-from .surface import Rough, Surface
+from .surface import Rough, Surface, batch_of
 
 #: values of Scattered.lobe
 LOBE_NONE, LOBE_REFLECTION, LOBE_TRANSMISSION, LOBE_STRAIGHT = range(4)
@@ -77,17 +77,14 @@ class Material:
         if not 1 <= count <= _WAVELENGTHS:
             raise ValueError(f"{count} wavelengths; 1 to {_WAVELENGTHS} are possible")
         index = optics["conductor_eta"].flat[0]
-        description = struct("vndf_description")(
-            alpha_x=1.0, alpha_y=1.0, wavelengths=count, eta=index, order_limit=order_limit
-        )
-        description.affine.xx = description.affine.yy = 1.0
+        description = struct("vndf_description")(wavelengths=count, eta=index, order_limit=order_limit)
+        description.surface.xx = description.surface.yy = 1.0
         if isinstance(surface, Surface):
-            description.distribution = surface.distribution._pointer
+            description.surface.distribution = surface.distribution._pointer
             if scattering in ("turquin", "kulla-conty"):
                 self._albedo = _albedo(surface.distribution, 0.0 if lobes == "reflection" else float(index))
                 description.albedo = self._albedo._pointer
-            upright = len(surface._groups["shape"]) == 2
-            self._shape = "aligned" if upright else "affine" if surface._is_moved else "matrix"
+            self._shape = "tilted" if surface._is_moved else "level"
         else:
             self._shape = "mixture"
         for name, array in optics.items():
@@ -155,34 +152,24 @@ class Material:
         surface = self._made["surface"]
         batch = Batch(**surface._groups, **given)
         textured = not all(batch.is_shared(name) for name in surface._groups)
-        shared = batch.shared() & constant("VNDF_SHARED_WI") | (0 if textured else constant("VNDF_SHARED_ALPHA"))
+        shared = batch.shared() & constant("VNDF_SHARED_WI") | (0 if textured else constant("VNDF_SHARED_SURFACE"))
         hits = struct("vndf_bsdf_batch")(addressof(self._material), batch.count, shared, 0)
         hits.wi_x, hits.wi_y, hits.wi_z = batch.addresses("wi", share=True)
-        if self._shape == "aligned":
-            hits.alpha_x, hits.alpha_y = batch.addresses("shape", share=True)
+        if self._shape != "mixture":
+            hits.surface = batch_of(surface.distribution, batch.addresses("shape", share=True))
             return batch, hits
         arrays = {name: batch.whole(name) if textured else array for name, array in surface._groups.items()}
         groups = {name: array.reshape(len(array), -1) for name, array in arrays.items()}
-        count = groups["shape"].shape[1]
-        if self._shape == "mixture":
-            mixtures = np.zeros(count, np.dtype(struct("vndf_mixture")))
-            mixtures["count"] = len(surface.lobes)
-            for i, lobe in enumerate(surface.lobes):
-                to = mixtures["lobe"][:, i]
-                _put_affine(to["surface"], lobe.distribution._pointer, groups["shape"][6 * i : 6 * i + 6])
-                to["weight"] = groups["weight"][i]
-            (hits.mixture,) = batch.keep(mixtures[None])
-        else:
-            affine = np.zeros(count, np.dtype(struct("vndf_affine")))
-            _put_affine(affine, 0, groups["shape"])
-            (hits.affine,) = batch.keep(affine[None])
+        mixtures = np.zeros(groups["shape"].shape[1], np.dtype(struct("vndf_mixture")))
+        mixtures["count"] = len(surface.lobes)
+        for i, lobe in enumerate(surface.lobes):
+            to = mixtures["lobe"][:, i]
+            to["weight"] = groups["weight"][i]
+            to["surface"]["distribution"] = lobe.distribution._pointer
+            for name, values in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], groups["shape"][6 * i :]):
+                to["surface"][name] = values
+        (hits.mixture,) = batch.keep(mixtures[None])
         return batch, hits
-
-
-def _put_affine(structs: Any, distribution: Any, six: Any) -> None:
-    structs["distribution"] = distribution
-    for name, values in zip(["xx", "xy", "yx", "yy", "mean_x", "mean_y"], six):
-        structs[name] = values
 
 
 def _pointers(addresses: list[int]) -> Any:

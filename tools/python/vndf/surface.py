@@ -27,6 +27,12 @@ WeightedSample = namedtuple("WeightedSample", ["wm", "pdf", "weight"])
 MixtureSample = namedtuple("MixtureSample", ["wm", "pdf", "lobe"])
 
 
+def batch_of(distribution: Distribution, shape: list[Any]) -> Any:
+    """Surfaces as C takes many: by the addresses of alpha along x and y, or of a matrix and a mean slope."""
+    six = shape if len(shape) == 6 else [shape[0], None, None, shape[1], None, None]
+    return struct("vndf_surface_batch")(distribution._pointer, *six)
+
+
 class Rough:
     """What all surfaces answer."""
 
@@ -141,12 +147,8 @@ class Surface(Rough):
         return shape if len(shape) == 6 else (shape[0], 0.0, 0.0, shape[1], 0.0, 0.0)
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
-        shape: list[Any] = batch.addresses("shape", share=True)
-        if len(shape) == 2:
-            shape = [shape[0], None, None, shape[1], None, None]
-        x, xy, yx, y, *mean = shape
-        head = (self.distribution._pointer, batch.count, batch.shared(), 0)
-        return struct("vndf_batch")(*head, x, y, *wi, xy, yx, *mean)
+        surfaces = batch_of(self.distribution, batch.addresses("shape", share=True))
+        return struct("vndf_batch")(surfaces, batch.count, batch.shared(), 0, *wi)
 
     def sample(self, wi: Any, u: Any) -> Sample:
         """Visible normals from wi (3, ...) and uniform numbers u (2, ...) in [0, 1], or a `numpy.random.default_rng()`
@@ -186,10 +188,11 @@ class Mixture(Rough):
 
     def _struct(self, batch: Batch, wi: Sequence[Any]) -> Any:
         shapes, weights = batch.addresses("shape", share=True), batch.addresses("weight", share=True)
-        filled = struct("vndf_batch")(None, batch.count, batch.shared(), 0, None, None, *wi, lobes=len(self.lobes))
+        none = struct("vndf_surface_batch")()
+        filled = struct("vndf_batch")(none, batch.count, batch.shared(), 0, *wi, lobes=len(self.lobes))
         for i, lobe in enumerate(self.lobes):
-            six = shapes[6 * i : 6 * i + 6]
-            filled.lobe[i] = struct("vndf_lobe_batch")(lobe.distribution._pointer, *six, weights[i])
+            surfaces = batch_of(lobe.distribution, shapes[6 * i : 6 * i + 6])
+            filled.lobe[i] = struct("vndf_lobe_batch")(surfaces, weights[i])
         return filled
 
     def sample(self, wi: Any, u: Any) -> MixtureSample:
@@ -247,7 +250,7 @@ class Family(Stored):
         """The family at a parameter, clamped to its range: a mixture of its neighbours, stretched as a :class:`Surface`
         is: ``family.at(p, alpha, alpha_y, rotation=0.3)``."""
         mixture = struct("vndf_mixture")()
-        library.family_at(self._pointer, float(parameter), byref(struct("vndf_affine")()), byref(mixture))
+        library.family_at(self._pointer, float(parameter), byref(struct("vndf_surface")()), byref(mixture))
         if not mixture.count:
             raise ValueError(f"a family has no distribution at {parameter!r}")
         known = {distribution._pointer: distribution for distribution in self.distributions}
