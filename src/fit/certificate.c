@@ -212,7 +212,7 @@ static size_t edge_before(const survey *s, double slope)
     return vndf_last_before(&s->strips.at->edge, sizeof *s->strips.at, s->strips.count, slope * (1 - 1e-9));
 }
 
-/* Directions an octave of rho apart; before k~ begins at another knot; of every so many cells the left
+/* Directions an octave of rho apart; on both sides of where k~ begins at another knot; of every so many cells the left
  * knot and a place; and the neighbourhood of what is worst. */
 static void look_around(survey *s)
 {
@@ -220,8 +220,11 @@ static void look_around(survey *s)
     for (int i = -OCTAVES; i <= OCTAVES; i++)
         look_from(s, edge_before(s, exp2(i)));
     for (int i = 1; i < VNDF_RHO_PARTS; i++)
-        if (look_first(s->table, i) != look_first(s->table, i - 1))
-            look_from(s, edge_before(s, of_bits((VNDF_RHO_FIRST + i) * (1 << 20))));
+        if (look_first(s->table, i) != look_first(s->table, i - 1)) {
+            size_t before = edge_before(s, of_bits((VNDF_RHO_FIRST + i) * (1 << 20)));
+            look_from(s, before);
+            look_from(s, before + 1);
+        }
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
         look_from(s, s->strips.first[i]);
         look_from(s, (s->strips.first[i] + s->strips.first[i + 1]) / 2);
