@@ -211,7 +211,7 @@ int main(int arguments, char **argument)
         size_t lobes[4] = {0}, n = i;
         for (size_t k = 0; k < ORACLE_EFFECT_SETS; k++) {
             vndf_effects e = oracle_effects(k);
-            if (oracle_effects_sensible(&e) && n++ % test_amount(6, 2, 1) == 0)
+            if (oracle_effects_sensible(&e) && n++ % test_amount(4, 2, 1) == 0)
                 test_material(&ndf, &e, n + k / 7, &state, lobes);
         }
         for (int lobe = 0; lobe <= VNDF_LOBE_STRAIGHT; lobe++)
