@@ -36,7 +36,7 @@ VNDF_INLINE int hit(vndf_bsdf *b, const vndf_material *m, const vndf_surface *su
                          : 1.0;
     b->own.wi = vndf_turned(wi, b->own.side);
     if (!mixture)
-        view->of.one = vndf_view_from(&b->own.surface, b->own.wi);
+        vndf_view_make(&view->of.one, &b->own.surface, b->own.wi);
     else if (b->own.side < 0.0f)
         view->of.mixture = vndf_mixture_view_from(mixture, b->own.wi);
     b->own.rise = vndf_hit_cosine(view, b->own.wi);

@@ -89,7 +89,7 @@ VNDF_INLINE int travel(const vndf_bsdf *b, ray *r, vndf_vec3 back)
     if (back.z < 0.0f && !(r->depth > 0.0))
         return 0;
     r->from = back;
-    r->view = vndf_view_from(&b->own.surface, back);
+    vndf_view_make(&r->view, &b->own.surface, back);
     return 1;
 }
 

@@ -38,7 +38,7 @@ vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 
         vndf_mixture_part *part = &view.part[view.count];
         if (weight[i] == 0.0f)
             continue;
-        part->view = vndf_view_from(&mixture->lobe[i].surface, wi);
+        vndf_view_make(&part->view, &mixture->lobe[i].surface, wi);
         if (!part->view.distribution) {
             view.count = 0;
             return view;

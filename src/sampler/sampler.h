@@ -6,6 +6,9 @@
 #include "core/inline.h"
 #include "vndf_bsdf.h"
 
+/* vndf_view_from, in place. */
+void vndf_view_make(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
+
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the
  * view. */
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);

@@ -54,19 +54,17 @@ VNDF_INLINE int is_direction(vndf_vec3 w)
 
 /* ---- views ---- */
 
-/* A view by the text of one kind. It is built where the caller wants it: gcc copies what was written through a pointer,
- * and the loads of that copy wait for the stores (14 of 41 ns of GGX). */
-VNDF_INLINE vndf_view view_of(const vndf_surface *surface, vndf_vec3 wi, const int kind)
+/* A view by the text of one kind. */
+VNDF_INLINE void view_into(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi, const int kind)
 {
-    vndf_view view;
-    view.distribution = NULL;
-    view.wi = wi;
+    view->distribution = NULL;
+    view->wi = wi;
     vndf_mapped map = mapped(surface);
     if (!map.distribution || !is_direction(wi))
-        return view;
-    vndf_state *s = (vndf_state *)(void *)view.numbers;
+        return;
+    vndf_state *s = (vndf_state *)(void *)view->numbers;
     frame f = frame_of(map.m, wi.x, wi.y, wi.z);
-    view.distribution = map.distribution;
+    view->distribution = map.distribution;
     s->f = f;
     if (kind == VNDF_KIND_GGX)
         s->of.ggx = ggx_see(f.ux, f.uy, f.uz);
@@ -76,23 +74,29 @@ VNDF_INLINE vndf_view view_of(const vndf_surface *surface, vndf_vec3 wi, const i
         s->of.table = table_view_of(table_of(map.distribution), f, 1);
     else
         s->of.table = table_view_of(table_of(map.distribution), f, 0);
-    return view;
 }
 
-/* Each kind has a function of its own, since a common one would keep the numbers of all kinds in registers. */
+/* Each kind has a function of its own, since a common one would keep the numbers of all kinds in registers. A view is
+ * built where the caller wants it: a copy of what was just stored waits for the stores (14 of 41 ns of GGX). */
 VNDF_RARE vndf_view view_of_ggx(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(surface, wi, VNDF_KIND_GGX);
+    vndf_view view;
+    view_into(&view, surface, wi, VNDF_KIND_GGX);
+    return view;
 }
 
 VNDF_RARE vndf_view view_of_beckmann(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(surface, wi, VNDF_KIND_BECKMANN);
+    vndf_view view;
+    view_into(&view, surface, wi, VNDF_KIND_BECKMANN);
+    return view;
 }
 
 VNDF_RARE vndf_view view_of_table(const vndf_surface *surface, vndf_vec3 wi)
 {
-    return view_of(surface, wi, VNDF_KIND_TABLE);
+    vndf_view view;
+    view_into(&view, surface, wi, VNDF_KIND_TABLE);
+    return view;
 }
 
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
@@ -102,6 +106,16 @@ vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
     if (surface && surface->distribution && surface->distribution->kind == VNDF_KIND_BECKMANN)
         return view_of_beckmann(surface, wi);
     return view_of_table(surface, wi);
+}
+
+void vndf_view_make(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
+{
+    if (surface->distribution && surface->distribution->kind == VNDF_KIND_GGX)
+        view_into(view, surface, wi, VNDF_KIND_GGX);
+    else if (surface->distribution && surface->distribution->kind == VNDF_KIND_BECKMANN)
+        view_into(view, surface, wi, VNDF_KIND_BECKMANN);
+    else
+        view_into(view, surface, wi, VNDF_KIND_TABLE);
 }
 
 /* ---- samples ---- */
