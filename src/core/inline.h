@@ -23,4 +23,10 @@
 #  define VNDF_RARE static
 #endif
 
+/* u in [0, 1]; NaN becomes 0. */
+VNDF_INLINE float vndf_clamp_unit(float u)
+{
+    return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
+}
+
 #endif

@@ -252,10 +252,10 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 
 /* ---- areas ---- */
 
-/* Whether there is more of an area below the horizon than claims end at. */
-static int is_claimed(const survey *s, double sine, double cosine, double below)
+/* Whether there is more area below the horizon than where claims end, at z = 1/(1 + rho). */
+static int is_claimed(const survey *s, double z, double below)
 {
-    return below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(sine, cosine);
+    return below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(z, 1 - z);
 }
 
 /* The larger relative error of the areas from rho, above and below the horizon, while there is enough of it. What is
@@ -269,7 +269,7 @@ static double area_error_at(const survey *s, int cell, double rho)
     double sine = 1 / (1 + rho), cosine = rho * sine, below = vndf_profile_below(s->profile, sine, cosine).below,
            above = below + cosine;
     double error = fabs(law_area_in(t, law_see_above(t, sine, cosine, rho), cell, 0) / above - 1);
-    if (is_claimed(s, sine, cosine, below)) {
+    if (is_claimed(s, sine, below)) {
         double lost =
             below > digits * above ? floats * fmin((below / above - digits) * 625, 1) * above / below : 0;
         double left = law_area_in(t, law_see_below(t, sine, cosine, rho, cell), cell, 1);
@@ -289,25 +289,23 @@ static int note_area(const survey *s, int cell, double z, double *worst, double 
     return 1;
 }
 
-/* The last place, 1/(1 + rho), where there is enough area, within 1/64 of its cell. */
+/* The last z where there is enough area, within 1/64 of its cell. */
 static double last_claimed(const survey *s)
 {
-    int low = 0, high = s->table.cells;
-    double from = 1, width;
-    while (low < high) {
-        int i = (low + high + 1) / 2;
-        double z = look(s->table, VNDF_KNOT, i).b;
-        int claimed = is_claimed(s, z, 1 - z, vndf_profile_below(s->profile, z, 1 - z).below);
-        *(claimed ? &low : &high) = claimed ? i : i - 1;
+    int cell = 0;
+    for (int step = s->table.highest; step > 0; step /= 2) {
+        double next = look(s->table, VNDF_KNOT, least_whole(cell + step, s->table.cells)).b;
+        if (cell + step <= s->table.cells &&
+            is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below))
+            cell += step;
     }
-    quad k = look(s->table, VNDF_KNOT, low);
-    from = k.b;
-    width = low < s->table.cells ? k.c : k.b;
-    for (int n = 0; n < 6; n++) {
-        double z = from - (width /= 2);
-        from = is_claimed(s, z, 1 - z, vndf_profile_below(s->profile, z, 1 - z).below) ? z : from;
+    quad k = look(s->table, VNDF_KNOT, cell);
+    double z = k.b, width = cell < s->table.cells ? k.c : k.b;
+    for (int n = 1; n <= 6; n++) {
+        double next = z - ldexp(width, -n);
+        z = is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below) ? next : z;
     }
-    return from;
+    return z;
 }
 
 /* By places in all cells, and before the last that is claimed, where errors are large; then about the worst. */

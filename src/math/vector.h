@@ -48,10 +48,4 @@ VNDF_INLINE float vndf_density_from(double density)
     return density > 0.0 ? (density < (double)FLT_MAX ? (float)density : FLT_MAX) : 0.0f;
 }
 
-/* u in [0, 1]; NaN becomes 0. */
-VNDF_INLINE float vndf_clamp_unit(float u)
-{
-    return u > 0.0f ? (u < 1.0f ? u : 1.0f) : 0.0f;
-}
-
 #endif

@@ -38,10 +38,4 @@ VNDF_INLINE int vndf_is_below(const vndf_state *s)
     return s->f.uz < 0.0f;
 }
 
-/* u in [0, 1]; NaN becomes 0. */
-VNDF_INLINE float vndf_clamp_unit(float u)
-{
-    return least(most(u, 0.0f), 1.0f);
-}
-
 #endif

@@ -1,6 +1,5 @@
 /* The calls for one element: views, samples, densities and what goes with them, by the text of the kernel. */
 #include <float.h>
-#include <string.h>
 
 #include "sampler/sampler.h"
 #include "sampler/state.h"
@@ -11,17 +10,10 @@ typedef struct vndf_mapped {
     affine_map m;
 } vndf_mapped;
 
-VNDF_INLINE uint32_t bits_of(float x)
-{
-    uint32_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
 /* Whether all but xx and yy are 0, of either sign. */
 VNDF_INLINE int is_plain(const vndf_surface *s)
 {
-    return (bits_of(s->xy) | bits_of(s->yx) | bits_of(s->mean_x) | bits_of(s->mean_y)) << 1 == 0;
+    return (uint32_t)(bits(s->xy) | bits(s->yx) | bits(s->mean_x) | bits(s->mean_y)) << 1 == 0;
 }
 
 VNDF_INLINE vndf_mapped mapped_as(const vndf_surface *surface, const int plain)
@@ -99,23 +91,27 @@ VNDF_RARE vndf_view view_of_table(const vndf_surface *surface, vndf_vec3 wi)
     return view;
 }
 
+VNDF_INLINE vndf_kind kind_of(const vndf_surface *surface)
+{
+    return surface && surface->distribution ? surface->distribution->kind : VNDF_KIND_TABLE;
+}
+
 vndf_view vndf_view_from(const vndf_surface *surface, vndf_vec3 wi)
 {
-    if (surface && surface->distribution && surface->distribution->kind == VNDF_KIND_GGX)
-        return view_of_ggx(surface, wi);
-    if (surface && surface->distribution && surface->distribution->kind == VNDF_KIND_BECKMANN)
-        return view_of_beckmann(surface, wi);
-    return view_of_table(surface, wi);
+    switch (kind_of(surface)) {
+    case VNDF_KIND_GGX: return view_of_ggx(surface, wi);
+    case VNDF_KIND_BECKMANN: return view_of_beckmann(surface, wi);
+    default: return view_of_table(surface, wi);
+    }
 }
 
 void vndf_view_make(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi)
 {
-    if (surface->distribution && surface->distribution->kind == VNDF_KIND_GGX)
-        view_into(view, surface, wi, VNDF_KIND_GGX);
-    else if (surface->distribution && surface->distribution->kind == VNDF_KIND_BECKMANN)
-        view_into(view, surface, wi, VNDF_KIND_BECKMANN);
-    else
-        view_into(view, surface, wi, VNDF_KIND_TABLE);
+    switch (kind_of(surface)) {
+    case VNDF_KIND_GGX: view_into(view, surface, wi, VNDF_KIND_GGX); break;
+    case VNDF_KIND_BECKMANN: view_into(view, surface, wi, VNDF_KIND_BECKMANN); break;
+    default: view_into(view, surface, wi, VNDF_KIND_TABLE);
+    }
 }
 
 /* ---- samples ---- */

@@ -61,9 +61,9 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
 
 vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit)
 {
-    const vndf_instructions used = vndf_instructions_used(limit);
-    (void)used;
+    (void)limit;
 #if VNDF_HAS_WIDE_LANES
+    const vndf_instructions used = vndf_instructions_used(limit);
     if (count > 1 && used >= VNDF_INSTRUCTIONS_AVX2)
         return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16 : vndf_lanes_8;
 #endif
