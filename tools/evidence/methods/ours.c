@@ -52,7 +52,6 @@ static inline vndf_vec3 one_call(const method *m, const method_input *in, float 
     const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
     const float a = in->alpha, b = 3 * a;
     vndf_vec3 wm = {0, 0, 0};
-    vndf_view view;
     if (m->call == METHOD_NDF || m->call == METHOD_LAMBDA) {
         *pdf = m->call == METHOD_NDF ? vndf_ndf(&surface, in->given) : vndf_lambda(&surface, in->wi);
         return wm;
@@ -64,10 +63,10 @@ static inline vndf_vec3 one_call(const method *m, const method_input *in, float 
     }
     if (m->call == METHOD_AFFINE) {
         vndf_surface sheared = oblique(m, a);
-        view = vndf_view_from(&sheared, in->wi);
-        return vndf_sample(&view, in->u[0], in->u[1], pdf);
+        const vndf_view leaning = vndf_view_from(&sheared, in->wi);
+        return vndf_sample(&leaning, in->u[0], in->u[1], pdf);
     }
-    view = vndf_view_from(&surface, in->wi);
+    const vndf_view view = vndf_view_from(&surface, in->wi);
     *pdf = 0;
     if (m->call == METHOD_PDF)
         *pdf = vndf_pdf(&view, in->given);
