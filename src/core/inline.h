@@ -1,4 +1,4 @@
-/* Two rules for every file of the run time.
+/* Two rules for every file of the run time, and the range of uniform numbers.
  *
  * Inlining. Functions of the hot path are always inlined into their caller, so that the small structures they
  * return stay in registers. Rare functions are never inlined, so that they take no registers from it.

@@ -206,7 +206,7 @@ static void climb(survey *s, int side, int figure)
     }
 }
 
-/* The last edge before a slope. */
+/* The index of the last edge before a slope. */
 static size_t edge_before(const survey *s, double slope)
 {
     return vndf_last_before(&s->strips.at->edge, sizeof *s->strips.at, s->strips.count, slope * (1 - 1e-9));
@@ -252,7 +252,7 @@ static void take(vndf_certificate *c, const double *f, double rho, int side, dou
 
 /* ---- areas ---- */
 
-/* Whether there is more area below the horizon than where claims end, at z = 1/(1 + rho). */
+/* Whether the certificate claims a direction, z = 1/(1 + rho), that sees this area from below the horizon. */
 static int is_claimed(const survey *s, double z, double below)
 {
     return below > vndf_profile_claimed(s->profile) * 2 * s->profile->f1 * hypot(z, 1 - z);
@@ -278,7 +278,7 @@ static double area_error_at(const survey *s, int cell, double rho)
     return error;
 }
 
-/* Keeps the larger error, and where it is: z = 1/(1 + rho). */
+/* Measures the area at z = 1/(1 + rho), and keeps the larger error and its place. Returns whether it is this one. */
 static int note_area(const survey *s, int cell, double z, double *worst, double *where)
 {
     double error = area_error_at(s, cell, 1 / z - 1);
@@ -289,7 +289,7 @@ static int note_area(const survey *s, int cell, double z, double *worst, double 
     return 1;
 }
 
-/* The last z where there is enough area, within 1/64 of its cell. */
+/* The smallest z that is claimed, within 1/64 of its cell. */
 static double last_claimed(const survey *s)
 {
     int cell = 0;
@@ -308,7 +308,8 @@ static double last_claimed(const survey *s)
     return z;
 }
 
-/* By places in all cells, and before the last that is claimed, where errors are large; then about the worst. */
+/* The largest error at places of all cells, then around it. The cell in which claims end is divided up to there, since
+ * errors grow towards the end of a support. */
 static double area_error(const survey *s)
 {
     enum { PLACES = 3, HALVINGS = 3 };

@@ -6,7 +6,7 @@
 #include "core/inline.h"
 #include "vndf_bsdf.h"
 
-/* vndf_view_from, in place. */
+/* Makes the view of vndf_view_from where it stays: an assignment would copy it. */
 void vndf_view_make(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 
 /* Of the surface of a view: D(wm), and the projected area of any direction w (unit), by the same numbers as the

@@ -150,7 +150,8 @@ static int agree(double a, double b, double least)
     return fabs(a - b) <= PANEL_TOLERANCE * (fabs(a) + fabs(b)) / 2 + least;
 }
 
-/* Whether P22 jumps between an end of a panel and the point next to it, where no point would show it. */
+/* Whether P22 jumps between an end of a panel and the point next to it, where no point would show it: a probe close to
+ * the end is farther from that point than the next point is, by much. */
 static int jumps_at_end(const vndf_profile *profile, double r0, double r1, const vndf_profile_point *point)
 {
     const double far = 4, little = 0.02; /* times the next step; of the largest */

@@ -21,7 +21,7 @@ typedef struct quadrature_sum {
 typedef struct quadrature_cell {
     size_t bin;
     double x[2], y[2];
-    int is_asked; /* from here on nothing to begin with */
+    int is_asked; /* from here on 0 to begin with: quadrature_run fills it */
     quadrature_sum sum;
     double urgency, along[2]; /* what it may err, of both functions; by how much they vary along x, and along y */
 } quadrature_cell;
