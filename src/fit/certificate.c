@@ -19,10 +19,9 @@ static const double RHO_LEAST = 0x1p-20, RHO_MOST = 0x1p30; /* claims end there 
 static const double Z_LEAST = 1e-26;                        /* law_length draws no less */
 enum { CELLS_MOST = 256, RATIOS = 1024, PER_OCTAVE = 32 };
 
-/* What one direction shows on one side. */
+/* What one direction shows on one side; the largest weight less 1. */
 enum { TV, WEIGHT, CONSISTENCY, FIGURES };
 
-/* Directions are those with rho at an edge. */
 typedef struct direction {
     double side[2][FIGURES]; /* above, below */
     int known;
@@ -40,7 +39,8 @@ typedef struct survey {
     const vndf_profile *profile;
     vndf_strips strips;
     halves *in;            /* each strip, */
-    direction *at;         /* and its edge */
+    direction *at;         /* and what is seen from rho at its edge */
+    vndf_certificate *to;  /* what is worst so far */
     double furthest;       /* xi in the last cell beyond which all is drawn at one slope */
     double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
 } survey;
@@ -56,7 +56,7 @@ static double lean_of(double point0, double point1, double end0, double end1)
     return fmin(fmax(lean, -most), most);
 }
 
-/* Places of strips in their cells, and halves of those that floats tell apart. */
+/* Places of strips in their cells, and halves of those that are not gathered. */
 static void halve(survey *s, const float *knot)
 {
     int cells = s->table.cells, squarings = s->table.squarings;
@@ -68,7 +68,7 @@ static void halve(survey *s, const float *knot)
             double to = at[1].edge, z0 = 1 / (1 + at->edge), z1 = 1 / (1 + to), per = PI * (z0 - z1);
             halves *in = &s->in[n];
             in->xi = vndf_cell_place(&cell, at->edge);
-            if (to - at->edge < 2 * VNDF_GRAIN * to || !(to < HUGE_VAL))
+            if (at->gathered || !(to < HUGE_VAL))
                 continue;
             in->middle = vndf_cell_place(&cell, 2 / (z0 + z1) - 1);
             in->end[0] = per * at->p0 * at->edge / (z0 * z0);
@@ -89,17 +89,29 @@ static vndf_drawn drawn_in(table t, seen v, int i, int below)
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
 }
 
-/* What is seen and what is drawn of some slopes: returns the difference, and notes the ratio. */
-static double miss_of(survey *s, double right, double is, double *weight)
+/* Notes that some of what is seen is drawn too rarely; `weight` is the largest ratio of a larger part. */
+static void note_ratio(survey *s, double right, double ratio, double *weight)
+{
+    if (ratio <= *weight)
+        return;
+    if (right > LEFT_OUT)
+        *weight = ratio;
+    else
+        s->rarely[ratio < 0x1p31 ? (int)(PER_OCTAVE * log2(ratio)) : RATIOS - 1] += right;
+}
+
+/* What is seen and what is drawn of both halves of a strip, or of all of it twice: returns the difference, and notes
+ * the ratios, as if they changed evenly. */
+static double miss_of(survey *s, const double right[2], const double is[2], double *weight)
 {
     const double even = 1.01; /* and less need no note */
-    if (right <= even * is)
-        return fabs(right - is);
-    if (right > LEFT_OUT && right > *weight * is)
-        *weight = is > 0 ? right / is : HUGE_VAL;
-    else if (right > *weight * is)
-        s->rarely[is * 0x1p31 > right ? (int)(PER_OCTAVE * log2(right / is)) : RATIOS - 1] += right;
-    return fabs(right - is);
+    if (right[0] > even * is[0] || right[1] > even * is[1]) {
+        double ratio[2] = {is[0] > 0 ? right[0] / is[0] : HUGE_VAL, is[1] > 0 ? right[1] / is[1] : HUGE_VAL},
+               change = fmax(ratio[0], ratio[1]) < HUGE_VAL ? (ratio[1] - ratio[0]) / 4 : 0;
+        for (int i = 0; i < 4; i++)
+            note_ratio(s, right[i / 2] / 2, ratio[i / 2] + (i % 2 ? change : -change), weight);
+    }
+    return fabs(right[0] - is[0]) + fabs(right[1] - is[1]);
 }
 
 /* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
@@ -128,28 +140,46 @@ static void compare(survey *s, seen v, int below, size_t edge, double area_seen,
             double end = n + 1 < strip[i + 1] ? (in[1].xi - xi) * stretch : 1;
             double next = vndf_drawn_before(&cell, fmin(end, furthest)), is = (next - before) / area_drawn;
             double right = per * (in->seen + add * s->strips.at[n].f), lean = per * (in->tilt + add * in->lean);
-            if (end > furthest)
+            if (end > furthest) {
                 miss += fabs(right - is);
-            else if (in->middle > 0) {
-                double middle = vndf_drawn_before(&cell, (in->middle - xi) * stretch);
-                miss += miss_of(s, right / 2 - lean, (middle - before) / area_drawn, &weight) +
-                        miss_of(s, right / 2 + lean, (next - middle) / area_drawn, &weight);
-            } else
-                miss += miss_of(s, right, is, &weight);
+            } else {
+                double middle =
+                    in->middle > 0 ? vndf_drawn_before(&cell, (in->middle - xi) * stretch) : (before + next) / 2;
+                const double seen_of[2] = {right / 2 - lean, right / 2 + lean},
+                             drawn_of[2] = {(middle - before) / area_drawn, (next - middle) / area_drawn};
+                miss += miss_of(s, seen_of, drawn_of, &weight);
+            }
             before = next;
         }
         lost = (cell.mass - before) / area_drawn;
     }
     figure[TV] = fmin((miss + lost) / 2, 1);
-    figure[WEIGHT] = largest_weight(s, weight);
+    figure[WEIGHT] = largest_weight(s, weight) - 1;
     figure[CONSISTENCY] += lost;
 }
 
-/* One side. */
-static void look_at_side(survey *s, size_t edge, int below, double *figure)
+/* Takes what is worst so far. */
+static void take(const survey *s, const double *f, double rho, int side)
+{
+    vndf_certificate *c = s->to;
+    double angle = atan2(1, rho * s->profile->scale) * 180 / PI, theta = side ? 180 - angle : angle;
+    if (f[TV] > c->tv) {
+        c->tv = (float)f[TV];
+        c->tv_theta = (float)theta;
+    }
+    if (!side && f[TV] > c->tv_above) {
+        c->tv_above = (float)f[TV];
+        c->tv_above_theta = (float)theta;
+    }
+    c->max_weight = fmaxf(c->max_weight, 1 + (float)f[WEIGHT]);
+    c->consistency = fmaxf(c->consistency, (float)f[CONSISTENCY]);
+}
+
+/* One side of rho, which is at this edge or, above the horizon, in its strip. */
+static void look_at_side(survey *s, double rho, size_t edge, int below, double *figure)
 {
     table t = s->table;
-    double rho = s->strips.at[edge].edge, sine = 1 / (1 + rho), beyond = 0, all = 0;
+    double sine = 1 / (1 + rho), beyond = 0, all = 0;
     int cell = find_knot(t, rho * rho, 1);
     seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
     for (size_t i = edge; i < s->strips.count; i++)
@@ -161,93 +191,93 @@ static void look_at_side(survey *s, size_t edge, int below, double *figure)
     double area = (beyond + (below ? 0 : PI * rho)) * sine / PI;
     figure[CONSISTENCY] = fabs((double)(float)v.total / all - 1);
     compare(s, v, below, edge, area, all, figure);
+    take(s, figure, rho, below);
 }
 
-/* Looks from rho at an edge, above and below the horizon. */
-static void look_from(survey *s, size_t edge)
+static double kernel_of(double r, double rho)
+{
+    return r > rho ? vndf_profile_kernel(r, rho) : 0;
+}
+
+/* What is seen from rho, which is at an edge or in its strip: of strips, and of that on so many sides. */
+static direction look_from(survey *s, double rho, size_t edge, int sides)
 {
     const vndf_strip *at = s->strips.at;
-    double rho = at[edge].edge, inner = 0, outer;
-    direction *found = &s->at[edge];
-    if (found->known || !(rho >= RHO_LEAST && rho <= RHO_MOST) ||
+    double inner = 0, outer;
+    direction found = {.known = 0};
+    if (!(rho >= RHO_LEAST && rho <= RHO_MOST) ||
         !vndf_guard_spend(s->profile->guard, 6 * (double)s->strips.count))
-        return;
-    *found = (direction){{{0, 1, 0}, {0, 1, 0}}, 1};
+        return found;
+    found.known = 1;
     for (size_t i = 0; i < edge; i++)
         s->in[i].seen = s->in[i].tilt = 0;
     for (size_t i = edge; i < s->strips.count; i++, inner = outer) {
         halves *in = &s->in[i];
-        double near = at[i].mass[0] * vndf_profile_kernel(at[i].r[0], rho),
-               far = at[i].mass[1] * vndf_profile_kernel(at[i].r[1], rho);
-        outer = at[i + 1].edge < HUGE_VAL ? vndf_profile_kernel(at[i + 1].edge, rho) : 0;
+        double near = at[i].mass[0] * kernel_of(at[i].r[0], rho), far = at[i].mass[1] * kernel_of(at[i].r[1], rho);
+        outer = at[i + 1].edge < HUGE_VAL ? kernel_of(at[i + 1].edge, rho) : 0;
         in->seen = near + far;
         in->tilt = in->middle > 0 ? lean_of(near, far, inner * in->end[0], outer * in->end[1]) : 0;
     }
-    look_at_side(s, edge, 0, found->side[0]);
-    look_at_side(s, edge, 1, found->side[1]);
+    for (int side = 0; side < sides; side++)
+        look_at_side(s, rho, edge, side, found.side[side]);
+    return found;
+}
+
+static void look_from_edge(survey *s, size_t edge)
+{
+    if (!s->at[edge].known)
+        s->at[edge] = look_from(s, s->strips.at[edge].edge, edge, 2);
 }
 
 /* ---- all directions ---- */
 
-/* Climbs from the edge with the largest figure to a neighbour with a larger one, the nearer the later. */
-static void climb(survey *s, int side, int figure)
+/* Whether a direction between two may be worse than the worst so far, by how bad they are and how much that changes. */
+static int may_be_worse(const survey *s, const direction *a, const direction *b)
 {
-    enum { OF_ALL = 32 };
-    size_t best = 0, edges = s->strips.count;
-    for (size_t i = 0; i < edges; i++)
-        best = s->at[i].side[side][figure] > s->at[best].side[side][figure] ? i : best;
-    for (size_t apart = edges / OF_ALL, from = best; apart > 0; apart = best == from ? apart / 2 : apart) {
-        size_t beside[2] = {best > apart ? best - apart : 0, best + apart < edges ? best + apart : edges - 1};
-        from = best;
-        for (int k = 0; k < 2; k++) {
-            look_from(s, beside[k]);
-            best = s->at[beside[k]].side[side][figure] > s->at[best].side[side][figure] ? beside[k] : best;
+    const double more = 1.05, tv[2] = {s->to->tv_above, s->to->tv}, weight = (double)s->to->max_weight - 1;
+    int may = 0;
+    for (int side = 0; side < 2; side++)
+        for (int figure = TV; figure <= WEIGHT; figure++) {
+            double one = a->side[side][figure], other = b->side[side][figure];
+            may |= fmax(one, other) + fabs(one - other) > more * (figure == TV ? tv[side] : weight);
         }
-    }
+    return may;
 }
 
-/* The index of the last edge before a slope. */
-static size_t edge_before(const survey *s, double slope)
+/* Looks from between two edges, as long as it may be worse there. */
+static void look_between(survey *s, size_t a, size_t b)
 {
-    return vndf_last_before(&s->strips.at->edge, sizeof *s->strips.at, s->strips.count, slope * (1 - 1e-9));
+    size_t middle = a + (b - a) / 2;
+    if (middle == a || !may_be_worse(s, &s->at[a], &s->at[b]))
+        return;
+    look_from_edge(s, middle);
+    look_between(s, a, middle);
+    look_between(s, middle, b);
 }
 
-/* Directions an octave of rho apart; on both sides of where k~ begins at another knot; of every so many cells the left
- * knot and a place; and the neighbourhood of what is worst. */
+/* Directions an octave of rho apart; at the left knots of every so many cells; on both sides of where k~ begins at
+ * another knot, which shows above the horizon; and between edges. */
 static void look_around(survey *s)
 {
     enum { OCTAVES = 8 };
+    const double before = 1 - 0x1p-22;
+    const vndf_strip *at = s->strips.at;
     for (int i = -OCTAVES; i <= OCTAVES; i++)
-        look_from(s, edge_before(s, exp2(i)));
+        look_from_edge(s, vndf_last_before(&at->edge, sizeof *at, s->strips.count, exp2(i)));
+    for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1)
+        look_from_edge(s, s->strips.first[i]);
     for (int i = 1; i < VNDF_RHO_PARTS; i++)
         if (look_first(s->table, i) != look_first(s->table, i - 1)) {
-            size_t before = edge_before(s, of_bits((VNDF_RHO_FIRST + i) * (1 << 20)));
-            look_from(s, before);
-            look_from(s, before + 1);
+            double rho = of_bits((VNDF_RHO_FIRST + i) * (1 << 20));
+            size_t edge = vndf_last_before(&at->edge, sizeof *at, s->strips.count, rho * before);
+            look_from(s, rho * before, edge, 1);
+            look_from(s, rho, edge, 1);
         }
-    for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1) {
-        look_from(s, s->strips.first[i]);
-        look_from(s, (s->strips.first[i] + s->strips.first[i + 1]) / 2);
-    }
-    for (int figure = TV; figure <= WEIGHT; figure++)
-        for (int side = 0; side < 2; side++)
-            climb(s, side, figure);
-}
-
-/* Takes what is worst so far. */
-static void take(vndf_certificate *c, const double *f, double rho, int side, double scale)
-{
-    double angle = atan2(1, rho * scale) * 180 / PI, theta = side ? 180 - angle : angle;
-    if (f[TV] > c->tv) {
-        c->tv = (float)f[TV];
-        c->tv_theta = (float)theta;
-    }
-    if (!side && f[TV] > c->tv_above) {
-        c->tv_above = (float)f[TV];
-        c->tv_above_theta = (float)theta;
-    }
-    c->max_weight = fmaxf(c->max_weight, (float)f[WEIGHT]);
-    c->consistency = fmaxf(c->consistency, (float)f[CONSISTENCY]);
+    for (size_t i = 1, last = 0; i < s->strips.count; i++)
+        if (s->at[i].known) {
+            look_between(s, last, i);
+            last = i;
+        }
 }
 
 /* ---- areas ---- */
@@ -333,16 +363,11 @@ static double area_error(const survey *s)
 
 /* ---- D, and its ends ---- */
 
-static double error_of(double is, double right)
-{
-    return fabs(is / right - 1);
-}
-
-/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side: at their points
- * and ends; of all of a strip in the last cell, which draws R f. */
+/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side, but for little
+ * that is one slope to floats: of a strip, which is all in the last cell, which draws R f; at its ends and points; and
+ * in its middle, by the cubic through those. */
 static double ndf_error(const survey *s)
 {
-    /* of ends and points in a strip */
     static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1};
     const size_t *first = s->strips.first;
     double sum = 0, worst = 0;
@@ -355,16 +380,21 @@ static double ndf_error(const survey *s)
             const vndf_strip *strip = &s->strips.at[n];
             const halves *in = &s->in[n];
             next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? in[1].xi : 1);
+            const double apart = log(strip[1].edge / strip->edge);
             sum += strip->f;
             if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                  strip->f > LEFT_OUT * log(strip[1].edge / strip->edge)))
+                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 1)))
                 continue;
-            double wide = (n + 1 < first[i + 1] ? in[1].xi : 1) - in->xi;
+            worst = fmax(worst, fabs((next - before) / (tail ? strip->along : strip->f) - 1));
+            if (!(in->middle > 0) || tail)
+                continue;
+            double wide = (n + 1 < first[i + 1] ? in[1].xi : 1) - in->xi, off[4];
             const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]};
-            worst = fmax(worst, error_of(next - before, tail ? strip->along : strip->f));
-            for (int k = 0; k < 4 && in->middle > 0 && !tail; k++)
-                worst = fmax(worst,
-                             error_of(wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]), right[k]));
+            for (int k = 0; k < 4; k++) {
+                off[k] = wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]) / right[k] - 1;
+                worst = fmax(worst, fabs(off[k]));
+            }
+            worst = fmax(worst, fabs(3 * (off[1] + off[2]) - off[0] - off[3]) / 4);
         }
     }
     return worst;
@@ -383,7 +413,7 @@ static void put_ends(vndf_certificate *c, const vndf_profile *profile)
 int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, const vndf_profile *profile)
 {
     const unsigned cells = (unsigned)d->cells;
-    survey s = {.table = table_of(d), .profile = profile};
+    survey s = {.table = table_of(d), .profile = profile, .to = c};
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
         knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
@@ -394,11 +424,8 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     good = good && s.at && s.in;
     if (good) {
         halve(&s, knot);
-        look_around(&s);
         *c = (vndf_certificate){.max_weight = 1};
-        for (size_t i = 0; i < 2 * n; i++)
-            if (s.at[i / 2].known)
-                take(c, s.at[i / 2].side[i % 2], s.strips.at[i / 2].edge, i % 2, profile->scale);
+        look_around(&s);
         c->area_error = (float)area_error(&s);
         c->ndf_error = (float)ndf_error(&s);
         put_ends(c, profile);

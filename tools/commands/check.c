@@ -124,14 +124,24 @@ static int check_certificate(checking *c, const char *csv)
 
 /* ---- consistency --------------------------------------------------------------------------------- */
 
-/* One rounding of a normal changes the density by the slope of D there: a lobe a tenth of its slope wide has
- * some 20 for d log P22 / d log r. */
-static int is_steep(const vndf_surface *surface, vndf_vec3 wm)
+/* The density of the normal whose slopes are those of wm by a factor. */
+static double pdf_beside(const vndf_view *view, vndf_vec3 wm, float factor)
 {
-    const float x = wm.x / wm.z, y = wm.y / wm.z;
-    const double high = (double)vndf_p22(surface, 1.01f * x, 1.01f * y),
-                 low = (double)vndf_p22(surface, 0.99f * x, 0.99f * y);
-    return !(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 0.02);
+    const float x = factor * wm.x, y = factor * wm.y, per = 1 / sqrtf(x * x + y * y + wm.z * wm.z);
+    return (double)vndf_pdf(view, (vndf_vec3){x * per, y * per, wm.z * per});
+}
+
+/* One rounding of a normal changes the density by as much as it varies there: a lobe a tenth of its slope wide has
+ * some 20 for d log pdf / d log r. It is asked closely, since there may be waves, and not so closely. */
+static int is_steep(const vndf_view *view, vndf_vec3 wm)
+{
+    static const float near[2] = {0x1p-12f, 0x1p-7f};
+    for (int i = 0; i < 2; i++) {
+        const double high = pdf_beside(view, wm, 1 + near[i]), low = pdf_beside(view, wm, 1 - near[i]);
+        if (!(high > 0 && low > 0 && fabs(log(high / low)) < 20 * 2 * (double)near[i]))
+            return 1;
+    }
+    return 0;
 }
 
 /* 0 if the numbers come back within 8 steps of 2^-24: near the ends of heavy tails one such step moves the normal
@@ -153,12 +163,10 @@ static double inverts(const vndf_view *view, const bins_frame *f, float u1, floa
 static int check_consistency(checking *c)
 {
     enum { ABOVE, BELOW, INVERTED, AGREEMENTS, POINTS = 200000 };
-    static const struct {
-        const char *name;
-        double most[2];
-    } limits[AGREEMENTS] = {[ABOVE] = {"pdf against sample, above the horizon", {1e-5, 1e-4}},
-                            [BELOW] = {"pdf against sample, below the horizon", {1e-4, 1e-3}},
-                            [INVERTED] = {"invert, then sample", {1e-5, 1e-4}}};
+    static const char *const names[AGREEMENTS] = {[ABOVE] = "pdf against sample, above the horizon",
+                                                  [BELOW] = "pdf against sample, below the horizon",
+                                                  [INVERTED] = "invert, then sample"};
+    static const double limits[2] = {2e-5, 1e-4};
     const double scale = vndf_distribution_info(c->distribution).scale, per = scale > 0 ? 1 / scale : 1;
     double(*differs)[POINTS] = malloc(AGREEMENTS * sizeof *differs);
     size_t count[AGREEMENTS] = {0};
@@ -180,7 +188,7 @@ static int check_consistency(checking *c)
         const vndf_view view = vndf_view_from(&surface, wi);
         const vndf_vec3 wm = vndf_sample(&view, u1, u2, &pdf);
         differs[INVERTED][count[INVERTED]++] = inverts(&view, &f, u1, u2, wm);
-        if (!is_steep(&surface, wm))
+        if (!is_steep(&view, wm))
             differs[side][count[side]++] = fabs((double)vndf_pdf(&view, wm) / (double)pdf - 1);
     }
     figures_list(&c->to, "consistency");
@@ -188,14 +196,14 @@ static int check_consistency(checking *c)
         static const char *const keys[2][2] = {{"most_999", "limit_999"}, {"most_9999", "limit_9999"}};
         int good = 1;
         sort_numbers(differs[i], count[i]);
-        begin(c, limits[i].name);
+        begin(c, names[i]);
         tell(c, "samples", "%.9g", (double)count[i]);
         for (int k = 0; k < 2; k++) {
             const double last = fmax((double)count[i] - 1, 0), part_of = k ? 0.9999 : 0.999;
             const double most = count[i] ? differs[i][(size_t)(part_of * last)] : 0;
             tell(c, keys[k][0], "%.2g", most);
-            tell(c, keys[k][1], "%.2g", limits[i].most[k]);
-            good &= most <= limits[i].most[k];
+            tell(c, keys[k][1], "%.2g", limits[k]);
+            good &= most <= limits[k];
         }
         judge(c, good);
     }

@@ -177,23 +177,34 @@ size_t bins_cells(const double *x, size_t rings, const double *y, size_t sectors
     return count;
 }
 
-/* Cells begin as quarters of rings by what was drawn: a narrow lobe may be in one ring with much that is wide. */
-static void integrate(const bins_sampler *judged, const double at[BINS_PILOTS + BINS_EVEN], bins_result *to)
+enum { PARTS = 4, ALL = BINS_PILOTS + BINS_EVEN, BORDERS = BINS_RINGS * PARTS + 3 };
+
+/* Where cells begin along log R: at quarters of rings by what was drawn, since a narrow lobe may be in one ring with
+ * much that is wide; and what is nearer or farther than all that was drawn is apart. */
+static double first_border(const double at[ALL], const double slope[BINS_RINGS + 1], size_t i)
 {
-    enum { CELLS_MAX = 200000, PARTS = 4, ALL = BINS_PILOTS + BINS_EVEN };
+    const size_t last = BORDERS - 1, of = i > 0 ? (i - 1) * ALL / (BINS_RINGS * PARTS) : 0;
+    const int is_inside = i > 1 && i < last - 1;
+    const double to = i == 0                              ? LEAST
+                      : i == last                         ? LARGEST
+                      : is_inside && (i - 1) % PARTS == 0 ? slope[(i - 1) / PARTS]
+                                                          : tan(at[of < ALL ? of : ALL - 1]);
+    return log(fmin(fmax(to, LEAST), LARGEST));
+}
+
+static void integrate(const bins_sampler *judged, const double at[ALL], bins_result *to)
+{
+    enum { CELLS_MAX = 200000 };
     size_t count = 0;
     const quadrature q = {answer, (void *)judged, BINS_COUNT, CELLS_MAX, 1e-8, FINEST, 30, 1, NULL, 0};
     quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
     double sector[BINS_SECTORS + 1], variance = 0;
     for (int i = 0; i <= BINS_SECTORS; i++)
         sector[i] = 2 * (double)i / BINS_SECTORS - 1;
-    for (size_t i = 0; cells && i < (size_t)BINS_RINGS * PARTS; i++) {
-        double ring[2];
-        for (size_t k = i; k < i + 2; k++) {
-            double slope = k % PARTS ? tan(at[k * ALL / (BINS_RINGS * PARTS)]) : to->slope[k / PARTS];
-            ring[k - i] = log(fmin(fmax(slope, LEAST), LARGEST));
-        }
-        count += bins_cells(ring, 1, sector, BINS_SECTORS, i / PARTS * BINS_SECTORS, cells + count);
+    for (size_t i = 0; cells && i + 1 < BORDERS; i++) {
+        const double ends[2] = {first_border(at, to->slope, i), first_border(at, to->slope, i + 1)};
+        const size_t part = i > 0 ? i - 1 : 0, ring = part / PARTS < BINS_RINGS ? part / PARTS : BINS_RINGS - 1;
+        count += bins_cells(ends, 1, sector, BINS_SECTORS, ring * BINS_SECTORS, cells + count);
     }
     if (!cells || !quadrature_run(&q, cells, count, to->sum))
         to->error = -1;
