@@ -267,7 +267,7 @@ static void look_around(survey *s)
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1)
         look_from_edge(s, s->strips.first[i]);
     for (int i = 1; i < VNDF_RHO_PARTS; i++)
-        if (look_first(s->table, i) != look_first(s->table, i - 1)) {
+        if (first_knot(s->table, i) != first_knot(s->table, i - 1)) {
             double rho = of_bits((VNDF_RHO_FIRST + i) * (1 << 20));
             size_t edge = vndf_last_before(&at->edge, sizeof *at, s->strips.count, rho * before);
             look_from(s, rho * before, edge, 1);
@@ -324,12 +324,12 @@ static double last_claimed(const survey *s)
 {
     int cell = 0;
     for (int step = s->table.highest; step > 0; step /= 2) {
-        double next = look(s->table, VNDF_KNOT, least_whole(cell + step, s->table.cells)).b;
+        double next = load_row(s->table, VNDF_KNOT, min_int(cell + step, s->table.cells)).b;
         if (cell + step <= s->table.cells &&
             is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below))
             cell += step;
     }
-    quad k = look(s->table, VNDF_KNOT, cell);
+    quad k = load_row(s->table, VNDF_KNOT, cell);
     double z = k.b, width = cell < s->table.cells ? k.c : k.b;
     for (int n = 1; n <= 6; n++) {
         double next = z - ldexp(width, -n);
@@ -345,7 +345,7 @@ static double area_error(const survey *s)
     enum { PLACES = 3, HALVINGS = 3 };
     double worst = 0, where = 1, step = 0, last = last_claimed(s);
     for (int i = 0; i <= s->table.cells; i++) {
-        quad k = look(s->table, VNDF_KNOT, i);
+        quad k = load_row(s->table, VNDF_KNOT, i);
         double end = k.b - (i < s->table.cells ? k.c : k.b), width = (k.b - end) / (PLACES + 1);
         if (last > end && last < k.b)
             width = (k.b - last) / PLACES;
@@ -416,7 +416,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     survey s = {.table = table_of(d), .profile = profile, .to = c};
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
-        knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
+        knot[i] = (float)load_row(s.table, VNDF_KNOT, (int)i).a;
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);

@@ -13,7 +13,7 @@ typedef struct weighed {
 } weighed;
 
 /* A visible normal, with its weight if that is asked for, else 1. */
-HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below, const int weigh)
+KERNEL weighed table_draw_weighed(table t, table_view view, real u1, real u2, const int below, const int weigh)
 {
     aim a = table_aim(view.v, u2, below);
     reached at = table_find(t, view.v, a, below);
@@ -29,26 +29,26 @@ HERE weighed table_draw_weighed(table t, table_view view, real u1, real u2, cons
     return s;
 }
 
-HERE drawn table_draw(table t, table_view view, real u1, real u2, const int below)
+KERNEL drawn table_draw(table t, table_view view, real u1, real u2, const int below)
 {
     weighed s = table_draw_weighed(t, view, u1, u2, below, 0);
     return s.n;
 }
 
 /* A normal of the unit problem in the frame of the direction. */
-HERE unit_normal table_unturned(real ex, real ey, unit_normal n)
+KERNEL unit_normal table_unturned(real ex, real ey, unit_normal n)
 {
     unit_normal m = {ex * n.x + ey * n.y, ex * n.y - ey * n.x, n.z, n.facing};
     return m;
 }
 
 /* K of a given normal (math.h); `reach` is frame_reach. */
-HERE real table_pdf(table t, table_view view, unit_normal n, real reach, const int below)
+KERNEL real table_pdf(table t, table_view view, unit_normal n, real reach, const int below)
 {
     return table_density(t, view.v, table_given(t, n.x, n.y, n.z), n.facing / reach, below);
 }
 
-HERE pair table_numbers(table t, table_view view, unit_normal n, const int below)
+KERNEL pair table_numbers(table t, table_view view, unit_normal n, const int below)
 {
     unit_normal m = table_unturned(view.ex, view.ey, n);
     return table_invert(t, view.v, table_given(t, m.x, m.y, m.z), m.x, m.y, below);
@@ -57,7 +57,7 @@ HERE pair table_numbers(table t, table_view view, unit_normal n, const int below
 /* ---- all normals ---- */
 
 /* A slope length of all normals, from a view straight from above. */
-HERE any_slope table_slope(table t, table_view straight, real u2)
+KERNEL any_slope table_slope(table t, table_view straight, real u2)
 {
     aim a = table_aim(straight.v, u2, 0);
     reached at = table_find(t, straight.v, a, 0);

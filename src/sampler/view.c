@@ -234,7 +234,7 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     const vndf_state *s = vndf_state_of(view);
     if (!vndf_is_table(view->distribution))
         return frame_density(s->f, density(view, n) / s->f.determinant);
-    float area = most(unit_area(view->distribution, s), 1e-37f);
+    float area = max(unit_area(view->distribution, s), 1e-37f);
     return frame_density(s->f, unit_ndf(view->distribution, n) / s->f.determinant * (n.facing / area));
 }
 
@@ -243,7 +243,7 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
     pair u = {0.0f, 0.0f};
     if (view->distribution) {
         const vndf_state *s = vndf_state_of(view);
-        unit_normal n = frame_normal(s->f, wm.x, wm.y, most(wm.z, 0.0f));
+        unit_normal n = frame_normal(s->f, wm.x, wm.y, max(wm.z, 0.0f));
         if (view->distribution->kind == VNDF_KIND_TABLE)
             u = vndf_is_below(s) ? table_numbers(table_of(view->distribution), s->of.table, n, 1)
                                  : table_numbers(table_of(view->distribution), s->of.table, n, 0);
@@ -262,7 +262,7 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
     if (!view->distribution || !(wm.z >= 0.0f))
         return 0.0f;
     const frame *f = &vndf_state_of(view)->f;
-    return least(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
+    return min(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
 }
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
@@ -271,14 +271,14 @@ float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
     if (!s.distribution || !(wm.z >= 0.0f))
         return 0.0f;
     frame f = frame_of(s.m, 0.0f, 0.0f, 1.0f);
-    return least(unit_ndf(s.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
+    return min(unit_ndf(s.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
 }
 
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
 float vndf_p22(const vndf_surface *surface, float x, float y)
 {
     vndf_vec3 normal = {-x, -y, 1.0f};
-    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? vndf_ndf(surface, normal) : 0.0f;
+    return abs(x) <= FLT_MAX && abs(y) <= FLT_MAX ? vndf_ndf(surface, normal) : 0.0f;
 }
 
 /* ---- area and masking ---- */
@@ -348,7 +348,7 @@ float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)
  * product of two small ones would underflow. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model)
 {
-    float lesser = least(gi, go), greater = most(gi, go);
+    float lesser = min(gi, go), greater = max(gi, go);
     if (model == VNDF_G2_SEPARABLE || lesser == 0.0f)
         return gi * go;
     return lesser * (greater / (greater + lesser * (1.0f - greater)));

@@ -143,7 +143,7 @@ class Table:
         rows = numbers[8:]  # after the head
         self._numbers = mi.Float(rows) if dr.is_jit_v(mi.Float) else rows.tolist()
 
-    def look(self, group: int, i: Any) -> Any:
+    def load_row(self, group: int, i: Any) -> Any:
         """Row i of a group: four numbers."""
         row = 20 * i + 4 * group
         if not dr.is_jit_v(mi.Float):
