@@ -125,7 +125,7 @@ KERNEL beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
         real e = 1.0f + 0.7f * h * abs(q), x = q * e / (e + h * h), small = min(k, set(6.0f));
         real l = log_of(1.0f + small * mrho * exp_of(0.5f * small * small) * 0.666666667f);
         real end = 3.0f * h * l * (1.0f - log_of(1.0f + l) / (2.0f + l));
-        mask close = and(lt(k - x, set(0.7f)), lt(k, set(6.0f)));
+        mask close = both(lt(k - x, set(0.7f)), lt(k, set(6.0f)));
         p.x = select(far, select(close, k - end, x), p.x);
         p.d = select(far, select(close, end, k - x), p.d);
     }
@@ -168,7 +168,7 @@ KERNEL beckmann_place beckmann_along(beckmann_view v, real u1)
 {
     real u = min(max(u1, set(5.42101086e-20f)), set(0.99999994f));
     beckmann_place p = beckmann_first(v, u);
-    mask rare = or (lt(v.law.bound, set(0.0f)), lt(erf_middle(u), set(3.4e-4f)));
+    mask rare = either(lt(v.law.bound, set(0.0f)), lt(erf_middle(u), set(3.4e-4f)));
     if (any(rare)) {
         beckmann_place q = beckmann_step(v.law, beckmann_first_anywhere(v.law, u), u);
         p.x = select(rare, q.x, p.x);

@@ -182,12 +182,12 @@ KERNEL real select(mask m, real yes, real no)
 
 #endif
 
-KERNEL mask and (mask a, mask b)
+KERNEL mask both(mask a, mask b)
 {
     return (mask)(a & b);
 }
 
-KERNEL mask or (mask a, mask b)
+KERNEL mask either(mask a, mask b)
 {
     return (mask)(a | b);
 }

@@ -107,10 +107,10 @@ KERNEL seen law_see_above(table t, real s, real c, real rho)
     mask low = lt(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  select(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
-    v.w = law_weights_at(w, c, or (eq(v.first, t.cells), eq(eighth, VNDF_RHO_PARTS - 1)));
+    v.w = law_weights_at(w, c, either(eq(v.first, t.cells), eq(eighth, VNDF_RHO_PARTS - 1)));
     real near = c * max(1.0f - tail.b, set(0.0f));
     v.total = near + law_sum(v.w, tail);
-    v.near = select(or (eq(v.first, 0), lt(near, 1e-12f * v.total)), set(0.0f), near);
+    v.near = select(either(eq(v.first, 0), lt(near, 1e-12f * v.total)), set(0.0f), near);
     return v;
 }
 
@@ -265,8 +265,8 @@ KERNEL real law_beyond(table t, seen v, integer i)
  * cell is found depends on the order of the steps. */
 KERNEL mask law_passes(table t, seen v, integer next, real beyond, real left)
 {
-    return or (le(to_real(next), to_real(v.first)),
-               and(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
+    return either(le(to_real(next), to_real(v.first)),
+                  both(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
 }
 
 /* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */

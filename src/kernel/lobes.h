@@ -101,7 +101,7 @@ KERNEL event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
     e.beyond = beyond;
     e.rest = c.rest;
     e.jacobian = eta * eta * beyond / (along * along);
-    e.met = and(lt(set(0.0f), c.facing), lt(set(0.0f), square));
+    e.met = both(lt(set(0.0f), c.facing), lt(set(0.0f), square));
     return e;
 }
 
@@ -123,7 +123,7 @@ KERNEL event reflecting(direction wi, direction wo)
     e.beyond = e.facing;
     e.rest = 1.0f - e.facing;
     e.jacobian = 0.25f / e.facing;
-    e.met = and(and(lt(set(0.0f), square), le(set(0.0f), z)), lt(set(0.0f), e.facing));
+    e.met = both(both(lt(set(0.0f), square), le(set(0.0f), z)), lt(set(0.0f), e.facing));
     return e;
 }
 
@@ -161,8 +161,8 @@ KERNEL event refracting(direction wi, direction up, real eta)
     e.beyond = ((ox * x + oy * y) + oz * z) * per;
     e.rest = 1.0f - e.facing;
     e.jacobian = eta * eta * e.beyond / square;
-    mask faces = and(lt(set(0.0f), e.facing), lt(set(0.0f), e.beyond));
-    e.met = and(and(lt(set(0.0f), square), lt(set(0.0f), abs(change))), faces);
+    mask faces = both(lt(set(0.0f), e.facing), lt(set(0.0f), e.beyond));
+    e.met = both(both(lt(set(0.0f), square), lt(set(0.0f), abs(change))), faces);
     return e;
 }
 
@@ -274,7 +274,7 @@ KERNEL real beta_beyond(real a, real b)
 KERNEL real beta_of(real x, real y)
 {
     real a = max(x, y), b = min(x, y), value = set(0.0f);
-    mask near = le(a, set(3.0f)), far = and(lt(set(3.0f), a), lt(a, set(1e37f)));
+    mask near = le(a, set(3.0f)), far = both(lt(set(3.0f), a), lt(a, set(1e37f)));
     if (any(near)) {
         real p = min(a, set(3.0f)), q = min(b, set(3.0f));
         real under = per_gamma_low(p - 2.0f) * per_gamma_low(q - 2.0f);

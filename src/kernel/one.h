@@ -43,12 +43,12 @@ KERNEL mask eq(int32_t a, int b)
     return a == b;
 }
 
-KERNEL mask and (mask a, mask b)
+KERNEL mask both(mask a, mask b)
 {
     return a & b;
 }
 
-KERNEL mask or (mask a, mask b)
+KERNEL mask either(mask a, mask b)
 {
     return a | b;
 }

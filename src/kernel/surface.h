@@ -40,17 +40,17 @@ KERNEL mask affine_is_valid(affine_map m)
     mask small = le(determinant, set(1e36f));
     if (m.plain == 0) {
         largest = max(largest, max(abs(m.xy), abs(m.yx)));
-        small = and(small, and(le(abs(m.mean_x), set(1e6f)), le(abs(m.mean_y), set(1e6f))));
+        small = both(small, both(le(abs(m.mean_x), set(1e6f)), le(abs(m.mean_y), set(1e6f))));
     }
     mask large = le(max(largest * 1e-15f, set(1e-36f)), determinant);
-    return and(and(large, small), le(largest, set(1e15f)));
+    return both(both(large, small), le(largest, set(1e15f)));
 }
 
 /* Of a length that stays a float when it is stretched; not NaN. */
 KERNEL mask direction_is_valid(real x, real y, real z)
 {
     real length = (abs(x) + abs(y)) + abs(z);
-    return and(le(set(1e-20f), length), le(length, set(1e20f)));
+    return both(le(set(1e-20f), length), le(length, set(1e20f)));
 }
 
 /* A direction wi on a surface. Scales are powers of two, 1 for ordinary directions. */
@@ -108,12 +108,12 @@ KERNEL frame frame_of(affine_map m, real x, real y, real z)
     real one = set(1.0f), near = 6e-7f * ((abs(x) + abs(y)) + abs(z)) + 2e-12f;
     frame f = {m, x, y, z, w.x, w.y, w.z, one, one, abs(m.determinant), set(3.4028234e38f), near};
     real under = w.x * w.x + w.y * w.y, square = under + w.z * w.z;
-    mask odd = or (lt(square, set(1e-4f)), lt(set(1e4f), square));
+    mask odd = either(lt(square, set(1e-4f)), lt(set(1e4f), square));
     if (any(odd))
         f = frame_scaled(f, odd);
     mask upright = le(under, 1e-29f * square);
     if (any(upright)) {
-        upright = and(le(abs(f.ux) + abs(f.uy), -1e-15f * f.uz), lt(f.uz, set(0.0f)));
+        upright = both(le(abs(f.ux) + abs(f.uy), -1e-15f * f.uz), lt(f.uz, set(0.0f)));
         f.densest = select(upright, set(0.0f), f.densest);
     }
     return f;
@@ -140,7 +140,7 @@ KERNEL triple triple_times(triple w, real k)
 KERNEL real triple_scale(triple w, real low, real high)
 {
     real longest = max(max(abs(w.x), abs(w.y)), abs(w.z));
-    mask odd = or (and(lt(set(0.0f), longest), lt(longest, low)), lt(high, longest));
+    mask odd = either(both(lt(set(0.0f), longest), lt(longest, low)), lt(high, longest));
     return select(odd, inverse_scale(longest), set(1.0f));
 }
 
@@ -225,7 +225,7 @@ KERNEL unit_normal frame_normal(frame f, real x, real y, real z)
 /* Smith's Lambda and G1 of a direction with this area, whose projection on the mean plane is `cosine`. */
 KERNEL real lambda_of(real area, real cosine)
 {
-    mask nothing = and(le(area, set(0.0f)), le(abs(cosine), set(0.0f)));
+    mask nothing = both(le(area, set(0.0f)), le(abs(cosine), set(0.0f)));
     real lambda = (max(area, cosine) - cosine) / cosine, end = set(3.4028234e38f);
     return select(nothing, set(0.0f), min(max(lambda, -end), end));
 }

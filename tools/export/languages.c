@@ -10,8 +10,8 @@ static const char common[] =
     "STRUCT: struct $D {$M};; CONSTANT: enum { $D = $N };; MAKE: {$I}; FOR: for (int $V = $A$;$V < $B$;$V++); "
     "OPEN:  {; CLOSE: }; "
     "real: float; integer: int; mask: bool; vec3: float3; direction: float3; "
-    "set = $1; set_int = $1; any = $1; lt = ($1 < $2); le = ($1 <= $2); eq = ($1 == $2); and = ($1 && $2); "
-    "or = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
+    "set = $1; set_int = $1; any = $1; lt = ($1 < $2); le = ($1 <= $2); eq = ($1 == $2); both = ($1 && $2); "
+    "either = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
     "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
 
 #define BOUND(how, declared)                                                     \
@@ -100,7 +100,7 @@ static const language languages[] = {
      "VARIABLE: $V; MEMBER: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
      "STRUCT: class $D(_Struct):\n    __slots__ = \"\"\"$M\"\"\".split(); CONSTANT: $D = $N; ARRAY: $D = ($I); "
      "MAKE: $T($I); ZERO:  = $T(); UNSET:  = 0; FOR: for $V in range($A, $B); OPEN: :; CLOSE: ; "
-     "any = True; and = ($1 & $2); or = ($1 | $2); select = dr.select($1, $2, $3); "
+     "any = True; both = ($1 & $2); either = ($1 | $2); select = dr.select($1, $2, $3); "
      "select_int = dr.select($1, $2, $3); min = _min($1, $2); max = _max($1, $2); "
      "min_int = _min($1, $2); max_int = _max($1, $2); sqrt = _sqrt($1); with_sign = dr.copysign($1, $2); "
      "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_int = mi.Int32($1); "

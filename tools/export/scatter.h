@@ -155,7 +155,7 @@ KERNEL vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     m.e.facing = c.facing;
     m.e.rest = c.rest;
     const float part = share_of(b, m).part;
-    m.reflects = select_int(or (and(lt(0.0f, part), lt(u.z, part)), le(1.0f, part)), 1, 0);
+    m.reflects = select_int(either(both(lt(0.0f, part), lt(u.z, part)), le(1.0f, part)), 1, 0);
     /* end */
     if (m.reflects != 0)                      /* only reflects */
         m.e = reflected_at(wi, wm, c);        /* only reflects */
@@ -202,7 +202,7 @@ KERNEL meeting meeting_of(vndf_bsdf b, vec3 given)
     if (rise < 0.0f)                                    /* only transmits */
         m.e = refracting(wi, scaled(-1.0f, wo), b.eta); /* only transmits */
     m.e.rise = abs(rise);
-    m.e.met = and(m.e.met, lt(0.0f, b.rise));
+    m.e.met = both(m.e.met, lt(0.0f, b.rise));
     return m;
 }
 

@@ -412,7 +412,7 @@ KERNEL void density(const block *b, const vndf_kind kind)
         real k = value[g] / at[g].determinant;
         if (kind == VNDF_KIND_TABLE && visible)
             k = p22[g] / at[g].determinant * (facing[g] / max(value[g] * reach[g], set(1e-37f)));
-        mask seen_at_all = and(le(set(0.0f), input(b, VNDF_READ_C, g)), lt(set(0.0f), facing[g]));
+        mask seen_at_all = both(le(set(0.0f), input(b, VNDF_READ_C, g)), lt(set(0.0f), facing[g]));
         put(b, 0, g, select(seen_at_all, frame_density(at[g], k), set(0.0f)));
     }
 }
@@ -536,8 +536,8 @@ KERNEL mask valid_at(const block *b, int g)
 {
     mask valid = affine_is_valid(map_at(b, g, b->plain));
     if (b->task != VNDF_TASK_NDF)
-        valid = and(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
-                                              input(b, VNDF_READ_WI_Z, g)));
+        valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+                                               input(b, VNDF_READ_WI_Z, g)));
     return valid;
 }
 
@@ -556,11 +556,11 @@ KERNEL int is_one_sort(block *b, const int sided)
              height = input(b, VNDF_READ_WI_Z, g);
         if (!b->plain)
             height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
-        good = and(good, valid_at(b, g));
+        good = both(good, valid_at(b, g));
         if (sided)
-            good = and(good, lt(1e-20f * (abs(x) + abs(y)), abs(height)));
-        below = or (below, lt(height, set(0.0f)));
-        above = or (above, lt(set(0.0f), height));
+            good = both(good, lt(1e-20f * (abs(x) + abs(y)), abs(height)));
+        below = either(below, lt(height, set(0.0f)));
+        above = either(above, lt(set(0.0f), height));
     }
     b->below = sided && any(below);
     return !any((mask)~good) && !(sided && any(below) && any(above));
