@@ -82,10 +82,10 @@ static void halve(survey *s, const float *knot)
 /* ---- one direction ---- */
 
 /* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
-static vndf_drawn drawn_in(table t, seen v, int i, int below)
+static vndf_drawn drawn_in(table t, radial_law v, int i, int below)
 {
     const weights near = {0, v.c, 0, 0};
-    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
+    cell_density p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
 }
 
@@ -125,7 +125,8 @@ static double largest_weight(const survey *s, double least)
 }
 
 /* Compares what is drawn with what is seen, half a strip after the other. What is lost lies beyond all slopes. */
-static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
+static void compare(survey *s, radial_law v, int below, size_t edge, double area_seen, double area_drawn,
+                    double *figure)
 {
     const size_t *strip = s->strips.first;
     double miss = 0, lost = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
@@ -181,7 +182,7 @@ static void look_at_side(survey *s, double rho, size_t edge, int below, double *
     table t = s->table;
     double sine = 1 / (1 + rho), beyond = 0, all = 0;
     int cell = find_knot(t, rho * rho, 1);
-    seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
+    radial_law v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
     for (size_t i = edge; i < s->strips.count; i++)
         beyond += s->in[i].seen;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
@@ -373,7 +374,7 @@ static double ndf_error(const survey *s)
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
         int tail = i == s->table.cells;
-        piece all = law_cell_all(s->table, i);
+        cell_density all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0, next;
         for (size_t n = first[i]; n < first[i + 1]; n++, before = next) {

@@ -76,9 +76,9 @@ KERNEL real arc_start(arc k, real v, const int below)
 }
 
 /* Of a normal at azimuth a: ss cos a, ss sin a, and cc + ss cos a, which is what is seen of it. */
-typedef struct bearing {
-    real along, aside, facing;
-} bearing;
+typedef struct azimuth {
+    real cosine, sine, visible;
+} azimuth;
 
 /* sqrt(2) sin(d/2)/d from d^2, 0 <= d <= pi; relative error 6e-9. */
 KERNEL real arc_sine(real d2)
@@ -98,7 +98,7 @@ KERNEL turn arc_turn(real d)
 
 /* One step from d. With P = q sin d - r cos d and Q = q cos d + r sin d the derivatives of F are cc + P, Q, -P; all are
  * turned by the step. */
-KERNEL bearing arc_step(arc k, real d, real goal)
+KERNEL azimuth arc_step(arc k, real d, real goal)
 {
     turn t = arc_turn(d);
     real sn = t.sine, vs = t.cosine, cs = 1.0f - vs, f1 = k.p + (k.q * sn + k.r * vs);
@@ -108,7 +108,7 @@ KERNEL bearing arc_step(arc k, real d, real goal)
     step = max(min(step, min(set(0.25f), k.length - d)), max(set(-0.25f), -d));
     real s2 = step * step, ds = 1.0f - s2 * 0.166666667f, dc = step * (0.5f - s2 * 0.0416666667f);
     real more = step * (q * ds - p * dc);
-    bearing a = {p + more, q - step * (q * dc + p * ds), f1 + more};
+    azimuth a = {p + more, q - step * (q * dc + p * ds), f1 + more};
     return a;
 }
 
@@ -119,14 +119,14 @@ KERNEL real arc_half(real u1)
     return 2.0f * min(u1, 1.0f - u1);
 }
 
-KERNEL bearing arc_side(bearing bare, real u1)
+KERNEL azimuth arc_side(azimuth bare, real u1)
 {
-    bearing a = bare;
-    a.aside = with_sign(a.aside, u1 - 0.5f);
+    azimuth a = bare;
+    a.sine = with_sign(a.sine, u1 - 0.5f);
     return a;
 }
 
-KERNEL bearing arc_draw(arc k, real u1, const int below)
+KERNEL azimuth arc_draw(arc k, real u1, const int below)
 {
     real v = arc_half(u1);
     return arc_side(arc_step(k, arc_start(k, v, below), v * k.mass), u1);

@@ -100,21 +100,21 @@ KERNEL table_bounds table_bounds_of(table t, table_view view, real alpha)
 {
     table_bounds b = {alpha, min(view.v.s / (alpha * view.v.c), set(1e15f)), set(1.0f)};
     real steep = b.slant + sqrt(1.0f + b.slant * b.slant), per = 1.0f / (steep + alpha);
-    given g = table_given(t, steep, set(0.0f), alpha);
+    query g = table_given(t, steep, set(0.0f), alpha);
     pair u = table_invert(t, view.v, g, steep * per, set(0.0f), 0);
     b.part = max(u.b, set(1e-6f));
     return b;
 }
 
-KERNEL drawn table_draw_bounded(table t, table_view view, table_bounds b, real u1, real u2)
+KERNEL normal_sample table_draw_bounded(table t, table_view view, table_bounds b, real u1, real u2)
 {
-    aim a = table_aim(view.v, u2 * b.part, 0);
-    reached at = table_find(t, view.v, a, 0);
-    found f = table_cell(t, view.v, a, at, 0);
-    drawn_length d = table_length(t, view.v, f, law_invert(f.at, f.before), 0);
+    target a = table_aim(view.v, u2 * b.part, 0);
+    knot_hit at = table_find(t, view.v, a, 0);
+    cell_hit f = table_cell(t, view.v, a, at, 0);
+    length_sample d = table_length(t, view.v, f, law_invert(f.at, f.before), 0);
     arc k = table_arc(view.v, d.r, 0);
     real arc_part = bounded_arc(k, bounded_cosine(b.alpha, b.slant, d.r.x, d.r.z));
-    drawn n =
+    normal_sample n =
         table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
     real inside = b.part * arc_part;
     n.density = n.density / inside;
@@ -124,7 +124,7 @@ KERNEL drawn table_draw_bounded(table t, table_view view, table_bounds b, real u
 /* The part of the visible normals of its slope length, and of all lengths, that is kept. */
 KERNEL real table_bounded_inside(table t, table_view view, table_bounds b, unit_normal n)
 {
-    given g = table_given(t, n.x, n.y, n.z);
+    query g = table_given(t, n.x, n.y, n.z);
     return b.part * bounded_arc(table_given_arc(view.v, g, 0), bounded_cosine(b.alpha, b.slant, g.x, g.z));
 }
 

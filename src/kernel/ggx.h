@@ -72,15 +72,15 @@ KERNEL real ggx_density(ggx_view v, real x, real y, real z, real facing)
 /* (1) times S + T, which spares a division. u1 turns, once about z, from behind w (0) through the side of w (1/2) and
  * round; u2 lowers. The density is that of ggx_density within 1e-6 for 99.9 % of the samples above the horizon, 3e-6
  * below, measured. */
-KERNEL drawn ggx_draw(ggx_view v, real u1, real u2)
+KERNEL normal_sample ggx_draw(ggx_view v, real u1, real u2)
 {
     turn half = half_turn(u1);
     real rest = max(1.0f - u2, set(1.49011612e-8f)), t2 = u2 * (v.sine2 + rest * v.cosine2), t = sqrt(t2);
     real sum = v.half_sine + t, twice = 2.0f * (t * sum) * half.sine;
     real along = rest * (v.sine2 - u2 * v.cosine2) + twice * half.sine, aside = -(twice * half.cosine);
     real up = rest * v.half_cosine * sum, square = (along * along + aside * aside) + up * up;
-    const drawn n = {v.cosine * along - v.sine * aside, v.sine * along + v.cosine * aside, up,
-                     0.318309886f / (v.half_cosine * (sum * square))};
+    const normal_sample n = {v.cosine * along - v.sine * aside, v.sine * along + v.cosine * aside, up,
+                             0.318309886f / (v.half_cosine * (sum * square))};
     return n;
 }
 

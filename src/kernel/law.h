@@ -29,12 +29,12 @@ typedef struct weights {
 } weights;
 
 /* A direction as a table sees it. */
-typedef struct seen {
+typedef struct radial_law {
     real s, c, rho;
     integer first; /* above: the knot where the law of k~ begins; below: the cell of rho */
     weights w; /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
     real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
-} seen;
+} radial_law;
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
@@ -93,9 +93,9 @@ KERNEL integer law_eighth(real rho)
 /* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose
  * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). A part that u2 = 0 alone would draw, far too
  * often for its mass, is not drawn. */
-KERNEL seen law_see_above(table t, real s, real c, real rho)
+KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 {
-    seen v;
+    radial_law v;
     v.s = s;
     v.c = c;
     v.rho = rho;
@@ -118,16 +118,16 @@ KERNEL seen law_see_above(table t, real s, real c, real rho)
 
 /* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
  * at the beginning. */
-typedef struct piece {
+typedef struct cell_density {
     real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
     real from, x0, z0, x1, z1;   /* the slope where it begins */
     real edge0, edge1, width;    /* edge: s x - |c| z */
     mask last;
-} piece;
+} cell_density;
 
-KERNEL piece law_cell_at(table t, real s, real c, integer i, quad k)
+KERNEL cell_density law_cell_at(table t, real s, real c, integer i, quad k)
 {
-    piece at;
+    cell_density at;
     at.last = eq(i, t.cells);
     at.from = k.a;
     at.z0 = k.b;
@@ -141,9 +141,9 @@ KERNEL piece law_cell_at(table t, real s, real c, integer i, quad k)
 }
 
 /* The densities at both ends over the mass. */
-KERNEL piece law_cell_of(piece bare, real mass, real d0, real d1)
+KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
 {
-    piece at = bare;
+    cell_density at = bare;
     at.mass = max(mass, set(1e-36f));
     at.per = 1.0f / at.mass;
     at.e0 = d0 * at.per;
@@ -153,14 +153,14 @@ KERNEL piece law_cell_of(piece bare, real mass, real d0, real d1)
 }
 
 /* What a cell's density is divided by, at xi = over/(over + rest), times (over + rest)^2. */
-KERNEL real law_below(piece at, real over, real rest)
+KERNEL real law_denominator(cell_density at, real over, real rest)
 {
     real under = over + rest;
     return under * under + (at.sum - 2.0f) * (over * rest);
 }
 
 /* Mass per xi over under^2, times the square of `below`. */
-KERNEL real law_shape(piece at, real over, real rest)
+KERNEL real law_shape(cell_density at, real over, real rest)
 {
     return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
 }
@@ -172,10 +172,10 @@ KERNEL real law_weight_at(weights w, real x, real z)
 }
 
 /* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
-KERNEL piece law_cell_above(table t, seen v, weights of_all, integer i)
+KERNEL cell_density law_cell_above(table t, radial_law v, weights of_all, integer i)
 {
     quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, v.s, v.c, i, k);
+    cell_density at = law_cell_at(t, v.s, v.c, i, k);
     weights w = law_weights_at(of_all, v.c, eq(i, 0));
     w.wq = w.wq + w.w4 * more.b;
     real a = w.w1 * k.a, line = a + w.w0, m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
@@ -183,17 +183,17 @@ KERNEL piece law_cell_above(table t, seen v, weights of_all, integer i)
 }
 
 /* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
-KERNEL piece law_cell_all(table t, integer i)
+KERNEL cell_density law_cell_all(table t, integer i)
 {
     quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
+    cell_density at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
     real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = select(at.last, at.x0, at.z0),
          z1 = select(at.last, at.x1, at.z1);
     return law_cell_of(at, select(at.last, slope, m), l.a * (at.x0 * z0), l.b * (at.x1 * z1));
 }
 
 /* Its mass per xi, over (over + rest)^2 and times below^2, for the slope length (x, z). */
-KERNEL real law_of_f(piece at, real over, real rest, real x, real z)
+KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 {
     real m = law_shape(at, over, rest);
     return select(at.last, m * (z / x), m);
@@ -231,9 +231,9 @@ KERNEL weights law_partial(weights of_all, real rho, mask last, quad k, quad aft
     return w;
 }
 
-KERNEL seen law_see_below(table t, real s, real c, real rho, integer cell)
+KERNEL radial_law law_see_below(table t, real s, real c, real rho, integer cell)
 {
-    seen v;
+    radial_law v;
     v.s = s;
     v.c = c;
     v.rho = rho;
@@ -255,7 +255,7 @@ KERNEL seen law_see_below(table t, real s, real c, real rho, integer cell)
 }
 
 /* The mass beyond knot i, which is at rho or beyond it. */
-KERNEL real law_beyond(table t, seen v, integer i)
+KERNEL real law_beyond(table t, radial_law v, integer i)
 {
     real r = load_row(t, VNDF_KNOT, i).a;
     return law_sum_below(v.w, r, max(r - v.rho, set(0.0f)), load_row(t, VNDF_TAIL, i), load_row(t, VNDF_LOW, i));
@@ -263,14 +263,14 @@ KERNEL real law_beyond(table t, seen v, integer i)
 
 /* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
  * cell is found depends on the order of the steps. */
-KERNEL mask law_passes(table t, seen v, integer next, real beyond, real left)
+KERNEL mask law_passes(table t, radial_law v, integer next, real beyond, real left)
 {
     return either(le(to_real(next), to_real(v.first)),
                   both(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
 }
 
 /* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
-KERNEL integer law_find_below(table t, seen v, real left)
+KERNEL integer law_find_below(table t, radial_law v, real left)
 {
     integer i = set_int(0);
     int step = t.highest;
@@ -283,10 +283,10 @@ KERNEL integer law_find_below(table t, seen v, real left)
     return i;
 }
 
-KERNEL piece law_cell_below(table t, seen v, integer i)
+KERNEL cell_density law_cell_below(table t, radial_law v, integer i)
 {
     quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, v.s, v.c, i, k);
+    cell_density at = law_cell_at(t, v.s, v.c, i, k);
     real beyond = max(k.a - v.rho, set(0.0f)), e = v.w.w1 * k.a + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
     real m = b * more.a + (b * beyond + e) * l.d + beyond * e * l.c, start = beyond * at.z0;
     real end = select(at.last, set(1.0f), k.c * (1.0f + k.a) + beyond * at.z1);
@@ -305,19 +305,19 @@ KERNEL piece law_cell_below(table t, seen v, integer i)
 /* ---- places in a cell ---- */
 
 /* xi = over/under, 1 - xi = rest/under, under = over + rest; the mass per xi is mass root under^2/below. */
-typedef struct place {
-    real over, rest, root, below;
-} place;
+typedef struct cell_place {
+    real over, rest, root, denominator;
+} cell_place;
 
 /* The place with the mass m before it: no root is a difference. */
-KERNEL place law_invert(piece at, real m)
+KERNEL cell_place law_invert(cell_density at, real m)
 {
     real q = min(max(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
     real middle = at.e0 - q * at.sum, square = sqrt(middle * middle + (4.0f * q) * p);
     mask rising = le(set(0.0f), middle + 2.0f * q);
-    place in = {select(rising, 2.0f * q, square - middle), select(rising, square + middle, 2.0f * p), square,
-                set(0.0f)};
-    in.below = law_below(at, in.over, in.rest);
+    cell_place in = {select(rising, 2.0f * q, square - middle), select(rising, square + middle, 2.0f * p), square,
+                     set(0.0f)};
+    in.denominator = law_denominator(at, in.over, in.rest);
     return in;
 }
 
@@ -326,7 +326,7 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-KERNEL slope_length law_length(table t, seen v, piece at, place in, const int below)
+KERNEL slope_length law_length(table t, radial_law v, cell_density at, cell_place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
@@ -345,7 +345,7 @@ KERNEL slope_length law_length(table t, seen v, piece at, place in, const int be
 }
 
 /* The place of the slope x/z in its cell; per = 1/(x + z). */
-KERNEL place law_place(table t, piece at, real x, real z, real per)
+KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
 {
     real over = (x - at.from * z) * (per * (at.z0 / at.width)), rest = 1.0f - over;
     if (any(at.last)) { /* there 1 - xi is what keeps its digits */
@@ -358,13 +358,13 @@ KERNEL place law_place(table t, piece at, real x, real z, real per)
     }
     over = min(max(over, set(1e-6f)), set(0.9999999f));
     rest = min(max(rest, set(1e-7f)), set(0.999999f));
-    place in = {over, rest, set(0.0f), set(0.0f)};
-    in.below = law_below(at, in.over, in.rest);
+    cell_place in = {over, rest, set(0.0f), set(0.0f)};
+    in.denominator = law_denominator(at, in.over, in.rest);
     return in;
 }
 
 /* The derivative of x by xi at that place. */
-KERNEL real law_width(table t, piece at, place in)
+KERNEL real law_width(table t, cell_density at, cell_place in)
 {
     real width = at.width;
     if (t.squarings > 0 && any(at.last)) {
@@ -381,7 +381,7 @@ KERNEL real law_width(table t, piece at, place in)
 /* ---- area ---- */
 
 /* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). `cell` is that of rho. */
-KERNEL real law_area_above(table t, seen v, integer cell)
+KERNEL real law_area_above(table t, radial_law v, integer cell)
 {
     mask last = eq(cell, t.cells);
     integer next = select_int(last, cell, cell + 1);
@@ -395,7 +395,7 @@ KERNEL real law_area_above(table t, seen v, integer cell)
 
 /* The area of what is drawn, by which mixtures share: it is there with the law, without the spline. Straight from below
  * nothing is seen. */
-KERNEL real law_drawn_area(seen v, const int below)
+KERNEL real law_drawn_area(radial_law v, const int below)
 {
     if (!below)
         return v.total;
@@ -404,7 +404,7 @@ KERNEL real law_drawn_area(seen v, const int below)
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
  * digits, and the area that is drawn where it does not. */
-KERNEL real law_area_in(table t, seen v, integer cell, const int below)
+KERNEL real law_area_in(table t, radial_law v, integer cell, const int below)
 {
     real above = law_area_above(t, v, cell);
     if (!below)
@@ -414,7 +414,7 @@ KERNEL real law_area_in(table t, seen v, integer cell, const int below)
     return sampled + mixed * ((above - abs(v.c)) - sampled);
 }
 
-KERNEL real law_area(table t, seen v, const int below)
+KERNEL real law_area(table t, radial_law v, const int below)
 {
     return law_area_in(t, v, find_knot(t, v.rho * v.rho, set(1.0f)), below);
 }

@@ -6,9 +6,9 @@
 
 /* A normal of the unit problem, of any length, in the frame of the stretched direction, z >= 0; and the factor K of the
  * density with which it is drawn: K len^3/|det M| per steradian, where len is the length of (M (x, y), z). */
-typedef struct drawn {
+typedef struct normal_sample {
     real x, y, z, density;
-} drawn;
+} normal_sample;
 
 typedef struct pair {
     real a, b;

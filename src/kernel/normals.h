@@ -37,11 +37,11 @@ KERNEL any_slope beckmann_slope(real u2)
 }
 
 /* u1 turns, once about z, from -x (0) through x (1/2) and round. */
-KERNEL drawn all_normals_draw(any_slope r, real u1)
+KERNEL normal_sample all_normals_draw(any_slope r, real u1)
 {
     real half = 2.0f * u1 - 1.0f;
     turn a = half_turn(abs(half));
-    const drawn n = {r.x * a.cosine, r.x * with_sign(a.sine, half), r.z, r.density};
+    const normal_sample n = {r.x * a.cosine, r.x * with_sign(a.sine, half), r.z, r.density};
     return n;
 }
 
@@ -52,11 +52,11 @@ KERNEL turn v_cavity_azimuth(real p, real q, real u1)
     real lean = max(q, 1e-6f * p + 1e-37f), rest = arc_half(u1);
     arc k = arc_of(p, lean, lean - p, 0);
     real goal = 3.14159265f * k.cc * rest, per = k.sum / lean;
-    bearing b = arc_step(k, arc_start(k, min(goal / k.mass, set(1.0f)), 0), goal);
+    azimuth b = arc_step(k, arc_start(k, min(goal / k.mass, set(1.0f)), 0), goal);
     turn front = half_turn(0.5f - 0.5f * rest);
     mask both_see = le(1.57079633f * (1.0f + rest), k.length);
-    const turn a = {with_sign(select(both_see, b.aside * per, front.sine), u1 - 0.5f),
-                    select(both_see, b.along * per, front.cosine)};
+    const turn a = {with_sign(select(both_see, b.sine * per, front.sine), u1 - 0.5f),
+                    select(both_see, b.cosine * per, front.cosine)};
     return a;
 }
 
@@ -69,7 +69,7 @@ KERNEL real v_cavity_share(real level, real up)
 }
 
 /* A normal that w sees in V-cavities, vz >= 0. */
-KERNEL drawn v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
+KERNEL normal_sample v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
 {
     real across2 = vx * vx + vy * vy, s = sqrt(across2), per = 1.0f / max(s, set(1e-15f));
     mask leans = lt(set(1e-30f), across2);
@@ -78,7 +78,7 @@ KERNEL drawn v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
     real x = r.x * (cosine * a.cosine - sine * a.sine), y = r.x * (sine * a.cosine + cosine * a.sine);
     real level = s * r.x * a.cosine, up = vz * r.z,
          side = select(lt(set(0.0f), up + level), set(1.0f), set(-1.0f));
-    const drawn n = {side * x, side * y, r.z, r.density * v_cavity_share(side * level, up)};
+    const normal_sample n = {side * x, side * y, r.z, r.density * v_cavity_share(side * level, up)};
     return n;
 }
 #endif

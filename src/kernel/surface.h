@@ -9,11 +9,11 @@
 
 #include "kernel/math.h"
 
-/* M, in units of the table's slopes, and the mean slope. Of a `plain` surface xx and yy alone are not 0:
+/* M, in units of the table's slopes, and the mean slope. Of a `is_diagonal` surface xx and yy alone are not 0:
  * its other numbers are not read, and it has the same bits without them. */
 typedef struct affine_map {
     real xx, xy, yx, yy, mean_x, mean_y;
-    int plain;
+    int is_diagonal;
     real determinant; /* of M */
 } affine_map;
 
@@ -22,7 +22,7 @@ KERNEL affine_map affine_measured(affine_map bare)
 {
     affine_map m = bare;
     m.determinant = m.xx * m.yy;
-    if (m.plain == 0) {
+    if (m.is_diagonal == 0) {
         real across = m.xy * m.yx, sum = abs(m.determinant) + abs(across);
         m.determinant = m.determinant - across;
         mask close = lt(abs(m.determinant), 0.25f * sum);
@@ -38,7 +38,7 @@ KERNEL mask affine_is_valid(affine_map m)
 {
     real determinant = abs(m.determinant), largest = max(abs(m.xx), abs(m.yy));
     mask small = le(determinant, set(1e36f));
-    if (m.plain == 0) {
+    if (m.is_diagonal == 0) {
         largest = max(largest, max(abs(m.xy), abs(m.yx)));
         small = both(small, both(le(abs(m.mean_x), set(1e6f)), le(abs(m.mean_y), set(1e6f))));
     }
@@ -61,8 +61,8 @@ typedef struct frame {
     real scale;       /* (ux, uy, uz) is this times w of the scaled wi */
     real size;        /* w of wi as it was given is this times (ux, uy, uz) */
     real determinant; /* |det M| */
-    real densest;     /* the largest density: 0 within 1e-15 of straight from below, where nothing is seen */
-    real near;        /* below this cosine to the scaled wi, rounding may turn a normal away */
+    real max_pdf;     /* the largest density: 0 within 1e-15 of straight from below, where nothing is seen */
+    real flip_cosine; /* below this cosine to the scaled wi, rounding may turn a normal away */
 } frame;
 
 /* A direction or a normal, of any length. */
@@ -74,7 +74,7 @@ typedef struct triple {
 KERNEL triple affine_stretched(affine_map m, real x, real y, real z)
 {
     triple w = {m.xx * x, m.yy * y, z};
-    if (m.plain == 0) {
+    if (m.is_diagonal == 0) {
         w.x = w.x - (0.0f - m.yx * y);
         w.y = w.y - (0.0f - m.xy * x);
         w.z = z - ((0.0f + x * m.mean_x) + y * m.mean_y);
@@ -97,7 +97,7 @@ KERNEL frame frame_scaled(frame bare, mask odd)
     f.ux = w.x * f.scale;
     f.uy = w.y * f.scale;
     f.uz = w.z * f.scale;
-    f.near = f.near * max(k, set(1.0f));
+    f.flip_cosine = f.flip_cosine * max(k, set(1.0f));
     f.size = 1.0f / k / f.scale;
     return f;
 }
@@ -114,20 +114,20 @@ KERNEL frame frame_of(affine_map m, real x, real y, real z)
     mask upright = le(under, 1e-29f * square);
     if (any(upright)) {
         upright = both(le(abs(f.ux) + abs(f.uy), -1e-15f * f.uz), lt(f.uz, set(0.0f)));
-        f.densest = select(upright, set(0.0f), f.densest);
+        f.max_pdf = select(upright, set(0.0f), f.max_pdf);
     }
     return f;
 }
 
 /* A normal that a frame draws: unit, and its density per steradian. */
-typedef struct sampled_normal {
+typedef struct surface_sample {
     real x, y, z, pdf;
-} sampled_normal;
+} surface_sample;
 
 /* A density that a float can hold, not 0 where something is seen. */
 KERNEL real frame_density(frame f, real density)
 {
-    return min(max(density, set(1.17549435e-38f)), f.densest);
+    return min(max(density, set(1.17549435e-38f)), f.max_pdf);
 }
 
 KERNEL triple triple_times(triple w, real k)
@@ -162,29 +162,29 @@ KERNEL triple triple_turned_back(triple wi, triple n)
 }
 
 /* A normal that may be turned away, and with its factor of the density those whose squares are no floats. */
-KERNEL drawn frame_turned_back(frame f, drawn n)
+KERNEL normal_sample frame_turned_back(frame f, normal_sample n)
 {
     triple w = {n.x, n.y, n.z}, wi = {f.wx, f.wy, f.wz};
     real k = triple_scale(w, set(1e-17f), set(1e17f)), per = 1.0f / k;
     w = triple_turned_back(triple_times(wi, triple_scale(wi, set(1e-2f), set(1e2f))), triple_times(w, k));
     w = triple_times(w, triple_scale(w, set(1e-17f), set(1e17f)));
-    const drawn m = {w.x, w.y, w.z, n.density * per * per * per};
+    const normal_sample m = {w.x, w.y, w.z, n.density * per * per * per};
     return m;
 }
 
 /* The normal of the surface for one of the unit problem; the density is that of where it was turned to. */
-KERNEL sampled_normal frame_sampled(frame f, drawn n)
+KERNEL surface_sample frame_sampled(frame f, normal_sample n)
 {
     affine_map m = f.m;
-    drawn w = {m.xx * n.x, m.yy * n.y, n.z, n.density};
-    if (m.plain == 0) {
+    normal_sample w = {m.xx * n.x, m.yy * n.y, n.z, n.density};
+    if (m.is_diagonal == 0) {
         w.x = (w.x - (0.0f - m.xy * n.y)) - (0.0f + m.mean_x * n.z);
         w.y = (w.y - (0.0f - m.yx * n.x)) - (0.0f + m.mean_y * n.z);
     }
     real square = (w.x * w.x + w.y * w.y) + w.z * w.z, reach = sqrt(square);
-    mask close = le((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.near * (reach + 2e-11f));
+    mask close = le((f.wx * w.x + f.wy * w.y) + f.wz * w.z, f.flip_cosine * (reach + 2e-11f));
     if (any(close)) {
-        drawn turned = frame_turned_back(f, w);
+        normal_sample turned = frame_turned_back(f, w);
         w.x = select(close, turned.x, w.x);
         w.y = select(close, turned.y, w.y);
         w.z = select(close, turned.z, w.z);
@@ -193,7 +193,7 @@ KERNEL sampled_normal frame_sampled(frame f, drawn n)
         reach = sqrt(square);
     }
     real per = reach * (1.0f / square);
-    sampled_normal s = {w.x * per, w.y * per, w.z * per,
+    surface_sample s = {w.x * per, w.y * per, w.z * per,
                         frame_density(f, (w.density * reach) * (square / f.determinant))};
     return s;
 }
@@ -207,7 +207,7 @@ KERNEL unit_normal frame_normal(frame f, real x, real y, real z)
 {
     affine_map m = f.m;
     real along = m.yy * x, aside = m.xx * y;
-    if (m.plain == 0) {
+    if (m.is_diagonal == 0) {
         real a = x + m.mean_x * z, b = y + m.mean_y * z;
         along = m.yy * a;
         aside = m.xx * b;
@@ -267,7 +267,7 @@ KERNEL table_direction table_direction_of(frame f)
 
 typedef struct table_view {
     real ex, ey;
-    seen v;
+    radial_law v;
 } table_view;
 
 /* `below` is known: w is below the horizon in all lanes, or in none. */
@@ -284,9 +284,9 @@ KERNEL table_view table_view_of(table t, frame f, const int below)
     return view;
 }
 
-KERNEL drawn table_turned(real ex, real ey, drawn n)
+KERNEL normal_sample table_turned(real ex, real ey, normal_sample n)
 {
-    drawn turned = {ex * n.x - ey * n.y, ey * n.x + ex * n.y, n.z, n.density};
+    normal_sample turned = {ex * n.x - ey * n.y, ey * n.x + ex * n.y, n.z, n.density};
     return turned;
 }
 

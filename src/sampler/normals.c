@@ -20,9 +20,9 @@ static vndf_drawn_normal with_weight(const vndf_view *view, vndf_vec3 wm, float 
 }
 
 /* A drawn normal on the surface, as the frame places it. */
-static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, drawn n)
+static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, normal_sample n)
 {
-    sampled_normal s = frame_sampled(*f, n);
+    surface_sample s = frame_sampled(*f, n);
     return with_weight(view, (vndf_vec3){s.x, s.y, s.z}, s.pdf);
 }
 
@@ -83,7 +83,7 @@ static vndf_drawn_normal sample_bounded(const vndf_view *view, float u1, float u
     const vndf_state *s = vndf_state_of(view);
     table_bounds bounds;
     if (has_bounds(view, &bounds)) {
-        drawn n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
+        normal_sample n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
         return raised(view, on_surface(view, &s->f, n));
     }
     number_box b = box_of(view);

@@ -25,7 +25,7 @@ typedef struct vndf_view {
     float unit_area; /* of the unit problem */
     table t;
     float ex, ey;
-    seen v;
+    radial_law v;
     int below;
 } vndf_view;
 
@@ -145,7 +145,7 @@ typedef struct vndf_sampled {
 KERNEL vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 {
     const float u1 = min(max(w1, 0.0f), 1.0f), u2 = min(max(w2, 0.0f), 1.0f);
-    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
+    normal_sample n = {0.0f, 0.0f, 1.0f, 0.0f};
     float weight = 1.0f;
     if (view.surface.distribution == VNDF_GGX)
         n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
@@ -153,11 +153,11 @@ KERNEL vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
-        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
+        const weighted_sample both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
         n = both_drawn.n;
         weight = both_drawn.weight;
     }
-    const sampled_normal s = frame_sampled(view.at, n);
+    const surface_sample s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
@@ -207,7 +207,7 @@ typedef struct vndf_mixture_view {
 KERNEL float drawn_area(vndf_view view)
 {
     float area = view.unit_area;
-    if (!(view.at.densest > 0.0f))
+    if (!(view.at.max_pdf > 0.0f))
         return 0.0f;
     if (view.surface.distribution >= 0)
         area = law_drawn_area(view.v, view.below) * frame_reach(view.at);

@@ -37,7 +37,7 @@ typedef struct block {
     vndf_kind kind;
     float unit;
     table t;
-    int groups, plain, below; /* plain: of all its surfaces (kernel/surface.h) */
+    int groups, is_diagonal, below; /* is_diagonal: all its surfaces are (kernel/surface.h) */
     const float *read[VNDF_READS];
     float *write[VNDF_WRITES];
 } block;
@@ -59,7 +59,7 @@ KERNEL void put(const block *b, int which, int g, real x)
 }
 
 /* A matrix in units of the distribution's slopes. */
-KERNEL affine_map map_at(const block *b, int g, const int plain)
+KERNEL affine_map map_at(const block *b, int g, const int is_diagonal)
 {
     const real zero = set(0.0f);
     affine_map m = {input(b, VNDF_READ_XX, g) * b->unit,
@@ -68,9 +68,9 @@ KERNEL affine_map map_at(const block *b, int g, const int plain)
                     input(b, VNDF_READ_YY, g) * b->unit,
                     zero,
                     zero,
-                    plain,
+                    is_diagonal,
                     zero};
-    if (!plain) {
+    if (!is_diagonal) {
         m.xy = input(b, VNDF_READ_XY, g) * b->unit;
         m.yx = input(b, VNDF_READ_YX, g) * b->unit;
         m.mean_x = input(b, VNDF_READ_MEAN_X, g);
@@ -79,9 +79,9 @@ KERNEL affine_map map_at(const block *b, int g, const int plain)
     return affine_measured(m);
 }
 
-KERNEL frame frame_at(const block *b, int g, const int plain)
+KERNEL frame frame_at(const block *b, int g, const int is_diagonal)
 {
-    return frame_of(map_at(b, g, plain), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+    return frame_of(map_at(b, g, is_diagonal), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                     input(b, VNDF_READ_WI_Z, g));
 }
 
@@ -133,7 +133,7 @@ KERNEL real sum_beyond(table t, weights w, quad tail)
 }
 
 /* One step of a search for the cell of a sample. */
-KERNEL reached step_cell(table t, seen v, aim a, reached r, int level, const int below)
+KERNEL knot_hit step_cell(table t, radial_law v, target a, knot_hit r, int level, const int below)
 {
     const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
     quad tail = zero, low = zero;
@@ -160,7 +160,7 @@ KERNEL reached step_cell(table t, seen v, aim a, reached r, int level, const int
 }
 
 /* The same by rows: r.i is a knot. */
-KERNEL reached step_rows(table t, seen v, aim a, reached r, int step, const int below)
+KERNEL knot_hit step_rows(table t, radial_law v, target a, knot_hit r, int step, const int below)
 {
     integer next = r.i + step, there = min_int(next, set_int(t.cells));
     real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, load_row(t, VNDF_TAIL, there));
@@ -171,10 +171,10 @@ KERNEL reached step_rows(table t, seen v, aim a, reached r, int step, const int 
 }
 
 /* Cells of samples. */
-KERNEL void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
+KERNEL void find_cells(table t, int groups, const radial_law *v, const target *a, knot_hit *r, const int below)
 {
     for (int g = 0; g < groups; g++) {
-        reached at = {set_int(1), set(0.0f)};
+        knot_hit at = {set_int(1), set(0.0f)};
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
             at = step_cell(t, v[g], a[g], at, level, below);
@@ -194,7 +194,7 @@ KERNEL void find_cells(table t, int groups, const seen *v, const aim *a, reached
 /* ---- tables ---- */
 
 /* How a table sees directions. */
-KERNEL void see(table t, int groups, const table_direction *w, seen *v, const int below)
+KERNEL void see(table t, int groups, const table_direction *w, radial_law *v, const int below)
 {
     integer cell[GROUPS];
     real square[GROUPS], under[GROUPS];
@@ -210,7 +210,7 @@ KERNEL void see(table t, int groups, const table_direction *w, seen *v, const in
 }
 
 /* Areas of what is seen. */
-KERNEL void find_areas(table t, int groups, const seen *v, real *area, const int below)
+KERNEL void find_areas(table t, int groups, const radial_law *v, real *area, const int below)
 {
     real square[GROUPS], under[GROUPS];
     integer cell[GROUPS];
@@ -224,7 +224,7 @@ KERNEL void find_areas(table t, int groups, const seen *v, real *area, const int
 }
 
 /* The given normals, with their cells. */
-KERNEL void place_given(table t, int groups, const unit_normal *n, given *at)
+KERNEL void place_given(table t, int groups, const unit_normal *n, query *at)
 {
     real square[GROUPS], under[GROUPS];
     integer cell[GROUPS];
@@ -239,15 +239,16 @@ KERNEL void place_given(table t, int groups, const unit_normal *n, given *at)
 }
 
 /* Normals in the frames of their directions, with K, and their weights. */
-KERNEL void draw_side(const block *b, table_direction *w, drawn *n, real *weight, const int weigh, const int below)
+KERNEL void draw_side(const block *b, table_direction *w, normal_sample *n, real *weight, const int weigh,
+                      const int below)
 {
     const table t = b->t;
     const int groups = b->groups;
-    seen v[GROUPS];
-    aim a[GROUPS];
-    reached r[GROUPS];
-    found f[GROUPS];
-    drawn_length d[GROUPS];
+    radial_law v[GROUPS];
+    target a[GROUPS];
+    knot_hit r[GROUPS];
+    cell_hit f[GROUPS];
+    length_sample d[GROUPS];
     arc k[GROUPS];
     real start[GROUPS], area[GROUPS];
     see(t, groups, w, v, below);
@@ -264,19 +265,19 @@ KERNEL void draw_side(const block *b, table_direction *w, drawn *n, real *weight
         start[g] = arc_start(k[g], arc_half(unit_input(b, VNDF_READ_A, g)), below);
     for (int g = 0; g < groups; g++) {
         real u = unit_input(b, VNDF_READ_A, g);
-        bearing turned = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
+        azimuth turned = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
         n[g] = table_normal(v[g], d[g], k[g], turned);
     }
     if (!weigh)
         return;
     find_areas(t, groups, v, area, below);
     for (int g = 0; g < groups; g++) {
-        place in = law_invert(f[g].at, f[g].before);
+        cell_place in = law_invert(f[g].at, f[g].before);
         weight[g] = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
     }
 }
 
-STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const int weigh)
+STEP void draw(const block *b, table_direction *w, normal_sample *n, real *weight, const int weigh)
 {
     if (b->below)
         draw_side(b, w, n, weight, weigh, 1);
@@ -288,8 +289,8 @@ STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const
 STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
 {
     const int below = b->below;
-    seen v[GROUPS];
-    given at[GROUPS];
+    radial_law v[GROUPS];
+    query at[GROUPS];
     see(b->t, b->groups, w, v, below);
     place_given(b->t, b->groups, n, at);
     for (int g = 0; g < b->groups; g++)
@@ -299,7 +300,7 @@ STEP void densities(const block *b, table_direction *w, unit_normal *n, real *de
 STEP void table_areas(const block *b, table_direction *w, real *area)
 {
     const int below = b->below;
-    seen v[GROUPS];
+    radial_law v[GROUPS];
     see(b->t, b->groups, w, v, below);
     if (b->task != VNDF_TASK_DRAWN_AREA)
         find_areas(b->t, b->groups, v, area, below);
@@ -310,7 +311,7 @@ STEP void table_areas(const block *b, table_direction *w, real *area)
 /* D times the determinant of given normals. */
 STEP void p22_table(const block *b, unit_normal *n, real *p22)
 {
-    given at[GROUPS];
+    query at[GROUPS];
     place_given(b->t, b->groups, n, at);
     for (int g = 0; g < b->groups; g++)
         p22[g] = table_p22(b->t, at[g]);
@@ -318,22 +319,22 @@ STEP void p22_table(const block *b, unit_normal *n, real *p22)
 
 /* ---- tasks, of which the compiler knows the kind of distribution ---- */
 
-KERNEL void sample_as(const block *b, const vndf_kind kind, const int plain)
+KERNEL void sample_as(const block *b, const vndf_kind kind, const int is_diagonal)
 {
     frame at[GROUPS]; /* what is needed to the end: the matrix is read again */
     table_direction w[GROUPS];
     ggx_view caps[GROUPS];
     beckmann_view laws[GROUPS];
-    drawn n[GROUPS];
+    normal_sample n[GROUPS];
     real weight[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, plain);
+        frame f = frame_at(b, g, is_diagonal);
         at[g].wx = f.wx;
         at[g].wy = f.wy;
         at[g].wz = f.wz;
         at[g].determinant = f.determinant;
-        at[g].densest = f.densest;
-        at[g].near = f.near;
+        at[g].max_pdf = f.max_pdf;
+        at[g].flip_cosine = f.flip_cosine;
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
         else if (kind == VNDF_KIND_GGX)
@@ -347,12 +348,12 @@ KERNEL void sample_as(const block *b, const vndf_kind kind, const int plain)
         n[g] = beckmann_draw(laws[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
     for (int g = 0; g < b->groups; g++) {
         frame f = at[g];
-        f.m = map_at(b, g, plain);
+        f.m = map_at(b, g, is_diagonal);
         if (kind == VNDF_KIND_TABLE)
             n[g] = table_turned(w[g].ex, w[g].ey, n[g]);
         else if (kind == VNDF_KIND_GGX)
             n[g] = ggx_draw(caps[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
-        sampled_normal s = frame_sampled(f, n[g]);
+        surface_sample s = frame_sampled(f, n[g]);
         put(b, 0, g, s.x);
         put(b, 1, g, s.y);
         put(b, 2, g, s.z);
@@ -365,7 +366,7 @@ KERNEL void sample_as(const block *b, const vndf_kind kind, const int plain)
 
 KERNEL void sample(const block *b, const vndf_kind kind)
 {
-    if (b->plain) /* once more, where the compiler knows it */
+    if (b->is_diagonal) /* once more, where the compiler knows it */
         sample_as(b, kind, 1);
     else
         sample_as(b, kind, 0);
@@ -381,16 +382,16 @@ KERNEL unit_normal normal_at(const block *b, int g, frame f)
 KERNEL void density(const block *b, const vndf_kind kind)
 {
     const int visible = b->task == VNDF_TASK_VISIBLE;
-    frame at[GROUPS]; /* `determinant` and `densest` are needed to the end */
+    frame at[GROUPS]; /* `determinant` and `max_pdf` are needed to the end */
     table_direction w[GROUPS];
     unit_normal n[GROUPS];
     real facing[GROUPS], reach[GROUPS], value[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, b->plain);
+        frame f = frame_at(b, g, b->is_diagonal);
         n[g] = normal_at(b, g, f);
         facing[g] = n[g].facing;
         at[g].determinant = f.determinant;
-        at[g].densest = f.densest;
+        at[g].max_pdf = f.max_pdf;
         if (kind == VNDF_KIND_GGX)
             value[g] = ggx_density(ggx_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
         else if (kind == VNDF_KIND_BECKMANN)
@@ -422,7 +423,7 @@ KERNEL void ndf(const block *b, const vndf_kind kind)
     unit_normal n[GROUPS];
     real determinant[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_of(map_at(b, g, b->plain), set(0.0f), set(0.0f), set(1.0f));
+        frame f = frame_of(map_at(b, g, b->is_diagonal), set(0.0f), set(0.0f), set(1.0f));
         n[g] = normal_at(b, g, f);
         determinant[g] = f.determinant;
         if (kind == VNDF_KIND_GGX)
@@ -442,12 +443,12 @@ KERNEL void ndf(const block *b, const vndf_kind kind)
 KERNEL void areas(const block *b, const vndf_kind kind)
 {
     table_direction w[GROUPS];
-    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], densest[GROUPS];
+    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], max_pdf[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, b->plain);
+        frame f = frame_at(b, g, b->is_diagonal);
         cosine[g] = f.uz * f.size;
         scale[g] = f.size;
-        densest[g] = f.densest;
+        max_pdf[g] = f.max_pdf;
         reach[g] = frame_reach(f);
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
@@ -459,7 +460,7 @@ KERNEL void areas(const block *b, const vndf_kind kind)
     for (int g = 0; g < b->groups; g++) {
         real all = (kind == VNDF_KIND_TABLE ? area[g] * reach[g] : area[g]) * scale[g];
         if (b->task == VNDF_TASK_DRAWN_AREA)
-            all = select(lt(set(0.0f), densest[g]), all, set(0.0f));
+            all = select(lt(set(0.0f), max_pdf[g]), all, set(0.0f));
         if (b->task == VNDF_TASK_LAMBDA)
             all = lambda_of(all, cosine[g]);
         else if (b->task == VNDF_TASK_G1)
@@ -534,7 +535,7 @@ KERNEL void run_entered(const block *b, const vndf_call *call, const elements *e
 /* Which elements of a group are valid. */
 KERNEL mask valid_at(const block *b, int g)
 {
-    mask valid = affine_is_valid(map_at(b, g, b->plain));
+    mask valid = affine_is_valid(map_at(b, g, b->is_diagonal));
     if (b->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                                                input(b, VNDF_READ_WI_Z, g)));
@@ -554,7 +555,7 @@ KERNEL int is_one_sort(block *b, const int sided)
     for (int g = 0; g < b->groups; g++) {
         real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
              height = input(b, VNDF_READ_WI_Z, g);
-        if (!b->plain)
+        if (!b->is_diagonal)
             height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
         good = both(good, valid_at(b, g));
         if (sided)
@@ -570,7 +571,7 @@ KERNEL int is_one_sort(block *b, const int sided)
 KERNEL void sort_elements(const block *b, const int sided, int32_t *sorts)
 {
     for (int g = 0; g < b->groups; g++) {
-        mask below = lt(frame_at(b, g, b->plain).uz, set(0.0f));
+        mask below = lt(frame_at(b, g, b->is_diagonal).uz, set(0.0f));
         integer side = select_int(below, set_int(sided ? BELOW : ABOVE), set_int(ABOVE));
         integer sort = select_int(valid_at(b, g), side, set_int(INVALID));
         memcpy(sorts + g * LANES, &sort, sizeof sort);
@@ -631,7 +632,7 @@ void LANES_ENTRY(const vndf_call *call)
     copies c;
     const vndf_distribution *d = call->distribution;
     const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
-    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->plain};
+    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .is_diagonal = call->is_diagonal};
     if (b.kind == VNDF_KIND_TABLE)
         b.t = table_of(d);
     for (int r = 0; r < VNDF_READS; r++) {
