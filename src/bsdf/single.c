@@ -16,46 +16,19 @@ typedef struct hit {
     double eta, rise, area, tilt, carried;
 } hit;
 
-KERNEL int reflects_of(material m)
-{
-    return m->is.effects.lobes != VNDF_LOBES_TRANSMISSION;
-}
-
-KERNEL int transmits_of(material m)
-{
-    return m->is.effects.lobes != VNDF_LOBES_REFLECTION;
-}
-
-KERNEL vndf_fresnel fresnel_of(material m)
-{
-    return m->is.effects.fresnel;
-}
-
-KERNEL vndf_masking masking_of(material m)
-{
-    return m->is.effects.masking;
-}
-
-KERNEL material material_of(bsdf b)
-{
-    return b->material;
-}
+#define reflects_of(m) ((m)->is.effects.lobes != VNDF_LOBES_TRANSMISSION)
+#define transmits_of(m) ((m)->is.effects.lobes != VNDF_LOBES_REFLECTION)
+#define fresnel_of(m) ((m)->is.effects.fresnel)
+#define masking_of(m) ((m)->is.effects.masking)
+#define material_of(b) ((b)->material)
+#define cosine_at(b, w) ((double)vndf_hit_cosine(&(b)->own.view, vndf_rounded(w)))
+#define area_at(b, w) ((double)vndf_hit_area(&(b)->own.view, vndf_rounded(w)))
 
 KERNEL hit hit_of(bsdf b)
 {
     const hit h = {vndf_direction(b->own.wi), b->own.eta,          (double)b->own.rise,
                    (double)b->own.area,       (double)b->own.tilt, b->own.carried};
     return h;
-}
-
-KERNEL double cosine_at(bsdf b, direction w)
-{
-    return (double)vndf_hit_cosine(&b->own.view, vndf_rounded(w));
-}
-
-KERNEL double area_at(bsdf b, direction w)
-{
-    return (double)vndf_hit_area(&b->own.view, vndf_rounded(w));
 }
 
 #include "kernel/event.h"

@@ -1,7 +1,7 @@
 /* One scattering event as a material wants it: what Fresnel's term and masking make of a microfacet (lobes.h), and
- * which lobe takes a sample. With G = G2/(wi' wo'), primes for projections on the mean plane, f is F G D (wi.wm) dwm/dwo
- * and (1 - F) of it; with q = A(wi) (visible density)/(density of wm) the weight of a sample is F G wo' q or (1 - F) G
- * |wo'| q.
+ * which lobe takes a sample. With G = G2/(wi' wo'), primes for projections on the mean plane, f is F G D (wi.wm)
+ * dwm/dwo and (1 - F) of it; with q = A(wi) (visible density)/(density of wm) the weight of a sample is F G wo' q or
+ * (1 - F) G |wo'| q.
  *
  * Effects are conditions of a whole material, which exports fold: reflects_of(m) and transmits_of(m), whether it has
  * that lobe; fresnel_of(m), masking_of(m). Who includes this says what a `material` and a `bsdf` are, a hit of one: its

@@ -60,27 +60,27 @@ KERNEL real placed_ndf(int kind, table t, frame f, vec3 wm)
     return min(unit_p22(kind, t, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, 3.4028234e38f);
 }
 
-KERNEL real ndf(surface m, vec3 wm)
+CALL real vndf_ndf(surface m, vec3 wm)
 {
     const placed p = place(m, vec3(0.0f, 0.0f, 1.0f));
     return placed_ndf(p.kind, p.t, p.f, wm);
 }
 
 /* A(w). */
-KERNEL real projected_area(surface m, vec3 w)
+CALL real vndf_projected_area(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return unit_area(p.kind, p.t, p.f) * p.f.size;
 }
 
 /* Lambda(w) = A(w)/cos - 1, where cos is w.z less what the mean slope takes of it. */
-KERNEL real lambda(surface m, vec3 w)
+CALL real vndf_lambda(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return lambda_of(unit_area(p.kind, p.t, p.f) * p.f.size, p.f.uz * p.f.size);
 }
 
-KERNEL real g1(surface m, vec3 w)
+CALL real vndf_g1(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return g1_of(unit_area(p.kind, p.t, p.f) * p.f.size, p.f.uz * p.f.size);
@@ -98,7 +98,7 @@ KERNEL real g2_of(real gi, real go)
 
 KERNEL real g2(surface m, vec3 wi, vec3 wo)
 {
-    return g2_of(g1(m, wi), g1(m, wo));
+    return g2_of(vndf_g1(m, wi), vndf_g1(m, wo));
 }
 
 /* ---- views ---- */
