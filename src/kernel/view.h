@@ -4,6 +4,7 @@
  * Who includes this says before what a `surface` and a `view` are (sampler/state.h, tools/export/views.h):
  *
  *     place(surface, w)                        the direction w on the surface, a `placed`
+ *     frame_below(f)                           whether it is below the horizon
  *     s.kind, view_table(s), view_frame(s)     the same of a view s
  *     s.below                                  whether it is that of a table from below the horizon
  *     view_law, view_ggx, view_beckmann        what its distribution makes of the direction
@@ -25,11 +26,6 @@ KERNEL real unit_p22(int kind, table t, unit_normal n)
     if (kind == VNDF_BECKMANN)
         return beckmann_p22(n.x, n.y, n.z);
     return table_p22(t, table_given(t, n.x, n.y, n.z));
-}
-
-KERNEL int frame_below(frame f)
-{
-    return select_int(lt(f.uz, 0.0f), 1, 0);
 }
 
 /* The projected area in the unit problem. Above the horizon a table wants the knot of rho alone, not the law. */
@@ -55,9 +51,11 @@ KERNEL real unit_area(int kind, table t, frame f)
 /* D(wm) per steradian; wm is unit, here and below. */
 KERNEL real placed_ndf(int kind, table t, frame f, vec3 wm)
 {
-    if (!(wm.z >= 0.0f))
+    const mask is_up = le(0.0f, wm.z);
+    if (!any(is_up))
         return 0.0f;
-    return min(unit_p22(kind, t, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, 3.4028234e38f);
+    const real density = unit_p22(kind, t, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant;
+    return select(is_up, min(density, 3.4028234e38f), 0.0f);
 }
 
 CALL real vndf_ndf(surface m, vec3 wm)
@@ -124,11 +122,12 @@ KERNEL real area(view s)
 KERNEL real drawn_area(view s)
 {
     const frame f = view_frame(s);
-    if (!(f.max_pdf > 0.0f))
-        return 0.0f;
+    real all = f.size;
     if (s.kind == VNDF_GGX || s.kind == VNDF_BECKMANN)
-        return area(s);
-    return law_drawn_area(view_law(s).v, s.below) * frame_reach(f) * f.size;
+        all = area(s);
+    else
+        all = law_drawn_area(view_law(s).v, s.below) * frame_reach(f) * f.size;
+    return select(lt(0.0f, f.max_pdf), all, 0.0f);
 }
 
 /* A(w) of another direction, and its projection on the mean plane: w.z without a mean slope. */
@@ -168,9 +167,10 @@ KERNEL real pdf(view s, vec3 wm)
 {
     const frame f = view_frame(s);
     const unit_normal n = frame_normal(f, wm.x, wm.y, wm.z);
-    if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
+    const mask is_seen = both(lt(0.0f, n.facing), le(0.0f, wm.z));
+    if (!any(is_seen))
         return 0.0f;
-    return frame_density(f, unit_density(s, n) / f.determinant);
+    return select(is_seen, frame_density(f, unit_density(s, n) / f.determinant), 0.0f);
 }
 
 /* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */

@@ -101,14 +101,15 @@ static const language languages[] = {
      "POINTER: device const float *; "
      "bits = as_type<int>($1); of_bits = as_type<float>($1); with_sign = copysign($1, $2); "},
     {"python", "Python, for Dr.Jit", LANGUAGE_APART | LANGUAGE_INDENTS, 0, NULL, NULL, python_begin,
-     "VARIABLE: $V; MEMBER: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
+     "VARIABLE: $V; MEMBER: $V; SEVERAL: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
      "STRUCT: class $D(_Struct):\n    __slots__ = \"\"\"$M\"\"\".split(); CONSTANT: $D = $N; ARRAY: $D = ($I); "
      "MAKE: $T($I); ZERO:  = $T(); UNSET:  = 0; FOR: for $V in range($A, $B); OPEN: :; CLOSE: ; "
      "any = True; both = ($1 & $2); either = ($1 | $2); select = dr.select($1, $2, $3); "
      "select_int = dr.select($1, $2, $3); min = _min($1, $2); max = _max($1, $2); "
      "min_int = _min($1, $2); max_int = _max($1, $2); sqrt = _sqrt($1); with_sign = dr.copysign($1, $2); "
      "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_int = mi.Int32($1); "
-     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); load_row = $1.load_row($2, $3); fetch = ; "},
+     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); load_row = $1.load_row($2, $3); fetch = ; "
+     "vec3 = mi.Vector3f($1, $2, $3); place = $1.place($2); frame_below = 0; lobe_end = $1; view_weighs = 0; "},
 };
 
 const language *language_named(const char *name)

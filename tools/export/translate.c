@@ -465,8 +465,8 @@ static void put_words(printer *t, int at, int end)
         else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
                  !memchr(w[1].text, '.', (size_t)w[1].length))
             put(t, "//"); /* of whole numbers */
-        else if (t->indents && word_is(w, "&&"))
-            put(t, "and");
+        else if (t->indents && w->kind == WORD_SIGN && (word_is(w, "&&") || word_is(w, "||") || word_is(w, "!")))
+            put(t, *w->text == '&' ? "and" : *w->text == '|' ? "or" : "not ");
         else
             put_name(t, at, is_member ? 0 : 1 << CONSTANT | 1 << ARRAY);
     }
@@ -562,8 +562,9 @@ static int put_if(printer *t, int at)
         return next;
     if (t->indents)
         put_line(t, next);
-    put(t, t->indents ? "else" : " else");
-    return put_governed(t, next, next + 1);
+    const int is_if = word_is(&t->word[next + 1], "if");
+    put(t, t->indents ? is_if ? "el" : "else" : is_if ? " else " : " else");
+    return is_if ? put_if(t, next + 1) : put_governed(t, next, next + 1);
 }
 
 /* for (int i = A; i < B; i++) */
