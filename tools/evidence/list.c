@@ -97,7 +97,7 @@ static void list_normals(evidence *to)
         const vndf_distribution *d = of->canonical.distribution;
         add(to, of, method_all_normals(of));
         add_calls(to, of, d, "closed form", METHOD_SAMPLE, METHOD_SAMPLE);
-        add_calls(to, of, d, "closed form", METHOD_AFFINE, of == ggx ? METHOD_EXPORTED : METHOD_TWO_LOBES);
+        add_calls(to, of, d, "closed form", METHOD_SIXTEEN, of == ggx ? METHOD_EXPORTED : METHOD_EIGHT_LOBES);
     }
     for (size_t i = 0; i < SIZES; i++)
         add_calls(to, at_hand, to->plan->at_hand->table[i], table_sizes[i].name, METHOD_SAMPLE,
@@ -114,6 +114,8 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
 {
     const vndf_surface surface = vndf_rough(of->canonical.distribution, to->plan->alpha_x, to->plan->alpha_y);
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
+        if (set->by_hand && of->canonical.distribution != vndf_ggx())
+            continue;
         evidence_row *r = add(to, of, method_effect(set, &surface, to->error));
         if (!r)
             return to->error->status;

@@ -72,8 +72,10 @@ typedef enum method_call {
     METHOD_INVERT,
     METHOD_NDF,
     METHOD_LAMBDA,
+    METHOD_SIXTEEN, /* samples of each direction */
     METHOD_AFFINE,
     METHOD_TWO_LOBES,
+    METHOD_EIGHT_LOBES,
     METHOD_EXPORTED,
     METHOD_CALLS
 } method_call;
@@ -139,6 +141,7 @@ typedef struct effect_set {
     int is_rough;        /* a roughness for each hit, by vndf_bsdf_on in the place of vndf_bsdf_at */
     int stretched;       /* alpha_y is a quarter of alpha_x */
     int turned;          /* and their axes are, by half a radian */
+    int by_hand;         /* GGX alone: a loop over view and sample that knows its area, single calls alone */
     const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effect_set;
 

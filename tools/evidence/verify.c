@@ -87,7 +87,7 @@ int evidence_verify(const method *m, vndf_instructions set, const block_law *law
         else if (set)
             m->batch(m, b);
         else
-            good = materials_good(m, m->each, b) && materials_good(m, m->shared, b);
+            good = materials_good(m, m->each, b) && (!m->shared || materials_good(m, m->shared, b));
         if (set && m->same_bits) {
             m->each(m, single);
             good = good && same_bits(m, b, single);

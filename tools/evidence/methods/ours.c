@@ -10,7 +10,19 @@
 
 /* ---- one by one ---------------------------------------------------------------------------------- */
 
-static const float core = 0.7f, haze = 0.3f; /* of two lobes */
+/* Weights of two lobes and of eight, which are up to three times as rough as the first. */
+enum { LOBES = VNDF_MIXTURE_LOBES };
+static const float weights[2][LOBES] = {{0.7f, 0.3f}, {0.3f, 0.2f, 0.15f, 0.1f, 0.1f, 0.05f, 0.05f, 0.05f}};
+
+static inline int lobes_of(const method *m)
+{
+    return m->call == METHOD_TWO_LOBES ? 2 : LOBES;
+}
+
+static inline float lobe_alpha(const method *m, int lobe, float alpha)
+{
+    return (1 + 2 * (float)lobe / (float)(lobes_of(m) - 1)) * alpha;
+}
 
 static inline vndf_view view_of(const method *m, const method_input *in)
 {
@@ -29,15 +41,26 @@ static void each(const method *m, block *b)
     method_loop(one, m, b);
 }
 
-static void shared(const method *m, block *b)
+static inline void run_shared(const method *m, block *b, size_t share)
 {
-    for (size_t first = 0; first < b->count; first += SHARE) {
+    for (size_t first = 0; first < b->count; first += share) {
         vndf_view view = view_of(m, &b->in[first]);
-        for (size_t i = first; i < first + SHARE; i++) {
+        for (size_t i = first; i < first + share; i++) {
             const vndf_vec3 wm = vndf_sample(&view, b->in[i].u[0], b->in[i].u[1], &b->pdf[i]);
             b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
         }
     }
+}
+
+static void shared(const method *m, block *b)
+{
+    run_shared(m, b, SHARE);
+}
+
+/* As many samples of a hit as renderers draw where they are cheap beside the hit. */
+static void sixteen(const method *m, block *b)
+{
+    run_shared(m, b, 16);
 }
 
 /* Turned, sheared, and with a mean slope. */
@@ -46,23 +69,28 @@ static inline vndf_surface oblique(const method *m, float alpha)
     return (vndf_surface){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
 }
 
-/* The other calls, and the surfaces: a core and a haze three times as rough are the two lobes. */
+/* The other calls, and the surfaces. */
 static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
 {
     const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
-    const float a = in->alpha, b = 3 * a;
     vndf_vec3 wm = {0, 0, 0};
     if (m->call == METHOD_NDF || m->call == METHOD_LAMBDA) {
         *pdf = m->call == METHOD_NDF ? vndf_ndf(&surface, in->given) : vndf_lambda(&surface, in->wi);
         return wm;
     }
-    if (m->call == METHOD_TWO_LOBES) {
-        vndf_mixture mixture = {2, {{vndf_rough(m->d, a, a), core}, {vndf_rough(m->d, b, b), haze}}};
+    if (m->call >= METHOD_TWO_LOBES) {
+        vndf_mixture mixture;
+        mixture.count = lobes_of(m);
+        for (int k = 0; k < mixture.count; k++) {
+            const float alpha = lobe_alpha(m, k, in->alpha);
+            mixture.lobe[k].surface = vndf_rough(m->d, alpha, alpha);
+            mixture.lobe[k].weight = weights[mixture.count > 2][k];
+        }
         vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, in->wi);
         return vndf_mixture_sample(&lobes, in->u[0], in->u[1], pdf, NULL);
     }
     if (m->call == METHOD_AFFINE) {
-        vndf_surface sheared = oblique(m, a);
+        vndf_surface sheared = oblique(m, in->alpha);
         const vndf_view leaning = vndf_view_from(&sheared, in->wi);
         return vndf_sample(&leaning, in->u[0], in->u[1], pdf);
     }
@@ -138,14 +166,16 @@ static void batch_affine(const method *m, block *b)
 
 static void batch_lobes(const method *m, block *b)
 {
-    float rough[BLOCK];
-    for (size_t i = 0; i < b->count; i++)
-        rough[i] = 3 * b->alpha[i];
+    float rough[LOBES][BLOCK];
     vndf_batch batch = batch_of(m, b);
     batch.shared = VNDF_SHARED_WEIGHT;
-    batch.lobes = 2;
-    batch.lobe[0] = (vndf_lobe_batch){{.distribution = m->d, .xx = b->alpha, .yy = b->alpha}, &core};
-    batch.lobe[1] = (vndf_lobe_batch){{.distribution = m->d, .xx = rough, .yy = rough}, &haze};
+    batch.lobes = lobes_of(m);
+    for (int k = 0; k < batch.lobes; k++) {
+        const vndf_surface_batch surface = {.distribution = m->d, .xx = rough[k], .yy = rough[k]};
+        batch.lobe[k] = (vndf_lobe_batch){surface, &weights[batch.lobes > 2][k]};
+        for (size_t i = 0; i < b->count; i++)
+            rough[k][i] = lobe_alpha(m, k, b->alpha[i]);
+    }
     vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
@@ -159,7 +189,8 @@ static void batch_call(const method *m, block *b)
     case METHOD_NDF: vndf_ndf_n(&batch, normals, b->pdf); break;
     case METHOD_LAMBDA: vndf_lambda_n(&batch, b->pdf); break;
     case METHOD_AFFINE: batch_affine(m, b); break;
-    case METHOD_TWO_LOBES: batch_lobes(m, b); break;
+    case METHOD_TWO_LOBES:
+    case METHOD_EIGHT_LOBES: batch_lobes(m, b); break;
     default:
         vndf_sample_weight_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf, b->value[0]);
         for (size_t i = 0; i < b->count; i++)
@@ -171,8 +202,9 @@ static void batch_call(const method *m, block *b)
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call)
 {
-    static const char *const calls[METHOD_CALLS] = {"",         ": weight", ": pdf",     ": invert",    ": ndf",
-                                                    ": lambda", ": affine", ": mixture", ", exported C"};
+    static const char *const calls[METHOD_CALLS] = {"",          ": weight",      ": pdf",       ": invert",
+                                                    ": ndf",     ": lambda",      ": 16 a view", ": affine",
+                                                    ": mixture", ": eight lobes", ", exported C"};
     const vndf_info info = vndf_distribution_info(d);
     method m = {.kind = info.memory ? ROW_TABLE : ROW_CLOSED, .memory = info.memory, .d = d, .call = call};
     snprintf(m.name, sizeof m.name, "%s%s", name, calls[call]);
@@ -189,7 +221,8 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
         vndf_numbers(d, numbers, numbers ? count : 0);
     } else {
         m.kind = ROW_CALL;
-        m.each = each_call, m.batch = batch_call;
+        m.each = call == METHOD_SIXTEEN ? sixteen : each_call;
+        m.batch = call == METHOD_SIXTEEN ? NULL : batch_call;
     }
     m.same_bits = m.batch != NULL;
     return m;
