@@ -158,7 +158,7 @@ static int write_table(html_page *page, const baked *b, bake_form form, const ch
     else if (form < BAKE_PICTURE)
         write_array(file, b, form, made_by);
     else if (!write_png(file, b))
-        return complain(page->command, "no memory"), 0;
+        return denied(page->command, "no memory");
     return 1;
 }
 

@@ -82,14 +82,13 @@ int output_open(output_file *output, const char *command, const char *path)
     if (!opened.path)
         return *output = opened, 1;
     if (path[0] == '\0')
-        return complain(command, "the name of the output file is empty"), 0;
+        return denied(command, "the name of the output file is empty");
     if (stat(path, &is) == 0 && !S_ISREG(is.st_mode))
-        return complain(command, "'%s' is a %s; the output has to be a file", path,
-                        S_ISDIR(is.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
-               0;
+        return denied(command, "'%s' is a %s; the output has to be a file", path,
+                      S_ISDIR(is.st_mode) ? "folder" : "device or a pipe (- is stdout)");
     const char *role = files_note(path, 1);
     if (role)
-        return complain(command, "'%s' is not replaced: it is %s", path, role), 0;
+        return denied(command, "'%s' is not replaced: it is %s", path, role);
     output_hold_signals();
     if (vndf_replace_begin(&output->replaces, path)) {
         *output = (output_file){command, path, output->replaces.file, output->replaces};

@@ -27,10 +27,9 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
     if (chosen->distribution)
         return 1;
     if (!families && (is_family_file(name) || strstr(name, ".vndfs@")))
-        return complain(command,
-                        "'%s' is a family; a single table is needed (sample takes FILE.vndfs@P, info FILE.vndfs)",
-                        name),
-               0;
+        return denied(command,
+                      "'%s' is a family; a single table is needed (sample takes FILE.vndfs@P, info FILE.vndfs)",
+                      name);
     char *bytes = input_read(command, name, BYTES_MAX, &size);
     const char *hint = bytes ? NULL : nearest_word(name, closed_forms, 2);
     if (hint)

@@ -1,5 +1,4 @@
 /* vndf bake: tables that engines look up in the place of samples. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "bake/bake.h"

@@ -2,6 +2,7 @@
  * that a user could pick. */
 
 #include "cli/subject.h"
+#include "cli/output.h"
 #include "command.h"
 #include "evidence/evidence.h"
 

@@ -132,10 +132,10 @@ static int finish_measured(const arguments *given, const data_file *file, const 
              (unsigned long)vndf_crc32(0, file->bytes, file->size));
     if (vndf_source_describe(source, text, &error) != VNDF_OK ||
         vndf_source_note(source, file->notes, &error) != VNDF_OK)
-        return complain(name, "%.100s: %s", file->name, error.message), 0;
+        return denied(name, "%.100s: %s", file->name, error.message);
     return !profile_path || (output_open(to, name, profile_path) &&
                              (profile_write(to->file, rows, vndf_source_description(source)) ||
-                              (complain(name, "cannot write '%s'", profile_path), 0)));
+                              denied(name, "cannot write '%s'", profile_path)));
 }
 
 /* NULL after a complaint. */
@@ -168,7 +168,7 @@ static int read_range(const char *text, double range[2])
     char low[64];
     const char *dots = strstr(text, "..");
     if (!dots || dots - text >= (ptrdiff_t)sizeof low)
-        return complain(name, "--parameter '%.64s' is not LOW..HIGH, as in 1.6..6", text), 0;
+        return denied(name, "--parameter '%.64s' is not LOW..HIGH, as in 1.6..6", text);
     snprintf(low, sizeof low, "%.*s", (int)(dots - text), text);
     return parse_numbers(name, "--parameter", low, -1e30, 1e30, 1, 1, &range[0]) &&
            parse_numbers(name, "--parameter", dots + 2, -1e30, 1e30, 1, 1, &range[1]);
@@ -215,7 +215,7 @@ static int write_table(const chosen_distribution *of, FILE *file)
     if (good)
         fwrite(bytes, 1, size, file);
     free(bytes);
-    return good || (complain(name, "%s", error.message), 0);
+    return good || denied(name, "%s", error.message);
 }
 
 /* Says what was built and what it is worth. Where the file itself is on stdout there is no place for figures. */

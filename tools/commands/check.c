@@ -1,8 +1,8 @@
 /* vndf check: is a distribution what it claims to be? Four lists of findings:
- *   certificate  what the table says, measured again beside its source, not by the library (laws.h);
+ *   certificate  what the table says, measured again beside its source, not by the library (laws.c);
  *   consistency  sample, pdf and invert agree with each other;
- *   chi-square   samples follow the density that they claim, over bins (bins.h), at some views;
- *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
+ *   chi-square   samples follow the density that they claim, over bins (bins.c), at some views;
+ *   hard         the calls keep their promises for the hardest input that is valid (stress.c). */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +11,7 @@
 #include "cli/sort.h"
 #include "command.h"
 #include "commands/parts/describe.h"
-#include "evidence/measure/bins.h"
-#include "evidence/measure/laws.h"
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 
 static const char name[] = "vndf check";
 

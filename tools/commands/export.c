@@ -1,5 +1,4 @@
 /* vndf export: the sampler and tables as one file for another language or processor. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/output.h"
@@ -73,7 +72,7 @@ static int read_effects(const arguments *given, export_document *document)
     document->scatters = option_value(given, "--bsdf") != NULL;
     document->effects = effects;
     if (document->scatters && vndf_material_resolve(&is, &material, &refusal) != VNDF_OK)
-        return complain(name, "--bsdf: %s", refusal.message), 0;
+        return denied(name, "--bsdf: %s", refusal.message);
     return 1;
 }
 
@@ -83,8 +82,7 @@ static int fits(const export_document *document)
     const language *as = document->to;
     for (size_t i = 0; i < document->tables; i++)
         if (document->table[i].family && document->lobes < 2)
-            return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
-                   0;
+            return denied(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file);
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     complain(name,
@@ -127,7 +125,7 @@ static int read_form(const arguments *given, rgl_form *form)
     for (size_t i = 0; i < channels && wavelengths; i++) {
         form->wavelength[i] = (float)nanometres[i];
         if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1]))
-            return complain(name, "--wavelengths '%s': they must ascend", wavelengths), 0;
+            return denied(name, "--wavelengths '%s': they must ascend", wavelengths);
     }
     form->alpha = (float)alpha;
     form->channels = (int)channels;
@@ -136,7 +134,7 @@ static int read_form(const arguments *given, rgl_form *form)
     if (channels > 0 && f0)
         count = parse_numbers(name, "--f0", f0, 0, 1, 1, channels, form->f0);
     if (count > 1 && count < channels)
-        return complain(name, "--f0 has %zu numbers; 1 or %zu are needed", count, channels), 0;
+        return denied(name, "--f0 has %zu numbers; 1 or %zu are needed", count, channels);
     for (size_t i = count; i < channels; i++)
         form->f0[i] = form->f0[0];
     return channels > 0 && count > 0;

@@ -225,7 +225,7 @@ static int run(const arguments *given)
     const judge_task task = {name, given->positional.item[0], timeout, (size_t)samples, seed, surface};
     judgement *j = calloc(1, sizeof *j);
     progress bar = progress_begin(name, option_value(given, "-q") != NULL);
-    const int is_judged = j ? judge_sampler(&task, &bar, j) : !complain(name, "no memory");
+    const int is_judged = j ? judge_sampler(&task, &bar, j) : denied(name, "no memory");
     progress_end(&bar);
     const int status = is_judged ? print_verdict(given, &task, j) : STATUS_USE;
     free(j);

@@ -2,7 +2,6 @@
 #include "draw/chart.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double text_height = 12, glyph_width = 6.5;
 

@@ -36,19 +36,17 @@ static int may_fill(html_page *page)
     const char *command = page->command, *path = page->folder;
     DIR *directory = opendir(path);
     if (!directory)
-        return complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno)), 0;
+        return denied(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
     for (const struct dirent *entry; !page->is_replaced && (entry = readdir(directory)) != NULL;)
         page->is_replaced = strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
     closedir(directory);
     if (access(path, W_OK | X_OK) != 0)
-        return complain(command, "cannot write into '%s': %s", path, strerror(errno)), 0;
+        return denied(command, "cannot write into '%s': %s", path, strerror(errno));
     return !page->is_replaced || has_our_page(page) ||
-           (complain(
-                command,
-                "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
-                "page, which is replaced",
-                path, command),
-            0);
+           denied(command,
+                  "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
+                  "page, which is replaced",
+                  path, command);
 }
 
 int page_open(html_page *page, const char *command, const char *folder)
@@ -177,7 +175,7 @@ int page_table(html_page *page, const figures *f)
     FILE *html = page->html;
     const size_t columns = figures_columns(f);
     if (f->failed)
-        return complain(page->command, "no memory"), 0;
+        return denied(page->command, "no memory");
     fputs("<div class=\"scroll\"><table><thead><tr>", html);
     for (size_t k = 1; k < columns; k++)
         put_cell(html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);

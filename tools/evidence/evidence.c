@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "cli/sort.h"
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 
 /* ---- worth --------------------------------------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
 /* Which methods of which distributions: the rows of a plan. All of them are made, tables too, which takes less than a
  * second; what nobody asked for is neither measured nor timed. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "evidence/evidence.h"

@@ -18,7 +18,7 @@
 
 #include "cli/subject.h"
 #include "evidence/evidence.h"
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 
 static const float gold_n = 0.43f, gold_k = 2.455f;
 static const double alpha_measured = 0.5;

@@ -1,4 +1,4 @@
-/* The integral of the density over bins (evidence/measure/quadrature.h), of theta and the azimuth, and what is seen on
+/* The integral of the density over bins (evidence/measure/measure.h), of theta and the azimuth, and what is seen on
  * the way: densities that are none, and how far they are from the true visible normals. */
 #include <math.h>
 #include <stdlib.h>
@@ -101,7 +101,7 @@ int judge_integrate(const judge_task *task, progress *bar, judgement *j)
         if (cells)
             count += bins_cells(v->ring, v->rings, v->sector, v->sectors, i * JUDGE_EACH, cells + count);
     }
-    const int good = cells ? quadrature_run(&q, cells, count, j->sum) : !complain(task->who, "no memory");
+    const int good = cells ? quadrature_run(&q, cells, count, j->sum) : denied(task->who, "no memory");
     if (good)
         sum_up(j);
     free(cells);

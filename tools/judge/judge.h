@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #include "cli/progress.h"
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "vndf.h"
 
 /* Behind the bins of a direction comes one for samples that are in none. */

@@ -3,7 +3,7 @@
  *
  * Nothing in it is singular; but the lobe may have parts of very different width, and tails that fall by a power so low
  * that slopes of 1e20 count. */
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 
 #include <float.h>
 #include <math.h>
@@ -181,14 +181,10 @@ enum { PARTS = 4, ALL = BINS_PILOTS + BINS_EVEN, BORDERS = BINS_RINGS * PARTS + 
 
 /* Where cells begin along log R: at quarters of rings by what was drawn, since a narrow lobe may be in one ring with
  * much that is wide; and what is nearer or farther than all that was drawn is apart. */
-static double first_border(const double at[ALL], const double slope[BINS_RINGS + 1], size_t i)
+static double first_border(const double at[ALL], size_t i)
 {
-    const size_t last = BORDERS - 1, of = i > 0 ? (i - 1) * ALL / (BINS_RINGS * PARTS) : 0;
-    const int is_inside = i > 1 && i < last - 1;
-    const double to = i == 0                              ? LEAST
-                      : i == last                         ? LARGEST
-                      : is_inside && (i - 1) % PARTS == 0 ? slope[(i - 1) / PARTS]
-                                                          : tan(at[of < ALL ? of : ALL - 1]);
+    const size_t of = i > 0 ? (i - 1) * ALL / (BINS_RINGS * PARTS) : 0;
+    const double to = i == 0 ? LEAST : i == BORDERS - 1 ? LARGEST : tan(at[of < ALL ? of : ALL - 1]);
     return log(fmin(fmax(to, LEAST), LARGEST));
 }
 
@@ -202,7 +198,7 @@ static void integrate(const bins_sampler *judged, const double at[ALL], bins_res
     for (int i = 0; i <= BINS_SECTORS; i++)
         sector[i] = 2 * (double)i / BINS_SECTORS - 1;
     for (size_t i = 0; cells && i + 1 < BORDERS; i++) {
-        const double ends[2] = {first_border(at, to->slope, i), first_border(at, to->slope, i + 1)};
+        const double ends[2] = {first_border(at, i), first_border(at, i + 1)};
         const size_t part = i > 0 ? i - 1 : 0, ring = part / PARTS < BINS_RINGS ? part / PARTS : BINS_RINGS - 1;
         count += bins_cells(ends, 1, sector, BINS_SECTORS, ring * BINS_SECTORS, cells + count);
     }

@@ -3,7 +3,7 @@
  * polynomial: without bias whatever the function is, and exactly for one of degree 3. Its error is how much the pairs
  * differ, or two more points say if that is more. Where those are off the polynomial, the cell is divided, the worst
  * first: lines along which the function jumps, and peaks, show themselves there. */
-#include "evidence/measure/quadrature.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 #include <stdlib.h>

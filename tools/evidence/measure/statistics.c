@@ -1,4 +1,4 @@
-#include "evidence/measure/statistics.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 
 #include <float.h>
 #include <math.h>
