@@ -238,13 +238,6 @@ typedef struct part {
     int channels, number[4];
 } part;
 
-/* Place i of n on the axis of cosines, which is dense at grazing incidence. */
-static double cosine_at(size_t i, size_t n)
-{
-    double v = (double)i / (double)(n - 1);
-    return fmax(1 - v * v, 2e-3);
-}
-
 /* Tables of n roughnesses, `ratios` of alpha_y over alpha_x, n cosines and as many azimuths as ratios. Rougher first,
  * from straight above to grazing: what is smooth is the easiest, and begins what follows. The first direction of a
  * surface begins the next one; the first of a cosine, along x, the next cosine. */
@@ -262,7 +255,8 @@ static int fit_all(const bake_settings *s, baked_list *list, const part *parts, 
         const size_t phi = done % ratios, theta = done / ratios % n, surface = surfaces - 1 - done / (ratios * n);
         const float alpha = bake_alpha(s->mapping, (double)(surface / ratios) / (double)(n - 1));
         const float alphas[2] = {alpha, fmaxf(alpha * (float)(surface % ratios + 1) / (float)ratios, 1e-3f)};
-        const double c = cosine_at(theta, n), r = sqrt(1 - c * c);
+        const double v = (double)theta / (double)(n - 1); /* cosines are dense at grazing incidence */
+        const double c = fmax(1 - v * v, 2e-3), r = sqrt(1 - c * c);
         const double turn = phi ? 1.5707963267949 * (double)phi / (double)(ratios - 1) : 0;
         const double wi[3] = {r * cos(turn), r * sin(turn), c};
         if (!target_of(&t, s, alphas, wi) || progress_show((double)done / (double)all, parts->name, s->progress))

@@ -284,39 +284,34 @@ static void check_hard(checking *c, int is_whole)
 
 /* ---- the command --------------------------------------------------------------------------------- */
 
-static int check_all(const chosen_distribution *chosen, const arguments *given)
+static int run(const arguments *given)
 {
-    checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
+    checking c = {.samples = 1000000, .seed = 1, .good = 1};
     const char *csv = option_value(given, "--csv");
+    chosen_distribution chosen;
     if (!option_count(given, "--samples", 1000, 1e10, &c.samples) ||
-        !option_count(given, "--seed", 0, 0x1p53, &c.seed))
+        !option_count(given, "--seed", 0, 0x1p53, &c.seed) ||
+        !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
-    if (!chosen->owned && csv)
+    if (!chosen.owned && csv)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
+    c.distribution = chosen.distribution;
     c.to = figures_begin(given);
     c.bar = progress_begin(name, option_value(given, "-q") != NULL);
-    const int is_done =
-        (!chosen->owned || check_certificate(&c, csv) == STATUS_GOOD) && check_consistency(&c) == STATUS_GOOD;
-    if (is_done) {
+    int status = chosen.owned ? check_certificate(&c, csv) : STATUS_GOOD;
+    if (status == STATUS_GOOD)
+        status = check_consistency(&c);
+    if (status == STATUS_GOOD) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
-        if (chosen->owned)
-            describe_end(&c.to, chosen);
+        if (chosen.owned)
+            describe_end(&c.to, &chosen);
         figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);
-    if (!is_done)
-        return figures_free(&c.to), STATUS_USE;
-    const int status = figures_end(&c.to);
-    return status == STATUS_GOOD && !c.good ? STATUS_NO : status;
-}
-
-static int run(const arguments *given)
-{
-    chosen_distribution chosen;
-    if (!distribution_open(&chosen, name, given->positional.item[0], 0))
-        return STATUS_USE;
-    int status = check_all(&chosen, given);
+    if (status == STATUS_GOOD && (status = figures_end(&c.to)) == STATUS_GOOD && !c.good)
+        status = STATUS_NO;
+    figures_free(&c.to);
     distribution_close(&chosen);
     return status;
 }

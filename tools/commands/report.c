@@ -91,25 +91,17 @@ static double measured(const report *r, const vndf_distribution *table, evidence
     return NAN;
 }
 
-/* "16 KiB", "25.8 KiB", to 3%: files stay a little below a power of two. */
-static const char *bytes_in(char text[48], double bytes)
-{
-    const double power = exp2(round(log2(bytes)));
-    snprintf(text, 48, "%.3g KiB", (fabs(bytes / power - 1) < 0.03 ? power : bytes) / 1024);
-    return text;
-}
-
 /* What `vndf build` says of the table that it makes, and what samples of it take. */
 static void write_advice(FILE *html, const report *r, const subject *s)
 {
     const chosen_distribution advised = {.distribution = s->table[SIZE_PLAIN]};
     const vndf_info info = vndf_distribution_info(advised.distribution);
     const double ns = measured(r, advised.distribution, COL_NS);
-    char bytes[48], verdict[DESCRIBE_VERDICT];
+    char verdict[DESCRIBE_VERDICT];
     describe_verdict(&advised, verdict);
     fputs("<p><strong>", html);
     svg_escape(html, s->name);
-    fprintf(html, ": ship %s with %d moments.</strong> It is ", bytes_in(bytes, (double)info.bytes), info.moments);
+    fprintf(html, ": ship %.2g KiB with %d moments.</strong> It is ", (double)info.bytes / 1024, info.moments);
     svg_escape(html, verdict);
     if (ns > 0)
         fprintf(html, ". A sample takes %.0f ns, in a batch %.0f ns", ns,
@@ -207,7 +199,7 @@ static void add_row(frontier *f, const report *r, const evidence_row *of)
         const int moments = (int)of->number[COL_MOMENTS];
         look = (chart_series){.mark = CHART_DOT, .line = lines[moments - 2]};
         if (moments == 4)
-            bytes_in(label, of->number[COL_FILE]);
+            snprintf(label, sizeof label, "%.2g KiB", of->number[COL_FILE] / 1024); /* files stay a little below */
     } else if (kind == ROW_CLOSED)
         snprintf(label, sizeof label, "vndf_%.40s()", of->of->name);
     else

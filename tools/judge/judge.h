@@ -50,9 +50,10 @@ typedef struct exchange {
  * there are too few lines or too many, or queries is NULL, for want of memory. */
 answer *process_ask(const judge_task *task, const query *queries, size_t count);
 
-/* The line that asks, without its end. */
+/* The line that asks, without its end. `text` may hold the line `before`, whose wi is not printed again: printing numbers
+ * is what takes time. */
 enum { JUDGE_LINE = 512 };
-void process_line(char text[JUDGE_LINE], const query *q);
+void process_line(char text[JUDGE_LINE], const query *q, const query *before);
 
 /* ---- answers ------------------------------------------------------------------------------------- */
 

@@ -22,19 +22,13 @@ static int digits(float x)
     return x > 0.99f ? 17 : 9;
 }
 
-/* Prints wi if it is another one than in the line before, since printing numbers is what takes time. */
-static void print_query(char text[JUDGE_LINE], const query *q, const query *before)
+void process_line(char text[JUDGE_LINE], const query *q, const query *before)
 {
     static int start;
     if (!before || before->kind != q->kind || memcmp(&before->wi, &q->wi, sizeof q->wi) != 0)
         start = sprintf(text, "%c %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y, (double)q->wi.z);
     sprintf(text + start, " %.*g %.*g %.*g", digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y,
             digits(q->x.z), (double)q->x.z);
-}
-
-void process_line(char text[JUDGE_LINE], const query *q)
-{
-    print_query(text, q, NULL);
 }
 
 static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
@@ -122,7 +116,7 @@ static int read_answers(const char *who, FILE *out, const query *queries, size_t
         double number[4] = {0, 0, 0, 0};
         const int is_there = fgets(line, sizeof line, out) != NULL;
         if (!is_there || !read_numbers(line, is_sample ? 4 : 1, is_sample ? number : number + 3)) {
-            process_line(asked, &queries[i]);
+            process_line(asked, &queries[i], NULL);
             if (!is_there)
                 return denied(who, "%zu of %zu queries were answered; the next is: %s", i, count, asked);
             return denied(who, "line %zu, '%.*s', is not %s; it answers: %s", i + 1, (int)strcspn(line, "\r\n"),
@@ -142,7 +136,7 @@ answer *process_ask(const judge_task *task, const query *queries, size_t count)
     answer *answers = queries ? malloc(count * sizeof *answers) : NULL;
     int good = answers && in && out;
     for (size_t i = 0; i < count && good; i++) {
-        print_query(text, &queries[i], i ? &queries[i - 1] : NULL);
+        process_line(text, &queries[i], i ? &queries[i - 1] : NULL);
         good = fputs(text, in) >= 0 && putc('\n', in) >= 0;
     }
     if (!answers)
