@@ -82,8 +82,6 @@ static const subcommand *find_command(const char *word)
     return NULL;
 }
 
-/* ---- the manual page ----------------------------------------------------------------------------- */
-
 /* In the macros that man and mandoc share: the text as it stands, with what troff reads otherwise escaped. */
 static void put_man(FILE *to, const char *text)
 {

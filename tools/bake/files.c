@@ -10,8 +10,6 @@
 #include "draw/png.h"
 #include "draw/svg.h"
 
-/* ---- numbers ------------------------------------------------------------------------------------- */
-
 /* Format 1.0 of numpy's files: a dictionary in text, filled up to 64 bytes. */
 static void write_npy(FILE *file, const baked *b)
 {
@@ -68,8 +66,6 @@ static void write_dds(FILE *file, const baked *b)
             put_little(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
 }
 
-/* ---- arrays -------------------------------------------------------------------------------------- */
-
 /* What the table is, as lines of a comment. */
 static void write_about(FILE *file, const baked *b, const char *made_by)
 {
@@ -106,8 +102,6 @@ static void write_array(FILE *file, const baked *b, bake_form form, const char *
     fputs(form == BAKE_C ? "};\n" : form == BAKE_GLSL ? ");\n" : "])};\n", file);
 }
 
-/* ---- pictures ------------------------------------------------------------------------------------ */
-
 /* Up to three channels as red, green and blue, each between its least and its largest number; layers of a volume side
  * by side, and the last axis to the right. */
 static int write_png(FILE *file, const baked *b)
@@ -140,8 +134,6 @@ static int write_png(FILE *file, const baked *b)
     free(rgb);
     return good;
 }
-
-/* ---- the page ------------------------------------------------------------------------------------ */
 
 static int write_table(html_page *page, const baked *b, bake_form form, const char *made_by)
 {

@@ -34,8 +34,6 @@ void baked_free(baked_list *list)
     list->count = 0;
 }
 
-/* ---- tables over roughness, cosine and index ------------------------------------------------------- */
-
 /* What a host keeps: sizes of the mirror's and of glass's axes; the order of eta, cosine and roughness from the slowest
  * to the fastest; whether places are in the middle of texels; what the places of the index stand for. Hosts mask what
  * passes as what is reflected. */

@@ -283,8 +283,6 @@ static void print_json(FILE *file, const figures *f)
     fputs("}\n}\n", file);
 }
 
-/* ---- what is printed ----------------------------------------------------------------------------- */
-
 int figures_end(figures *f)
 {
     const int status = f->failed ? complain(f->command, "no memory") : STATUS_GOOD;

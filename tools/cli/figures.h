@@ -45,8 +45,6 @@ typedef struct figures {
 figures figures_begin(const arguments *given);
 void figures_free(figures *f);
 
-/* ---- filling ---- */
-
 /* Of any kind, without a unit. */
 void figures_add(figures *f, figure_kind kind, const char *name, const char *text);
 void figures_text(figures *f, const char *name, const char *text);
@@ -68,8 +66,6 @@ void figures_mark(figures *f, const char *mark);
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);
-
-/* ---- printing ---- */
 
 /* The document on stdout, and frees it: a record is a line that begins with the name of its list, and goes on below
  * after 100 columns. An exit status, after a complaint if there was no memory. */

@@ -21,8 +21,6 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
 /* "stdin" for "-". */
 const char *input_name(const char *path);
 
-/* ---- numbers with the least byte first ---- */
-
 /* Whole ones, and floats of 4 or 8 bytes. */
 uint64_t little_whole(const unsigned char *at, size_t bytes);
 double little_number(const unsigned char *at, size_t bytes);

@@ -67,8 +67,6 @@ int output_stopping(void)
     return stops;
 }
 
-/* ---- opening ------------------------------------------------------------------------------------- */
-
 int output_is_stdout(const char *path)
 {
     return strcmp(path, "-") == 0;

@@ -6,8 +6,6 @@
 
 #include "cli/files.h"
 
-/* ---- distributions ------------------------------------------------------------------------------- */
-
 enum { BYTES_MAX = 1 << 29 };
 
 int is_family_file(const char *name)
@@ -50,8 +48,6 @@ void distribution_close(chosen_distribution *chosen)
     vndf_free(chosen->owned);
     vndf_family_free(chosen->family);
 }
-
-/* ---- sources -------------------------------------------------------------------------------------- */
 
 enum { NDF, SLOPE, CSV, FAMILY };
 
@@ -127,8 +123,6 @@ const char *source_name(const vndf_source *source)
     const char *name = vndf_source_description(source);
     return strncmp(name, family, sizeof family - 1) == 0 ? name + sizeof family - 1 : name;
 }
-
-/* ---- directions and roughness -------------------------------------------------------------------- */
 
 /* By an angle of at most 45 degrees, so that cos(90 degrees) is 0 and not 6e-17: a direction on the horizon is meant to
  * be on it. */

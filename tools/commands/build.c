@@ -231,8 +231,6 @@ static int tell(const arguments *given, const chosen_distribution *of, figures *
     return f->failed ? complain(name, "no memory for figures") : STATUS_GOOD;
 }
 
-/* ---- the command --------------------------------------------------------------------------------- */
-
 /* Whether the words go together; 0 after a complaint. */
 static int check_words(const arguments *given)
 {

@@ -86,8 +86,6 @@ static void begin(checking *c, const char *what)
     figures_text(&c->to, "of", what);
 }
 
-/* ---- certificate --------------------------------------------------------------------------------- */
-
 static int check_certificate(checking *c, const char *csv)
 {
     const vndf_info info = vndf_distribution_info(c->distribution);
@@ -119,8 +117,6 @@ static int check_certificate(checking *c, const char *csv)
     figures_list_end(&c->to);
     return STATUS_GOOD;
 }
-
-/* ---- consistency --------------------------------------------------------------------------------- */
 
 /* The density of the normal whose slopes are those of wm by a factor. */
 static double pdf_beside(const vndf_view *view, vndf_vec3 wm, float factor)
@@ -210,8 +206,6 @@ static int check_consistency(checking *c)
     return STATUS_GOOD;
 }
 
-/* ---- chi-square ---------------------------------------------------------------------------------- */
-
 /* Samples of some views against the density over bins: the library against itself, without another reference. */
 static void check_chi_square(checking *c)
 {
@@ -256,8 +250,6 @@ static void check_chi_square(checking *c)
     figures_list_end(&c->to);
 }
 
-/* ---- hard ---------------------------------------------------------------------------------------- */
-
 static void check_hard(checking *c, int is_whole)
 {
     part(c, "hard cases", 1);
@@ -281,8 +273,6 @@ static void check_hard(checking *c, int is_whole)
     }
     figures_list_end(&c->to);
 }
-
-/* ---- the command --------------------------------------------------------------------------------- */
 
 static int run(const arguments *given)
 {

@@ -54,8 +54,6 @@ static const char *const help[] = {
     "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n",
     NULL};
 
-/* ---- kernels ------------------------------------------------------------------------------------- */
-
 /* What makes no sense is what the library says makes none. */
 static int read_effects(const arguments *given, export_document *document)
 {
@@ -110,8 +108,6 @@ static int write_all(const arguments *given, const export_document *document)
         output, 2, written ? STATUS_GOOD : complain(name, "no memory, or no place for a temporary file"));
 }
 
-/* ---- reflectances -------------------------------------------------------------------------------- */
-
 /* Roughness, wavelengths, and F0: one number for all channels, or one for each. */
 static int read_form(const arguments *given, rgl_form *form)
 {
@@ -162,8 +158,6 @@ static int export_rgl(const arguments *given)
     distribution_close(&chosen);
     return status;
 }
-
-/* ---- the command --------------------------------------------------------------------------------- */
 
 static int export_kernel(const arguments *given, export_document *document)
 {

@@ -42,8 +42,6 @@ typedef struct report {
     const char *instructions;
 } report;
 
-/* ---- what is measured ---------------------------------------------------------------------------- */
-
 static int add_subjects(report *r, const arguments *given)
 {
     const words with = option_values(given, "--with");
@@ -246,8 +244,6 @@ static int write_frontier(html_page *page, const report *r)
     return alone != NULL;
 }
 
-/* ---- what a caller pays -------------------------------------------------------------------------- */
-
 static int write_times(html_page *page, const report *r)
 {
     figures t = {.rows = 0};
@@ -269,8 +265,6 @@ static int write_times(html_page *page, const report *r)
     return 1;
 }
 
-/* ---- density and samples ------------------------------------------------------------------------- */
-
 static int write_normals(html_page *page, const report *r)
 {
     static const double thetas[] = {0, 60, 100};
@@ -288,8 +282,6 @@ static int write_normals(html_page *page, const report *r)
     }
     return 1;
 }
-
-/* ---- the page ------------------------------------------------------------------------------------ */
 
 static const struct {
     const char *id, *title, *lead;
@@ -341,8 +333,6 @@ static int write_page(html_page *page, const report *r)
     page_end(page);
     return good;
 }
-
-/* ---- the command --------------------------------------------------------------------------------- */
 
 static int run(const arguments *given)
 {

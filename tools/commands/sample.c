@@ -33,8 +33,6 @@ static const char *const help[] = {
     "         vndf sample ggx --theta 60 --matrix 0.5,0.2,-0.1,0.4 --mean 0.05,0 -n 1000 -o -\n",
     NULL};
 
-/* ---- the surface --------------------------------------------------------------------------------- */
-
 /* --alpha or --matrix, and --mean, of ggx. 1, or 0 after a complaint. */
 static int read_map(const arguments *given, vndf_surface *map)
 {
@@ -86,8 +84,6 @@ static int read_surface(const arguments *given, vndf_mixture *surface, chosen_di
     vndf_family_at(of->family, (float)p, &map, surface);
     return 1;
 }
-
-/* ---- samples ------------------------------------------------------------------------------------- */
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
 static int write_samples(const vndf_mixture_view *view, unsigned long long count, uint64_t seed, int is_csv,

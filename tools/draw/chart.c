@@ -77,8 +77,6 @@ static int tick_at(const picture *p, int is_y, int index, double *at, int *is_na
     return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
-/* ---- the frame ----------------------------------------------------------------------------------- */
-
 /* Lines across the frame, those without a name finer, and names. */
 static void draw_ticks(const picture *p, int is_y)
 {
@@ -197,8 +195,6 @@ static void draw_key(const picture *p)
     }
 }
 
-/* ---- labels -------------------------------------------------------------------------------------- */
-
 /* Tries places around the point, near ones first, and takes the first where the text covers nothing; where there is
  * none it is left out. */
 static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
@@ -225,8 +221,6 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
         return;
     }
 }
-
-/* ---- the whole ----------------------------------------------------------------------------------- */
 
 void chart_draw(FILE *file, const chart *c, int is_alone)
 {

@@ -78,8 +78,6 @@ int page_close(html_page *page, int status)
     return status;
 }
 
-/* ---- files --------------------------------------------------------------------------------------- */
-
 FILE *page_file(html_page *page, const char *name)
 {
     const size_t n = page->count, size = strlen(page->folder) + strlen(name) + 2;

@@ -26,8 +26,6 @@ static double round_angle(double degrees)
     return best;
 }
 
-/* ---- D ------------------------------------------------------------------------------------------- */
-
 void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
 {
     static chart_point point[2][POINTS];
@@ -57,8 +55,6 @@ void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
                      .count = is_round && !has_ggx ? 1 : 2};
     chart_draw(file, &c, 0);
 }
-
-/* ---- discs --------------------------------------------------------------------------------------- */
 
 /* A disc in the making: its centre and radius, what is seen, and the rim, sin(theta/2) of its angle. */
 typedef struct disc {

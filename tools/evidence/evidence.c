@@ -6,8 +6,6 @@
 #include "cli/sort.h"
 #include "evidence/measure/measure.h"
 
-/* ---- worth --------------------------------------------------------------------------------------- */
-
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
 /* Degrees; the first two are those of the albedo, the first that of the small light. */

@@ -4,8 +4,6 @@
 
 #include "evidence/evidence.h"
 
-/* ---- normals ------------------------------------------------------------------------------------- */
-
 /* 4e-6 in the square of the length: what vectors with approximate roots leave. A normal at a right angle to wi may
  * be rounded to the far side. */
 static int sample_good(const method *m, const block *b, size_t i)
@@ -20,8 +18,6 @@ static int sample_good(const method *m, const block *b, size_t i)
         return pdf >= 0.0f && pdf < INFINITY;
     return dot >= -1e-6f && pdf > 0.0f && pdf < INFINITY;
 }
-
-/* ---- materials ----------------------------------------------------------------------------------- */
 
 /* Directions are unit and on the side of their lobe, weights and densities finite and not negative. */
 static int is_sane(const effect_case *of, const vndf_scattered *s)
@@ -45,8 +41,6 @@ static int is_right(const method *m, method_run *run, block *b)
         good &= m->kind == ROW_EFFECT ? is_sane(m->state, &b->out[i]) : sample_good(m, b, i);
     return good;
 }
-
-/* ---- batches ------------------------------------------------------------------------------------- */
 
 /* Whether a batch left in b what single calls leave in `single`, which are looked at themselves. */
 static int same_bits(const method *m, const block *b, const block *single)

@@ -18,8 +18,6 @@ typedef struct integrating {
     vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
 } integrating;
 
-/* ---- points -------------------------------------------------------------------------------------- */
-
 /* Both densities per theta and azimuth, and what they show. */
 static void take(integrating *of, quadrature_point *at, const exchange *its)
 {
@@ -56,8 +54,6 @@ static int ask(void *user, quadrature_point *at, size_t count)
     free(got);
     return got != NULL;
 }
-
-/* ---- sums ---------------------------------------------------------------------------------------- */
 
 /* Of the bins of each direction, and the worst of them. */
 static void sum_up(judgement *j)

@@ -17,8 +17,6 @@ void judge_note(judge_fault *f, double amount, double beside, const exchange *sh
         *f = (judge_fault){amount, beside, *shown};
 }
 
-/* ---- directions ---------------------------------------------------------------------------------- */
-
 /* Angles in degrees, and rings. The eight in the middle are inclined enough for a fault of one octant to matter. */
 static const struct {
     double from, to;
@@ -44,8 +42,6 @@ static void place_views(judgement *j, size_t samples, random_stream *stream)
         v->turn = atan2((double)v->wi.y, (double)v->wi.x);
     }
 }
-
-/* ---- samples ------------------------------------------------------------------------------------- */
 
 /* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
  * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
@@ -201,8 +197,6 @@ static int agree(const judge_task *task, judgement *j)
     return got != NULL;
 }
 
-/* ---- roughness ----------------------------------------------------------------------------------- */
-
 /* The total variation to the visible normals of a roughness is the mean over samples of (1 - Dv/p)+, which is bounded:
  * samples whose density was asked for will do. */
 static double apart(const judgement *j, const vndf_distribution *distribution, float alpha_x, float alpha_y)
@@ -240,8 +234,6 @@ static void fit_roughness(const judge_task *task, judgement *j)
     j->fits[0] = exp2(at[0]);
     j->fits[1] = exp2(at[1]);
 }
-
-/* ---- the whole ----------------------------------------------------------------------------------- */
 
 int judge_sampler(const judge_task *task, progress *bar, judgement *j)
 {

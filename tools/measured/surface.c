@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- heights ------------------------------------------------------------------------------------- */
-
 /* Numbers between blanks, a line for each row; # begins a comment. */
 static int read_rows(data_file *file, image *made)
 {

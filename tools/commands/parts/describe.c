@@ -72,8 +72,6 @@ static void put_family(figures *f, const vndf_family *family)
     figures_list_end(f);
 }
 
-/* ---- what it is worth ---------------------------------------------------------------------------- */
-
 /* The value of the first note with this key, up to the end of its line; "" if there is none. */
 static const char *note_of(const char *notes, const char *key)
 {

@@ -72,8 +72,6 @@ static polynomial fit(const quadrature_cell *c, const quadrature_point at[POINTS
     return p;
 }
 
-/* ---- cells --------------------------------------------------------------------------------------- */
-
 static void measure(quadrature_cell *c, const quadrature_point at[POINTS])
 {
     const double area = (c->x[1] - c->x[0]) * (c->y[1] - c->y[0]);

@@ -22,8 +22,6 @@ double statistics_sidak(double level, size_t n)
     return n == 0 ? level : -expm1(log1p(-level) / (double)n);
 }
 
-/* ---- Pearson ------------------------------------------------------------------------------------- */
-
 typedef struct class_sum {
     double expected, observed;
 } class_sum;

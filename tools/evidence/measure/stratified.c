@@ -4,8 +4,6 @@
 
 #include "cli/subject.h"
 
-/* ---- points ---- */
-
 static uint32_t reverse(uint32_t x)
 {
     x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
@@ -51,8 +49,6 @@ void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2)
     *u1 = (float)(scrambled(reverse(index), hash(scramble)) >> 8) * 0x1p-24f;
     *u2 = (float)(scrambled(second_dimension(index), hash(scramble ^ 0x5bd1e995u)) >> 8) * 0x1p-24f;
 }
-
-/* ---- light ---- */
 
 /* Lights: a sky that brightens upwards, and a disc that a glossy surface mirrors, with a soft edge. */
 enum { BROAD, SMALL, LIGHTS };

@@ -17,8 +17,6 @@ static inline vndf_vec3 unit(float x, float y, float z)
     return (vndf_vec3){x * scale, y * scale, z * scale};
 }
 
-/* ---- spherical caps ------------------------------------------------------------------------------ */
-
 /* wi is stretched to the unit problem w, where mirrored directions are uniform on the cap z > -w.z; the normal is half
  * way between, and stretched back. The density is Dv = wi.wm D/A with A = (wi.z + |stretched wi|)/2. The published code
  * guards nothing: at normal incidence u2 = 1 is a NaN. */
@@ -79,8 +77,6 @@ method method_ggx_caps(void)
                     .shared = ggx_shared,
                     .batch = method_caps_batch};
 }
-
-/* ---- all normals --------------------------------------------------------------------------------- */
 
 /* The density is D(wm) cos(theta_m), a radial law and an azimuth; no draw reads wi. The radial law is a CDF, so that it
  * serves any D. At the scale where the median slope is 1, y = sin^2(theta_m) has the density pi D(y) in [0, 1]. The CDF
