@@ -119,7 +119,6 @@ static int asks(const char *word, const char *long_name, const char *short_name)
     return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
 }
 
-/* Runs the command, or refuses the words. */
 static int run(const subcommand *c, const char *help, int argc, char **argv)
 {
     static arguments given;

@@ -8,7 +8,7 @@
 
 #include "cli/files.h"
 #include "draw/png.h"
-#include "draw/svg.h"
+#include "draw/draw.h"
 
 /* Format 1.0 of numpy's files: a dictionary in text, filled up to 64 bytes. */
 static void write_npy(FILE *file, const baked *b)
@@ -66,7 +66,6 @@ static void write_dds(FILE *file, const baked *b)
             put_little(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
 }
 
-/* What the table is, as lines of a comment. */
 static void write_about(FILE *file, const baked *b, const char *made_by)
 {
     fprintf(file, "// %s: %s.\n", b->name, b->holds);

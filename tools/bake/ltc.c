@@ -1,4 +1,4 @@
-/* Linearly transformed cosines. A texel is fitted by the simplex method of Nelder & Mead (1965) to the numbers of M,
+/* Linearly transformed cosines. A texel is fitted, by a search, to the numbers of M,
  *
  *     M = (X Y Z) (a d c; 0 b e; 0 0 1),
  *
@@ -11,7 +11,9 @@
 
 #include "bake/bake.h"
 
-enum { SIDE = 20, SAMPLES = SIDE * SIDE, NUMBERS = 5 };
+enum { SIDE = 20, SAMPLES = SIDE * SIDE, NUMBERS = 5, TURNS = 60 };
+
+static const double FINEST = 1e-3; /* step of a search */
 
 /* What a texel is fitted to: samples of the BSDF with the f cos that they were drawn with, and room for those of the
  * cosine. */
@@ -164,69 +166,27 @@ static int target_of(target *t, const bake_settings *s, const float alpha[2], co
     return t->sum.all > 0 && mean[2] > 0;
 }
 
-/* ---- the simplex method ---- */
-
-typedef struct corner {
-    double at[NUMBERS], error;
-} corner;
-
-/* The corner at `mean` + `by` (mean - the last one). */
-static corner beyond(target *t, const corner *all, double by)
-{
-    corner c = all[0];
-    for (int k = 0; k < t->numbers; k++) {
-        double mean = 0;
-        for (int i = 0; i < t->numbers; i++)
-            mean += all[i].at[k] / t->numbers;
-        c.at[k] = mean + by * (mean - all[t->numbers].at[k]);
-    }
-    c.error = error_of(t, c.at);
-    return c;
-}
-
-static void put_in_order(corner *c, int count)
-{
-    for (int i = 1; i < count; i++)
-        for (int k = i; k > 0 && c[k].error < c[k - 1].error; k--) {
-            corner swap = c[k];
-            c[k] = c[k - 1];
-            c[k - 1] = swap;
-        }
-}
-
-/* Moves p to where the error is least nearby. `step`: how far to look at first. */
+/* Moves p to where the error is least nearby, by the pattern search of Hooke & Jeeves (1961): steps of each number,
+ * then as far again as all of them went; the step is halved where none helps. c, d and e are slopes, and looked at in
+ * parts of the width of the lobe. */
 static void minimise(target *t, double p[NUMBERS], double step)
 {
-    const int last = t->numbers;
-    corner c[NUMBERS + 1];
-    for (int i = 0; i <= last; i++) {
-        memcpy(c[i].at, p, sizeof c[i].at);
-        if (i < last) /* c, d and e are slopes, and looked at in parts of the width of the lobe */
-            c[i].at[i] += i < 2 ? step : step * 2 * exp(p[0]);
-        c[i].error = error_of(t, c[i].at);
-    }
-    for (int n = 0; n < 30 * last; n++) {
-        put_in_order(c, last + 1);
-        if (c[last].error - c[0].error <= 1e-4 * c[0].error)
-            break;
-        corner other = beyond(t, c, 1);
-        if (other.error < c[0].error) {
-            corner farther = beyond(t, c, 2);
-            other = farther.error < other.error ? farther : other;
-        } else if (other.error >= c[last - 1].error)
-            other = beyond(t, c, other.error < c[last].error ? 0.5 : -0.5);
-        if (other.error < c[last].error) {
-            c[last] = other;
-            continue;
+    double least = error_of(t, p), before[NUMBERS], next[NUMBERS];
+    for (int turn = 0; turn < TURNS && step > FINEST; turn++) {
+        const double from = least;
+        memcpy(before, p, sizeof before);
+        for (int i = 0; i <= 2 * t->numbers; i++) {
+            const double wide = (i % 2 ? -step : step) * (i / 2 < 2 ? 1 : 2 * exp(p[0]));
+            for (int k = 0; k < NUMBERS; k++)
+                next[k] = i == 2 * t->numbers ? 2 * p[k] - before[k] : p[k] + (k == i / 2 ? wide : 0);
+            const double error = error_of(t, next);
+            if (error < least) {
+                least = error;
+                memcpy(p, next, sizeof next);
+            }
         }
-        for (int i = 1; i <= last; i++) {
-            for (int k = 0; k < last; k++)
-                c[i].at[k] = (c[i].at[k] + c[0].at[k]) / 2;
-            c[i].error = error_of(t, c[i].at);
-        }
+        step = least < from * (1 - 1e-4) ? step : step / 2;
     }
-    put_in_order(c, last + 1);
-    memcpy(p, c[0].at, sizeof c[0].at);
 }
 
 /* ---- the tables ---- */

@@ -65,7 +65,6 @@ static double eta_of(const shape *h, double t, int inside)
     return fmax(eta, 1.002);
 }
 
-/* Where a texel is. */
 typedef struct texel {
     float alpha;
     double cosine, eta;

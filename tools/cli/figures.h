@@ -41,7 +41,6 @@ typedef struct figures {
     int failed; /* there was no memory */
 } figures;
 
-/* Text, JSON or nothing. */
 figures figures_begin(const arguments *given);
 void figures_free(figures *f);
 
@@ -59,7 +58,6 @@ void figures_time(figures *f, const char *name, double ns);
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* The class in a page of the last cell: "no", say. */
 void figures_mark(figures *f, const char *mark);
 
 /* Begins a list of a document, and a record of it or of a table. */

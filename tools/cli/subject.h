@@ -5,7 +5,6 @@
 #include "cli/arguments.h"
 #include "vndf_build.h"
 
-/* A closed form, a table that was loaded, or a family of tables. */
 typedef struct chosen_distribution {
     const vndf_distribution *distribution; /* NULL for a family */
     vndf_distribution *owned;              /* the table, to be freed */

@@ -138,7 +138,6 @@ static int finish_measured(const arguments *given, const data_file *file, const 
                               denied(name, "cannot write '%s'", profile_path)));
 }
 
-/* NULL after a complaint. */
 static vndf_source *measured_source(const arguments *given, output_file *to)
 {
     data_file file = {.notes = ""};
@@ -180,10 +179,8 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     double range[2];
     unsigned long long bytes = 0, knots = 0;
     progress bar = progress_begin("building", option_value(given, "-q") != NULL);
-    vndf_build_options one = {.moments =
-                                  option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0,
-                              .progress = progress_show,
-                              .progress_user = &bar};
+    vndf_build_options one = {.progress = progress_show, .progress_user = &bar};
+    one.moments = 2 + option_choice(given, "--moments", -2);
     vndf_error error = {VNDF_OK, ""};
     if (!option_count(given, "--max-bytes", 2048, 1048576, &bytes) ||
         !option_number(given, "--max-tv", 1e-12, 1, &one.max_tv) ||
@@ -231,7 +228,6 @@ static int tell(const arguments *given, const chosen_distribution *of, figures *
     return f->failed ? complain(name, "no memory for figures") : STATUS_GOOD;
 }
 
-/* Whether the words go together; 0 after a complaint. */
 static int check_words(const arguments *given)
 {
     const char *path = option_value(given, "-o");

@@ -51,7 +51,6 @@ static const char *const help[] = {
     "example: vndf check wavy.vndf --hard --samples 4000000\n",
     NULL};
 
-/* What is being checked, where findings go, and whether all were good. */
 typedef struct checking {
     const vndf_distribution *distribution;
     figures to;
@@ -60,21 +59,18 @@ typedef struct checking {
     int good;
 } checking;
 
-/* The next part of the work, up to `until` of all of it. */
 static void part(checking *c, const char *what, double until)
 {
     progress_step(&c->bar, until);
     progress_show(0, what, &c->bar);
 }
 
-/* Ends a finding. */
 static void judge(checking *c, int is_good)
 {
     figures_truth(&c->to, "good", is_good);
     c->good &= is_good;
 }
 
-/* A number of a finding. */
 static void tell(checking *c, const char *key, const char *format, double x)
 {
     figures_number(&c->to, key, format, x, "");

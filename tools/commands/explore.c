@@ -8,9 +8,8 @@
 #include "command.h"
 #include "commands/parts/named_tables.h"
 #include "draw/png.h"
-#include "draw/svg.h"
+#include "draw/draw.h"
 
-/* What the page is made of. */
 typedef struct contents {
     export_document document;
     size_t size;  /* of the tables of `vndf bake` for each table, GGX and Beckmann; 0: none are wanted */

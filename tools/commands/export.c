@@ -136,7 +136,6 @@ static int read_form(const arguments *given, rgl_form *form)
     return channels > 0 && count > 0;
 }
 
-/* Single scattering of one distribution as a file of reflectances. */
 static int export_rgl(const arguments *given)
 {
     rgl_form form = {0};

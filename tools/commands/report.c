@@ -6,9 +6,8 @@
 #include "cli/subject.h"
 #include "command.h"
 #include "commands/parts/describe.h"
-#include "draw/chart.h"
+#include "draw/draw.h"
 #include "draw/page.h"
-#include "draw/panels.h"
 #include "evidence/evidence.h"
 
 static const char name[] = "vndf report";

@@ -1,5 +1,5 @@
 #include "cli/figures.h"
-#include "draw/chart.h"
+#include "draw/draw.h"
 
 #include <math.h>
 

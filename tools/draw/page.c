@@ -9,10 +9,9 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "draw/svg.h"
+#include "draw/draw.h"
 #include "vndf.h"
 
-/* Names the command near the beginning of a page. */
 #define MARK "<meta name=\"generator\" content=\"%s\">"
 
 /* ---- the folder ---------------------------------------------------------------------------------- */
@@ -30,7 +29,6 @@ static int has_our_page(const html_page *page)
     return strstr(head, mark) != NULL;
 }
 
-/* Whether a folder that was there may be written to. */
 static int may_fill(html_page *page)
 {
     const char *command = page->command, *path = page->folder;

@@ -1,11 +1,10 @@
-#include "draw/panels.h"
+#include "draw/draw.h"
 
 #include <math.h>
 
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
-#include "draw/chart.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,4 +1,4 @@
-#include "draw/svg.h"
+#include "draw/draw.h"
 
 #include "draw/png.h"
 

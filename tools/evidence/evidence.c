@@ -136,7 +136,6 @@ static double efficiency(double variance, double ns, double other_variance, doub
     return variance > 0 ? other_variance * other_ns / (variance * ns) : NAN;
 }
 
-/* To the yardsticks. */
 static void relate(evidence_row *r)
 {
     double *to = r->number, ns = to[COL_NS];

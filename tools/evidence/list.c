@@ -71,7 +71,6 @@ static evidence_row *add(evidence *to, const method_reference *of, method m)
     return r;
 }
 
-/* The first row of that name and distribution. */
 static evidence_row *find(evidence *in, const char *name, const method_reference *of)
 {
     for (evidence_row *r = in->row; name && r < in->row + in->count; r++)

@@ -50,8 +50,8 @@ typedef struct exchange {
  * there are too few lines or too many, or queries is NULL, for want of memory. */
 answer *process_ask(const judge_task *task, const query *queries, size_t count);
 
-/* The line that asks, without its end. `text` may hold the line `before`, whose wi is not printed again: printing numbers
- * is what takes time. */
+/* The line that asks, without its end. `text` may hold the line `before`, whose wi is not printed again: printing
+ * numbers is what takes time. */
 enum { JUDGE_LINE = 512 };
 void process_line(char text[JUDGE_LINE], const query *q, const query *before);
 
@@ -112,14 +112,9 @@ typedef struct judgement {
     double fits_tv;
 } judgement;
 
-/* Returns 1, or 0 after a complaint. */
 int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 
-/* Its parts: the integrals over bins, 0 after a complaint; and what the counts say of them by JUDGE_TESTS tests. */
-int judge_integrate(const judge_task *task, progress *bar, judgement *j);
+/* What the counts say of the integrals over bins, by JUDGE_TESTS tests. */
 void judge_counts(judgement *j, size_t samples);
-
-/* Keeps the worst; what is no number is the worst of all. */
-void judge_note(judge_fault *f, double amount, double beside, const exchange *shown);
 
 #endif

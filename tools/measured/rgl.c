@@ -37,7 +37,6 @@ static size_t tensor_count(const tensor *of)
     return count;
 }
 
-/* Where u = part/whole lies. */
 static double angle_at(double part, double whole)
 {
     const double u = part / whole;

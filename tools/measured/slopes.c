@@ -40,7 +40,6 @@ void slopes_add(slope_set *to, double x, double y, int part)
     to->at[to->count++] = (slope){(float)x, (float)y, part};
 }
 
-/* Takes the mean off. */
 static int centre(slope_set *slopes, data_file *file)
 {
     double x = 0, y = 0, square = 0, n = (double)slopes->count;
@@ -80,7 +79,6 @@ static double ratio_of(shape v)
     return middle > away ? sqrt((middle + away) / (middle - away)) : INFINITY;
 }
 
-/* Tyler's V, by its own map. */
 static int find_shape(const slope_set *slopes, data_file *file, shape *found)
 {
     shape v = {1, 0, 1};

@@ -36,7 +36,6 @@ static void put_table(figures *f, const vndf_info *info)
     figures_number(f, "floor", "%.4g", (double)c->floor, mass);
 }
 
-/* The largest total variation of the tables of a family. */
 static double largest_tv(const vndf_family *family)
 {
     double most = 0;

@@ -6,8 +6,6 @@
 
 #include "vndf_build.h"
 
-/* ---- statistics.c ------------------------------------------------------------------------------ */
-
 /* What decides a test: p-values of chi-square, the level that each of several tests gets, and Pearson's chi-square:
  * counts of samples in bins against what is expected there. The one place that pools bins and decides; `vndf check` and
  * all tests that bin use it. */
@@ -119,7 +117,6 @@ typedef struct bins_result {
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed);
 
-/* The bin of a normal. */
 size_t bins_bin(const bins_frame *f, const double slope[BINS_RINGS + 1], vndf_vec3 wm);
 
 /* ---- for bins of other kinds --------------------------------------------------------------------- */

@@ -49,7 +49,6 @@ static double part_of(const double of[2], double x)
     return (2 * x - of[0] - of[1]) / (of[1] - of[0]);
 }
 
-/* How much a value is off the polynomial. */
 static double off(const polynomial *p, const quadrature_cell *c, const quadrature_point *at, int which)
 {
     const double x = part_of(c->x, at->x), y = part_of(c->y, at->y);

@@ -54,8 +54,8 @@ void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2)
 enum { BROAD, SMALL, LIGHTS };
 
 /* The root mean square error of each light over so many scrambled sequences of so many points, relative to the mean; 0
- * where next to nothing is reflected there. The lobe of what is mirrored is twice the median slope wide, at most a quarter turn. The small light stands where a
- * mirror would see it, a little aside; its radius is that of the lobe. */
+ * where next to nothing is reflected there. The lobe of what is mirrored is twice the median slope wide, at most a
+ * quarter turn. The small light stands where a mirror would see it, a little aside; its radius is that of the lobe. */
 static void errors_of(const vndf_surface *surface, vndf_vec3 wi, size_t points, size_t scrambles, uint64_t seed,
                       double error[LIGHTS])
 {

@@ -42,7 +42,6 @@ static double dot_of(vndf_vec3 a, vndf_vec3 b)
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-/* How far a normal is turned away from wi, in 2^-24. */
 static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
     const vndf_vec3 a = {fabsf(wi.x), fabsf(wi.y), fabsf(wi.z)}, b = {fabsf(wm.x), fabsf(wm.y), fabsf(wm.z)};

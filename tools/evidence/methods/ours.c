@@ -69,7 +69,6 @@ static inline vndf_surface oblique(const method *m, float alpha)
     return (vndf_surface){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
 }
 
-/* The other calls, and the surfaces. */
 static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
 {
     const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
