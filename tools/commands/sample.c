@@ -52,10 +52,8 @@ static int read_map(const arguments *given, vndf_surface *map)
     map->mean_y = (float)shift[1];
     const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
     if (vndf_mixture_view_from(&alone, (vndf_vec3){0, 0, 1}).count != 1)
-        return denied(
-            name,
-            "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
-            matrix ? matrix : "");
+        return denied(name, "--matrix '%s' is singular, or its scale is not from 1e-18 to 1e18",
+                      matrix ? matrix : "");
     return 1;
 }
 

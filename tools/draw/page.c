@@ -41,10 +41,8 @@ static int may_fill(html_page *page)
     if (access(path, W_OK | X_OK) != 0)
         return denied(command, "cannot write into '%s': %s", path, strerror(errno));
     return !page->is_replaced || has_our_page(page) ||
-           denied(command,
-                  "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
-                  "page, which is replaced",
-                  path, command);
+           denied(command, "'%s' has files in it, and no page of `%s`: name a new or an empty folder", path,
+                  command);
 }
 
 int page_open(html_page *page, const char *command, const char *folder)

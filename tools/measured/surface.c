@@ -19,8 +19,7 @@ static int read_rows(data_file *file, image *made)
             if (behind == at || (*behind && !strchr(" \t\r\v\f\n#", *behind)) || fabs(z) > 1e30)
                 return refuse(
                     file,
-                    "line %zu: '%.*s' is no height; numbers between blanks are needed, nan where there is "
-                    "none",
+                    "line %zu: '%.*s' is no height; numbers between blanks are needed, nan where there is none",
                     line, (int)fmin((double)strcspn(at, " \t\r\v\f\n#"), 40), at);
             if (count == room) {
                 room = 2 * room + 4096;

@@ -24,27 +24,12 @@ static inline float lobe_alpha(const method *m, int lobe, float alpha)
     return (1 + 2 * (float)lobe / (float)(lobes_of(m) - 1)) * alpha;
 }
 
-static inline vndf_view view_of(const method *m, const method_input *in)
-{
-    const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
-    return vndf_view_from(&surface, in->wi);
-}
-
-static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
-{
-    vndf_view view = view_of(m, in);
-    return vndf_sample(&view, in->u[0], in->u[1], pdf);
-}
-
-static void each(const method *m, block *b)
-{
-    method_loop(one, m, b);
-}
-
-static inline void run_shared(const method *m, block *b, size_t share)
+/* Views that so many samples share; a constant where it is inlined. */
+static inline void run(const method *m, block *b, size_t share)
 {
     for (size_t first = 0; first < b->count; first += share) {
-        vndf_view view = view_of(m, &b->in[first]);
+        const vndf_surface surface = vndf_rough(m->d, b->in[first].alpha, b->in[first].alpha);
+        const vndf_view view = vndf_view_from(&surface, b->in[first].wi);
         for (size_t i = first; i < first + share; i++) {
             const vndf_vec3 wm = vndf_sample(&view, b->in[i].u[0], b->in[i].u[1], &b->pdf[i]);
             b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
@@ -52,15 +37,20 @@ static inline void run_shared(const method *m, block *b, size_t share)
     }
 }
 
+static void each(const method *m, block *b)
+{
+    run(m, b, 1);
+}
+
 static void shared(const method *m, block *b)
 {
-    run_shared(m, b, SHARE);
+    run(m, b, SHARE);
 }
 
 /* As many samples of a hit as renderers draw where they are cheap beside the hit. */
 static void sixteen(const method *m, block *b)
 {
-    run_shared(m, b, 16);
+    run(m, b, 16);
 }
 
 /* Turned, sheared, and with a mean slope. */
