@@ -67,15 +67,6 @@ static const char *const sources[] = {"--ndf",  "--slope",  "--csv",        "--f
                                       "--merl", "--height", "--normal-map", NULL};
 static const char *const *const measured = sources + 4;
 
-static int print_list(void)
-{
-    const char *material;
-    printf("families:\n%s\nmaterials:\n", vndf_family_help());
-    for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
-        puts(material);
-    return STATUS_GOOD;
-}
-
 /* ---- files of measurements ----------------------------------------------------------------------- */
 
 enum { MEASURED_BYTES = 1 << 28 };
@@ -264,8 +255,13 @@ static int run(const arguments *given)
     output_file output[2] = {{.command = NULL}}; /* the table, the profile */
     figures f = figures_begin(given);
     int status = STATUS_USE;
-    if (option_value(given, "--list"))
-        return print_list();
+    if (option_value(given, "--list")) {
+        const char *material;
+        printf("families:\n%s\nmaterials:\n", vndf_family_help());
+        for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
+            puts(material);
+        return STATUS_GOOD;
+    }
     if (!check_words(given))
         return STATUS_USE;
     if (!is_family)

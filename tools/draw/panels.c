@@ -123,7 +123,8 @@ static int draw_density(disc *d)
     d->maximum = sorted[inside - 1 - inside / 500];
     d->maximum = d->maximum > 0 ? d->maximum : sorted[inside - 1];
     for (size_t i = 0; i < SIDE * SIDE; i++)
-        index[i] = density[i] < 0 ? 0 : svg_shade(d->maximum > 0 ? sqrt(density[i] / d->maximum) : 0);
+        index[i] =
+            density[i] < 0 ? 0 : (unsigned char)(1.5 + 254 * sqrt(fmin(density[i] / fmax(d->maximum, 1e-300), 1)));
     free(density);
     const svg_box box = {d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius};
     return svg_raster(d->file, box, index, SIDE, SIDE);

@@ -86,12 +86,6 @@ static png_colour ramp_colour(double place)
     return (png_colour){(unsigned char)rgb[0], (unsigned char)rgb[1], (unsigned char)rgb[2]};
 }
 
-unsigned char svg_shade(double density)
-{
-    double clipped = density > 0 ? (density < 1 ? density : 1) : 0;
-    return (unsigned char)(1 + (int)(254 * clipped + 0.5));
-}
-
 int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows)
 {
     png_colour palette[256] = {{255, 255, 255}};
