@@ -13,8 +13,6 @@ static const subcommand *const subcommands[] = {
     &command_render, &command_judge, NULL,
 };
 
-/* ---- all commands -------------------------------------------------------------------------------- */
-
 static const char purpose[] = "sampling of visible normals for any isotropic distribution of microfacet normals";
 
 static const char usage[] =
@@ -111,8 +109,6 @@ static void write_man(FILE *to)
         put_man(to, text);
     }
 }
-
-/* ---- the program --------------------------------------------------------------------------------- */
 
 static int asks(const char *word, const char *long_name, const char *short_name)
 {

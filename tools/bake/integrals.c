@@ -11,8 +11,6 @@ float bake_alpha(bake_mapping mapping, double roughness)
     return (float)fmax(alpha, 1e-3); /* below that reflection is a mirror's for all that a table shows */
 }
 
-/* ---- one direction ------------------------------------------------------------------------------- */
-
 vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], size_t count)
 {
     return (vndf_bsdf_batch){.material = material,
@@ -113,8 +111,6 @@ double bake_average(const bake_settings *s, float alpha, double eta)
     }
     return fmin(sum, 1);
 }
-
-/* ---- the same without samples -------------------------------------------------------------------- */
 
 /* wi on a surface. eta 0: a mirror. */
 typedef struct hit {

@@ -11,8 +11,6 @@
 #include "command.h"
 #include "cli/files.h"
 
-/* ---- signals ------------------------------------------------------------------------------------- */
-
 /* The wrong way round, so that reading from a stdin that was closed fails, as writing to a stdout does. */
 int output_begin(void)
 {
@@ -96,8 +94,6 @@ int output_open(output_file *output, const char *command, const char *path)
     output_release_signals();
     return 0;
 }
-
-/* ---- closing ------------------------------------------------------------------------------------- */
 
 /* The error is cleared once it is told, so that it is told once. */
 int output_finish_stdout(const char *command)

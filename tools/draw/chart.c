@@ -21,8 +21,6 @@ typedef struct picture {
     size_t count;
 } picture;
 
-/* ---- axes ---------------------------------------------------------------------------------------- */
-
 static void fit(picture *p, int is_y)
 {
     const chart_axis *axis = is_y ? &p->c->y : &p->c->x;
@@ -122,8 +120,6 @@ static void draw_frame(const picture *p)
     }
     svg_text(p->file, "title ink", SVG_START, p->left, 18, p->c->title);
 }
-
-/* ---- series -------------------------------------------------------------------------------------- */
 
 static void take(picture *p, double x, double y, double around)
 {

@@ -14,8 +14,6 @@
 
 #define MARK "<meta name=\"generator\" content=\"%s\">"
 
-/* ---- the folder ---------------------------------------------------------------------------------- */
-
 static int has_our_page(const html_page *page)
 {
     char head[1024 + 1] = "", mark[96], path[4096];
@@ -95,8 +93,6 @@ void page_link(html_page *page, const char *what)
     fprintf(page->html, "<p class=\"note\">Data: <a href=\"%s\" download=\"%s\">%s</a>, %s.</p>\n", name, name,
             name, what);
 }
-
-/* ---- the page ------------------------------------------------------------------------------------ */
 
 static const char style[] =
     ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;"

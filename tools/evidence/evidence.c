@@ -57,8 +57,6 @@ static int measure(evidence *all, block *b)
     return 1;
 }
 
-/* ---- time ---------------------------------------------------------------------------------------- */
-
 enum { TURNS_LEAST = 7 };
 
 static const double shortest = 20e-6; /* seconds: a shorter run is repeated, for the clock's sake */
@@ -128,8 +126,6 @@ static int take_times(evidence *all, block *b)
         }
     return goes_on;
 }
-
-/* ---- rows ---------------------------------------------------------------------------------------- */
 
 static double efficiency(double variance, double ns, double other_variance, double other_ns)
 {

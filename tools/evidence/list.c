@@ -11,8 +11,6 @@ const table_size table_sizes[SIZES] = {
     {4096, 4, "table 4 KiB, 4 moments"}, {8192, 2, "table 8 KiB, 2 moments"},  {8192, 3, "table 8 KiB, 3 moments"},
     {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
 
-/* ---- subjects ------------------------------------------------------------------------------------ */
-
 void subject_begin(subject *s, vndf_source *source, const char *name)
 {
     *s = (subject){.source = source};
@@ -29,25 +27,16 @@ void subject_free(subject *s)
     *s = (subject){.source = NULL};
 }
 
-static int build_progress(double done, const char *what, void *user)
-{
-    (void)done;
-    return !evidence_go_on(user, what);
-}
-
 const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan *plan, vndf_error *error)
 {
-    evidence_plan asked = *plan;
     const vndf_build_options options = {.max_bytes = table_sizes[i].bytes,
                                         .moments = table_sizes[i].moments,
-                                        .progress = build_progress,
-                                        .progress_user = &asked};
+                                        .progress = progress_show,
+                                        .progress_user = plan->progress};
     if (!s->table[i])
         s->table[i] = vndf_build(s->source, &options, NULL, error);
     return s->table[i];
 }
-
-/* ---- rows ---------------------------------------------------------------------------------------- */
 
 /* Adds a row for the method, which it owns then. */
 static evidence_row *add(evidence *to, const method_reference *of, method m)
@@ -125,8 +114,6 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
     }
     return VNDF_OK;
 }
-
-/* ---- which are wanted ---------------------------------------------------------------------------- */
 
 /* A name, or a word of one, that --only nearly is; near[] is empty if there is none. */
 static void find_near(const evidence *all, char near[64])

@@ -57,8 +57,6 @@ int heights_read(data_file *file, image *made)
     return good;
 }
 
-/* ---- normals ------------------------------------------------------------------------------------- */
-
 /* One of 8 x 8 equal parts of a grid. */
 static int part_of(int width, int height, int x, int y)
 {
@@ -107,8 +105,6 @@ int normals_slopes(data_file *file, slope_set *made)
     image_free(&map);
     return good;
 }
-
-/* ---- cut-off and slopes -------------------------------------------------------------------------- */
 
 /* `count` numbers `stride` apart: each becomes the mean of those around it that are there, weighed by distance. */
 static void smooth_line(float *line, size_t stride, int count, const double *kernel, int reach, float *room)

@@ -16,8 +16,6 @@ enum { CORNERS = 4, SIDES = 6, PAIRS = 10, POINTS = 12 }; /* where they end */
 /* In the first rounds counts are heeded, unless one bin of so many is off: then it is the sampler. */
 enum { HEEDING = 5, OFTEN = 50 };
 
-/* ---- points -------------------------------------------------------------------------------------- */
-
 /* From -1 to 1 in the cell. Corners and sides are drawn in a little: a jump on the border is seen from this side. */
 static void place(const quadrature_cell *c, random_stream *stream, quadrature_point to[POINTS])
 {
@@ -118,8 +116,6 @@ static int ask(const quadrature *q, quadrature_cell *cells, size_t count, random
     free(at);
     return good;
 }
-
-/* ---- rounds -------------------------------------------------------------------------------------- */
 
 static void add_up(const quadrature *q, const quadrature_cell *cells, size_t count, quadrature_sum *sum)
 {

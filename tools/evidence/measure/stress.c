@@ -35,8 +35,6 @@ int stress_note(stress_result *result, stress_id id, double value, const float a
     return good;
 }
 
-/* ---- samples ------------------------------------------------------------------------------------- */
-
 static double dot_of(vndf_vec3 a, vndf_vec3 b)
 {
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
@@ -71,8 +69,6 @@ static void measure_sample(const vndf_view *view, vndf_vec3 wi, const float at[S
     stress_note(result, STRESS_POSITIVE, !dense, at);
     stress_note(result, STRESS_RETURNED, !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1), at);
 }
-
-/* ---- directions ---------------------------------------------------------------------------------- */
 
 /* On the horizon itself Lambda is the largest float of either sign. */
 static double lambda_error(vndf_vec3 wi, float lambda, float back)
@@ -115,8 +111,6 @@ static void measure_direction(const vndf_surface *m, vndf_vec3 wi, vndf_vec3 wo,
     stress_note(result, STRESS_G1, g1_error(wi, vndf_g1(m, wi), lambda), at);
     stress_note(result, STRESS_G2, g2_error(m, wi, wo), at);
 }
-
-/* ---- the product --------------------------------------------------------------------------------- */
 
 /* From the pole down: an angle in degrees or, at 90 degrees, the cosine. */
 static const struct {

@@ -53,8 +53,6 @@ block_law effect_law(const effect_set *set)
     return (block_law){.low = 0.5f, .high = 1.5f, .theta = NAN, .lobes = set->effects.lobes};
 }
 
-/* ---- hits and batches ----------------------------------------------------------------------------- */
-
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
     if (of->set->is_rough) {
@@ -147,8 +145,6 @@ static void batch(const method *m, block *b)
                                  {b->half[0], b->half[1], b->half[2]}};
     vndf_bsdf_sample_n(&of, u, to);
 }
-
-/* ---- materials ----------------------------------------------------------------------------------- */
 
 /* The roughness of the surface at an angle, with a mean slope, and a second lobe three times as wide. */
 static void lobes_of(vndf_mixture *mixture, const vndf_surface *surface, int leans)

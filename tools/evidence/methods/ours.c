@@ -8,8 +8,6 @@
 
 #include "exported_kernel.h"
 
-/* ---- one by one ---------------------------------------------------------------------------------- */
-
 /* Weights of two lobes and of eight, which are up to three times as rough as the first. */
 enum { LOBES = VNDF_MIXTURE_LOBES };
 static const float weights[2][LOBES] = {{0.7f, 0.3f}, {0.3f, 0.2f, 0.15f, 0.1f, 0.1f, 0.05f, 0.05f, 0.05f}};
@@ -117,8 +115,6 @@ static void each_exported(const method *m, block *b)
     method_loop(one_exported, m, b);
 }
 
-/* ---- batches of them ----------------------------------------------------------------------------- */
-
 static vndf_batch batch_of(const method *m, const block *b)
 {
     vndf_batch of = {
@@ -186,8 +182,6 @@ static void batch_call(const method *m, block *b)
             b->pdf[i] *= b->value[0][i];
     }
 }
-
-/* ---- methods ------------------------------------------------------------------------------------- */
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call)
 {
