@@ -14,9 +14,7 @@ const table_size table_sizes[SIZES] = {
 void subject_begin(subject *s, vndf_source *source, const char *name)
 {
     *s = (subject){.source = source};
-    snprintf(s->name, sizeof s->name, "%s", name);
-    if (strlen(name) >= sizeof s->name)
-        memcpy(s->name + sizeof s->name - 4, "...", 4);
+    snprintf(s->name, sizeof s->name, strlen(name) < sizeof s->name ? "%s" : "%.60s...", name);
 }
 
 void subject_free(subject *s)
