@@ -245,21 +245,11 @@ static int write_frontier(html_page *page, const report *r)
 
 static int write_times(html_page *page, const report *r)
 {
-    figures t = {.rows = 0};
-    for (const evidence_row *of = r->found->row; of < r->found->row + r->found->count; of++) {
-        figures_record(&t);
-        figures_text(&t, "distribution", of->of->name);
-        figures_text(&t, "method", of->m.name);
-        figures_time(&t, "one by one", of->number[COL_NS]);
-        figures_time(&t, "of one direction", of->number[COL_SHARED]);
-        figures_time(&t, "in a batch", of->number[r->batch]);
-        figures_number(&t, "efficiency, 60", "%.3g", of->number[COL_EFF_60], "");
-        figures_number(&t, "85", "%.3g", of->number[COL_EFF_85], "");
-    }
+    figures t = evidence_table(r->found, FIGURES_MARKDOWN);
     FILE *data = page_table(page, &t) ? page_file(page, "methods.csv") : NULL;
     figures_free(&t);
     if (!data || !evidence_print(data, r->found, FIGURES_CSV))
-        return data ? complain(page->command, "no memory"), 0 : 0;
+        return data ? denied(page->command, "no memory") : 0;
     page_link(page, "all methods, as vndf bench -o FILE.csv has them");
     return 1;
 }
@@ -299,11 +289,7 @@ static const struct {
      "32 KiB: solid ones have 4 moments, dashed ones 3, dotted ones 2. The weight mends the error of tables. "
      "Methods in the band at the bottom are exact but for the rounding of floats.",
      write_frontier},
-    {"time", "What a sample costs",
-     "Nanoseconds that a caller pays for view, sample and density: medians over turns in which all "
-     "methods run one after the other, one thread, data in cache. Time hardly depends on D. Efficiency: "
-     "1/(variance x time) over that of all normals, for the albedo of gold at 60 and 85 degrees.",
-     write_times},
+    {"time", "What a sample costs", evidence_legend, write_times},
     {"normals", "Density and samples",
      "D against the angle of the normal, and the normals visible from three directions, the last below the "
      "horizon: density as colour (darker is denser, square root, each disc by itself), 350 samples as dots, "

@@ -29,7 +29,7 @@ void svg_text(FILE *file, const char *kind, svg_anchor anchor, double x, double 
 
 void svg_circle(FILE *file, const char *kind, double x, double y, double radius, double width);
 
-/* A picture in a box of this size, of indices 1 to 255, from pale to dark; 0 is transparent. 0 if there is no memory. */
+/* A picture in a box of this size, of indices 1 to 255, from pale to dark; 0 is transparent. 0: no memory. */
 int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows);
 
 /* Charts: axes with ticks, a key, curves, points with labels beside them that avoid each other. */

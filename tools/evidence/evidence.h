@@ -126,6 +126,10 @@ void evidence_free(evidence *of);
  * row. 0 if there was no memory. */
 int evidence_print(FILE *file, const evidence *all, figures_form form);
 
+/* The same without the legend, to be freed; and that of normals. */
+figures evidence_table(const evidence *all, figures_form form);
+extern const char evidence_legend[];
+
 /* ---- parts of it --------------------------------------------------------------------------------- */
 
 /* All rows, not yet measured; an error if a table or a material cannot be made or `only` fits nothing. */
