@@ -113,26 +113,24 @@ static int written(const output_file *output, int good)
                            errno ? strerror(errno) : "write failed");
 }
 
-int output_commit(output_file *output)
-{
-    if (!output->path)
-        return output_finish_stdout(output->command);
-    const int status = written(output, vndf_replace_commit(&output->replaces));
-    output_release_signals();
-    return status;
-}
-
 int output_commit_all(output_file *output, size_t count, int status)
 {
     for (output_file *o = output; o < output + count && status == STATUS_GOOD; o++)
         if (o->command)
             status = o->path ? written(o, vndf_replace_flush(o->file)) : output_finish_stdout(o->command);
-    while (count-- > 0)
-        if (output[count].command && status == STATUS_GOOD)
-            status = output_commit(&output[count]);
-        else if (output[count].command)
-            output_give_up(&output[count], NULL);
+    for (output_file *o = output + count; o-- > output;)
+        if (o->command && status != STATUS_GOOD)
+            output_give_up(o, NULL);
+        else if (o->path) {
+            status = written(o, vndf_replace_commit(&o->replaces));
+            output_release_signals();
+        }
     return status;
+}
+
+int output_commit(output_file *output)
+{
+    return output_commit_all(output, 1, STATUS_GOOD);
 }
 
 /* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited

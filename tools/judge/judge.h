@@ -6,8 +6,7 @@
  * bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi: 64 x 64, and
  * from above 1024 x 4 and 4 x 1024 as well, which see thin rings and wedges. Their borders are quantiles of samples
  * drawn before, of which a fifth is even, so that a region without samples has bins too. */
-#ifndef TOOLS_JUDGE_JUDGE_H
-#define TOOLS_JUDGE_JUDGE_H
+#pragma once
 
 #include <stdint.h>
 
@@ -116,5 +115,3 @@ int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 
 /* What the counts say of the integrals over bins, by JUDGE_TESTS tests. */
 void judge_counts(judgement *j, size_t samples);
-
-#endif
