@@ -137,13 +137,10 @@ static int refuse_option(const arguments *given, const char *word, size_t length
     hint = hint ? hint : short_one;
     if (letters == 1 && isalpha((unsigned char)*bare) && value && isdigit((unsigned char)*value) &&
         find_option(given, "--set", 5))
-        complain(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", (int)length, word,
-                 *bare, value);
-    else if (hint)
-        complain(given->command, "there is no option '%.*s'; did you mean '%s'?", (int)length, word, hint);
-    else
-        complain(given->command, "there is no option '%.*s'; --help lists them", (int)length, word);
-    return 0;
+        return denied(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", (int)length, word,
+                      *bare, value);
+    return denied(given->command, "there is no option '%.*s'; %s%s%s", (int)length, word,
+                  hint ? "did you mean '" : "--help lists them", hint ? hint : "", hint ? "'?" : "");
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */

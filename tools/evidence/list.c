@@ -113,24 +113,22 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
     return VNDF_OK;
 }
 
-/* A name, or a word of one, that --only nearly is; near[] is empty if there is none. */
-static void find_near(const evidence *all, char near[64])
+/* Behind a refusal the name, or the word of one, that --only nearly is. */
+static const char *near_name(const evidence *all)
 {
-    for (size_t i = 0; i < 2 * all->count; i++) {
-        snprintf(near, 64, "%s", i % 2 ? all->row[i / 2].m.name : all->row[i / 2].of->name);
-        for (const char *word = strtok(near, " ,:()"); word; word = strtok(NULL, " ,:()"))
-            if (nearest_word(all->plan->only, &word, 1)) {
-                memmove(near, word, strlen(word) + 1);
-                return;
-            }
+    char name[64];
+    const char *hint = "";
+    for (size_t i = 0; i < 2 * all->count && !*hint; i++) {
+        snprintf(name, sizeof name, "%s", i % 2 ? all->row[i / 2].m.name : all->row[i / 2].of->name);
+        for (const char *word = strtok(name, " ,:()"); word && !*hint; word = strtok(NULL, " ,:()"))
+            hint = did_you_mean(all->plan->only, &word, 1);
     }
-    *near = '\0';
+    return hint;
 }
 
 static vndf_status choose(evidence *all)
 {
     const char *only = all->plan->only;
-    char near[64];
     size_t shown = 0;
     for (evidence_row *r = all->row; r < all->row + all->count; r++)
         if (!only || strstr(r->m.name, only) || strstr(r->of->name, only)) {
@@ -143,12 +141,9 @@ static vndf_status choose(evidence *all)
         }
     if (shown)
         return VNDF_OK;
-    find_near(all, near);
     all->error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(all->error->message, sizeof all->error->message,
-             "no %s or distribution has '%.64s' in its name%s%s%s",
-             all->plan->is_of_materials ? "set of effects" : "method", only, *near ? "; did you mean '" : "", near,
-             *near ? "'?" : "");
+    snprintf(all->error->message, sizeof all->error->message, "no %s or distribution has '%.64s' in its name%s",
+             all->plan->is_of_materials ? "set of effects" : "method", only, near_name(all));
     return VNDF_ERROR_ARGUMENT;
 }
 
