@@ -62,7 +62,7 @@ static void test_normals(void)
         LIST("\"ggx\",\"spherical caps (2023)\",published,,,0,,,", "\"ggx\",\"all normals (2007)\",published,",
              "\"ggx\",\"closed form\",closed,,,0,,,", "\"ggx\",\"closed form: 16 a view\",call,",
              "\"ggx\",\"closed form: affine\",call,", "\"ggx\",\"closed form: mixture\",call,",
-             "\"ggx\",\"closed form: eight lobes\",call,", "\"ggx\",\"closed form, exported C\",exported,"));
+             "\"ggx\",\"closed form: 8 lobes\",call,", "\"ggx\",\"closed form, exported C\",exported,"));
     TEST(number(row, RATIO) == 1 && number(row, TV) < 1e-6 && number(row, BATCH) > 0);
     row = rows_of("--seconds 0.1 --slope 'exp(-a*r)' --set a=3 --only '8 KiB, 4 moments'",
                   LIST("\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments\",table,",
@@ -74,7 +74,7 @@ static void test_normals(void)
                        "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: 16 a view\",call,",
                        "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: affine\",call,",
                        "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: mixture\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: eight lobes\",call,",
+                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: 8 lobes\",call,",
                        "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments, exported C\",exported,"));
     TEST(number(row, MEMORY) > number(row, FILE_BYTES) && number(row, FILE_BYTES) > 7900);
     TEST(number(row, MOMENTS) == 4 && number(row, WEIGHT) > 1 && number(row, BATCH) > 0);

@@ -153,6 +153,8 @@ static int write_table(html_page *page, const baked *b, bake_form form, const ch
     return 1;
 }
 
+_Static_assert(BAKE_TABLES *(BAKE_PICTURE + 1) < PAGE_FILES_MAX, "a page has all files of all tables");
+
 int bake_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by, const char *subject)
 {
     char title[512];

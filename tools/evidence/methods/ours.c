@@ -185,9 +185,9 @@ static void batch_call(const method *m, block *b)
 
 method method_ours(const vndf_distribution *d, const char *name, method_call call)
 {
-    static const char *const calls[METHOD_CALLS] = {"",          ": weight",      ": pdf",       ": invert",
-                                                    ": ndf",     ": lambda",      ": 16 a view", ": affine",
-                                                    ": mixture", ": eight lobes", ", exported C"};
+    static const char *const calls[METHOD_CALLS] = {"",          ": weight",  ": pdf",       ": invert",
+                                                    ": ndf",     ": lambda",  ": 16 a view", ": affine",
+                                                    ": mixture", ": 8 lobes", ", exported C"};
     const vndf_info info = vndf_distribution_info(d);
     method m = {.kind = info.memory ? ROW_TABLE : ROW_CLOSED, .memory = info.memory, .d = d, .call = call};
     snprintf(m.name, sizeof m.name, "%s%s", name, calls[call]);
