@@ -128,12 +128,6 @@ static vndf_normals drawn(block *b)
     return (vndf_normals){b->x, b->y, b->z};
 }
 
-static void batch_each(const method *m, block *b)
-{
-    vndf_batch batch = batch_of(m, b);
-    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
-}
-
 /* Matrices are formed as the calls of one form theirs. */
 static void batch_affine(const method *m, block *b)
 {
@@ -169,6 +163,7 @@ static void batch_call(const method *m, block *b)
     const vndf_batch batch = batch_of(m, b);
     const vndf_normals normals = {b->given[0], b->given[1], b->given[2]};
     switch (m->call) {
+    case METHOD_SAMPLE: vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf); break;
     case METHOD_PDF: vndf_pdf_n(&batch, normals, b->pdf); break;
     case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x, b->y); break;
     case METHOD_NDF: vndf_ndf_n(&batch, normals, b->pdf); break;
@@ -192,7 +187,7 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
     method m = {.kind = info.memory ? ROW_TABLE : ROW_CLOSED, .memory = info.memory, .d = d, .call = call};
     snprintf(m.name, sizeof m.name, "%s%s", name, calls[call]);
     if (call == METHOD_SAMPLE) {
-        m.each = each, m.shared = shared, m.batch = batch_each;
+        m.each = each, m.shared = shared, m.batch = batch_call;
     } else if (call == METHOD_EXPORTED) {
         const size_t count = vndf_numbers(d, NULL, 0);
         float *numbers = count ? malloc(count * sizeof *numbers) : NULL;
