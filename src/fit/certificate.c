@@ -325,13 +325,13 @@ static double last_claimed(const survey *s)
 {
     int cell = 0;
     for (int step = s->table.highest; step > 0; step /= 2) {
-        double next = load_row(s->table, VNDF_KNOT, min_int(cell + step, s->table.cells)).b;
+        double next = load_knot(s->table, min_int(cell + step, s->table.cells)).z;
         if (cell + step <= s->table.cells &&
             is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below))
             cell += step;
     }
-    quad k = load_row(s->table, VNDF_KNOT, cell);
-    double z = k.b, width = cell < s->table.cells ? k.c : k.b;
+    knot_row k = load_knot(s->table, cell);
+    double z = k.z, width = cell < s->table.cells ? k.width : k.z;
     for (int n = 1; n <= 6; n++) {
         double next = z - ldexp(width, -n);
         z = is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below) ? next : z;
@@ -346,12 +346,12 @@ static double area_error(const survey *s)
     enum { PLACES = 3, HALVINGS = 3 };
     double worst = 0, where = 1, step = 0, last = last_claimed(s);
     for (int i = 0; i <= s->table.cells; i++) {
-        quad k = load_row(s->table, VNDF_KNOT, i);
-        double end = k.b - (i < s->table.cells ? k.c : k.b), width = (k.b - end) / (PLACES + 1);
-        if (last > end && last < k.b)
-            width = (k.b - last) / PLACES;
-        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.b * (1 - k.b); n++)
-            if (note_area(s, i, k.b - n * width, &worst, &where))
+        knot_row k = load_knot(s->table, i);
+        double end = k.z - (i < s->table.cells ? k.width : k.z), width = (k.z - end) / (PLACES + 1);
+        if (last > end && last < k.z)
+            width = (k.z - last) / PLACES;
+        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.z * (1 - k.z); n++)
+            if (note_area(s, i, k.z - n * width, &worst, &where))
                 step = width;
     }
     for (int n = 0; n < 2 * HALVINGS; n++) {
@@ -417,7 +417,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     survey s = {.table = table_of(d), .profile = profile, .to = c};
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
-        knot[i] = (float)load_row(s.table, VNDF_KNOT, (int)i).a;
+        knot[i] = (float)load_knot(s.table, (int)i).r;
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);

@@ -47,7 +47,7 @@ KERNEL knot_hit table_find(table t, radial_law v, target a, const int below)
         r.beyond = law_beyond(t, v, r.i);
     } else {
         r.i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
-        r.beyond = law_sum(a.w, load_row(t, VNDF_TAIL, r.i));
+        r.beyond = law_sum(a.w, load_tail(t, r.i));
     }
     return r;
 }
@@ -209,9 +209,9 @@ KERNEL pair table_invert(table t, radial_law v, query g, real x, real y, const i
     if (below)
         sum = select(le(to_real(i), to_real(v.first)), before, (v.total - law_beyond(t, v, i)) + before);
     else {
-        quad tail = load_row(t, VNDF_TAIL, i);
+        tail_row tail = load_tail(t, i);
         mask near = lt(to_real(i), to_real(v.first));
-        sum = select(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);
+        sum = select(near, v.c * (1.0f - tail.all) + before, (v.total - law_sum(v.w, tail)) + before);
         sum = select(eq(i, 0), before, sum);
     }
     pair u = {arc_invert(table_given_arc(v, g, below), x, y), min(max(sum / v.total, set(0.0f)), set(1.0f))};

@@ -12,25 +12,18 @@ typedef struct table {
     int at, cells, moments, squarings, highest, steps;
 } table;
 
-enum { HEAD = 8 };
-enum { VNDF_KNOT = 0, VNDF_LAW = 1, VNDF_MORE = 2, VNDF_TAIL = 3, VNDF_LOW = 4 };
-
 /* The table whose first number is number `base`. */
 KERNEL table table_at(int base)
 {
-    const table t = {base + HEAD,
-                     to_int(fetch(base)),
-                     to_int(fetch(base + 1)),
-                     to_int(fetch(base + 2)),
-                     to_int(fetch(base + 4)),
-                     to_int(fetch(base + 5))};
+    const table t = {base + VNDF_HEAD,        to_int(fetch(base)),     to_int(fetch(base + 1)),
+                     to_int(fetch(base + 2)), to_int(fetch(base + 4)), to_int(fetch(base + 5))};
     return t;
 }
 
 /* Row i of a group. */
 KERNEL quad load_row(table t, int group, integer i)
 {
-    const int at = t.at + 20 * i + 4 * group;
+    const int at = t.at + VNDF_STRIDE * i + 4 * group;
     const quad row = {fetch(at), fetch(at + 1), fetch(at + 2), fetch(at + 3)};
     return row;
 }
@@ -59,8 +52,6 @@ KERNEL integer max_int(integer a, integer b)
         return a;
     return b;
 }
-
-enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 }; /* of table/table.h */
 
 /* Where the law begins for an eighth of an octave of rho: the last knot with a turn below the middle of it. */
 KERNEL integer first_knot(table t, integer eighth)
