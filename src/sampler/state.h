@@ -1,5 +1,4 @@
-/* What a view holds in its numbers: the direction on the surface, and what its distribution makes of it. Kinds of
- * distributions are told apart in view.c and normals.c alone. */
+/* What a view holds in its numbers: the direction on the surface, and what its distribution makes of it. */
 #ifndef VNDF_SAMPLER_STATE_H
 #define VNDF_SAMPLER_STATE_H
 
