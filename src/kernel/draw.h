@@ -112,7 +112,7 @@ KERNEL normal_sample table_normal(radial_law v, length_sample d, arc k, azimuth 
     return n;
 }
 
-/* True over drawn density of a sample whose slope lies at `in` of cell i; 0 from below where the area is below 1e-30. */
+/* True over drawn density of a sample whose slope lies at `in` of cell i; 0 from below if the area is under 1e-30. */
 KERNEL real table_weight(table t, radial_law v, integer i, cell_hit f, cell_place in, slope_length r, arc k,
                          real area, const int below)
 {
