@@ -384,7 +384,7 @@ static double ndf_error(const survey *s)
             const double apart = log(strip[1].edge / strip->edge);
             sum += strip->f;
             if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 1)))
+                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 0.1)))
                 continue;
             worst = fmax(worst, fabs((next - before) / (tail ? strip->along : strip->f) - 1));
             if (!(in->middle > 0) || tail)
