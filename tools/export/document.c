@@ -39,7 +39,7 @@ static void name_table(exported_table *table)
 static int is_taken(const export_document *document, const char *name)
 {
     static const char taken[] =
-        " GGX BECKMANN LOBES NUMBERS KERNEL FETCH FUNCTION KNOT LAW MORE TAIL LOW RHO_PARTS "
+        " GGX BECKMANN LOBES NUMBERS KERNEL FETCH FUNCTION ARRAY HEAD KNOT LAW SHARES TAIL AREA GROUPS STRIDE RHO_PARTS "
         "RHO_FIRST ";
     char spaced[80];
     for (size_t i = 0; i < document->tables; i++)
