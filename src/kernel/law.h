@@ -32,7 +32,7 @@ typedef struct knot_row {
 KERNEL knot_row load_knot(table t, integer i)
 {
     quad q = load_row(t, VNDF_KNOT, i);
-    knot_row row = {q.a, q.b, q.c, q.d};
+    knot_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -43,7 +43,7 @@ typedef struct law_row {
 KERNEL law_row load_law(table t, integer i)
 {
     quad q = load_row(t, VNDF_LAW, i);
-    law_row row = {q.a, q.b, q.c, q.d};
+    law_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -54,7 +54,7 @@ typedef struct shares_row {
 KERNEL shares_row load_shares(table t, integer i)
 {
     quad q = load_row(t, VNDF_SHARES, i);
-    shares_row row = {q.a, q.b, q.c, q.d};
+    shares_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -65,7 +65,7 @@ typedef struct tail_row {
 KERNEL tail_row load_tail(table t, integer i)
 {
     quad q = load_row(t, VNDF_TAIL, i);
-    tail_row row = {q.a, q.b, q.c, q.d};
+    tail_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -76,7 +76,7 @@ typedef struct area_row {
 KERNEL area_row load_area(table t, integer i)
 {
     quad q = load_row(t, VNDF_AREA, i);
-    area_row row = {q.a, q.b, q.c, q.d};
+    area_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 

@@ -58,7 +58,7 @@ KERNEL real of_bits(integer i)
 
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
-    real a, b, c, d;
+    real x, y, z, w;
 } quad;
 
 /* A table as the kernel reads it (table/table.h). */

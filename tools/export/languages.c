@@ -36,10 +36,12 @@ static const char common[] =
        "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n"
 
 /* Host and device each have arrays of their own. */
-#define CUDA_BEGIN                                                                                                                                                  \
-  "#include <cstring>\n" FUNCTION(                                                                                                                                  \
-      "#define VNDF_FUNCTION __host__ __device__ inline\n") "\n#ifndef VNDF_ARRAY\n#ifdef __CUDA_ARCH__\n#define VNDF_ARRAY static __device__ const float\n#else\n" \
-                                                            "#define VNDF_ARRAY static const float\n#endif\n#endif\n" BITS
+#define CUDA_ARRAYS                                                                                       \
+  "\n#ifndef VNDF_ARRAY\n#ifdef __CUDA_ARCH__\n#define VNDF_ARRAY static __device__ const float\n#else\n" \
+  "#define VNDF_ARRAY static const float\n#endif\n#endif\n"
+
+#define CUDA_BEGIN \
+  "#include <cstring>\n" FUNCTION("#define VNDF_FUNCTION __host__ __device__ inline\n") CUDA_ARRAYS BITS
 
 /* What stands before the kernel in Python; derivatives of bits are 0, those of roots at 0 too. */
 static const char python_begin[] =
@@ -74,7 +76,8 @@ static const language languages[] = {
      "UNROLL: #pragma unroll; FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; "
      "ARRAY: VNDF_ARRAY $D[$N] = {\n    $I\n};; ZERO:  = {}; POINTER: const float *__restrict__ ; "
      "sqrt = sqrtf($1); abs = fabsf($1); with_sign = copysignf($1, $2); "
-     "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = make_float3($1, $2, $3); "},
+     "quad: float4; fetch_4 = *reinterpret_cast<const float4 *>(numbers + ($1)); bits = vndf_bits($1); "
+     "of_bits = vndf_of_bits($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
      "FUNCTION: static inline $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
      "ARRAY: __constant float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: __global const float *; abs = fabs($1); "
