@@ -1,4 +1,5 @@
-/* What a view holds in its numbers: the direction on the surface, and what its distribution makes of it. */
+/* What a view holds in its numbers: the direction on the surface, and what its distribution makes of it. Kinds of
+ * distributions are told apart in kernel/view.h and, of what a view holds, in view.c. */
 #ifndef VNDF_SAMPLER_STATE_H
 #define VNDF_SAMPLER_STATE_H
 
@@ -32,9 +33,9 @@ VNDF_INLINE const vndf_state *vndf_state_of(const vndf_view *view)
 }
 
 /* A table is seen from below the horizon. */
-VNDF_INLINE int vndf_is_below(const vndf_state *s)
+VNDF_INLINE int vndf_is_below(const vndf_view *view)
 {
-    return s->f.uz < 0.0f;
+    return view->distribution->kind == VNDF_KIND_TABLE && vndf_state_of(view)->f.uz < 0.0f;
 }
 
 #endif

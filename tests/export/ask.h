@@ -42,7 +42,7 @@ KERNEL answer ask(question q)
                       vndf_lambda(surface, wi),
                       vndf_g1(surface, wi),
                       vndf_g2(surface, wi, wm),
-                      vndf_projected_area(view),
+                      vndf_projected_area(surface, wi),
                       of_all.x,
                       of_all.y,
                       of_all.z,

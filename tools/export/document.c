@@ -258,7 +258,7 @@ int document_write(const export_document *document, FILE *to, const char *more)
     const int guarded = !(in->is & LANGUAGE_APART);
     const char *calls = document->scatters ? "vndf_rough vndf_bsdf"
                                            : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible "
-                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area "
+                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area vndf_area "
                                              "vndf_mixture vndf_family_at";
     char *whole = whole_text(document, more);
     if (in->is & LANGUAGE_INDENTS)
