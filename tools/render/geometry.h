@@ -43,10 +43,10 @@ void geometry_free(geometry *g);
 
 /* ---- meshes ---- */
 
-/* Adds the triangles of `length` bytes of an OBJ file with a 0 behind them, which it changes and errors call `name`.
- * 0 and "NAME:LINE: what is wrong", and then none is added. Files that are not trusted are safe. */
+/* Adds the triangles of `length` bytes of an OBJ file with a 0 behind them, which it changes and complaints call
+ * `name`. 0 after a complaint, and then none is added. Files that are not trusted are safe. */
 enum { OBJ_BYTES_MAX = 1 << 29 };
-int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material, vndf_error *error);
+int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material);
 
 /* Scales the shapes from `first` on, turns them about y (z towards x), then moves them. */
 void geometry_place(geometry *g, size_t first, double size, double radians, vec3 move);

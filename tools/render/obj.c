@@ -34,28 +34,26 @@ typedef struct reader {
     int material;
 } reader;
 
-/* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
+/* The first three numbers of a line as an item of one of the tables; 0 after a complaint. */
 static int read_item(reader *r, int which)
 {
-    double p[3] = {0, 0, 0}, beyond;
+    double p[3] = {0, 0, 0};
     const size_t least = which == VT ? 1 : 3, count = r->in.count - 1;
-    for (size_t i = 0; i < count; i++)
-        if (!read_number(&r->in, r->in.word[1 + i], i < 3 ? &p[i] : &beyond))
+    for (size_t i = 0; i < count && i < 3; i++)
+        if (!parse_numbers(r->in.place, table_names[which], r->in.word[1 + i], -reach[which], reach[which], 1, 1,
+                           &p[i]))
             return 0;
     if (count < least)
-        return refuse_line(&r->in, "there are %zu numbers of %zu in this line", count, least);
+        return wrong(&r->in, "there are %zu numbers of %zu in this line", count, least);
     vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : vec(p[0], p[1], p[2]);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
-    if (!(largest <= reach[which]))
-        return refuse_line(&r->in, "numbers of '%s' lie within %g of 0, and these do not", table_names[which],
-                           reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
     if (r->of[which].count == r->of[which].room) {
         const size_t room = 64 + 2 * r->of[which].room;
         vec3 *larger = room <= ITEMS_MAX ? realloc(r->of[which].row, room * sizeof *larger) : NULL;
         if (!larger)
-            return refuse_line(&r->in, "there is no memory for more '%s'", table_names[which]);
+            return wrong(&r->in, "there is no memory for more '%s'", table_names[which]);
         r->of[which].row = larger;
         r->of[which].room = room;
     }
@@ -81,14 +79,14 @@ static int read_corner(reader *r, const char *word, corner *c)
         const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
         const long long count = (long long)r->of[i].count;
         if (behind == at)
-            return refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
+            return wrong(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
         if (given == 0 || given > count || given < -count)
-            return refuse_line(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
-                               given, count, table_names[i]);
+            return wrong(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
+                         given, count, table_names[i]);
         c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
         at = behind;
     }
-    return !*at || refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
+    return !*at || wrong(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
 }
 
 /* Normals of a mesh win over the order of its corners. */
@@ -112,8 +110,8 @@ static int add_triangle(reader *r, const corner *a, const corner *b, const corne
     if (agreement < 0)
         return add_triangle(r, a, c, b);
     if (r->g->count == ITEMS_MAX)
-        return refuse_line(&r->in, "there are more than %d triangles", ITEMS_MAX);
-    return geometry_add(r->g, &t) || refuse_line(&r->in, "no memory for its triangles");
+        return wrong(&r->in, "there are more than %d triangles", ITEMS_MAX);
+    return geometry_add(r->g, &t) || wrong(&r->in, "no memory for its triangles");
 }
 
 static int read_face(reader *r)
@@ -125,8 +123,7 @@ static int read_face(reader *r)
             return 0;
         c[1] = c[i < 3 ? 1 : 2];
     }
-    return r->in.count > 3 ||
-           refuse_line(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
+    return r->in.count > 3 || wrong(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
 }
 
 /* ---- files ---- */
@@ -142,15 +139,15 @@ static int read_line(reader *r)
     return 1;
 }
 
-int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material, vndf_error *error)
+int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material)
 {
     const size_t before = g->count;
     reader r = {.g = g, .material = material};
-    int more, good = lines_begin(&r.in, name, text, length, error);
+    int more, good = lines_begin(&r.in, name, text, length);
     while (good && (more = lines_next(&r.in)))
         good = more > 0 && read_line(&r);
     if (good && g->count == before)
-        good = refuse_line(&r.in, "the file ends here without a triangle that has an area");
+        good = wrong(&r.in, "the file ends here without a triangle that has an area");
     if (!good)
         g->count = before;
     for (int i = 0; i < TABLES; i++)
