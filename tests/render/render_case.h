@@ -5,65 +5,49 @@
 #include "harness/test.h"
 #include "render/film.h"
 
-enum { CASE_TEXT = 8192 };
-
 /* A scene from text, which has to be good. */
 static inline scene *case_scene(const char *text)
 {
     const size_t length = strlen(text);
-    scene *s = scene_read_text("x.scene", strcpy(malloc(length + 1), text), length);
+    scene *s = scene_read("x.scene", strcpy(malloc(length + 1), text), length, 0);
     return s ? s : (exit(1), NULL);
 }
 
-/* The same seen through a field so narrow that all 16 x 16 pixels see one point. */
-static inline scene *case_point(const char *text)
+/* The film of one sampler, whose comparison is to be ended. */
+static inline comparison case_render(const scene *s, path_sampler sampler, uint64_t samples, uint64_t seed)
 {
-    scene *s = case_scene(text);
-    s->field = 1e-6;
-    s->width = s->height = 16;
-    return s;
-}
-
-/* Adds samples to a film, which is made if it has no pixels. */
-static inline void case_render(film *f, const scene *s, path_sampler sampler, uint64_t samples, uint64_t seed)
-{
-    vndf_error error;
-    path_plan *plan = path_prepare(s, sampler, &error);
-    if (!TEST(plan != NULL))
-        fprintf(stderr, "    %s\n", error.message);
-    else if (TEST(f->sum || film_make(f, s->width, s->height)))
-        film_add(f, plan, samples, 2, seed);
-    free(plan);
+    comparison c = {.count = 1, .samples = samples, .threads = 2, .seed = seed, .way = {{.sampler = sampler}}};
+    TEST(comparison_begin(&c, s) && comparison_run(&c));
+    return c;
 }
 
 typedef struct case_mean {
     double value, sigma, variance; /* variance: of one sample */
 } case_mean;
 
-static inline case_mean case_mean_of(const film *f)
+/* The mean light of a text's picture; of a point: through a field so narrow that all pixels see it. */
+static inline case_mean case_light(const char *text, int is_point, path_sampler sampler, uint64_t samples)
 {
-    double sum = 0, square = 0, count = (double)film_pixels(f) * (double)f->samples;
-    for (size_t i = 0; i < film_pixels(f); i++) {
-        sum += film_light(f, i) * (double)f->samples;
+    scene *s = case_scene(text);
+    s->field = is_point ? 1e-6 : s->field;
+    s->width = s->height = 16;
+    comparison c = case_render(s, sampler, samples, 1);
+    const film *f = &c.way[0].film;
+    double sum = 0, square = 0, count = 256 * (double)samples;
+    for (size_t i = 0; i < 256; i++) {
+        sum += film_light(f, i) * (double)samples;
         square += f->square[i];
     }
-    double variance = fmax(square / count - sum * sum / (count * count), 0);
+    TEST(f->counts.lost == 0);
+    comparison_end(&c);
+    scene_free(s);
+    const double variance = fmax(square / count - sum * sum / (count * count), 0);
     return (case_mean){sum / count, sqrt(variance / count), variance};
 }
 
-/* The mean light of a point. */
-static inline case_mean case_light(const scene *s, path_sampler sampler, uint64_t samples)
-{
-    film f = {.sum = NULL};
-    case_render(&f, s, sampler, samples, 1);
-    case_mean mean = case_mean_of(&f);
-    TEST(f.counts.lost == 0);
-    film_free(&f);
-    return mean;
-}
-
 /* 4.5 sigma: 7e-6 by chance. */
-static inline int case_agrees(case_mean mean, double want, double slack)
+static inline int case_agrees(const char *text, case_mean mean, double want, double slack)
 {
-    return TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
+    const int good = TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
+    return good || (fprintf(stderr, "    %s", text), 0);
 }
