@@ -1,13 +1,54 @@
 /* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
  * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
  * rectangles on a matte floor is that of closed forms, and what stands before a light bars it. A wall shows the
- * integral over a sky, a rough floor f of the library under a small lamp. All samplers show the same of metals
+ * integral over a sky. All samplers show the same of metals
  * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
  * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
  * own surface, by weights of drawn light; rows and pixels of a sky that are off by one, choices that
  * forget a light; wrong densities, areas and cosines, lights that shine backwards, shadow rays that end
  * too early or too late, candidates that are not kept in proportion to their weight. */
-#include "render_case.h"
+#include "harness/test.h"
+#include "render/film.h"
+
+/* A scene from text, which has to be good. */
+static scene *case_scene(const char *text)
+{
+    const size_t length = strlen(text);
+    scene *s = scene_read("x.scene", strcpy(malloc(length + 1), text), length, 0);
+    return s ? s : (exit(1), NULL);
+}
+
+typedef struct case_mean {
+    double value, sigma, variance; /* variance: of one sample */
+} case_mean;
+
+/* The mean light of a text's picture; of a point: through a field so narrow that all pixels see it. */
+static case_mean case_light(const char *text, int is_point, path_sampler sampler, uint64_t samples)
+{
+    scene *s = case_scene(text);
+    s->field = is_point ? 1e-6 : s->field;
+    s->width = s->height = 16;
+    comparison c = {.count = 1, .samples = samples, .threads = 2, .seed = 1, .way = {{.sampler = sampler}}};
+    TEST(comparison_begin(&c, s) && comparison_run(&c));
+    const film *f = &c.way[0].film;
+    double sum = 0, square = 0, count = 256 * (double)samples;
+    for (size_t i = 0; i < 256; i++) {
+        sum += film_light(f, i) * (double)samples;
+        square += f->square[i];
+    }
+    TEST(f->counts.lost == 0);
+    comparison_end(&c);
+    scene_free(s);
+    const double variance = fmax(square / count - sum * sum / (count * count), 0);
+    return (case_mean){sum / count, sqrt(variance / count), variance};
+}
+
+/* 4.5 sigma: 7e-6 by chance. */
+static int case_agrees(const char *text, case_mean mean, double want, double slack)
+{
+    const int good = TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
+    return good || (fprintf(stderr, "    %s", text), 0);
+}
 
 /* ---- the furnace ---- */
 
@@ -102,29 +143,6 @@ static void test_sky(void)
     scene_free(s);
 }
 
-/* A rough floor under a lamp so small that f is the same all over it. */
-static void test_gloss(float alpha)
-{
-    const vndf_description is = {.surface = vndf_rough(vndf_ggx(), alpha, alpha)};
-    const vec3 lamp = vec(0.3, 2, -2.5), to = unit(lamp);
-    vndf_material resolved;
-    vndf_bsdf bsdf;
-    float f[3];
-    char text[1024];
-    snprintf(text, sizeof text,
-             "camera --from 0,1,1 --to 0,0,0 --depth 1\n" LAMP
-             "material floor --shape --distribution ggx --alpha %g\n"
-             "rectangle --corner -2,0,2 --edge-u 4,0,0 --edge-v 0,0,-4 --material floor\n"
-             "sphere --centre 0.3,2,-2.5 --radius 0.01 --material lamp\n",
-             (double)alpha);
-    TEST(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK);
-    vndf_bsdf_at(&bsdf, &resolved, (vndf_vec3){0.0f, -(float)sqrt(0.5), (float)sqrt(0.5)});
-    vndf_bsdf_eval(&bsdf, (vndf_vec3){(float)to.x, -(float)to.z, (float)to.y}, 0, f);
-    const double want = 8 * (double)f[0] * to.y * PI * 1e-4 / dot(lamp, lamp);
-    for (path_sampler sampler = 0; sampler < SAMPLERS; sampler++)
-        case_agrees(text, case_light(text, 1, sampler, test_amount(16, 32, 256)), want, 2e-3);
-}
-
 /* ---- samplers ---- */
 
 /* Walks have no sampler by all normals. */
@@ -164,8 +182,6 @@ int main(void)
     test_furnace(DOME);
     test_furnace(ROOM);
     test_floors();
-    test_gloss(0.1f);
-    test_gloss(0.5f);
     test_sky();
     return test_done();
 }

@@ -24,31 +24,28 @@ typedef struct pass {
     film *film;
     const path_plan *plan;
     uint64_t samples, seed; /* a pixel */
-    atomic_int next_row;    /* shared by the threads */
+    atomic_int next_row;    /* shared by the threads, as are counts */
+    atomic_ullong rays, lost;
 } pass;
-
-typedef struct worker {
-    pass *of;
-    path_counts counts;
-    pthread_t thread;
-} worker;
 
 static void *render_rows(void *user)
 {
-    worker *w = user;
-    pass *p = w->of;
+    pass *p = user;
     film *f = p->film;
+    path_counts counts = {0, 0};
     for (int row; (row = atomic_fetch_add(&p->next_row, 1)) < f->height;)
         for (int x = 0; x < f->width; x++) {
             const size_t at = (size_t)row * (size_t)f->width + (size_t)x;
             for (uint64_t i = 0; i < p->samples; i++) {
                 float rgb[3];
-                path_trace(p->plan, x, row, f->samples + i, p->seed, &w->counts, rgb);
+                path_trace(p->plan, x, row, f->samples + i, p->seed, &counts, rgb);
                 f->square[at] += luminance(rgb) * luminance(rgb);
                 for (size_t k = 0; k < 3; k++)
                     f->sum[3 * at + k] += (double)rgb[k];
             }
         }
+    atomic_fetch_add(&p->rays, counts.rays);
+    atomic_fetch_add(&p->lost, counts.lost);
     return NULL;
 }
 
@@ -57,20 +54,15 @@ static void film_add(film *f, const path_plan *plan, uint64_t samples, unsigned 
 {
     const double begun = clock_seconds(), processor = clock_processor_seconds();
     pass p = {.film = f, .plan = plan, .samples = samples, .seed = seed};
-    worker workers[THREADS_MAX] = {{.of = &p}};
-    unsigned count = 1;
-    for (; count < threads && count < THREADS_MAX; count++) {
-        workers[count].of = &p;
-        if (pthread_create(&workers[count].thread, NULL, render_rows, &workers[count]) != 0)
-            break;
-    }
-    render_rows(&workers[0]);
-    for (unsigned i = 0; i < count; i++) {
-        if (i > 0)
-            pthread_join(workers[i].thread, NULL);
-        f->counts.rays += workers[i].counts.rays;
-        f->counts.lost += workers[i].counts.lost;
-    }
+    pthread_t thread[THREADS_MAX];
+    unsigned count = 0;
+    while (count + 1 < threads && pthread_create(&thread[count], NULL, render_rows, &p) == 0)
+        count++;
+    render_rows(&p);
+    while (count > 0)
+        pthread_join(thread[--count], NULL);
+    f->counts.rays += p.rays;
+    f->counts.lost += p.lost;
     f->samples += samples;
     f->seconds += clock_seconds() - begun;
     f->processor += clock_processor_seconds() - processor;
@@ -196,38 +188,36 @@ static measured ratio_of(const measured *a, const measured *b, double factor)
 
 /* ---- verdict ---- */
 
-/* In standard deviations; of 1e-5 of the light at least, which nobody sees. */
-static double deviations(double off, double variance, double light)
+/* How far a square of one film is off the other, in standard deviations; of 1e-5 of the light at least, which nobody
+ * sees. */
+static double deviation(const film *a, const film *b, int left, int top, int side)
 {
+    double off = 0, variance = 0, light = 0;
+    for (int y = top; y < a->height && y - top < side; y++)
+        for (int x = left; x < a->width && x - left < side; x++) {
+            const size_t pixel = (size_t)y * (size_t)a->width + (size_t)x;
+            off += film_light(a, pixel) - film_light(b, pixel);
+            variance += film_variance(a, pixel) + film_variance(b, pixel);
+            light += fabs(film_light(b, pixel));
+        }
     return off == 0 ? 0 : off / sqrt(variance + 1e-10 * light * light);
 }
 
 static void judge(const film *a, const film *b, finding *made)
 {
-    double off = 0, variance = 0, light = 0, blocks = 0, squares = 0;
+    double blocks = 0, squares = 0;
     for (int top = 0; top < a->height; top += BLOCK)
         for (int left = 0; left < a->width; left += BLOCK, blocks++) {
-            double here = 0, here_variance = 0, here_light = 0;
-            for (int y = top; y < top + BLOCK && y < a->height; y++)
-                for (int x = left; x < left + BLOCK && x < a->width; x++) {
-                    const size_t pixel = (size_t)y * (size_t)a->width + (size_t)x;
-                    here += film_light(a, pixel) - film_light(b, pixel);
-                    here_variance += film_variance(a, pixel) + film_variance(b, pixel);
-                    here_light += fabs(film_light(b, pixel));
-                }
-            const double block = deviations(here, here_variance, here_light);
-            off += here;
-            variance += here_variance;
-            light += here_light;
+            const double block = deviation(a, b, left, top, BLOCK);
             squares += block * block;
-            if (!(fabs(block) <= fabs(made->worst))) {
-                made->worst = block;
-                made->x = left;
-                made->y = top;
-            }
+            if (fabs(block) <= fabs(made->worst))
+                continue;
+            made->worst = block;
+            made->x = left;
+            made->y = top;
         }
     made->ratio = mean_light(a) / mean_light(b);
-    made->whole = deviations(off, variance, light);
+    made->whole = deviation(a, b, 0, 0, IMAGE_SIDE_MAX);
     made->mean_square = squares / blocks;
     if (fabs(made->whole) > whole_most || fabs(made->worst) > block_most ||
         made->mean_square > mean_square_most + 5 * sqrt(2 / blocks))

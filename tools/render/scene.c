@@ -131,8 +131,9 @@ typedef struct reader {
     scene *made;
     arguments given; /* what the line says */
     content line;
-    unsigned seen; /* a bit for each statement */
-    size_t pixels; /* of all images so far */
+    unsigned seen;             /* a bit for each statement */
+    size_t pixels;             /* of all images so far */
+    char path[2 * PATH_BYTES]; /* longer than a system allows: it is no other when it is cut */
     /* names of materials, what tables and images are made from, NULL at the end */
     const char *materials[SCENE_MATERIALS_MAX + 1], *tables[SCENE_FILES_MAX + 1], *images[SCENE_FILES_MAX + 1];
 } reader;
@@ -145,19 +146,13 @@ static size_t find(const char *const *list, const char *word)
     return i;
 }
 
-/* The path relative to the working folder. */
-static int path_of(reader *r, const char *file, char path[PATH_BYTES])
+/* The path of a file of the scene, relative to the working folder. Until the next call. */
+static const char *path_of(reader *r, const char *file)
 {
     const char *slash = strrchr(r->in.name, '/');
     const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->in.name) + 1;
-    return snprintf(path, PATH_BYTES, "%.*s%s", folder, r->in.name, file) < PATH_BYTES ||
-           wrong(&r->in, "a path has at most %d letters, with the folder of the scene", PATH_BYTES - 1);
-}
-
-/* All of a file of the scene, and its path, to be freed; NULL after a complaint. */
-static char *read_file(reader *r, const char *file, size_t most, char path[PATH_BYTES], size_t *size)
-{
-    return path_of(r, file, path) ? input_read(r->in.place, path, most, size) : NULL;
+    snprintf(r->path, sizeof r->path, "%.*s%s", folder, r->in.name, file);
+    return r->path;
 }
 
 /* ---- images ---- */
@@ -167,7 +162,6 @@ static int make_image(reader *r, const char *option, const char *text, image *ma
 {
     static const char *const patterns[] = {"tiles", "grid", "studio", NULL};
     vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
     double side[2] = {512, 512};
     size_t size, length = strcspn(text, ":"), of = 0;
     while (patterns[of] && (strlen(patterns[of]) != length || memcmp(patterns[of], text, length) != 0))
@@ -177,11 +171,11 @@ static int make_image(reader *r, const char *option, const char *text, image *ma
                 parse_numbers(r->in.place, option, text + length + 1, 1, IMAGE_SIDE_MAX, 2, 2, side)) &&
                (image_make_pattern(made, (image_pattern)of, (int)side[0], (int)side[1]) ||
                 wrong(&r->in, "there is no memory for %.0f x %.0f pixels", side[0], side[1]));
-    char *bytes = read_file(r, text, IMAGE_BYTES_MAX, path, &size);
+    char *bytes = input_read(r->in.place, path_of(r, text), IMAGE_BYTES_MAX, &size);
     const int good =
-        bytes && (image_read_bytes(made, path, bytes, size, &error) || wrong(&r->in, "%s", error.message));
+        bytes && (image_read_bytes(made, r->path, bytes, size, &error) || wrong(&r->in, "%s", error.message));
     free(bytes);
-    return good && (made->quantum == 0 || wrong(&r->in, "%s holds whole numbers; a PFM is needed", path));
+    return good && (made->quantum == 0 || wrong(&r->in, "%s holds whole numbers; a PFM is needed", r->path));
 }
 
 /* The same text is one image. */
@@ -272,12 +266,11 @@ static vndf_distribution *make_table(reader *r, const char *text)
     static const char *const forms[] = {"family=", "slope=", "ndf="};
     chosen_distribution chosen;
     vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
     size_t form = 0;
     while (form < 3 && strncmp(text, forms[form], strlen(forms[form])) != 0)
         form++;
     if (form == 3)
-        return path_of(r, text, path) && distribution_open(&chosen, r->in.place, path, 0) ? chosen.owned : NULL;
+        return distribution_open(&chosen, r->in.place, path_of(r, text), 0) ? chosen.owned : NULL;
     text += strlen(forms[form]);
     vndf_source *source = form == 0   ? vndf_source_family(text, &error)
                           : form == 1 ? vndf_source_slope_expression(text, NULL, 0, &error)
@@ -351,9 +344,10 @@ static int read_material(reader *r)
         return wrong(&r->in, "there is another material '%s' already", name);
     if (r->made->material_count == SCENE_MATERIALS_MAX)
         return wrong(&r->in, "these are more than %d materials", SCENE_MATERIALS_MAX);
-    if (!option_alone(&r->given, kinds))
+    const char *is = option_alone(&r->given, kinds);
+    const size_t kind = is ? find(kinds, is) : 0;
+    if (!is)
         return 0;
-    const size_t kind = find(kinds, option_among(&r->given, kinds));
     if (!option_value(&r->given, "--distribution") != (kind > SHAPE))
         return wrong(&r->in, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
     if (kind == LIGHT && made->colour_map)
@@ -373,12 +367,11 @@ static int add_mesh(reader *r, int of)
 {
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
-    char path[PATH_BYTES];
     size_t size;
     if (r->made->materials[of].kind == MATERIAL_LIGHT)
         return wrong(&r->in, "a light is a sphere or a rectangle, not a mesh");
-    char *text = read_file(r, option_value(&r->given, "--file"), OBJ_BYTES_MAX, path, &size);
-    const int good = text && obj_read_text(g, path, text, size, of);
+    char *text = input_read(r->in.place, path_of(r, option_value(&r->given, "--file")), OBJ_BYTES_MAX, &size);
+    const int good = text && obj_read_text(g, r->path, text, size, of);
     free(text);
     geometry_place(g, first, r->line.size, r->line.turn * (PI / 180), r->line.move);
     return good;
