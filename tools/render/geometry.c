@@ -230,25 +230,6 @@ int geometry_blocked(const geometry *g, const ray *r)
 
 /* ---- what was met ---- */
 
-/* With texture coordinates (u, v) at its corners, edge_u = du1 dp/du + dv1 dp/dv, and edge_v likewise; hence dp/du
- * ~ dv2 edge_u - dv1 edge_v, with the sign of the determinant. */
-static void describe_mesh(const shape *s, hit *h)
-{
-    const double weight[3] = {1 - h->u - h->v, h->u, h->v};
-    vec3 n = {0, 0, 0};
-    h->u = h->v = 0;
-    for (int i = 0; i < 3; i++) {
-        n = along(n, weight[i], widen(s->normal[i]));
-        h->u += weight[i] * (double)s->u[i];
-        h->v += weight[i] * (double)s->v[i];
-    }
-    const double dv1 = (double)(s->v[1] - s->v[0]), dv2 = (double)(s->v[2] - s->v[0]);
-    const double determinant = (double)(s->u[1] - s->u[0]) * dv2 - (double)(s->u[2] - s->u[0]) * dv1;
-    const vec3 to = along(scale(s->edge_u, dv2), -dv1, s->edge_v);
-    /* an interpolated normal can turn below the surface */
-    h->shading = frame_about(dot(n, h->normal) > 0 ? unit(n) : h->normal, scale(to, copysign(1, determinant)));
-}
-
 int geometry_hit(const geometry *g, const ray *r, hit *h)
 {
     if (!walk(g, r, 0, h))
@@ -265,11 +246,14 @@ int geometry_hit(const geometry *g, const ray *r, hit *h)
     }
     h->normal = unit(cross(s->edge_u, s->edge_v));
     h->place = along(along(s->corner, h->u, s->edge_u), h->v, s->edge_v);
-    if (s->kind == SHAPE_TRIANGLE) {
-        describe_mesh(s, h);
+    h->shading = frame_about(h->normal, s->edge_u);
+    if (s->kind == SHAPE_TRIANGLE) { /* an interpolated normal can turn below the surface */
+        const vec3 n = along(along(scale(widen(s->normal[0]), 1 - h->u - h->v), h->u, widen(s->normal[1])), h->v,
+                             widen(s->normal[2]));
+        h->shading = frame_about(dot(n, h->normal) > 0 ? unit(n) : h->normal, vec(0, 0, 0));
+        h->u = h->v = 0;
         return 1;
     }
-    h->shading = frame_about(h->normal, s->edge_u);
     h->u = fmin(h->u, 1 - DBL_EPSILON); /* at 1 the image would begin again */
     h->v = fmin(1 - h->v, 1 - DBL_EPSILON);
     return 1;

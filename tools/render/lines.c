@@ -21,16 +21,11 @@ int lines_next(lines *in)
         snprintf(in->place, sizeof in->place, "vndf render: %.3000s:%llu", in->name, ++in->line);
         for (char *c = at; *c; c++) /* words may be printed */
             *c = ((unsigned char)*c < ' ' && !strchr(blanks, *c)) || *c == 127 ? '?' : *c;
-        for (at += strspn(at, blanks); *at && *at != '#'; at += strspn(at, blanks)) {
-            const int is_quoted = *at == '"' && strchr(at + 1, '"');
+        at[strcspn(at, "#")] = '\0';
+        for (char *word = strtok(at, blanks); word; word = strtok(NULL, blanks)) {
             if (in->count == LINE_WORDS_MAX)
                 return wrong(in, "there are more than %d words in this line", LINE_WORDS_MAX) - 1;
-            in->word[in->count++] = at += is_quoted;
-            at += strcspn(at, is_quoted ? "\"" : " \t\r\v\f#");
-            if (*at == '#') /* the comment goes */
-                at[1] = '\0';
-            if (*at)
-                *at++ = '\0';
+            in->word[in->count++] = word;
         }
     }
     return in->count > 0;

@@ -22,16 +22,15 @@ enum { CAMERA, ENVIRONMENT, MATERIAL, SPHERE, RECTANGLE, MESH, STATEMENTS };
 static const char *const statements[] = {"camera", "environment", "material", "sphere", "rectangle", "mesh", NULL};
 
 static const char preface[] =
-    "A scene is text. A line is written as a command with options, whose values have no blanks or are\n"
-    "\"between quotes\"; # begins a comment. Materials are defined before they are used. Colours are\n"
-    "linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
-    "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
-    "back is black. An image is FILE.pfm, or one of these, with :WIDTH,HEIGHT behind it or of 512,512 pixels:\n"
-    "tiles, checks; grid, lines; studio, soft boxes in a grey room, an environment. It stands upright on\n"
-    "rectangles, along edge-u and edge-v; goes around spheres from +z by way of +x, its top at +y; lies on\n"
-    "meshes as vt say. An environment has the zenith in its top row, -z in its middle column, +x at its right.\n"
-    "A distribution is ggx, beckmann, FILE.vndf, or built here as by `vndf build`: family=NAME:PARAMETERS,\n"
-    "slope=EXPR, ndf=EXPR. From the front of a rectangle edge-v is left of edge-u.\n"
+    "A scene is text. A line is written as a command with options, whose values have no blanks; # begins a\n"
+    "comment. Materials are defined before they are used. Colours are linear, +y is the zenith, paths are\n"
+    "relative to the file. Places and sizes are up to 1e6. A camera and some light are needed. Shapes of\n"
+    "dielectrics are to be closed; of others, lights too, the back is black. A distribution is ggx, beckmann,\n"
+    "FILE.vndf, or slope=EXPR, which is built here as by `vndf build --slope`. An image is FILE.pfm, or one of\n"
+    "these, with :WIDTH,HEIGHT behind it or of 512,512 pixels: tiles, checks; grid, lines; studio, soft boxes in\n"
+    "a grey room, an environment. An environment has the zenith in its top row, -z in its middle column, +x at\n"
+    "its right; an image stands upright on rectangles, along edge-u and edge-v, and goes around spheres from +z\n"
+    "by way of +x, its top at +y. From the front of a rectangle edge-v is left of edge-u.\n"
     "\n"
     "camera --from 0,1,5 --to 0,0.5,0 --field 35\n"
     "environment --constant 1,1,1\n"
@@ -260,21 +259,14 @@ static int read_environment(reader *r)
 
 /* ---- materials ---- */
 
-/* From the text of --distribution, which is no closed form. */
+/* From the text of --distribution, which is no closed form: a formula or a file. */
 static vndf_distribution *make_table(reader *r, const char *text)
 {
-    static const char *const forms[] = {"family=", "slope=", "ndf="};
     chosen_distribution chosen;
     vndf_error error = {VNDF_OK, ""};
-    size_t form = 0;
-    while (form < 3 && strncmp(text, forms[form], strlen(forms[form])) != 0)
-        form++;
-    if (form == 3)
+    if (strncmp(text, "slope=", 6) != 0)
         return distribution_open(&chosen, r->in.place, path_of(r, text), 0) ? chosen.owned : NULL;
-    text += strlen(forms[form]);
-    vndf_source *source = form == 0   ? vndf_source_family(text, &error)
-                          : form == 1 ? vndf_source_slope_expression(text, NULL, 0, &error)
-                                      : vndf_source_ndf_expression(text, NULL, 0, &error);
+    vndf_source *source = vndf_source_slope_expression(text + 6, NULL, 0, &error);
     vndf_distribution *built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
     vndf_source_free(source);
     return built ? built : (complain(r->in.place, "%s", error.message), NULL);
