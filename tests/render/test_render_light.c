@@ -10,44 +10,36 @@
 #include "harness/test.h"
 #include "render/film.h"
 
-/* A scene from text, which has to be good. */
-static scene *case_scene(const char *text)
+/* The mean light of a picture with its standard deviation, and the variance of one sample. */
+typedef struct light {
+    double value, sigma, variance;
+} light;
+
+/* That of a scene, or of one point of it, seen through a field so narrow that all pixels see it. It has to be the light
+ * that is wanted to 4.5 sigma, 7e-6 by chance, and 1e-3. */
+static light look(const char *text, int is_point, path_sampler sampler, uint64_t samples, light want)
 {
     const size_t length = strlen(text);
-    scene *s = scene_read("x.scene", strcpy(malloc(length + 1), text), length, 0);
-    return s ? s : (exit(1), NULL);
-}
-
-typedef struct case_mean {
-    double value, sigma, variance; /* variance: of one sample */
-} case_mean;
-
-/* The mean light of a text's picture; of a point: through a field so narrow that all pixels see it. */
-static case_mean case_light(const char *text, int is_point, path_sampler sampler, uint64_t samples)
-{
-    scene *s = case_scene(text);
-    s->field = is_point ? 1e-6 : s->field;
-    s->width = s->height = 16;
+    scene *s = scene_read("x.scene", strcpy(malloc(length + 1), text), length, 16);
     comparison c = {.count = 1, .samples = samples, .threads = 2, .seed = 1, .way = {{.sampler = sampler}}};
-    TEST(comparison_begin(&c, s) && comparison_run(&c));
     const film *f = &c.way[0].film;
     double sum = 0, square = 0, count = 256 * (double)samples;
+    if (!TEST(s != NULL))
+        return want;
+    s->field = is_point ? 1e-6 : s->field;
+    s->height = 16;
+    TEST(comparison_begin(&c, s) && comparison_run(&c) && f->counts.lost == 0);
     for (size_t i = 0; i < 256; i++) {
         sum += film_light(f, i) * (double)samples;
         square += f->square[i];
     }
-    TEST(f->counts.lost == 0);
     comparison_end(&c);
     scene_free(s);
     const double variance = fmax(square / count - sum * sum / (count * count), 0);
-    return (case_mean){sum / count, sqrt(variance / count), variance};
-}
-
-/* 4.5 sigma: 7e-6 by chance. */
-static int case_agrees(const char *text, case_mean mean, double want, double slack)
-{
-    const int good = TEST_NEAR(mean.value, want, 4.5 * mean.sigma + slack * want);
-    return good || (fprintf(stderr, "    %s", text), 0);
+    const light is = {sum / count, sqrt(variance / count), variance};
+    if (!TEST_NEAR(is.value, want.value, 4.5 * hypot(is.sigma, want.sigma) + 1e-3 * want.value))
+        fprintf(stderr, "    %s", text);
+    return is;
 }
 
 /* ---- the furnace ---- */
@@ -77,7 +69,7 @@ static void test_furnace(const char *lit)
                  "camera --from 0,0,5 --to 0,0,0 --field 24 --depth 10000\n%smaterial m %s\n"
                  "sphere --centre 0,0,0 --radius 1 --material m\n",
                  lit, lossless[i]);
-        case_agrees(text, case_light(text, 0, SAMPLER_VISIBLE, test_amount(32, 128, 128)), 1, 2e-4);
+        look(text, 0, SAMPLER_VISIBLE, test_amount(32, 128, 128), (light){.value = 1});
     }
 }
 
@@ -116,7 +108,7 @@ static void test_floors(void)
                  "camera --from 0,1,3 --to 0,0,0 --depth 1\nmaterial floor --matte 0.5,0.5,0.5\n" LAMP
                  "rectangle --corner -9,0,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n%s",
                  floors[i].lights);
-        case_agrees(text, case_light(text, 1, SAMPLER_VISIBLE, test_amount(64, 512, 512)), floors[i].want, 1e-4);
+        look(text, 1, SAMPLER_VISIBLE, test_amount(64, 512, 512), (light){.value = floors[i].want});
     }
 }
 
@@ -129,18 +121,18 @@ static void test_sky(void)
                                "rectangle --corner 0,-9,9 --edge-u 0,0,-18 --edge-v 0,18,0 --material wall\n"
                                "environment --image studio:24,14 --turn 40\n" LAMP
                                "sphere --centre 2,1.5,0 --radius 0.05 --material lamp\n";
-    scene *s = case_scene(text);
     double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
+    image sky;
+    TEST(image_make_pattern(&sky, IMAGE_STUDIO, WIDTH, HEIGHT));
     for (int i = 0; i < POINTS; i++) {
         const double u = (i % ACROSS + 0.5) / ACROSS, longitude = 2 * PI * (u - 0.5 - 40.0 / 360);
         const double v = ((double)(i / ACROSS) + 0.5) / (HEIGHT * FINER), across = sin(PI * v);
         float rgb[3];
-        image_bilinear(s->environment.map, u, fmin(fmax(v, low), 1 - low), rgb);
+        image_bilinear(&sky, u, fmin(fmax(v, low), 1 - low), rgb);
         want += PI * luminance(rgb) * fmax(across * sin(longitude), 0) * across / POINTS;
     }
-    TEST(s->environment.is_drawn);
-    case_agrees(text, case_light(text, 1, SAMPLER_VISIBLE, test_amount(256, 512, 512)), want, 1e-3);
-    scene_free(s);
+    look(text, 1, SAMPLER_VISIBLE, test_amount(256, 512, 512), (light){.value = want});
+    image_free(&sky);
 }
 
 /* ---- samplers ---- */
@@ -153,7 +145,7 @@ static void test_samplers(void)
                                         "--dielectric 1 --distribution ggx --alpha 0.3",
                                         "--dielectric 1.3 --distribution ggx --alpha 0.4 --scattering multiple",
                                         "--shape --distribution ggx --alpha 0.5"};
-    case_mean mean[SAMPLERS];
+    light is[SAMPLERS];
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         char text[1024];
         snprintf(text, sizeof text,
@@ -163,17 +155,14 @@ static void test_samplers(void)
                  "rectangle --corner -3,-0.5,3 --edge-u 6,0,0 --edge-v 0,0,-6 --material m\n"
                  "rectangle --corner -9,-1,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n",
                  kinds[k]);
-        for (path_sampler i = 0; i < SAMPLERS; i++) {
-            if (i == SAMPLER_ALL && strstr(text, "multiple"))
-                continue;
-            mean[i] = case_light(text, 1, i,
-                                 i == SAMPLER_PERFECT ? test_amount(16, 32, 256) : test_amount(64, 128, 256));
-            const case_mean off = {mean[i].value, hypot(mean[i].sigma, mean[0].sigma), 0};
-            case_agrees(text, off, mean[0].value, 0);
-        }
+        is[0] = (light){0, HUGE_VAL, 0};
+        for (path_sampler i = 0; i < SAMPLERS; i++)
+            if (i != SAMPLER_ALL || !strstr(text, "multiple"))
+                is[i] = look(text, 1, i,
+                             i == SAMPLER_PERFECT ? test_amount(16, 32, 256) : test_amount(64, 128, 256), is[0]);
     }
-    TEST(mean[SAMPLER_PERFECT].variance < mean[SAMPLER_VISIBLE].variance &&
-         mean[SAMPLER_VISIBLE].variance < mean[SAMPLER_ALL].variance);
+    TEST(is[SAMPLER_PERFECT].variance < is[SAMPLER_VISIBLE].variance &&
+         is[SAMPLER_VISIBLE].variance < is[SAMPLER_ALL].variance);
 }
 
 int main(void)
