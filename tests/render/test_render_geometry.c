@@ -18,37 +18,37 @@ static vec3 direction(unsigned long long *state)
 /* Small and large shapes about an origin; one at a time cannot be put in the wrong box. */
 static void test_nearest(vec3 origin, double exactness)
 {
-    enum { SHAPES = 600 };
-    static geometry alone[SHAPES];
+    enum { SHAPES = 600, RAYS = 300 };
     unsigned long long state = 3;
     geometry g = {0};
-    int good = 1;
+    hit h;
     for (int i = 0; i < SHAPES; i++) {
         const double size = exp((i % 50 ? 3 : 5) * test_uniform_double(&state) - 4);
-        shape s = {.kind = (shape_kind)(i % 3), .corner = add(origin, place(&state, 2)), .radius = size};
+        shape s = {.kind = (shape_kind)(i % 3), .corner = along(origin, 1, place(&state, 2)), .radius = size};
         if (s.kind != SHAPE_SPHERE) {
             s.radius = 0;
             s.edge_u = scale(direction(&state), size);
             s.edge_v = scale(unit(cross(s.edge_u, direction(&state))), 2 * size * test_uniform_double(&state));
         }
-        good &= geometry_add(&g, &s) && geometry_add(&alone[i], &s) && geometry_build(&alone[i]);
+        TEST(geometry_add(&g, &s));
     }
-    TEST(good && geometry_build(&g));
-    for (int i = 0; i < 300; i++) {
-        const ray r = {add(origin, place(&state, 3)), direction(&state), HUGE_VAL};
+    TEST(geometry_build(&g));
+    for (int i = 0; i < RAYS; i++) {
+        const ray r = {along(origin, 1, place(&state, 3)), direction(&state), HUGE_VAL};
+        ray before = r;
         double want = HUGE_VAL;
-        hit h;
-        for (int k = 0; k < SHAPES; k++)
-            want = geometry_hit(&alone[k], &r, &h) ? fmin(want, h.distance) : want;
-        const ray before = {r.origin, r.direction, want * (1 - 1e-9)};
+        for (int k = 0; k < SHAPES; k++) {
+            geometry alone = {.shapes = &g.shapes[k], .count = 1};
+            want = TEST(geometry_build(&alone)) && geometry_hit(&alone, &r, &h) ? fmin(want, h.distance) : want;
+            free(alone.nodes);
+        }
+        before.to = want * (1 - 1e-9);
         TEST(!geometry_blocked(&g, &before) && geometry_blocked(&g, &r) == isfinite(want));
         if (!TEST(geometry_hit(&g, &r, &h) == isfinite(want)) || !isfinite(want))
             continue;
         TEST(h.distance == want && length(subtract(h.place, along(r.origin, want, r.direction))) < exactness);
         TEST(fabs(length(h.normal) - 1) < 1e-12 && fabs(dot(h.shading.x, h.shading.z)) < 1e-9);
     }
-    for (int k = 0; k < SHAPES; k++)
-        geometry_free(&alone[k]);
     geometry_free(&g);
 }
 

@@ -1,34 +1,27 @@
-/* Light along paths from the eye, and how rough materials are sampled on the way. All pixels, rendered by threads: sums
- * of samples, whose mean is the picture; they do not depend on the number of threads, to the bit. And one scene by
- * several samplers side by side, in equal time or with equal samples: how noisy their films are, and whether they show
- * the same. */
+/* Light along paths from the eye, through all pixels, by threads: sums of samples, whose mean is the picture; they do not
+ * depend on the number of threads, to the bit. And one scene by several samplers side by side, in equal time or with
+ * equal samples: how noisy their films are, and whether they show the same. */
 #pragma once
 
 #include "render/scene.h"
 #include "vndf_build.h" /* vndf_progress */
 
-/* How rough materials draw directions: by normals of the library, or (perfect) as a yardstick by the BSDF itself.
- */
+/* How rough materials draw directions: by normals of the library, or (perfect) as a yardstick by the BSDF itself. */
 typedef enum path_sampler { SAMPLER_VISIBLE, SAMPLER_ALL, SAMPLER_PERFECT, SAMPLERS } path_sampler;
-
 extern const char *const path_sampler_names[SAMPLERS + 1]; /* NULL at the end */
 
+/* A scene, which has to outlive it, with a sampler; to be freed. NULL after a complaint: a material cannot have it. */
 typedef struct path_plan path_plan;
-
-/* Resolves the materials of a scene, which must outlive the plan, with a sampler; to be freed. NULL after a complaint:
- * one of them cannot have it. */
 path_plan *path_prepare(const scene *s, path_sampler sampler);
 
-/* Counters of one thread. */
+/* Counters of one thread; lost are paths whose light was not finite. */
 typedef struct path_counts {
-    uint64_t rays, lost; /* lost: paths whose light was not finite */
+    uint64_t rays, lost;
 } path_counts;
 
 /* The radiance of one path through pixel (x, y): path `index` of the pixel under `seed`, whichever thread asks. */
 void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
                 float rgb[3]);
-
-/* ---- films ---- */
 
 typedef struct film {
     int width, height;
@@ -45,11 +38,11 @@ static inline size_t film_pixels(const film *f)
     return (size_t)f->width * (size_t)f->height;
 }
 
-/* The number of threads that the machine runs at once, 1 to 256. */
-unsigned film_processors(void);
-
 /* The luminance of a pixel. */
 double film_light(const film *f, size_t pixel);
+
+/* The number of threads that the machine runs at once, 1 to 256. */
+unsigned film_processors(void);
 
 /* ---- samplers side by side ---- */
 
