@@ -73,7 +73,7 @@ static void test_refusals(void)
         {BYTES(OF("none.vndf")), "none.vndf"},
         {BYTES("sphere --centre 0,0,0 --radius 1 --material m\n"), "scene:1: --material 'm' is no material"},
         {BYTES(MATTE "rectangle --corner 0,0,0 --edge-u 1,0,0 --edge-v -2,0,0 --material m\n"), "have no area"},
-        {BYTES("material m --light 1,1,1\nmesh --file a --material m\n"), "a light is a sphere or a rectangle"},
+        {BYTES("material m --light 1,1,1\nmesh --file a --material m\n"), "for spheres and rectangles"},
         {BYTES("P4\n1 1\n255\n"), "image: this is no PFM, PGM or PPM image"},
         {BYTES("PF\n1 1\n"), "image: the head is not whole: after PF come width, height, a scale"},
         {BYTES("P6\n1 1\n65536\n123"), "image: 65536 must be the largest value, from 1 to 65535"},

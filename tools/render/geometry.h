@@ -13,7 +13,7 @@ typedef struct ray {
 typedef enum shape_kind { SHAPE_SPHERE, SHAPE_RECTANGLE, SHAPE_TRIANGLE } shape_kind;
 
 /* A sphere has a radius about `corner`: u is the longitude over 2 pi, from +z by way of +x; v the angle from +y
- * over pi. A rectangle is corner + u edge_u + (1 - v) edge_v, its edges at right angles: an image stands upright
+ * over pi. A rectangle is corner + u edge_u + (1 - v) edge_v, or another parallelogram: an image stands upright
  * where edge_v goes up. A triangle has the corners corner, corner + edge_u, corner + edge_v, which go
  * counter-clockwise seen from outside, and there the normals of a mesh (all 0: its own).
  * Normals point outwards: edge_u x edge_v. */

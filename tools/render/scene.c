@@ -359,9 +359,10 @@ static int add_mesh(reader *r, int of)
 {
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
+    const material *m = &r->made->materials[of];
     size_t size;
-    if (r->made->materials[of].kind == MATERIAL_LIGHT)
-        return wrong(&r->in, "a light is a sphere or a rectangle, not a mesh");
+    if (m->kind == MATERIAL_LIGHT || m->colour_map || m->alpha_map)
+        return wrong(&r->in, "'%s' is a light or has an image, and those are for spheres and rectangles", m->name);
     char *text = input_read(r->in.place, path_of(r, option_value(&r->given, "--file")), OBJ_BYTES_MAX, &size);
     const int good = text && obj_read_text(g, r->path, text, size, of);
     free(text);
