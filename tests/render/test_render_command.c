@@ -1,11 +1,12 @@
-/* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2 before
- * it writes anything: words, lines of a scene, images and meshes, with the file and the place. A picture is the same to
- * the bit for any number of threads; another seed gives another; a map of 1/2 halves roughness. Images of either byte
- * order, of one channel, with CR LF are read. Images lie upright on rectangles, around spheres with the top at +y;
- * meshes are scaled, turned and moved. Notices options that are not read, sums in the order of arrival,
- * a picture that is half written, text mixed into JSON, a comparison that alarms about one sample a pixel; rows from the
- * wrong end, a byte order that is not swapped, sizes that are believed; indices off by one or taken from the wrong end,
- * polygons cut wrongly, u and v exchanged or flipped, normals that do not win over the order of corners. */
+/* The command renders to PNG and PFM, prints figures for people and as JSON, refuses what is wrong with status 2
+ * before it writes anything: words, lines of a scene, images and meshes, with the file and the place. A picture is
+ * the same to the bit for any number of threads; another seed gives another; a map of 1/2 halves roughness. Images
+ * of either byte order, of one channel, with CR LF are read. Images lie upright on rectangles, around spheres with
+ * the top at +y; meshes are scaled, turned and moved. Notices options that are not read, sums in the order of
+ * arrival, a picture that is half written, text mixed into JSON, a comparison that alarms about one sample a pixel;
+ * rows from the wrong end, a byte order that is not swapped, sizes that are believed; indices off by one or taken
+ * from the wrong end, polygons cut wrongly, u and v exchanged or flipped, normals that do not win over the order of
+ * corners. */
 #include "harness/run_program.h"
 
 #include "cli/files.h"

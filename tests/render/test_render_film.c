@@ -1,8 +1,8 @@
-/* A comparison calls pictures the same that differ by chance, and different where a difference is planted: light that is
- * 1% more, a corner that is 5% darker. Of too few samples it says that it does not know. Its figures are right for ways
- * whose ratio is known: twice the samples halve the squared noise. Ways have random numbers of their own, the same in
- * whatever passes; a slow one gets fewer samples in the same time. Notices a variance that is off by a factor, blocks
- * that are left out, alarms about nothing, and random numbers that depend on the pass. */
+/* A comparison calls pictures the same that differ by chance, and different where a difference is planted: light
+ * that is 1% more, a corner that is 5% darker. Of too few samples it says that it does not know. Its figures are
+ * right for ways whose ratio is known: twice the samples halve the squared noise. Ways have random numbers of their
+ * own, the same in whatever passes; a slow one gets fewer samples in the same time. Notices a variance that is off
+ * by a factor, blocks that are left out, alarms about nothing, and random numbers that depend on the pass. */
 #include "harness/test.h"
 #include "render/film.h"
 

@@ -1,6 +1,6 @@
-/* The nearest shape along a ray is that of all shapes one by one; a ray from a hit does not meet the same place again,
- * and no ray leaves a closed mesh between its triangles. Notices boxes that are too small, a walk that ends too early
- * or takes the farther child for the nearer, edges with gaps, and rays that start on the wrong side. */
+/* The nearest shape along a ray is that of all shapes one by one; a ray from a hit does not meet the same place
+ * again, and no ray leaves a closed mesh between its triangles. Notices boxes that are too small, a walk that ends
+ * too early or takes the farther child for the nearer, edges with gaps, and rays that start on the wrong side. */
 #include "harness/test.h"
 #include "render/geometry.h"
 

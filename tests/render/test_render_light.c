@@ -15,8 +15,8 @@ typedef struct light {
     double value, sigma, variance;
 } light;
 
-/* That of a scene, or of one point of it, seen through a field so narrow that all pixels see it. It has to be the light
- * that is wanted to 4.5 sigma, 7e-6 by chance, and 1e-3. */
+/* That of a scene, or of one point of it, seen through a field so narrow that all pixels see it. It has to be the
+ * light that is wanted to 4.5 sigma, 7e-6 by chance, and 1e-3. */
 static light look(const char *text, int is_point, path_sampler sampler, uint64_t samples, light want)
 {
     const size_t length = strlen(text);

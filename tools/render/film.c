@@ -1,5 +1,6 @@
-/* Films, whose rows threads take, and what the noise in them says. The random numbers of a sample depend on its pixel and
- * index alone, and samples are summed in order, so the sums are the same to the bit for any number of threads. */
+/* Films, whose rows threads take, and what the noise in them says. The random numbers of a sample depend on its
+ * pixel and index alone, and samples are summed in order, so the sums are the same to the bit for any number of
+ * threads. */
 #define _POSIX_C_SOURCE 200809L
 #include "render/film.h"
 

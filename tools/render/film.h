@@ -1,6 +1,6 @@
-/* Light along paths from the eye, through all pixels, by threads: sums of samples, whose mean is the picture; they do not
- * depend on the number of threads, to the bit. And one scene by several samplers side by side, in equal time or with
- * equal samples: how noisy their films are, and whether they show the same. */
+/* Light along paths from the eye, through all pixels, by threads: sums of samples, whose mean is the picture; they
+ * do not depend on the number of threads, to the bit. And one scene by several samplers side by side, in equal time
+ * or with equal samples: how noisy their films are, and whether they show the same. */
 #pragma once
 
 #include "render/scene.h"

@@ -1,8 +1,8 @@
-/* Rays against shapes, and the hierarchy of boxes about them. A sphere is met by the part of its centre across the ray
- * (small and distant spheres do not cancel), a parallelogram or half of one by Moeller & Trumbore ("Fast, Minimum Storage
- * Ray/Triangle Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes between neighbours. The
- * place that was met is computed from the shape, so that it lies on it. All of it is in double from coordinates below
- * 1e7: places are exact to some 1e-15 of the coordinates. */
+/* Rays against shapes, and the hierarchy of boxes about them. A sphere is met by the part of its centre across the
+ * ray (small and distant spheres do not cancel), a parallelogram or half of one by Moeller & Trumbore ("Fast,
+ * Minimum Storage Ray/Triangle Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes
+ * between neighbours. The place that was met is computed from the shape, so that it lies on it. All of it is in
+ * double from coordinates below 1e7: places are exact to some 1e-15 of the coordinates. */
 #include "render/geometry.h"
 
 #include <float.h>

@@ -29,12 +29,12 @@ struct path_plan {
 
 /* ---- light that is drawn ----
  *
- * Half of all draws, or all where no light shines, are of the image of the environment, the others of lights, which are
- * as likely as one another. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in the cone
- * that it fills, in the image a pixel by its light and then a direction in it evenly by solid angle.
+ * Half of all draws, or all where no light shines, are of the image of the environment, the others of lights, which
+ * are as likely as one another. On a rectangle a point is drawn evenly by area, for a sphere a direction evenly in
+ * the cone that it fills, in the image a pixel by its light and then a direction in it evenly by solid angle.
  *
- * Pixels count by the light of 3 x 3 of them, so that the density is positive wherever the image, which is interpolated
- * between pixels, is. An image that is nearly even is not drawn: every direction finds its light. */
+ * Pixels count by the light of 3 x 3 of them, so that the density is positive wherever the image, which is
+ * interpolated between pixels, is. An image that is nearly even is not drawn: every direction finds its light. */
 
 typedef struct light_sample {
     vec3 direction; /* towards the light, unit */

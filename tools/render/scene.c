@@ -46,8 +46,8 @@ typedef struct content {
     vec3 move;
 } content;
 
-/* What an option takes: so many numbers, the second of two may be left out; an image, so many of whose channels are in
- * the range; of count 0 something else. */
+/* What an option takes: so many numbers, the second of two may be left out; an image, so many of whose channels are
+ * in the range; of count 0 something else. */
 typedef enum option_kind { DOUBLES, FLOATS, WHOLE, IMAGE } option_kind;
 
 static const struct scene_option {

@@ -47,9 +47,9 @@ typedef struct scene {
     char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads `length` bytes of a scene file with a 0 behind them, which it takes over and frees; paths in it are relative to
- * the folder of `path`. `width`, unless it is 0, takes the place of the pixels across, and the height follows. NULL after
- * a complaint. Files that are not trusted are safe. */
+/* Reads `length` bytes of a scene file with a 0 behind them, which it takes over and frees; paths in it are relative
+ * to the folder of `path`. `width`, unless it is 0, takes the place of the pixels across, and the height follows.
+ * NULL after a complaint. Files that are not trusted are safe. */
 enum { SCENE_BYTES_MAX = 1 << 22 };
 scene *scene_read(const char *path, char *text, size_t length, int width);
 void scene_free(scene *s);
