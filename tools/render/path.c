@@ -97,25 +97,23 @@ static int sum_up(environment *e)
         e->sums[i] = sum += here * part;
         square += here * here * part;
     }
-    e->is_drawn = sum > 0 && square >= even * sum * sum;
+    e->drawn = sum > 0 && square >= even * sum * sum;
     return e->sums != NULL;
 }
 
 /* The density per steradian of directions in a pixel. */
-static double pixel_density(const scene *s, size_t i)
+static double pixel_density(const environment *e, size_t i)
 {
-    const environment *e = &s->environment;
     const size_t last = (size_t)e->map->width * (size_t)e->map->height - 1;
     const double chance = (e->sums[i] - (i ? e->sums[i - 1] : 0)) / e->sums[last];
     double fall;
     row_top(e->map, i, &fall);
-    return (s->light_count ? 0.5 : 1) * chance * e->map->width / (2 * PI * fall);
+    return e->drawn * chance * e->map->width / (2 * PI * fall);
 }
 
 /* The pixel of the first sum above u, which gives the place across it, too. */
-static void draw_environment(const scene *s, double u, double v, light_sample *sample)
+static void draw_environment(const environment *e, double u, double v, light_sample *sample)
 {
-    const environment *e = &s->environment;
     size_t low = 0, high = (size_t)e->map->width * (size_t)e->map->height - 1;
     const double aim = u * e->sums[high];
     while (low < high) {
@@ -132,7 +130,7 @@ static void draw_environment(const scene *s, double u, double v, light_sample *s
     const double sine = sqrt(fmax(1 - height * height, 0));
     sample->direction = vec(sine * sin(longitude), height, -sine * cos(longitude));
     sample->distance = HUGE_VAL;
-    sample->density = pixel_density(s, low);
+    sample->density = pixel_density(e, low);
     environment_radiance(e, sample->direction, sample->radiance);
 }
 
@@ -188,19 +186,22 @@ int lights_make(scene *s)
             return 0;
         s->lights[s->light_count++] = is;
     }
-    return !s->environment.map || sum_up(&s->environment);
+    if (s->environment.map && !sum_up(&s->environment))
+        return 0;
+    s->environment.drawn *= s->light_count ? 0.5 : 1;
+    return 1;
 }
 
 static int lights_any(const scene *s)
 {
-    return s->light_count > 0 || s->environment.is_drawn;
+    return s->light_count > 0 || s->environment.drawn > 0;
 }
 
 static int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample)
 {
-    const double from = !s->environment.is_drawn ? 0 : s->light_count ? 0.5 : 1;
+    const double from = s->environment.drawn;
     if (u[0] < from)
-        draw_environment(s, u[1], u[2], sample);
+        draw_environment(&s->environment, u[1], u[2], sample);
     else {
         const double per = (1 - from) / (double)s->light_count;
         const shape *is = s->lights[(size_t)fmin((u[0] - from) / per, (double)s->light_count - 1)];
@@ -217,14 +218,13 @@ static double lights_density(const scene *s, vec3 place, vec3 direction, const h
     const environment *e = &s->environment;
     double u, v;
     if (h)
-        return shape_density(h->shape, place, direction, h->place) * (e->is_drawn ? 0.5 : 1) /
-               (double)s->light_count;
-    if (!e->is_drawn)
+        return shape_density(h->shape, place, direction, h->place) * (1 - e->drawn) / (double)s->light_count;
+    if (!(e->drawn > 0))
         return 0;
     place_in_image(e, direction, &u, &v);
     const int x = (int)fmin(u * e->map->width, e->map->width - 1);
     const int y = (int)fmin(v * e->map->height, e->map->height - 1);
-    return pixel_density(s, (size_t)y * (size_t)e->map->width + (size_t)x);
+    return pixel_density(e, (size_t)y * (size_t)e->map->width + (size_t)x);
 }
 
 /* ---- a material at a hit ---- */

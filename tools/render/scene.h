@@ -28,7 +28,7 @@ typedef struct environment {
     const image *map;   /* NULL: the constant */
     double scale, turn; /* turn: a part of a full turn */
     double *sums;       /* owned */
-    int is_drawn;       /* not if every direction finds its light */
+    double drawn;       /* the part of all draws that is of the image: 0 if every direction finds its light */
 } environment;
 
 typedef struct scene {
