@@ -46,7 +46,7 @@ typedef struct light_sample {
 /* u and v in [0, 1]. */
 static void place_in_image(const environment *e, vec3 w, double *u, double *v)
 {
-    const double turns = 0.5 + atan2(w.x, -w.z) / (2 * PI) + e->turn;
+    const double turns = 0.5 + atan2(w.x, -w.z) / (2 * PI) + e->turn / 360;
     *u = turns - floor(turns);
     *v = atan2(hypot(w.x, w.z), w.y) / PI;
 }
@@ -126,7 +126,7 @@ static void draw_environment(const environment *e, double u, double v, light_sam
     const double before = low ? e->sums[low - 1] : 0, across = (aim - before) / (e->sums[low] - before);
     double fall, top = row_top(e->map, low, &fall), height = top - v * fall;
     const double longitude =
-        2 * PI * (((double)(low % (size_t)e->map->width) + across) / e->map->width - 0.5 - e->turn);
+        2 * PI * (((double)(low % (size_t)e->map->width) + across) / e->map->width - 0.5 - e->turn / 360);
     const double sine = sqrt(fmax(1 - height * height, 0));
     sample->direction = vec(sine * sin(longitude), height, -sine * cos(longitude));
     sample->distance = HUGE_VAL;
@@ -468,7 +468,7 @@ path_plan *path_prepare(const scene *s, path_sampler sampler)
         return free(plan), NULL;
     }
     const vec3 forward = unit(subtract(s->to, s->from)), right = unit(cross(forward, s->up));
-    const double step = 2 * tan(0.5 * s->field) / s->height;
+    const double step = 2 * tan(0.5 * (s->field * (PI / 180))) / s->height;
     plan->scene = s;
     plan->sampler = sampler;
     plan->right = scale(right, step);

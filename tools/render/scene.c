@@ -41,7 +41,6 @@ static const char preface[] =
 typedef struct content {
     material material;
     shape shape;
-    float alpha[2];
     double size, turn;
     vec3 move;
 } content;
@@ -83,7 +82,7 @@ static const struct scene_option {
     {MATERIAL, 0, "  --matte R,G,B", "Lambert's", FLOATS, 3, 0, 1, LINE(material.colour)},
     {MATERIAL, 0, "  --light R,G,B", "of a sphere or rectangle", FLOATS, 3, 0, BRIGHTEST, LINE(material.colour)},
     {MATERIAL, 0, "  --distribution D", "of the first four", DOUBLES, 0, 0, 0, 0},
-    {MATERIAL, 0, "    --alpha A[,AY]", "stretches slopes (1)", FLOATS, 2, 1e-6, 1e3, LINE(alpha)},
+    {MATERIAL, 0, "    --alpha A[,AY]", "stretches its slopes (1)", DOUBLES, 0, 0, 0, 0},
     {MATERIAL, 0, "    --alpha-map IMAGE", "alpha times its red", IMAGE, 1, 1e-6, 1e3, LINE(material.alpha_map)},
     {MATERIAL, 0, "    --scattering single|multiple", "(single)", DOUBLES, 0, 0, 0, 0},
     {MATERIAL, 0, "    --colour R,G,B", "multiplies (1,1,1)", FLOATS, 3, 0, 1, LINE(material.colour)},
@@ -160,14 +159,13 @@ static const char *path_of(reader *r, const char *file)
 static int make_image(reader *r, const char *option, const char *text, image *made)
 {
     static const char *const patterns[] = {"tiles", "grid", "studio", NULL};
+    const char *sides = strchr(text, ':');
     vndf_error error = {VNDF_OK, ""};
     double side[2] = {512, 512};
-    size_t size, length = strcspn(text, ":"), of = 0;
-    while (patterns[of] && (strlen(patterns[of]) != length || memcmp(patterns[of], text, length) != 0))
-        of++;
+    char name[8] = "";
+    size_t size, of = sscanf(text, "%7[^:]", name) == 1 ? find(patterns, name) : 3;
     if (patterns[of])
-        return (!text[length] ||
-                parse_numbers(r->in.place, option, text + length + 1, 1, IMAGE_SIDE_MAX, 2, 2, side)) &&
+        return (!sides || parse_numbers(r->in.place, option, sides + 1, 1, IMAGE_SIDE_MAX, 2, 2, side)) &&
                (image_make_pattern(made, (image_pattern)of, (int)side[0], (int)side[1]) ||
                 wrong(&r->in, "there is no memory for %.0f x %.0f pixels", side[0], side[1]));
     char *bytes = input_read(r->in.place, path_of(r, text), IMAGE_BYTES_MAX, &size);
@@ -207,20 +205,16 @@ static int put_option(reader *r, const struct scene_option *o, const char *name,
     double x[3];
     if (o->kind == IMAGE)
         return find_image(r, o, name, text, at);
-    const size_t least = o->count == 2 ? 1 : o->count;
-    const size_t count = parse_numbers(r->in.place, name, text, o->low, o->high, least, o->count, x);
-    if (count && o->kind == WHOLE && x[0] != floor(x[0]))
-        return wrong(&r->in, "%s '%s' is not a whole number", name, text);
-    for (size_t i = 0; i < o->count && count; i++) {
-        const double number = x[i < count ? i : 0];
+    if (!parse_numbers(r->in.place, name, text, o->low, o->high, o->count, o->count, x))
+        return 0;
+    for (size_t i = 0; i < o->count; i++)
         if (o->kind == WHOLE)
-            ((int *)at)[i] = (int)number;
+            *(int *)at = (int)x[i];
         else if (o->kind == DOUBLES)
-            ((double *)at)[i] = number;
+            ((double *)at)[i] = x[i];
         else
-            ((float *)at)[i] = (float)number;
-    }
-    return count > 0;
+            ((float *)at)[i] = (float)x[i];
+    return o->kind != WHOLE || *x == floor(*x) || wrong(&r->in, "%s '%s' is not a whole number", name, text);
 }
 
 static int put_options(reader *r, int of)
@@ -237,29 +231,19 @@ static int put_options(reader *r, int of)
     return 1;
 }
 
-/* ---- once in a scene ---- */
-
 static int read_camera(reader *r)
 {
     scene *s = r->made;
     const vec3 forward = subtract(s->to, s->from);
-    s->field *= PI / 180;
     if (!(length(forward) >= LEAST_SIZE))
         return wrong(&r->in, "--from and --to are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
            wrong(&r->in, "--up is the direction of the view");
 }
 
-static int read_environment(reader *r)
-{
-    static const char *const ways[] = {"--constant", "--image", NULL};
-    r->made->environment.turn /= 360;
-    return option_alone(&r->given, ways) != NULL;
-}
-
 /* ---- materials ---- */
 
-/* From the text of --distribution, which is no closed form: a formula or a file. */
+/* A file, or a formula over slopes. */
 static vndf_distribution *make_table(reader *r, const char *text)
 {
     chosen_distribution chosen;
@@ -272,22 +256,20 @@ static vndf_distribution *make_table(reader *r, const char *text)
     return built ? built : (complain(r->in.place, "%s", error.message), NULL);
 }
 
-/* Materials with the same text share a table. */
-static int find_distribution(reader *r, const vndf_distribution **found)
+/* The same text is one table. NULL after a complaint. */
+static const vndf_distribution *find_distribution(reader *r, const char *text)
 {
-    const char *text = option_value(&r->given, "--distribution");
-    const int is_ggx = strcmp(text, "ggx") == 0;
     const size_t i = find(r->tables, text);
-    if (is_ggx || strcmp(text, "beckmann") == 0) {
-        *found = is_ggx ? vndf_ggx() : vndf_beckmann();
-        return option_value(&r->given, "--alpha") || wrong(&r->in, "%s needs --alpha A or --alpha AX,AY", text);
-    }
+    if (strcmp(text, "ggx") == 0)
+        return vndf_ggx();
+    if (strcmp(text, "beckmann") == 0)
+        return vndf_beckmann();
     if (i == SCENE_FILES_MAX)
-        return wrong(&r->in, "these are more than %d tables", SCENE_FILES_MAX);
+        return complain(r->in.place, "these are more than %d tables", SCENE_FILES_MAX), NULL;
     if (!r->tables[i])
         r->made->tables[i] = make_table(r, text);
     r->tables[i] = text;
-    return (*found = r->made->tables[i]) != NULL;
+    return r->made->tables[i];
 }
 
 /* Indices of refraction of the metals of --conductor for red, green and blue: measured spectra weighed by the
@@ -309,12 +291,11 @@ static int make_rough(reader *r, size_t kind, vndf_description *is)
     static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_DIELECTRIC,
                                            VNDF_FRESNEL_NONE};
     const int metal = option_choice(&r->given, "--conductor", 0);
-    const vndf_distribution *distribution;
     vndf_material resolved;
     vndf_error error = {VNDF_OK, ""};
-    if (!find_distribution(r, &distribution))
+    if (!roughness_from(r->in.place, option_value(&r->given, "--alpha"), &is->surface) ||
+        !(is->surface.distribution = find_distribution(r, option_value(&r->given, "--distribution"))))
         return 0;
-    is->surface = vndf_rough(distribution, r->line.alpha[0], r->line.alpha[1]);
     if (kind == METAL) {
         memcpy(is->conductor_eta, metals[metal][0], sizeof is->conductor_eta);
         memcpy(is->conductor_k, metals[metal][1], sizeof is->conductor_k);
@@ -393,6 +374,7 @@ static int read_shape(reader *r, int statement)
 
 static int read_statement(reader *r)
 {
+    static const char *const lights[] = {"--constant", "--image", NULL};
     const char *word = r->in.word[0];
     const int of = (int)find(statements, word);
     if (of == STATEMENTS)
@@ -401,13 +383,13 @@ static int read_statement(reader *r)
     if (of <= ENVIRONMENT && r->seen >> of & 1u)
         return wrong(&r->in, "'%s' stands in this scene twice", word);
     r->seen |= 1u << of;
-    r->line = (content){.material.colour = {1.0f, 1.0f, 1.0f}, .alpha = {1.0f, 1.0f}, .size = 1};
+    r->line = (content){.material.colour = {1.0f, 1.0f, 1.0f}, .size = 1};
     if (!arguments_read(&r->given, r->in.place, describe(of), (int)r->in.count - 1, r->in.word + 1))
         return 0;
     if (r->given.positional.count && of != MATERIAL)
         return wrong(&r->in, "'%s' is not expected", r->given.positional.item[0]);
     return put_options(r, of) && (of == CAMERA        ? read_camera(r)
-                                  : of == ENVIRONMENT ? read_environment(r)
+                                  : of == ENVIRONMENT ? option_alone(&r->given, lights) != NULL
                                   : of == MATERIAL    ? read_material(r)
                                                       : read_shape(r, of));
 }

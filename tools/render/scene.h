@@ -26,14 +26,14 @@ typedef struct material {
 typedef struct environment {
     float constant[3];
     const image *map;   /* NULL: the constant */
-    double scale, turn; /* turn: a part of a full turn */
+    double scale, turn; /* turn: degrees */
     double *sums;       /* owned */
     double drawn;       /* the part of all draws that is of the image: 0 if every direction finds its light */
 } environment;
 
 typedef struct scene {
     vec3 from, to, up;      /* of the camera */
-    double field, exposure; /* of view, radians, across the height of the film; of the PNG */
+    double field, exposure; /* of view, degrees, across the height of the film; of the PNG */
     int width, height;
     int depth, samples; /* the most surfaces on a path; a pixel */
     environment environment;
