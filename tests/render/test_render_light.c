@@ -1,12 +1,11 @@
-/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose
- * none of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and
- * rectangles on a matte floor is that of closed forms, and what stands before a light bars it. A wall shows the
- * integral over a sky. All samplers show the same of metals
- * and glass, also through refraction and walks; perfect sampling has no more variance than visible normals, which
- * have less than all normals at a grazing angle. Notices light that paths lose or gain: by rays that meet their
- * own surface, by weights of drawn light; rows and pixels of a sky that are off by one, choices that
- * forget a light; wrong densities, areas and cosines, lights that shine backwards, shadow rays that end
- * too early or too late, candidates that are not kept in proportion to their weight. */
+/* Light comes out right. In a white furnace nothing is seen: light of 1 from everywhere onto surfaces that lose none
+ * of it makes every pixel 1, under a dome and in a room whose walls are lights. Light of spheres and rectangles on a
+ * matte floor is that of closed forms, and what stands before a light bars it. A wall shows the integral over a sky.
+ * All samplers show the same of metals and glass, also through refraction and walks; perfect sampling has no more
+ * variance than visible normals, which have less than all normals at a grazing angle. Notices light that paths lose
+ * or gain: by rays that meet their own surface, by weights of drawn light; rows and pixels of a sky that are off by
+ * one, choices that forget a light; wrong densities, areas and cosines, lights that shine backwards, shadow rays
+ * that end too early or too late, candidates that are not kept in proportion to their weight. */
 #include "harness/test.h"
 #include "render/film.h"
 
@@ -42,8 +41,9 @@ static light look(const char *text, int is_point, path_sampler sampler, uint64_t
     return is;
 }
 
-/* ---- the furnace ---- */
+/* ---- light that is known ---- */
 
+/* In a furnace. */
 #define DOME "environment --constant 1,1,1\n"
 /* Six rectangles that shine inwards: their light is drawn. */
 #define ROOM                                                                      \
@@ -54,30 +54,23 @@ static light look(const char *text, int is_point, path_sampler sampler, uint64_t
   "rectangle --corner 6,-6,-6 --edge-u 0,0,12 --edge-v 0,12,0 --material wall\n"  \
   "rectangle --corner -6,-6,-6 --edge-u 12,0,0 --edge-v 0,12,0 --material wall\n" \
   "rectangle --corner -6,-6,6 --edge-u 0,12,0 --edge-v 12,0,0 --material wall\n"
+#define BALL(kind)                                                                 \
+  "camera --from 0,0,5 --to 0,0,0 --field 24 --depth 10000\nmaterial m " kind "\n" \
+  "sphere --centre 0,0,0 --radius 1 --material m\n"
 
-static void test_furnace(const char *lit)
-{
-    static const char *const lossless[] = {
-        "--matte 1,1,1",
-        "--shape --distribution ggx --alpha 0.8 --scattering multiple",
-        "--shape --distribution beckmann --alpha 0.2,0.9 --scattering multiple",
-        "--dielectric 1.5 --distribution ggx --alpha 0.4 --scattering multiple",
-    };
-    for (size_t i = 0; i < 4; i++) {
-        char text[2048];
-        snprintf(text, sizeof text,
-                 "camera --from 0,0,5 --to 0,0,0 --field 24 --depth 10000\n%smaterial m %s\n"
-                 "sphere --centre 0,0,0 --radius 1 --material m\n",
-                 lit, lossless[i]);
-        look(text, 0, SAMPLER_VISIBLE, test_amount(32, 128, 128), (light){.value = 1});
-    }
-}
-
-/* ---- closed forms ---- */
-
+/* On a floor. */
 #define LAMP "material lamp --light 8,8,8\n"
+#define FLOOR                                                                           \
+  "camera --from 0,1,3 --to 0,0,0 --depth 1\nmaterial floor --matte 0.5,0.5,0.5\n" LAMP \
+  "rectangle --corner -9,0,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n"
 #define PANEL "rectangle --corner -1,2,-0.5 --edge-u 2,0,0 --edge-v 0,0,1 --material lamp\n"
 #define ASIDE "sphere --centre 4,3,0 --radius 0.25 --material lamp\n"
+
+/* A wall that faces +x, lit by an image that is turned, and by a lamp too small to hide much of it. */
+#define SKY                                                                            \
+  "camera --from 3,0,0 --to 0,0,0 --depth 1\nmaterial wall --matte 0.5,0.5,0.5\n" LAMP \
+  "rectangle --corner 0,-9,9 --edge-u 0,0,-18 --edge-v 0,18,0 --material wall\n"       \
+  "environment --image studio:24,14 --turn 40\nsphere --centre 2,1.5,0 --radius 0.05 --material lamp\n"
 
 /* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel & Howell). */
 static double corner_factor(double a, double b)
@@ -86,42 +79,11 @@ static double corner_factor(double a, double b)
     return (a / x * atan(b / x) + b / y * atan(a / y)) / (2 * PI);
 }
 
-static void test_floors(void)
-{
-    const double above = 0.5 * 8 * 0.25 * 0.25 / (2 * 2), aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0);
-    const double panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
-    const struct {
-        const char *lights;
-        double want;
-    } floors[] = {
-        {"sphere --centre 0,2,0 --radius 0.25 --material lamp\n", above},
-        /* the panel hides one of three */
-        {"sphere --centre 0,2.2,0 --radius 0.1 --material lamp\n" ASIDE PANEL, panel + aside},
-        {PANEL "rectangle --corner -1,1.999999,-0.5 --edge-u 1,0,0 --edge-v 0,0,1 --material floor\n", panel / 2},
-        /* shines up */
-        {"rectangle --corner -1,2,0.5 --edge-u 2,0,0 --edge-v 0,0,-1 --material lamp\n" ASIDE, aside},
-        {"sphere --centre 0,0,0 --radius 40 --material lamp\n", 0}, /* all is inside, where it does not shine */
-    };
-    for (size_t i = 0; i < sizeof floors / sizeof *floors; i++) {
-        char text[2048];
-        snprintf(text, sizeof text,
-                 "camera --from 0,1,3 --to 0,0,0 --depth 1\nmaterial floor --matte 0.5,0.5,0.5\n" LAMP
-                 "rectangle --corner -9,0,9 --edge-u 18,0,0 --edge-v 0,0,-18 --material floor\n%s",
-                 floors[i].lights);
-        look(text, 1, SAMPLER_VISIBLE, test_amount(64, 512, 512), (light){.value = floors[i].want});
-    }
-}
-
-/* A wall that faces +x, lit by an image that is turned, and by a lamp too small to hide much of it: the integral
- * over the image by its own pixels and angles, not across the poles, and the closed form of a sphere. */
-static void test_sky(void)
+/* The integral over the image by its own pixels and angles, not across the poles. */
+static double sky_light(void)
 {
     enum { WIDTH = 24, HEIGHT = 14, FINER = 8, ACROSS = WIDTH * FINER, POINTS = ACROSS * HEIGHT * FINER };
-    static const char text[] = "camera --from 3,0,0 --to 0,0,0 --depth 1\nmaterial wall --matte 0.5,0.5,0.5\n"
-                               "rectangle --corner 0,-9,9 --edge-u 0,0,-18 --edge-v 0,18,0 --material wall\n"
-                               "environment --image studio:24,14 --turn 40\n" LAMP
-                               "sphere --centre 2,1.5,0 --radius 0.05 --material lamp\n";
-    double want = 0.5 * 8 * 0.0025 / 6.25 * 0.8, low = 0.5 / HEIGHT;
+    double sum = 0, low = 0.5 / HEIGHT;
     image sky;
     TEST(image_make_pattern(&sky, IMAGE_STUDIO, WIDTH, HEIGHT));
     for (int i = 0; i < POINTS; i++) {
@@ -129,10 +91,40 @@ static void test_sky(void)
         const double v = ((double)(i / ACROSS) + 0.5) / (HEIGHT * FINER), across = sin(PI * v);
         float rgb[3];
         image_bilinear(&sky, u, fmin(fmax(v, low), 1 - low), rgb);
-        want += PI * luminance(rgb) * fmax(across * sin(longitude), 0) * across / POINTS;
+        sum += PI * luminance(rgb) * fmax(across * sin(longitude), 0) * across / POINTS;
     }
-    look(text, 1, SAMPLER_VISIBLE, test_amount(256, 512, 512), (light){.value = want});
     image_free(&sky);
+    return sum;
+}
+
+static void test_known(void)
+{
+    const double aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0), panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
+    const struct {
+        const char *text;
+        int is_point;
+        double want;
+    } known[] = {
+        {DOME BALL("--matte 1,1,1"), 0, 1},
+        {ROOM BALL("--matte 1,1,1"), 0, 1},
+        {DOME BALL("--shape --distribution ggx --alpha 0.8 --scattering multiple"), 0, 1},
+        {ROOM BALL("--shape --distribution beckmann --alpha 0.2,0.9 --scattering multiple"), 0, 1},
+        {DOME BALL("--dielectric 1.5 --distribution ggx --alpha 0.4 --scattering multiple"), 0, 1},
+        {ROOM BALL("--dielectric 1.5 --distribution ggx --alpha 0.4 --scattering multiple"), 0, 1},
+        {FLOOR "sphere --centre 0,2,0 --radius 0.25 --material lamp\n", 1, 0.5 * 8 * 0.25 * 0.25 / (2 * 2)},
+        /* the panel hides one of three */
+        {FLOOR "sphere --centre 0,2.2,0 --radius 0.1 --material lamp\n" ASIDE PANEL, 1, panel + aside},
+        {FLOOR PANEL "rectangle --corner -1,1.999999,-0.5 --edge-u 1,0,0 --edge-v 0,0,1 --material floor\n", 1,
+         panel / 2},
+        /* shines up */
+        {FLOOR "rectangle --corner -1,2,0.5 --edge-u 2,0,0 --edge-v 0,0,-1 --material lamp\n" ASIDE, 1, aside},
+        /* all is inside, where it does not shine */
+        {FLOOR "sphere --centre 0,0,0 --radius 40 --material lamp\n", 1, 0},
+        {SKY, 1, 0.5 * 8 * 0.0025 / 6.25 * 0.8 + sky_light()},
+    };
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        look(known[i].text, known[i].is_point, SAMPLER_VISIBLE, test_amount(128, 512, 512),
+             (light){.value = known[i].want});
 }
 
 /* ---- samplers ---- */
@@ -168,9 +160,6 @@ static void test_samplers(void)
 int main(void)
 {
     test_samplers();
-    test_furnace(DOME);
-    test_furnace(ROOM);
-    test_floors();
-    test_sky();
+    test_known();
     return test_done();
 }
