@@ -97,6 +97,25 @@ static double sky_light(void)
     return sum;
 }
 
+/* A rough floor under a lamp so small that f is the same all over it. */
+#define GLOSS                                                                                                 \
+  "camera --from 0,1,1 --to 0,0,0 --depth 1\n" LAMP "material floor --shape --distribution ggx --alpha 0.5\n" \
+  "rectangle --corner -2,0,2 --edge-u 4,0,0 --edge-v 0,0,-4 --material floor\n"                               \
+  "sphere --centre 0.3,2,-2.5 --radius 0.01 --material lamp\n"
+
+static double gloss_light(void)
+{
+    const vndf_description is = {.surface = vndf_rough(vndf_ggx(), 0.5f, 0.5f)};
+    const vec3 lamp = vec(0.3, 2, -2.5), to = unit(lamp);
+    vndf_material resolved;
+    vndf_bsdf bsdf;
+    float f[3];
+    TEST(vndf_material_resolve(&is, &resolved, NULL) == VNDF_OK);
+    vndf_bsdf_at(&bsdf, &resolved, (vndf_vec3){0.0f, -(float)sqrt(0.5), (float)sqrt(0.5)});
+    vndf_bsdf_eval(&bsdf, (vndf_vec3){(float)to.x, -(float)to.z, (float)to.y}, 0, f);
+    return 8 * (double)f[0] * to.y * PI * 1e-4 / dot(lamp, lamp);
+}
+
 static void test_known(void)
 {
     const double aside = 0.5 * 8 * 0.25 * 0.25 / 25 * (3 / 5.0), panel = 0.5 * 8 * 4 * corner_factor(0.5, 0.25);
@@ -120,6 +139,7 @@ static void test_known(void)
         {FLOOR "rectangle --corner -1,2,0.5 --edge-u 2,0,0 --edge-v 0,0,-1 --material lamp\n" ASIDE, 1, aside},
         /* all is inside, where it does not shine */
         {FLOOR "sphere --centre 0,0,0 --radius 40 --material lamp\n", 1, 0},
+        {GLOSS, 1, gloss_light()},
         {SKY, 1, 0.5 * 8 * 0.0025 / 6.25 * 0.8 + sky_light()},
     };
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
