@@ -70,7 +70,7 @@ static light look(const char *text, int is_point, path_sampler sampler, uint64_t
 #define SKY                                                                            \
   "camera --from 3,0,0 --to 0,0,0 --depth 1\nmaterial wall --matte 0.5,0.5,0.5\n" LAMP \
   "rectangle --corner 0,-9,9 --edge-u 0,0,-18 --edge-v 0,18,0 --material wall\n"       \
-  "environment --image studio:24,14 --turn 40\nsphere --centre 2,1.5,0 --radius 0.05 --material lamp\n"
+  "environment --image studio:24,14 --turn 100\nsphere --centre 2,1.5,0 --radius 0.05 --material lamp\n"
 
 /* From a point in the plane of the corner, at right angles below it: both sides over the distance (Siegel & Howell). */
 static double corner_factor(double a, double b)
@@ -87,7 +87,7 @@ static double sky_light(void)
     image sky;
     TEST(image_make_pattern(&sky, IMAGE_STUDIO, WIDTH, HEIGHT));
     for (int i = 0; i < POINTS; i++) {
-        const double u = (i % ACROSS + 0.5) / ACROSS, longitude = 2 * PI * (u - 0.5 - 40.0 / 360);
+        const double u = (i % ACROSS + 0.5) / ACROSS, longitude = 2 * PI * (u - 0.5 - 100.0 / 360);
         const double v = ((double)(i / ACROSS) + 0.5) / (HEIGHT * FINER), across = sin(PI * v);
         float rgb[3];
         image_bilinear(&sky, u, fmin(fmax(v, low), 1 - low), rgb);
