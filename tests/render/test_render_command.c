@@ -153,7 +153,7 @@ static void test_upright(const char *camera, const char *shape, const char *want
     size_t size;
     snprintf(text, sizeof text,
              "camera --from %s --to 0,0,0 --width 4 --height 4 --depth 1\nenvironment --constant 1,1,1\n"
-             "material m --matte 1,1,1 --colour-map four.pfm\n%s --material m\n",
+             "material m --matte 1,1,1 --colour-map \"four.pfm\"\n%s --material m\n",
              camera, shape);
     TEST(run_put("up.scene", text));
     run_line(0, "", "vndf render up.scene -o up.pfm --spp 64");

@@ -12,7 +12,7 @@ int lines_begin(lines *in, const char *name, char *text, size_t length)
 
 int lines_next(lines *in)
 {
-    static const char blanks[] = " \t\r\v\f";
+    static const char blanks[] = " \"\t\r\v\f";
     for (in->count = 0; *in->at && !in->count;) {
         char *at = in->at;
         in->at += strcspn(at, "\n");

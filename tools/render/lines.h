@@ -19,5 +19,6 @@ typedef struct lines {
 /* Text of so many bytes, with a 0 behind them, which reading changes. 0 after a complaint. */
 int lines_begin(lines *in, const char *name, char *text, size_t length);
 
-/* Reads the next line that has words. Blanks separate them, # begins a comment. 0 at the end, -1 after a complaint. */
+/* Reads the next line that has words. Blanks and quotes separate them, # begins a comment. 0 at the end, -1 after a
+ * complaint. */
 int lines_next(lines *in);
