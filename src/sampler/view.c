@@ -8,15 +8,6 @@
 
 enum { VNDF_GGX = VNDF_KIND_GGX, VNDF_BECKMANN = VNDF_KIND_BECKMANN };
 
-typedef vndf_vec3 vec3;
-#define vec3(x, y, z) made_of(x, y, z)
-
-VNDF_INLINE vec3 made_of(float x, float y, float z)
-{
-    const vec3 v = {x, y, z};
-    return v;
-}
-
 typedef const vndf_surface *surface;
 
 typedef struct placed {
@@ -204,17 +195,6 @@ void vndf_view_make(vndf_view *v, const vndf_surface *m, vndf_vec3 wi)
 
 /* ---- samples ---- */
 
-/* A normal to be returned. x and y are returned in one register, which gcc would read back from two stores: the
- * processor would wait until both are in the cache. */
-VNDF_INLINE vndf_vec3 vec3_of(float x, float y, float z)
-{
-    vndf_vec3 v = {x, y, z};
-#if defined(VNDF_KERNEL_SSE2)
-    _mm_storel_pi((__m64 *)(void *)&v, _mm_unpacklo_ps(lane(x), lane(y)));
-#endif
-    return v;
-}
-
 VNDF_INLINE sampled draw(const vndf_view *v, float w1, float w2, const int weighs)
 {
     const sampled none = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f};
@@ -230,7 +210,7 @@ vndf_vec3 vndf_sample(const vndf_view *v, float u1, float u2, float *pdf)
     sampled n = draw(v, u1, u2, 0);
     if (pdf)
         *pdf = n.pdf;
-    return vec3_of(n.wm.x, n.wm.y, n.wm.z);
+    return vndf_packed(n.wm);
 }
 
 vndf_vec3 vndf_sample_weight(const vndf_view *v, float u1, float u2, float *pdf, float *weight)
@@ -240,13 +220,13 @@ vndf_vec3 vndf_sample_weight(const vndf_view *v, float u1, float u2, float *pdf,
         *pdf = n.pdf;
     if (weight)
         *weight = n.weight;
-    return vec3_of(n.wm.x, n.wm.y, n.wm.z);
+    return vndf_packed(n.wm);
 }
 
 vndf_drawn_normal vndf_sample_visible(const vndf_view *v, float u1, float u2)
 {
     sampled n = draw(v, u1, u2, 1);
-    const vndf_drawn_normal d = {vec3_of(n.wm.x, n.wm.y, n.wm.z), n.pdf, n.weight};
+    const vndf_drawn_normal d = {vndf_packed(n.wm), n.pdf, n.weight};
     return d;
 }
 

@@ -13,7 +13,8 @@ static const char common[] =
     "set = $1; set_int = $1; any = $1; lt = ($1 < $2); le = ($1 <= $2); eq = ($1 == $2); both = ($1 && $2); "
     "either = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
     "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; "
-    "view_frame = $1.f; view_table = $1.t; view_weighs = 1; ";
+    "view_frame = $1.f; view_table = $1.t; view_weighs = 1; lobe_end = VNDF_LOBES; its_count = $1.count; "
+    "its_view = $1.lobe[$2]; its_share = $1.share.lobe[$2]; its_weights = $1.weight; ";
 
 #define BOUND(how, declared)                                                     \
   "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else" how \

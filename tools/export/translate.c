@@ -438,7 +438,7 @@ static int put_if(printer *t, int at)
 static int put_for(printer *t, int at)
 {
     const int bound = word_find(t, at + 2, t->words, ";") + 3;
-    if (declared(t, bound, 1 << CONSTANT) && put_form(t, "UNROLL", NULL, 0, 0))
+    if ((declared(t, bound, 1 << CONSTANT) || own_word(t, bound, " = ")) && put_form(t, "UNROLL", NULL, 0, 0))
         put_line(t, at);
     put_form(t, "FOR", NULL, 0, at + 3);
     return put_governed(t, at, t->word[at + 1].other + 1);

@@ -84,3 +84,8 @@ KERNEL beckmann_view view_beckmann(vndf_view view)
 {
     return beckmann_see(view.f.ux, view.f.uy, view.f.uz);
 }
+
+/* One number a lobe. */
+typedef struct lobe_numbers {
+    float lobe[VNDF_LOBES];
+} lobe_numbers;
