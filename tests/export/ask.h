@@ -10,24 +10,24 @@ typedef struct answer {
     float a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15;
 } answer;
 
-HERE vndf_surface surface_asked(question q)
+KERNEL vndf_surface surface_asked(question q)
 {
-    const vndf_surface s = {to_whole(q.of), q.xx, q.xy, q.yx, q.yy, q.mean_x, q.mean_y};
+    const vndf_surface s = {to_int(q.of), q.xx, q.xy, q.yx, q.yy, q.mean_x, q.mean_y};
     return s;
 }
 
 /* only normals */
 /* The normal that is drawn, the density that comes with it, and what calls say of that normal and of wi: G2 is of wi
  * and the normal. Then a normal of the family tails.vndfs with the shape of the surface, and of GGX with alpha 0.3. */
-HERE answer ask(question q)
+KERNEL answer ask(question q)
 {
     const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
     const vndf_view view = vndf_view_from(surface, wi);
     const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
     vndf_mixture mixture = vndf_family_at(VNDF_TAILS, q.wo_x, surface);
-    mixture.lobe[2] = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
-    mixture.weight[2] = 0.6f;
+    mixture.lobe[2].surface = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
+    mixture.lobe[2].weight = 0.6f;
     mixture.count = 3;
     const vndf_mixture_view lobes = vndf_mixture_view_from(mixture, wi);
     const vndf_mixed mixed = vndf_mixture_sample(lobes, q.u1, q.u2);
@@ -42,7 +42,7 @@ HERE answer ask(question q)
                       vndf_lambda(surface, wi),
                       vndf_g1(surface, wi),
                       vndf_g2(surface, wi, wm),
-                      vndf_projected_area(view),
+                      vndf_projected_area(surface, wi),
                       of_all.x,
                       of_all.y,
                       of_all.z,
@@ -53,7 +53,7 @@ HERE answer ask(question q)
 /* end */
 /* only bsdf */
 /* A sample: wo, weight, density, lobe; f and density of the given wo; both of that of the sample. */
-HERE answer ask(question q)
+KERNEL answer ask(question q)
 {
     vndf_material material;
     material.surface = surface_asked(q);
