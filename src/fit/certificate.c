@@ -114,14 +114,14 @@ static double miss_of(survey *s, const double right[2], const double is[2], doub
     return fabs(right[0] - is[0]) + fabs(right[1] - is[1]);
 }
 
-/* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
-static double largest_weight(const survey *s, double least)
+/* The largest ratio beyond which no more than LEFT_OUT lies, 0 if that is all. */
+static double largest_ratio(const survey *s)
 {
     double sum = 0;
     for (int i = RATIOS - 1; i >= 0; i--)
         if ((sum += s->rarely[i]) > LEFT_OUT)
-            return fmax(exp2((i + 0.5) / PER_OCTAVE), least);
-    return least;
+            return exp2((i + 0.5) / PER_OCTAVE);
+    return 0;
 }
 
 /* Compares what is drawn with what is seen, half a strip after the other. What is lost lies beyond all slopes. */
@@ -155,7 +155,7 @@ static void compare(survey *s, radial_law v, int below, size_t edge, double area
         lost = (cell.mass - before) / area_drawn;
     }
     figure[TV] = fmin((miss + lost) / 2, 1);
-    figure[WEIGHT] = largest_weight(s, weight) - 1;
+    figure[WEIGHT] = fmax(largest_ratio(s), weight) - 1;
     figure[CONSISTENCY] += lost;
 }
 
@@ -232,15 +232,31 @@ static void look_from_edge(survey *s, size_t edge)
 
 /* ---- all directions ---- */
 
-/* Whether a direction between two may be worse than the worst so far, by how bad they are and how much that changes. */
-static int may_be_worse(const survey *s, const direction *a, const direction *b)
+/* By how much a figure rises per edge on the way from the last known edge to this one. */
+static double rise_to(const survey *s, size_t edge, int back, int side, int figure)
+{
+    size_t before = edge, steps = 0;
+    do {
+        before += back ? 1 : (size_t)-1;
+        steps++;
+    } while (before < s->strips.count && !s->at[before].known);
+    double rise = before < s->strips.count ? s->at[edge].side[side][figure] - s->at[before].side[side][figure] : 0;
+    return rise / (double)steps;
+}
+
+/* Whether a direction between two edges may be worse than the worst so far: by how much figures change from one to the
+ * other, or if they go on halfway as they change beyond both. */
+static int may_be_worse(const survey *s, size_t a, size_t b)
 {
     const double more = 1.05, tv[2] = {s->to->tv_above, s->to->tv}, weight = (double)s->to->max_weight - 1;
     int may = 0;
     for (int side = 0; side < 2; side++)
         for (int figure = TV; figure <= WEIGHT; figure++) {
-            double one = a->side[side][figure], other = b->side[side][figure];
-            may |= fmax(one, other) + fabs(one - other) > more * (figure == TV ? tv[side] : weight);
+            double one = s->at[a].side[side][figure], other = s->at[b].side[side][figure],
+                   half = (double)(b - a) / 2, most = fmax(one, other) + fabs(one - other);
+            most = fmax(most, one + half * rise_to(s, a, 0, side, figure));
+            most = fmax(most, other + half * rise_to(s, b, 1, side, figure));
+            may |= most > more * (figure == TV ? tv[side] : weight);
         }
     return may;
 }
@@ -249,7 +265,7 @@ static int may_be_worse(const survey *s, const direction *a, const direction *b)
 static void look_between(survey *s, size_t a, size_t b)
 {
     size_t middle = a + (b - a) / 2;
-    if (middle == a || !may_be_worse(s, &s->at[a], &s->at[b]))
+    if (middle == a || !may_be_worse(s, a, b))
         return;
     look_from_edge(s, middle);
     look_between(s, a, middle);
@@ -325,13 +341,13 @@ static double last_claimed(const survey *s)
 {
     int cell = 0;
     for (int step = s->table.highest; step > 0; step /= 2) {
-        double next = load_row(s->table, VNDF_KNOT, min_int(cell + step, s->table.cells)).b;
+        double next = load_knot(s->table, min_int(cell + step, s->table.cells)).z;
         if (cell + step <= s->table.cells &&
             is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below))
             cell += step;
     }
-    quad k = load_row(s->table, VNDF_KNOT, cell);
-    double z = k.b, width = cell < s->table.cells ? k.c : k.b;
+    knot_row k = load_knot(s->table, cell);
+    double z = k.z, width = cell < s->table.cells ? k.width : k.z;
     for (int n = 1; n <= 6; n++) {
         double next = z - ldexp(width, -n);
         z = is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below) ? next : z;
@@ -346,12 +362,12 @@ static double area_error(const survey *s)
     enum { PLACES = 3, HALVINGS = 3 };
     double worst = 0, where = 1, step = 0, last = last_claimed(s);
     for (int i = 0; i <= s->table.cells; i++) {
-        quad k = load_row(s->table, VNDF_KNOT, i);
-        double end = k.b - (i < s->table.cells ? k.c : k.b), width = (k.b - end) / (PLACES + 1);
-        if (last > end && last < k.b)
-            width = (k.b - last) / PLACES;
-        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.b * (1 - k.b); n++)
-            if (note_area(s, i, k.b - n * width, &worst, &where))
+        knot_row k = load_knot(s->table, i);
+        double end = k.z - (i < s->table.cells ? k.width : k.z), width = (k.z - end) / (PLACES + 1);
+        if (last > end && last < k.z)
+            width = (k.z - last) / PLACES;
+        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.z * (1 - k.z); n++)
+            if (note_area(s, i, k.z - n * width, &worst, &where))
                 step = width;
     }
     for (int n = 0; n < 2 * HALVINGS; n++) {
@@ -364,41 +380,43 @@ static double area_error(const survey *s)
 
 /* ---- D, and its ends ---- */
 
-/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side, but for little
- * that is one slope to floats: of a strip, which is all in the last cell, which draws R f; at its ends and points; and
- * in its middle, by the cubic through those. */
-static double ndf_error(const survey *s)
+/* Error of D in a strip, of which `drawn` is drawn in the cell: of all of it; at its ends and points; and in its
+ * middle, by the cubic through those. In the last cell, which draws R f, it is that of all alone. */
+static double strip_error(const vndf_drawn *cell, const vndf_strip *strip, const halves *in, double end,
+                          int is_tail, double drawn)
 {
     static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1};
+    const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]}, wide = end - in->xi;
+    double worst = fabs(drawn / (is_tail ? strip->along : strip->f) - 1), off[4];
+    if (!(in->middle > 0) || is_tail)
+        return worst;
+    for (int k = 0; k < 4; k++) {
+        off[k] = wide / 2 * vndf_drawn_density(cell, in->xi + wide * places[k]) / right[k] - 1;
+        worst = fmax(worst, fabs(off[k]));
+    }
+    return fmax(worst, fabs(3 * (off[1] + off[2]) - off[0] - off[3]) / 4);
+}
+
+/* Largest relative error of D, but for LEFT_OUT of all normals. */
+static double ndf_error(survey *s)
+{
+    const double least = 0x1p-24; /* of errors that are told apart */
     const size_t *first = s->strips.first;
-    double sum = 0, worst = 0;
+    memset(s->rarely, 0, sizeof s->rarely);
     for (int i = 0; i <= s->table.cells; i++) {
-        int tail = i == s->table.cells;
         cell_density all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0, next;
         for (size_t n = first[i]; n < first[i + 1]; n++, before = next) {
-            const vndf_strip *strip = &s->strips.at[n];
-            const halves *in = &s->in[n];
-            next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? in[1].xi : 1);
-            const double apart = log(strip[1].edge / strip->edge);
-            sum += strip->f;
-            if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 1)))
-                continue;
-            worst = fmax(worst, fabs((next - before) / (tail ? strip->along : strip->f) - 1));
-            if (!(in->middle > 0) || tail)
-                continue;
-            double wide = (n + 1 < first[i + 1] ? in[1].xi : 1) - in->xi, off[4];
-            const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]};
-            for (int k = 0; k < 4; k++) {
-                off[k] = wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]) / right[k] - 1;
-                worst = fmax(worst, fabs(off[k]));
-            }
-            worst = fmax(worst, fabs(3 * (off[1] + off[2]) - off[0] - off[3]) / 4);
+            double end = n + 1 < first[i + 1] ? s->in[n + 1].xi : 1;
+            next = vndf_drawn_before(&cell, end);
+            double error =
+                strip_error(&cell, &s->strips.at[n], &s->in[n], end, i == s->table.cells, next - before) / least;
+            if (error >= 1)
+                s->rarely[error < 0x1p31 ? (int)(PER_OCTAVE * log2(error)) : RATIOS - 1] += s->strips.at[n].f;
         }
     }
-    return worst;
+    return largest_ratio(s) * least;
 }
 
 /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is. */
@@ -417,7 +435,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     survey s = {.table = table_of(d), .profile = profile, .to = c};
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
-        knot[i] = (float)load_row(s.table, VNDF_KNOT, (int)i).a;
+        knot[i] = (float)load_knot(s.table, (int)i).r;
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);

@@ -23,45 +23,104 @@ static const float law_terms[12] = {0.297494729f, 0.702505271f, 0.0f,         0.
                                     0.319817399f, 0.473797580f, 0.206385021f, 0.0f,
                                     0.318081264f, 0.504334526f, 0.151012047f, 0.026572163f};
 
+/* ---- rows of a table (layout.h) ---- */
+
+typedef struct knot_row {
+    real r, z, width, turn;
+} knot_row;
+
+KERNEL knot_row load_knot(table t, integer i)
+{
+    quad q = load_row(t, VNDF_KNOT, i);
+    knot_row row = {q.x, q.y, q.z, q.w};
+    return row;
+}
+
+typedef struct law_row {
+    real left, right, m0, m1;
+} law_row;
+
+KERNEL law_row load_law(table t, integer i)
+{
+    quad q = load_row(t, VNDF_LAW, i);
+    law_row row = {q.x, q.y, q.z, q.w};
+    return row;
+}
+
+typedef struct shares_row {
+    real m2, cube, b0, b1;
+} shares_row;
+
+KERNEL shares_row load_shares(table t, integer i)
+{
+    quad q = load_row(t, VNDF_SHARES, i);
+    shares_row row = {q.x, q.y, q.z, q.w};
+    return row;
+}
+
+typedef struct tail_row {
+    real along, all, over, over4;
+} tail_row;
+
+KERNEL tail_row load_tail(table t, integer i)
+{
+    quad q = load_row(t, VNDF_TAIL, i);
+    tail_row row = {q.x, q.y, q.z, q.w};
+    return row;
+}
+
+typedef struct area_row {
+    real t1, t2, area, slope;
+} area_row;
+
+KERNEL area_row load_area(table t, integer i)
+{
+    quad q = load_row(t, VNDF_AREA, i);
+    area_row row = {q.x, q.y, q.z, q.w};
+    return row;
+}
+
 /* Weights of the measures f R, f, f/R, f/R^4. */
 typedef struct weights {
     real w1, w0, wq, w4;
 } weights;
 
-/* A direction as a table sees it. */
+/* The law of R that a table draws from one direction. */
 typedef struct radial_law {
     real s, c, rho;
-    integer first; /* above: the knot where the law of k~ begins; below: the cell of rho */
-    weights w; /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
-    real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
+    integer first; /* above: the knot where k~ begins; below: the cell of rho */
+    weights
+        w; /* above: the terms of k~; below: shares b_0, b_1, then mass and end density of the cell cut at rho */
+    real near; /* above: the mass before `first`; below: the visible part of the cell cut at rho, in xi */
+    real total;
 } radial_law;
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
-/* The last knot R with R^2 under <= square: slopes are looked up by squares of their two parts. */
+/* The last knot R with R^2 under <= square. A slope sqrt(square/under) is found without a root or a division. */
 KERNEL integer find_knot(table t, real square, real under)
 {
     integer i = set_int(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         integer next = min_int(i + step, set_int(t.cells));
-        real r = load_row(t, VNDF_KNOT, next).a;
+        real r = load_knot(t, next).r;
         i = select_int(le((r * r) * under, square), next, i);
         step = step / 2;
     }
     return i;
 }
 
-/* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
- * terms do. */
+/* The last knot beyond which at least `left` of the law lies. All terms fall from knot to knot, so rounded sums fall
+ * too. */
 KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
     integer i = set_int(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         integer next = min_int(i + step, set_int(t.cells));
-        quad tail = load_row(t, VNDF_TAIL, next);
-        i = select_int(le(left, (w1 * tail.a + w0 * tail.b) + (wq * tail.c + w4 * tail.d)), next, i);
+        tail_row tail = load_tail(t, next);
+        i = select_int(le(left, (w1 * tail.along + w0 * tail.all) + (wq * tail.over + w4 * tail.over4)), next, i);
         step = step / 2;
     }
     return i;
@@ -71,28 +130,28 @@ KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 
 /* ---- above the horizon ---- */
 
-/* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there; so it is for all
- * rho beyond the parts, where it begins far before rho. */
+/* In cell 0 (where f/R has no finite moment), in the tail cell, and for rho outside the look-up range, k~ is
+ * a_1 y + pi. */
 KERNEL weights law_weights_at(weights w, real c, mask end)
 {
     weights at = {w.w1, select(end, c, w.w0), select(end, set(0.0f), w.wq), select(end, set(0.0f), w.w4)};
     return at;
 }
 
-KERNEL real law_sum(weights w, quad tail)
+KERNEL real law_sum(weights w, tail_row tail)
 {
-    return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
+    return (w.w1 * tail.along + w.w0 * tail.all) + (w.wq * tail.over + w.w4 * tail.over4);
 }
 
-/* The eighth of an octave that rho lies in (table/table.h). */
+/* Index of the eighth of an octave that holds rho (table/layout.h). */
 KERNEL integer law_eighth(real rho)
 {
     return min_int(max_int((bits(rho) >> 20) - VNDF_RHO_FIRST, set_int(0)), set_int(VNDF_RHO_PARTS - 1));
 }
 
-/* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose
- * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). A part that u2 = 0 alone would draw, far too
- * often for its mass, is not drawn. */
+/* Below knot `first` every normal is visible and the law is c f; its mass there is c (1 - tail.all). If `first` is 0
+ * that is the mass of cell 0, since knot 0 holds the sums of knot 1 (table/layout.h). A mass below 1e-12 of all is
+ * dropped: u2 = 0 alone would draw it, far too often. */
 KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 {
     radial_law v;
@@ -101,14 +160,14 @@ KERNEL radial_law law_see_above(table t, real s, real c, real rho)
     v.rho = rho;
     integer eighth = law_eighth(rho);
     v.first = first_knot(t, eighth);
-    quad tail = load_row(t, VNDF_TAIL, v.first);
+    tail_row tail = load_tail(t, v.first);
     real reach = min(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
     mask low = lt(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
                  select(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
     v.w = law_weights_at(w, c, either(eq(v.first, t.cells), eq(eighth, VNDF_RHO_PARTS - 1)));
-    real near = c * max(1.0f - tail.b, set(0.0f));
+    real near = c * max(1.0f - tail.all, set(0.0f));
     v.total = near + law_sum(v.w, tail);
     v.near = select(either(eq(v.first, 0), lt(near, 1e-12f * v.total)), set(0.0f), near);
     return v;
@@ -116,8 +175,8 @@ KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 
 /* ---- a cell ---- */
 
-/* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
- * at the beginning. */
+/* The density of one cell: its mass, both end densities, and both ends of its slopes. `width` is dx/dxi at the left
+ * end. */
 typedef struct cell_density {
     real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
     real from, x0, z0, x1, z1;   /* the slope where it begins */
@@ -125,22 +184,22 @@ typedef struct cell_density {
     mask last;
 } cell_density;
 
-KERNEL cell_density law_cell_at(table t, real s, real c, integer i, quad k)
+KERNEL cell_density law_cell_at(table t, real s, real c, integer i, knot_row k)
 {
     cell_density at;
     at.last = eq(i, t.cells);
-    at.from = k.a;
-    at.z0 = k.b;
-    at.x0 = k.a * k.b;
-    at.width = k.c;
-    at.x1 = select(at.last, set(1.0f), at.x0 + k.c);
-    at.z1 = select(at.last, set(0.0f), at.z0 - k.c);
+    at.from = k.r;
+    at.z0 = k.z;
+    at.x0 = k.r * k.z;
+    at.width = k.width;
+    at.x1 = select(at.last, set(1.0f), at.x0 + k.width);
+    at.z1 = select(at.last, set(0.0f), at.z0 - k.width);
     at.edge0 = s * at.x0 - c * at.z0;
     at.edge1 = s * at.x1 - c * at.z1;
     return at;
 }
 
-/* The densities at both ends over the mass. */
+/* Completes a cell with its mass and end densities; the latter are kept over the mass. */
 KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
 {
     cell_density at = bare;
@@ -152,14 +211,14 @@ KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
     return at;
 }
 
-/* What a cell's density is divided by, at xi = over/(over + rest), times (over + rest)^2. */
+/* Denominator of the rational quadratic at xi = over/(over + rest), times (over + rest)^2. */
 KERNEL real law_denominator(cell_density at, real over, real rest)
 {
     real under = over + rest;
     return under * under + (at.sum - 2.0f) * (over * rest);
 }
 
-/* Mass per xi over under^2, times the square of `below`. */
+/* Numerator of the density: mass per xi times denominator^2, over (over + rest)^2. */
 KERNEL real law_shape(cell_density at, real over, real rest)
 {
     return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
@@ -171,28 +230,33 @@ KERNEL real law_weight_at(weights w, real x, real z)
     return x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
 }
 
-/* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
+/* The term R^-4 is R^-1 times the cell's mean of R^-3, so its mass is exact. */
 KERNEL cell_density law_cell_above(table t, radial_law v, weights of_all, integer i)
 {
-    quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
     cell_density at = law_cell_at(t, v.s, v.c, i, k);
     weights w = law_weights_at(of_all, v.c, eq(i, 0));
-    w.wq = w.wq + w.w4 * more.b;
-    real a = w.w1 * k.a, line = a + w.w0, m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
-    return law_cell_of(at, m, l.a * law_weight_at(w, at.x0, at.z0), l.b * law_weight_at(w, at.x1, at.z1));
+    w.wq = w.wq + w.w4 * more.cube;
+    real a = w.w1 * k.r, line = a + w.w0, m = w.w1 * more.m2 + (line + a) * l.m1 + (line * k.r + w.wq) * l.m0;
+    return law_cell_of(at, m, l.left * law_weight_at(w, at.x0, at.z0), l.right * law_weight_at(w, at.x1, at.z1));
 }
 
-/* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
+/* The cell of f itself, not of the law. The tail cell holds f R, which is smooth for heavy tails too; law_of_f divides
+ * R out. */
 KERNEL cell_density law_cell_all(table t, integer i)
 {
-    quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
     cell_density at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
-    real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = select(at.last, at.x0, at.z0),
+    real m = l.m1 + k.r * l.m0, slope = more.m2 + k.r * (l.m1 + m), z0 = select(at.last, at.x0, at.z0),
          z1 = select(at.last, at.x1, at.z1);
-    return law_cell_of(at, select(at.last, slope, m), l.a * (at.x0 * z0), l.b * (at.x1 * z1));
+    return law_cell_of(at, select(at.last, slope, m), l.left * (at.x0 * z0), l.right * (at.x1 * z1));
 }
 
-/* Its mass per xi, over (over + rest)^2 and times below^2, for the slope length (x, z). */
+/* law_shape of that cell at the slope length x/z. */
 KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 {
     real m = law_shape(at, over, rest);
@@ -201,33 +265,35 @@ KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 
 /* ---- below the horizon ---- */
 
-/* Mass beyond knot k, whose row is `low`, a sum of positive terms: `beyond` = R_k - rho >= 0. */
-KERNEL real law_sum_below(weights w, real r, real beyond, quad tail, quad low)
+/* Mass beyond the knot r, as a sum of positive terms; beyond = r - rho >= 0. */
+KERNEL real law_sum_below(weights w, real r, real beyond, tail_row tail, area_row low)
 {
     real e = w.w1 * r + w.w0 * beyond;
-    return (w.w1 + w.w0) * (low.b + beyond * low.a) + e * (low.a + beyond * tail.c);
+    return (w.w1 + w.w0) * (low.t2 + beyond * low.t1) + e * (low.t1 + beyond * tail.over);
 }
 
-/* The weight over z^2 at x, where R - rho = beyond/z. */
+/* The weight W/z^2 at R = x/z, where beyond/z = R - rho. */
 KERNEL real law_weight_below(weights w, real x, real beyond)
 {
     return beyond * (w.w1 * x + w.w0 * beyond);
 }
 
-/* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
- * both ends; the factor makes the mass exact where rho is the knot. The end is held to 1e4 times the mean, so that
- * places in the piece are of moderate size. `part` of the cell is seen. */
-KERNEL weights law_partial(weights of_all, real rho, mask last, quad k, quad after, quad l, real m2, real part)
+/* The cell cut at rho: mass (wq) and end density (w4) of its visible part. The density starts at 0; it is estimated
+ * from the densities of f/R at both ends, scaled so that the mass is exact if rho is the knot. The end density is at
+ * most 1e4 times the mean, which keeps the places of law_invert moderate. `part` is the visible part in xi. */
+KERNEL weights law_partial(weights of_all, real rho, mask last, knot_row k, knot_row after, law_row l, real m2,
+                           real part)
 {
     weights w = of_all;
-    real x1 = select(last, set(1.0f), after.a * after.b), one = set(1.0f);
-    real beyond = select(last, one, max(after.a - rho, set(0.0f)) * after.b);
-    real at_knot = select(last, one, (after.a - k.a) * after.b);
-    real all = (w.w1 + w.w0) * m2 + w.w1 * k.a * l.d, third = 0.333333333f * l.b + 0.166666667f * l.a;
+    real x1 = select(last, set(1.0f), after.r * after.z), one = set(1.0f);
+    real beyond = select(last, one, max(after.r - rho, set(0.0f)) * after.z);
+    real at_knot = select(last, one, (after.r - k.r) * after.z);
+    real all = (w.w1 + w.w0) * m2 + w.w1 * k.r * l.m1, third = 0.333333333f * l.right + 0.166666667f * l.left;
     real near = law_weight_below(w, x1, at_knot) * third, end = part * law_weight_below(w, x1, beyond);
-    real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a), factor = all / max(near, 1e-3f * all + 1e-36f);
+    real here = third + 0.166666667f * (1.0f - part) * (l.right - l.left),
+         factor = all / max(near, 1e-3f * all + 1e-36f);
     w.wq = max(end * here * factor, set(1e-34f));
-    w.w4 = min(end * l.b, 1e4f * w.wq);
+    w.w4 = min(end * l.right, 1e4f * w.wq);
     return w;
 }
 
@@ -240,16 +306,16 @@ KERNEL radial_law law_see_below(table t, real s, real c, real rho, integer cell)
     v.first = cell;
     mask last = eq(v.first, t.cells);
     integer next = select_int(last, v.first, v.first + 1);
-    quad k = load_row(t, VNDF_KNOT, v.first), after = load_row(t, VNDF_KNOT, next);
-    quad more = load_row(t, VNDF_MORE, v.first), shares = load_row(t, VNDF_MORE, next);
-    real beyond = max(after.a - v.rho, set(0.0f)), tail = min(s / k.b, set(1.0f));
+    knot_row k = load_knot(t, v.first), after = load_knot(t, next);
+    shares_row more = load_shares(t, v.first), shares = load_shares(t, next);
+    real beyond = max(after.r - v.rho, set(0.0f)), tail = min(s / k.z, set(1.0f));
     for (int n = 0; n < t.squarings; n++)
         tail = sqrt(tail);
-    v.near = min(max(select(last, tail, s * (beyond * after.b) / k.c), set(1e-9f)), set(1.0f));
+    v.near = min(max(select(last, tail, s * (beyond * after.z) / k.width), set(1e-9f)), set(1.0f));
     real xi = 1.0f - v.near;
-    weights w = {more.c + xi * (shares.c - more.c), more.d + xi * (shares.d - more.d), set(0.0f), set(0.0f)};
-    v.w = law_partial(w, v.rho, last, k, after, load_row(t, VNDF_LAW, v.first), more.a, v.near);
-    real rest = law_sum_below(v.w, after.a, beyond, load_row(t, VNDF_TAIL, next), load_row(t, VNDF_LOW, next));
+    weights w = {more.b0 + xi * (shares.b0 - more.b0), more.b1 + xi * (shares.b1 - more.b1), set(0.0f), set(0.0f)};
+    v.w = law_partial(w, v.rho, last, k, after, load_law(t, v.first), more.m2, v.near);
+    real rest = law_sum_below(v.w, after.r, beyond, load_tail(t, next), load_area(t, next));
     v.total = v.w.wq + select(last, set(0.0f), rest);
     return v;
 }
@@ -257,19 +323,19 @@ KERNEL radial_law law_see_below(table t, real s, real c, real rho, integer cell)
 /* The mass beyond knot i, which is at rho or beyond it. */
 KERNEL real law_beyond(table t, radial_law v, integer i)
 {
-    real r = load_row(t, VNDF_KNOT, i).a;
-    return law_sum_below(v.w, r, max(r - v.rho, set(0.0f)), load_row(t, VNDF_TAIL, i), load_row(t, VNDF_LOW, i));
+    real r = load_knot(t, i).r;
+    return law_sum_below(v.w, r, max(r - v.rho, set(0.0f)), load_tail(t, i), load_area(t, i));
 }
 
-/* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
- * cell is found depends on the order of the steps. */
+/* True if the sample lies at or beyond knot `next`. Rounded sums need not fall from knot to knot here, so the cell
+ * found depends on the order of the steps: all searches take the same. */
 KERNEL mask law_passes(table t, radial_law v, integer next, real beyond, real left)
 {
     return either(le(to_real(next), to_real(v.first)),
                   both(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+/* The last knot, from the cell of rho on, beyond which at least `left` of the law lies. */
 KERNEL integer law_find_below(table t, radial_law v, real left)
 {
     integer i = set_int(0);
@@ -285,17 +351,19 @@ KERNEL integer law_find_below(table t, radial_law v, real left)
 
 KERNEL cell_density law_cell_below(table t, radial_law v, integer i)
 {
-    quad k = load_row(t, VNDF_KNOT, i), l = load_row(t, VNDF_LAW, i), more = load_row(t, VNDF_MORE, i);
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
     cell_density at = law_cell_at(t, v.s, v.c, i, k);
-    real beyond = max(k.a - v.rho, set(0.0f)), e = v.w.w1 * k.a + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
-    real m = b * more.a + (b * beyond + e) * l.d + beyond * e * l.c, start = beyond * at.z0;
-    real end = select(at.last, set(1.0f), k.c * (1.0f + k.a) + beyond * at.z1);
-    real d0 = l.a * law_weight_below(v.w, at.x0, start), d1 = l.b * law_weight_below(v.w, at.x1, end);
+    real beyond = max(k.r - v.rho, set(0.0f)), e = v.w.w1 * k.r + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
+    real m = b * more.m2 + (b * beyond + e) * l.m1 + beyond * e * l.m0, start = beyond * at.z0;
+    real end = select(at.last, set(1.0f), k.width * (1.0f + k.r) + beyond * at.z1);
+    real d0 = l.left * law_weight_below(v.w, at.x0, start), d1 = l.right * law_weight_below(v.w, at.x1, end);
     mask partial = le(to_real(i), to_real(v.first));
     at.from = select(partial, v.rho, at.from);
     at.x0 = select(partial, -v.c, at.x0);
     at.z0 = select(partial, v.s, at.z0);
-    at.width = select(partial, select(at.last, k.c * (v.s / k.b), k.c * v.near), at.width);
+    at.width = select(partial, select(at.last, k.width * (v.s / k.z), k.width * v.near), at.width);
     at.edge0 = select(partial, set(0.0f), v.s * start);
     at.edge1 = select(at.last, v.s, at.edge0 + at.width);
     return law_cell_of(at, select(partial, v.w.wq, m), select(partial, set(0.0f), d0),
@@ -304,12 +372,13 @@ KERNEL cell_density law_cell_below(table t, radial_law v, integer i)
 
 /* ---- places in a cell ---- */
 
-/* xi = over/under, 1 - xi = rest/under, under = over + rest; the mass per xi is mass root under^2/below. */
+/* xi as a fraction: xi = over/under, 1 - xi = rest/under, under = over + rest; neither is a difference. The density per
+ * xi is mass root under^2/denominator. */
 typedef struct cell_place {
     real over, rest, root, denominator;
 } cell_place;
 
-/* The place with the mass m before it: no root is a difference. */
+/* Solves for xi with the mass m before it, by the form of the quadratic's root that has no cancellation. */
 KERNEL cell_place law_invert(cell_density at, real m)
 {
     real q = min(max(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
@@ -321,7 +390,7 @@ KERNEL cell_place law_invert(cell_density at, real m)
     return in;
 }
 
-/* A slope length in a cell: x, z and edge, all times over + rest. */
+/* A slope length R = x/z in a cell, with edge = s x - |c| z; all are times over + rest. */
 typedef struct slope_length {
     real x, z, edge;
 } slope_length;
@@ -344,7 +413,7 @@ KERNEL slope_length law_length(table t, radial_law v, cell_density at, cell_plac
     return r;
 }
 
-/* The place of the slope x/z in its cell; per = 1/(x + z). */
+/* xi of the slope x/z in its cell; per = 1/(x + z). */
 KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
 {
     real over = (x - at.from * z) * (per * (at.z0 / at.width)), rest = 1.0f - over;
@@ -363,7 +432,7 @@ KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
     return in;
 }
 
-/* The derivative of x by xi at that place. */
+/* dx/dxi at a place. */
 KERNEL real law_width(table t, cell_density at, cell_place in)
 {
     real width = at.width;
@@ -385,16 +454,16 @@ KERNEL real law_area_above(table t, radial_law v, integer cell)
 {
     mask last = eq(cell, t.cells);
     integer next = select_int(last, cell, cell + 1);
-    quad k = load_row(t, VNDF_KNOT, cell), low = load_row(t, VNDF_LOW, cell), up = load_row(t, VNDF_LOW, next);
-    real width = select(last, k.b, k.c), a1 = select(last, set(1.0f), up.c),
-         d1 = width * select(last, set(1.0f), up.d);
-    real u = min((v.rho - k.a) * k.b * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.d;
-    real area = w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
+    knot_row k = load_knot(t, cell);
+    area_row low = load_area(t, cell), up = load_area(t, next);
+    real width = select(last, k.z, k.width), a1 = select(last, set(1.0f), up.area),
+         d1 = width * select(last, set(1.0f), up.slope);
+    real u = min((v.rho - k.r) * k.z * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.slope;
+    real area = w * w * (low.area + u * (2.0f * low.area + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
     return max(area, abs(v.c)); /* no less than the plane */
 }
 
-/* The area of what is drawn, by which mixtures share: it is there with the law, without the spline. Straight from below
- * nothing is seen. */
+/* The area of the drawn law, over s + |c|; mixtures share by it since it costs nothing. Straight from below it is 0. */
 KERNEL real law_drawn_area(radial_law v, const int below)
 {
     if (!below)
@@ -402,8 +471,8 @@ KERNEL real law_drawn_area(radial_law v, const int below)
     return select(lt(set(2e-15f), v.s), v.s * v.total * 0.318309886f, set(0.0f));
 }
 
-/* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
- * digits, and the area that is drawn where it does not. */
+/* The projected area over s + |c|. Above: the spline. Below: the spline less |c| while that difference keeps its
+ * digits, blended into the area of the drawn law where it does not. */
 KERNEL real law_area_in(table t, radial_law v, integer cell, const int below)
 {
     real above = law_area_above(t, v, cell);

@@ -3,7 +3,7 @@
 
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
-    real a, b, c, d;
+    real x, y, z, w;
 } quad;
 
 /* A table: where its rows begin among the numbers, how many cells it has, terms of its law, squarings of its last cell,
@@ -12,27 +12,25 @@ typedef struct table {
     int at, cells, moments, squarings, highest, steps;
 } table;
 
-enum { HEAD = 8 };
-enum { VNDF_KNOT = 0, VNDF_LAW = 1, VNDF_MORE = 2, VNDF_TAIL = 3, VNDF_LOW = 4 };
-
 /* The table whose first number is number `base`. */
 KERNEL table table_at(int base)
 {
-    const table t = {base + HEAD,
-                     to_int(fetch(base)),
-                     to_int(fetch(base + 1)),
-                     to_int(fetch(base + 2)),
-                     to_int(fetch(base + 4)),
-                     to_int(fetch(base + 5))};
+    const table t = {base + VNDF_HEAD,        to_int(fetch(base)),     to_int(fetch(base + 1)),
+                     to_int(fetch(base + 2)), to_int(fetch(base + 4)), to_int(fetch(base + 5))};
     return t;
+}
+
+/* Numbers i to i + 3, i a multiple of 4: some languages read 16 bytes at once. */
+KERNEL quad fetch_4(int i)
+{
+    const quad row = {fetch(i), fetch(i + 1), fetch(i + 2), fetch(i + 3)};
+    return row;
 }
 
 /* Row i of a group. */
 KERNEL quad load_row(table t, int group, integer i)
 {
-    const int at = t.at + 20 * i + 4 * group;
-    const quad row = {fetch(at), fetch(at + 1), fetch(at + 2), fetch(at + 3)};
-    return row;
+    return fetch_4(t.at + VNDF_STRIDE * i + 4 * group);
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
@@ -60,8 +58,6 @@ KERNEL integer max_int(integer a, integer b)
     return b;
 }
 
-enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = 912 }; /* of table/table.h */
-
 /* Where the law begins for an eighth of an octave of rho: the last knot with a turn below the middle of it. */
 KERNEL integer first_knot(table t, integer eighth)
 {
@@ -70,7 +66,7 @@ KERNEL integer first_knot(table t, integer eighth)
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         integer next = min_int(first + step, set_int(t.cells));
-        first = select_int(le(load_row(t, VNDF_KNOT, next).d, rho), next, first);
+        first = select_int(le(load_row(t, VNDF_KNOT, next).w, rho), next, first);
         step = step / 2;
     }
     return first;

@@ -304,8 +304,8 @@ static declaration *declared(printer *t, int name, int kinds)
 static const char *own_word(const printer *t, int name, const char *means)
 {
     const word *w = &t->word[name];
-    if (t->as->embeds && word_is(w, "fetch"))
-        return "VNDF_NUMBERS[$1]; ";
+    if (t->as->embeds && strncmp(w->text, "fetch", 5) == 0)
+        return word_is(w, "fetch") ? "VNDF_NUMBERS[$1]; " : NULL;
     return language_word(t->as->to, w->text, w->length, means);
 }
 
@@ -669,7 +669,7 @@ static void want(printer *t, declaration *d)
     for (int i = d->begin; i < d->end && d->kind != CONSTANT; i++) {
         const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
         declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
-        d->fetches |= word_is(&t->word[i], "fetch");
+        d->fetches |= word_is(&t->word[i], "fetch") || word_is(&t->word[i], "fetch_4");
         if (of && of != d && !own_word(t, i, " = ") && !own_word(t, i, ": ")) {
             want(t, of);
             d->fetches |= of->fetches;

@@ -12,7 +12,8 @@ int main(int argc, char **argv)
     FILE *to = n ? fopen(argv[1], "w") : NULL;
     if (is_python)
         document.only =
-            "frame placed view_from sample pdf ndf area drawn_area lobe_numbers lobe_shares mixture_pdf";
+            "frame placed view_from sample pdf ndf area drawn_area lobe_numbers lobe_shares mixture_pdf VNDF_HEAD "
+            "VNDF_STRIDE";
     return !to || !document_prefix(&document, is_python ? "vndf" : "exported") ||
            !document_write(&document, to, NULL) || fclose(to) != 0;
 }

@@ -118,39 +118,39 @@ KERNEL void find_slopes(table t, int groups, const real *square, const real *und
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++) {
             integer next = min_int(i[g] + step, set_int(t.cells));
-            real r = load_row(t, VNDF_KNOT, next).a;
+            real r = load_knot(t, next).r;
             i[g] = select_int(le((r * r) * under[g], square[g]), next, i[g]);
         }
 }
 
 /* law_sum, whose fourth term is 0 for fewer moments. */
-KERNEL real sum_beyond(table t, weights w, quad tail)
+KERNEL real sum_beyond(table t, weights w, tail_row tail)
 {
-    real far = w.wq * tail.c;
+    real far = w.wq * tail.over;
     if (t.moments > 3)
-        far = far + w.w4 * tail.d;
-    return (w.w1 * tail.a + w.w0 * tail.b) + far;
+        far = far + w.w4 * tail.over4;
+    return (w.w1 * tail.along + w.w0 * tail.all) + far;
 }
 
 /* One step of a search for the cell of a sample. */
 KERNEL knot_hit step_cell(table t, radial_law v, target a, knot_hit r, int level, const int below)
 {
-    const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
-    quad tail = zero, low = zero;
+    tail_row tail = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
+    area_row low = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
     real beyond;
     mask passes;
-    tail.c = level_entry(t, VNDF_AT_TQ, r.i, level);
+    tail.over = level_entry(t, VNDF_AT_TQ, r.i, level);
     if (below) {
         real knot = level_entry(t, VNDF_AT_R, r.i, level);
-        low.a = level_entry(t, VNDF_AT_N1, r.i, level);
-        low.b = level_entry(t, VNDF_AT_N2, r.i, level);
+        low.t1 = level_entry(t, VNDF_AT_N1, r.i, level);
+        low.t2 = level_entry(t, VNDF_AT_N2, r.i, level);
         beyond = law_sum_below(v.w, knot, max(knot - v.rho, set(0.0f)), tail, low);
         passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
     } else {
-        tail.a = level_entry(t, VNDF_AT_T1, r.i, level);
-        tail.b = level_entry(t, VNDF_AT_T0, r.i, level);
+        tail.along = level_entry(t, VNDF_AT_T1, r.i, level);
+        tail.all = level_entry(t, VNDF_AT_T0, r.i, level);
         if (t.moments > 3)
-            tail.d = level_entry(t, VNDF_AT_T4, r.i, level);
+            tail.over4 = level_entry(t, VNDF_AT_T4, r.i, level);
         beyond = sum_beyond(t, a.w, tail);
         passes = le(a.left, beyond);
     }
@@ -163,7 +163,7 @@ KERNEL knot_hit step_cell(table t, radial_law v, target a, knot_hit r, int level
 KERNEL knot_hit step_rows(table t, radial_law v, target a, knot_hit r, int step, const int below)
 {
     integer next = r.i + step, there = min_int(next, set_int(t.cells));
-    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, load_row(t, VNDF_TAIL, there));
+    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, load_tail(t, there));
     mask passes = below ? law_passes(t, v, next, beyond, a.left) : le(a.left, beyond);
     r.i = select_int(passes, there, r.i);
     r.beyond = select(passes, beyond, r.beyond);
