@@ -8,7 +8,8 @@
  *     s.kind, view_table(s), view_frame(s)     the same of a view s
  *     s.below                                  whether it is that of a table from below the horizon
  *     view_law, view_ggx, view_beckmann        what its distribution makes of the direction
- *     view_weighs                              whether samples want a weight */
+ *     view_weighs                              whether samples want a weight
+ *     sides_apart                              whether each side of the horizon has code of its own */
 #ifndef VNDF_KERNEL_VIEW_H
 #define VNDF_KERNEL_VIEW_H
 
@@ -157,9 +158,15 @@ KERNEL real unit_density(view s, unit_normal n)
         return beckmann_density(view_beckmann(s), n.x, n.y, n.z, n.facing);
     const table_view v = view_law(s);
     const int below = s.below;
+    const real reach = frame_reach(view_frame(s));
+    unit_normal turned = n;
     if (below)
-        return table_pdf(view_table(s), v, table_unturned(v.ex, v.ey, n), frame_reach(view_frame(s)), 1);
-    return table_pdf(view_table(s), v, n, frame_reach(view_frame(s)), 0);
+        turned = table_unturned(v.ex, v.ey, n);
+    if (sides_apart && below)
+        return table_pdf(view_table(s), v, turned, reach, 1);
+    if (sides_apart)
+        return table_pdf(view_table(s), v, turned, reach, 0);
+    return table_pdf(view_table(s), v, turned, reach, below);
 }
 
 /* The density with which `sample` draws wm. */

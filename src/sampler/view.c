@@ -30,6 +30,7 @@ VNDF_INLINE view vndf_seen(const vndf_view *of, const int below, const int weigh
     return s;
 }
 
+#define sides_apart 1
 #define frame_below(f) ((f).uz < 0.0f)
 #define view_weighs(s) ((s).weighs)
 #define view_frame(s) (vndf_state_of((s).of)->f)

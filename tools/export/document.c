@@ -208,6 +208,7 @@ static char *whole_text(const export_document *document, const char *more)
                 i + 1 == document->count ? "};\n"
                 : i % 8 == 7             ? ",\n    "
                                          : ", ");
+    fputs("enum { sides_apart = 0 };\n", to);
     if (document->scatters)
         put_effects(to, &document->effects);
     for (const embedded_text *file = kernel_text; file->name; file++) {
