@@ -293,7 +293,7 @@ def beckmann_law(bound):
 
 def beckmann_see(x, near):
     """What is left after a step of order four; its fourth root is nearly linear in the start, hence in p."""
-    given = beckmann_first(between(0, 8, 32))[0]
+    given = beckmann_first(between(0, 8, 40))[0]
     first = Function(Fit("beckmann_first", BECKMANN, "", 0, 8, beckmann_first), given)
     (bound, u), z = product(x if near else 4 / x, given["u"]), np.repeat(first.value(first.source)[0], len(x))
     area, whole = beckmann_law(bound)
@@ -348,14 +348,13 @@ FITS = [
     Fit("arc_start below", ARC, "of v^2/d^2, v >= 0.004", 0, 1, lambda t: arc_start(t, True), points=30),
     Fit("arc_sine", ARC, "d in [0, pi]", 0, PI, lambda d: relative(ROOT_2 * np.sin(d / 2) / d, d2=d * d), most=1.3,
         why=ROUNDED),
-    Fit("law_terms 2", LAW, "of k~, y >= 1, sum 1", 0, 1, lambda x: law_terms(x, 0), points=1000, total=1),
-    Fit("law_terms 3", LAW, "of k~, y >= 1, sum 1", 0, 1, lambda x: law_terms(x, 1), points=1000, total=1),
-    Fit("law_terms 4", LAW, "of k~, y >= 1, sum 1", 0, 1, lambda x: law_terms(x, 2), points=1000, total=1),
+    *(Fit(f"law_terms {row + 2}", LAW, "of k~, y >= 1, of sum 1", 0, 1, lambda x, row=row: law_terms(x, row),
+          points=1000, total=1) for row in range(3)),
     Fit("beckmann_first", BECKMANN, "of z", 0, 8, beckmann_first, most=2.5, why="p makes up for it"),
     Fit("beckmann_see near", BECKMANN, "absolute, of u after a step, K < 2", 0, 2, lambda x: beckmann_see(x, True),
-        points=16, free=slice(1, None, 2), most=2.1, why=POWER),
+        points=20, free=slice(1, None, 2), most=2.1, why=POWER),
     Fit("beckmann_see far", BECKMANN, "absolute, of u after a step, K > 2", 0, 2, lambda x: beckmann_see(x, False),
-        points=16, most=2.1, why=POWER),
+        points=20, most=2.1, why=POWER),
     Fit(ANYWHERE + " low", BECKMANN, "absolute, of u, K < 0", -30, 0, beckmann_anywhere, points=20, by_hand=0.0035),
     Fit(ANYWHERE + " up", BECKMANN, "absolute, of u, K < 5/4", 0, 1.25, beckmann_anywhere, points=20, by_hand=0.035),
     Fit(ANYWHERE + " far", BECKMANN, "absolute, of u", 1.25, 20, beckmann_anywhere, points=60, by_hand=0.023),
