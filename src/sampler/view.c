@@ -6,16 +6,9 @@
 
 /* ---- what kernel/view.h asks for ---- */
 
+#define CALL /* a function of the text is a public call */
+
 enum { VNDF_GGX = VNDF_KIND_GGX, VNDF_BECKMANN = VNDF_KIND_BECKMANN };
-
-typedef vndf_vec3 vec3;
-#define vec3(x, y, z) made_of(x, y, z)
-
-VNDF_INLINE vec3 made_of(float x, float y, float z)
-{
-    const vec3 v = {x, y, z};
-    return v;
-}
 
 typedef const vndf_surface *surface;
 
@@ -37,41 +30,20 @@ VNDF_INLINE view vndf_seen(const vndf_view *of, const int below, const int weigh
     return s;
 }
 
-KERNEL int view_weighs(view s)
-{
-    return s.weighs;
-}
+#define sides_apart 1
+#define frame_below(f) ((f).uz < 0.0f)
+#define view_weighs(s) ((s).weighs)
+#define view_frame(s) (vndf_state_of((s).of)->f)
+#define view_law(s) (vndf_state_of((s).of)->of.table)
+#define view_ggx(s) (vndf_state_of((s).of)->of.ggx)
+#define view_beckmann(s) (vndf_state_of((s).of)->of.beckmann)
+#define view_table(s) table_if((s).of->distribution, (s).kind)
 
 /* Closed forms have none. */
 VNDF_INLINE table table_if(const vndf_distribution *d, int kind)
 {
     const table none = {0};
     return kind == VNDF_GGX || kind == VNDF_BECKMANN ? none : table_of(d);
-}
-
-KERNEL table view_table(view s)
-{
-    return table_if(s.of->distribution, s.kind);
-}
-
-KERNEL frame view_frame(view s)
-{
-    return vndf_state_of(s.of)->f;
-}
-
-KERNEL table_view view_law(view s)
-{
-    return vndf_state_of(s.of)->of.table;
-}
-
-KERNEL ggx_view view_ggx(view s)
-{
-    return vndf_state_of(s.of)->of.ggx;
-}
-
-KERNEL beckmann_view view_beckmann(view s)
-{
-    return vndf_state_of(s.of)->of.beckmann;
 }
 
 /* ---- surfaces ---- */
@@ -204,17 +176,6 @@ void vndf_view_make(vndf_view *v, const vndf_surface *m, vndf_vec3 wi)
 
 /* ---- samples ---- */
 
-/* A normal to be returned. x and y are returned in one register, which gcc would read back from two stores: the
- * processor would wait until both are in the cache. */
-VNDF_INLINE vndf_vec3 vec3_of(float x, float y, float z)
-{
-    vndf_vec3 v = {x, y, z};
-#if defined(VNDF_KERNEL_SSE2)
-    _mm_storel_pi((__m64 *)(void *)&v, _mm_unpacklo_ps(lane(x), lane(y)));
-#endif
-    return v;
-}
-
 VNDF_INLINE sampled draw(const vndf_view *v, float w1, float w2, const int weighs)
 {
     const sampled none = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f};
@@ -230,7 +191,7 @@ vndf_vec3 vndf_sample(const vndf_view *v, float u1, float u2, float *pdf)
     sampled n = draw(v, u1, u2, 0);
     if (pdf)
         *pdf = n.pdf;
-    return vec3_of(n.wm.x, n.wm.y, n.wm.z);
+    return vndf_packed(n.wm);
 }
 
 vndf_vec3 vndf_sample_weight(const vndf_view *v, float u1, float u2, float *pdf, float *weight)
@@ -240,13 +201,13 @@ vndf_vec3 vndf_sample_weight(const vndf_view *v, float u1, float u2, float *pdf,
         *pdf = n.pdf;
     if (weight)
         *weight = n.weight;
-    return vec3_of(n.wm.x, n.wm.y, n.wm.z);
+    return vndf_packed(n.wm);
 }
 
 vndf_drawn_normal vndf_sample_visible(const vndf_view *v, float u1, float u2)
 {
     sampled n = draw(v, u1, u2, 1);
-    const vndf_drawn_normal d = {vec3_of(n.wm.x, n.wm.y, n.wm.z), n.pdf, n.weight};
+    const vndf_drawn_normal d = {vndf_packed(n.wm), n.pdf, n.weight};
     return d;
 }
 
@@ -304,31 +265,11 @@ float vndf_view_cosine(const vndf_view *v, vndf_vec3 w)
 
 /* ---- surfaces ---- */
 
-float vndf_ndf(const vndf_surface *m, vndf_vec3 wm)
-{
-    return ndf(m, wm);
-}
-
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
 float vndf_p22(const vndf_surface *m, float x, float y)
 {
     vndf_vec3 normal = {-x, -y, 1.0f};
     return abs(x) <= FLT_MAX && abs(y) <= FLT_MAX ? vndf_ndf(m, normal) : 0.0f;
-}
-
-float vndf_projected_area(const vndf_surface *m, vndf_vec3 w)
-{
-    return projected_area(m, w);
-}
-
-float vndf_lambda(const vndf_surface *m, vndf_vec3 w)
-{
-    return lambda(m, w);
-}
-
-float vndf_g1(const vndf_surface *m, vndf_vec3 w)
-{
-    return g1(m, w);
 }
 
 float vndf_g2_of(float gi, float go, vndf_g2_model model)

@@ -1,9 +1,9 @@
 /* Bins of the sphere of directions, even in the cosine and the azimuth, and one for what is in none of them: samples of
- * a BSDF against the integrals of its density. Normals have tools/evidence/measure/bins.h. */
+ * a BSDF against the integrals of its density. Normals have tools/evidence/measure. */
 #ifndef TESTS_BSDF_SPHERE_H
 #define TESTS_BSDF_SPHERE_H
 
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "oracle/oracle_bsdf.h"
 
 enum { SPHERE_ROWS = 24, SPHERE_COLUMNS = 40, SPHERE_BINS = SPHERE_ROWS * SPHERE_COLUMNS };

@@ -3,7 +3,7 @@
  * tell the density with which they draw. */
 #include "cli/subject.h"
 #include "evidence/evidence.h"
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 

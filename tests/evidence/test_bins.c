@@ -3,7 +3,7 @@
  * what it says it may err; in a ring of width 1e-4 floats hardly tell slopes apart. Each bin is what a plain sum over a
  * fine grid gives. */
 
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "oracle/oracle.h"
 #include "harness/test.h"
 

@@ -1,7 +1,7 @@
 /* Under 64 Owen-scrambled Sobol points the error of what a table reflects is in the mean at most 1.6 times that
  * of GGX by spherical caps. And the points are what they say: every elementary interval of 64 of them holds one, and
  * scrambled ones are uniform. */
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 #include "sampler/seen.h"
 
 /* All intervals of volume 1/64: 1 x 64, 2 x 32, ... */

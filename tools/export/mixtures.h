@@ -1,140 +1,70 @@
-/* ---- several lobes on one surface ---- */
+/* What kernel/mixture.h asks for where it is exported, and families. Loops have a constant end, so that a GPU unrolls
+ * them: what is indexed by a variable lies in local memory. Some languages index no parameter: it is copied. */
 
 /* Up to VNDF_LOBES surfaces with weights that need no sum. */
+typedef struct vndf_mixture_lobe {
+    vndf_surface surface;
+    float weight;
+} vndf_mixture_lobe;
+
 typedef struct vndf_mixture {
     int count;
-    vndf_surface lobe[VNDF_LOBES];
-    float weight[VNDF_LOBES];
+    vndf_mixture_lobe lobe[VNDF_LOBES];
 } vndf_mixture;
 
 /* Seen from wi: each lobe has a share of the area that is drawn. */
 typedef struct vndf_mixture_view {
     int count;
     vndf_view lobe[VNDF_LOBES];
-    float weight[VNDF_LOBES]; /* of sum 1 */
-    float share[VNDF_LOBES];
+    lobe_numbers weight, share; /* of sum 1 */
 } vndf_mixture_view;
 
-/* The weights, of sum 1. Copies, here and below, since some languages index no parameter. Loops have a constant
- * end, so that a GPU unrolls them: what is indexed by a variable lies in local memory. */
-KERNEL vndf_mixture weighed_evenly(vndf_mixture mixture)
+KERNEL lobe_numbers weights_of(vndf_mixture given)
 {
-    vndf_mixture lobes = mixture;
-    float largest = 1e-37f, sum = 0.0f;
+    vndf_mixture m = given;
+    lobe_numbers w;
     for (int i = 0; i < VNDF_LOBES; i++)
-        if (i < lobes.count)
-            largest = max(largest, lobes.weight[i]);
-    for (int j = 0; j < VNDF_LOBES; j++)
-        if (j < lobes.count) {
-            lobes.weight[j] = lobes.weight[j] / largest;
-            sum = sum + lobes.weight[j];
-        }
-    for (int k = 0; k < VNDF_LOBES; k++)
-        if (k < lobes.count)
-            lobes.weight[k] = lobes.weight[k] / sum;
-    return lobes;
+        w.lobe[i] = m.lobe[i].weight;
+    return lobe_weights(w, m.count);
 }
 
-KERNEL vndf_mixture_view vndf_mixture_view_from(vndf_mixture mixture, vec3 wi)
+KERNEL vndf_mixture_view vndf_mixture_view_from(vndf_mixture given, vec3 wi)
 {
-    vndf_mixture lobes = weighed_evenly(mixture);
+    vndf_mixture m = given;
     vndf_mixture_view view;
-    float area = 0.0f;
-    view.count = lobes.count;
+    lobe_numbers drawn;
+    view.count = m.count;
     for (int i = 0; i < VNDF_LOBES; i++)
-        if (i < lobes.count) {
-            view.lobe[i] = vndf_view_from(lobes.lobe[i], wi);
-            view.weight[i] = lobes.weight[i];
-            view.share[i] = lobes.weight[i] * drawn_area(view.lobe[i]);
-            area = area + view.share[i];
+        if (i < m.count) {
+            view.lobe[i] = vndf_view_from(m.lobe[i].surface, wi);
+            drawn.lobe[i] = drawn_area(view.lobe[i]);
         }
-    for (int j = 0; j < VNDF_LOBES; j++)
-        if (j < lobes.count) {
-            if (area > 1.17549435e-38f)
-                view.share[j] = view.share[j] / area;
-            else
-                view.share[j] = lobes.weight[j];
-        }
+    view.weight = weights_of(m);
+    view.share = lobe_shares(view.weight, drawn, m.count);
     return view;
 }
 
-/* A sum of densities, above 0 where something is seen. */
-KERNEL float mixed_density(float sum)
+KERNEL lobe_numbers its_areas(vndf_mixture_view given)
 {
-    if (!(sum > 0.0f))
-        return 0.0f;
-    return min(max(sum, 1.17549435e-38f), 3.4028234e38f);
+    vndf_mixture_view m = given;
+    lobe_numbers areas;
+    for (int i = 0; i < VNDF_LOBES; i++)
+        if (i < m.count)
+            areas.lobe[i] = area(m.lobe[i]);
+    return areas;
 }
 
-KERNEL float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
+KERNEL float vndf_mixture_ndf(vndf_mixture given, vec3 wm)
 {
-    vndf_mixture_view lobes = view;
+    vndf_mixture m = given;
+    lobe_numbers w = weights_of(m);
     float density = 0.0f;
     for (int i = 0; i < VNDF_LOBES; i++)
-        if (i < lobes.count)
-            density = density + lobes.share[i] * vndf_pdf(lobes.lobe[i], wm);
-    return mixed_density(density);
-}
-
-KERNEL float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
-{
-    vndf_mixture_view lobes = view;
-    float density = 0.0f, area = 0.0f;
-    for (int i = 0; i < VNDF_LOBES; i++)
-        if (i < lobes.count)
-            area = area + lobes.weight[i] * area(lobes.lobe[i]);
-    for (int j = 0; j < VNDF_LOBES; j++)
-        if (j < lobes.count) {
-            float share = lobes.weight[j];
-            if (area > 1.17549435e-38f)
-                share = share * area(lobes.lobe[j]) / area;
-            density = density + share * vndf_visible(lobes.lobe[j], wm);
-        }
+        if (i < m.count)
+            density = density + w.lobe[i] * ndf(m.lobe[i].surface, wm);
     return min(density, 3.4028234e38f);
 }
 
-/* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
-typedef struct vndf_mixed {
-    vec3 wm;
-    float pdf;
-} vndf_mixed;
-
-KERNEL vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
-{
-    vndf_mixture_view lobes = view;
-    vndf_view chosen = lobes.lobe[0];
-    float before = 0.0f, share = lobes.share[0], density = 0.0f;
-    int at = 0;
-    for (int i = 1; i < VNDF_LOBES; i++)
-        if (i < lobes.count && lobes.share[i] > 0.0f && u1 >= before + share) {
-            before = before + share;
-            at = i;
-            chosen = lobes.lobe[i];
-            share = lobes.share[i];
-        }
-    const vndf_sampled one = vndf_sample(chosen, (u1 - before) / max(share, 1e-37f), u2);
-    for (int j = 0; j < VNDF_LOBES; j++)
-        if (j < lobes.count) {
-            if (j == at)
-                density = density + lobes.share[j] * one.pdf;
-            else
-                density = density + lobes.share[j] * vndf_pdf(lobes.lobe[j], one.wm);
-        }
-    const vndf_mixed drawn_normal = {one.wm, mixed_density(density)};
-    return drawn_normal;
-}
-
-KERNEL float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
-{
-    vndf_mixture lobes = weighed_evenly(mixture);
-    float density = 0.0f;
-    for (int i = 0; i < VNDF_LOBES; i++)
-        if (i < lobes.count)
-            density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
-    return min(density, 3.4028234e38f);
-}
-
-/* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
@@ -149,20 +79,19 @@ KERNEL vndf_mixture vndf_family_at(int family, float parameter, vndf_surface sha
     vndf_mixture mixture;
     mixture.count = min_int(knots, 2);
     for (int k = 0; k < VNDF_LOBES; k++) {
-        mixture.lobe[k] = shape;
-        mixture.weight[k] = 0.0f;
+        mixture.lobe[k].surface = shape;
+        mixture.lobe[k].weight = 0.0f;
     }
-    mixture.lobe[0].distribution = to_int(fetch(at + 1));
-    mixture.weight[0] = 1.0f;
+    mixture.lobe[0].surface.distribution = to_int(fetch(at + 1));
+    mixture.lobe[0].weight = 1.0f;
     if (knots > 1) {
         const float next = fetch(at + 2);
         float share = (p - fetch(at)) / (next - fetch(at));
         if (fetch(family + 1) > 0.0f)
             share = share * (next / p);
-        mixture.lobe[1].distribution = to_int(fetch(at + 3));
-        mixture.weight[1] = share;
-        mixture.weight[0] = 1.0f - share;
+        mixture.lobe[1].surface.distribution = to_int(fetch(at + 3));
+        mixture.lobe[1].weight = share;
+        mixture.lobe[0].weight = 1.0f - share;
     }
     return mixture;
 }
-/* end */
