@@ -12,12 +12,6 @@ static const char head[] =
 enum { ALPHA_Y = 4, MEMORY, FILE_BYTES, MOMENTS, WRONG, NS, BATCH, RATIO = 17, TV, BELOW, WEIGHT };
 enum { MEAN = 25, LOST = 27, COLUMNS = 30 };
 
-#define LIST(...)       \
-  (const char *const[]) \
-  {                     \
-    __VA_ARGS__, NULL   \
-  }
-
 /* Where a field of a line of CSV begins: commas between quotes are text. */
 static const char *field(const char *line, int column)
 {
@@ -33,58 +27,54 @@ static double number(const char *line, int column)
     return strtod(field(line, column), NULL);
 }
 
-/* The first line of the rows that these words print as CSV: they begin with `rows`, in this order, each has all fields,
- * a time, and is right. */
-static const char *rows_of(const char *words, const char *const *rows)
+/* The first line of the rows that these words print as CSV: they are of these methods, in this order, each has all
+ * fields, a time, and is right. */
+static const char *rows_of(const char *words, const char *methods)
 {
     static char text[RUN_TEXT];
+    char found[1024] = "";
     run_said(text, "vndf bench %s -o -", words);
     if (!TEST(strncmp(text, head, sizeof head - 1) == 0))
         return text;
     for (const char *at = text + sizeof head - 1; *at; at = strchr(at, '\n') + 1) {
-        const char *last = field(at, COLUMNS - 1);
-        if (strstr(*rows ? *rows : "", ",call,")) /* which is timed alone */
+        const char *method = field(at, 1) + 1, *last = field(at, COLUMNS - 1);
+        const int length = (int)strcspn(method, "\"");
+        if (strncmp(method + length, "\",call,", 7) == 0) /* which is timed alone */
             TEST(*field(at, TV) == ',');
-        if (!(TEST(*rows && strncmp(at, *rows, strlen(*rows)) == 0) &
-              TEST(last[-1] == ',' && *field(last, 1) == '\n') &
+        if (!(TEST(last[-1] == ',' && *field(last, 1) == '\n') &
               TEST(strncmp(field(at, WRONG), "0,", 2) == 0 && number(at, NS) > 0)))
-            fprintf(stderr, "  not %s: %.*s\n", *rows ? *rows : "asked for", (int)strcspn(at, "\n"), at);
-        rows += *rows != NULL;
+            fprintf(stderr, "  %.*s\n", (int)strcspn(at, "\n"), at);
+        snprintf(found + strlen(found), sizeof found - strlen(found), "%.*s|", length, method);
     }
-    TEST(!*rows);
+    if (!TEST(strcmp(found, methods) == 0))
+        fprintf(stderr, "  %s\n  not %s\n", found, methods);
     return text + sizeof head - 1;
 }
 
+#define TABLE "table 8 KiB, 4 moments"
+
 static void test_normals(void)
 {
-    const char *row = rows_of(
-        "--seconds 0.1 --only ggx",
-        LIST("\"ggx\",\"spherical caps (2023)\",published,,,0,,,", "\"ggx\",\"all normals (2007)\",published,",
-             "\"ggx\",\"closed form\",closed,,,0,,,", "\"ggx\",\"closed form: affine\",call,",
-             "\"ggx\",\"closed form: mixture\",call,", "\"ggx\",\"closed form, exported C\",exported,"));
+    const char *row = rows_of("--seconds 0.1 --only ggx",
+                              "spherical caps (2023)|all normals (2007)|closed form|closed form: affine|"
+                              "closed form: mixture|closed form, exported C|");
     TEST(number(row, RATIO) == 1 && number(row, TV) < 1e-6 && number(row, BATCH) > 0);
-    row = rows_of("--seconds 0.1 --slope 'exp(-a*r)' --set a=3 --only '8 KiB, 4 moments'",
-                  LIST("\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments\",table,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: weight\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: pdf\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: invert\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: ndf\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: lambda\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: affine\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments: mixture\",call,",
-                       "\"--slope 'exp(-a*r)' --set a=3\",\"table 8 KiB, 4 moments, exported C\",exported,"));
+    TEST(strncmp(row, "\"ggx\",\"spherical caps (2023)\",published,,,0,,,", 45) == 0);
+    row = rows_of("--seconds 0.1 --slope 'exp(-a*r)' --set a=3 --only '" TABLE "'",
+                  TABLE "|" TABLE ": weight|" TABLE ": pdf|" TABLE ": invert|" TABLE ": ndf|" TABLE
+                        ": lambda|" TABLE ": affine|" TABLE ": mixture|" TABLE ", exported C|");
+    TEST_HAS(row, "\"--slope 'exp(-a*r)' --set a=3\",\"" TABLE "\",table,");
     TEST(number(row, MEMORY) > number(row, FILE_BYTES) && number(row, FILE_BYTES) > 7900);
     TEST(number(row, MOMENTS) == 4 && number(row, WEIGHT) > 1 && number(row, BATCH) > 0);
-    TEST(number(row, BELOW) > number(row, TV) && number(row, TV) > 1e-5);
+    TEST(number(row, BELOW) > number(row, TV) && fabs(number(row, TV) - 2.44e-4) < 2e-5);
 }
 
 static void test_effects(void)
 {
-    const char *row = rows_of("--effects --seconds 0.01 --only masking --alpha 0.3,0.2",
-                              LIST("\"ggx\",\"separable masking\",effects,0.3,0.2,,,,",
-                                   "\"ggx\",\"V-cavity masking\",", "\"ggx\",\"no masking\",",
-                                   "\"beckmann\",\"separable", "\"beckmann\",\"V-cav", "\"beckmann\",\"no m",
-                                   "\"student-t:2.5\",\"sep", "\"student-t:2.5\",\"V-", "\"student-t:2.5\",\"no"));
+    static const char three[] = "separable masking|V-cavity masking|no masking|";
+    char methods[200];
+    snprintf(methods, sizeof methods, "%s%s%s", three, three, three); /* of GGX, Beckmann and a table */
+    const char *row = rows_of("--effects --seconds 0.01 --only masking --alpha 0.3,0.2", methods);
     TEST(number(row, ALPHA_Y) == 0.2 && number(row, BATCH) > 0);
     static char text[RUN_TEXT];
     int count = -1; /* the head */

@@ -59,49 +59,21 @@ static void test_caps(void)
                 fprintf(stderr, "  set %d: at %g degrees\n", (int)set, thetas[i]);
 }
 
-/* It notices: the normals of one distribution are not those of another, nor all normals the visible ones. */
-static void test_notices(void)
-{
-    const method_reference reference = method_reference_of(vndf_ggx(), "ggx");
-    method caps = method_ggx_caps(), normals = method_all_normals(&reference);
-    TEST(chi_square_of(&caps, VNDF_INSTRUCTIONS_BEST, vndf_beckmann(), 60, 0.5f) < level);
-    TEST(chi_square_of(&normals, VNDF_INSTRUCTIONS_BEST, vndf_ggx(), 60, 0.5f) < level);
-    method_release(&normals);
-}
-
 /* ---- any D ------------------------------------------------------------------------------------- */
-
-static findings findings_of(const method *m, const method_reference *reference, double theta, size_t replicates)
-{
-    static block b;
-    return worth_of_normals(m, reference, theta, replicates, &b);
-}
 
 /* Unbiased: the albedo is the reference's within the noise at 60 and 85 degrees, and the noise is small. */
 static void test_unbiased(method m, const method_reference *reference)
 {
+    static block b;
     method ours = method_ours(reference->canonical.distribution, "", METHOD_SAMPLE);
     for (double theta = 60; TEST(m.each != NULL) && theta < 90; theta += 25) {
-        findings f = findings_of(&m, reference, theta, 64), t = findings_of(&ours, reference, theta, 64);
+        findings f = worth_of_normals(&m, reference, theta, 64, &b),
+                 t = worth_of_normals(&ours, reference, theta, 64, &b);
         int agrees = fabs(f.albedo - t.albedo) <= 6 * hypot(f.albedo_noise, t.albedo_noise) + 1e-6;
         if (!(TEST(agrees) & TEST(f.albedo_noise < 0.02 * f.albedo) & TEST(t.albedo_noise < 1e-3)))
             fprintf(stderr, "  %s at %g: %g +- %g, not %g\n", m.name, theta, f.albedo, f.albedo_noise, t.albedo);
     }
     method_release(&m);
-}
-
-/* The samples of a small table show the error that its certificate states, and no more; those of an exact method
- * none, but for rounding. */
-static void test_error(const method_reference *reference, const vndf_distribution *small)
-{
-    const method_reference ggx = {vndf_rough(vndf_ggx(), 1, 1), 1, "ggx"};
-    const method m = method_ours(small, "", METHOD_SAMPLE), caps = method_ggx_caps();
-    double worst = 0, claimed = (double)vndf_distribution_info(small).certificate.tv_above;
-    for (double theta = 8; theta < 90; theta += 15) { /* it is a saw over theta, with a top at 38 degrees */
-        worst = fmax(worst, findings_of(&m, reference, theta, 16).tv);
-        TEST(findings_of(&caps, &ggx, theta, 16).tv < 1e-6);
-    }
-    TEST(worst <= 1.02 * claimed && worst > 0.6 * claimed);
 }
 
 /* ---- verification ------------------------------------------------------------------------------ */
@@ -183,30 +155,19 @@ static void test_verify_material(void)
     method_release(&m);
 }
 
-static void test_any(void)
-{
-    vndf_distribution *fine = oracle_build("student-t:2.5", 32768, NULL, NULL),
-                      *small = oracle_build("student-t:2.5", 2048, NULL, NULL);
-    if (TEST(fine && small)) {
-        method_reference reference = method_reference_of(fine, "fine");
-        test_unbiased(method_all_normals(&reference), &reference);
-        test_unbiased(method_warp(&reference), &reference);
-        test_error(&reference, small);
-    }
-    vndf_free(fine);
-    vndf_free(small);
-}
-
 int main(void)
 {
     test_verify();
     test_verify_material();
-    test_notices();
     test_caps();
-    for (int i = 0; i < 2; i++) {
-        const method_reference reference = method_reference_of(i ? vndf_beckmann() : vndf_ggx(), "");
+    vndf_distribution *table = oracle_build("student-t:2.5", 32768, NULL, NULL);
+    const vndf_distribution *const all[] = {vndf_ggx(), vndf_beckmann(), table};
+    for (int i = 0; i < 3 && TEST(table != NULL); i++) {
+        const method_reference reference = method_reference_of(all[i], "");
         test_unbiased(method_all_normals(&reference), &reference);
+        if (i == 2)
+            test_unbiased(method_warp(&reference), &reference);
     }
-    test_any();
+    vndf_free(table);
     return test_done();
 }

@@ -10,7 +10,8 @@
 typedef struct view_case {
     const char *slope;
     float alpha_x, alpha_y;
-    double theta, phi, off, error; /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
+    double theta, phi, off,
+        error; /* of the tail r^-3.1 two thousandths lie beyond slope 1e26, where a table ends */
 } view_case;
 
 static const view_case CASES[] = {

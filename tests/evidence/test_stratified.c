@@ -1,6 +1,5 @@
 /* Under 64 Owen-scrambled Sobol points the error of what a table reflects is in the mean at most 1.6 times that
- * of GGX by spherical caps. And the points are what they say: every elementary interval of 64 of them holds one, and
- * scrambled ones are uniform. */
+ * of GGX by spherical caps. And the points are what they say: every elementary interval of 64 of them holds one. */
 #include "evidence/measure/stratified.h"
 #include "sampler/seen.h"
 
@@ -19,20 +18,6 @@ static void test_net(uint32_t scramble)
     }
 }
 
-static void test_uniform_points(void)
-{
-    double sum[4] = {0};
-    for (uint32_t i = 0; i < 20000; i++) {
-        float u1, u2;
-        stratified_point(7, i * 77, &u1, &u2);
-        sum[0] += u1, sum[1] += u2, sum[2] += u1 * u1, sum[3] += u1 * u2;
-    }
-    TEST_NEAR(sum[0] / 20000, 0.5, 0.01);
-    TEST_NEAR(sum[1] / 20000, 0.5, 0.01);
-    TEST_NEAR(sum[2] / 20000, 1.0 / 3, 0.01);
-    TEST_NEAR(sum[3] / 20000, 0.25, 0.01);
-}
-
 static void test_subject(const subject *of, size_t index)
 {
     double found = stratified_beside_caps(of->d, 0.3f, test_amount(100, 300, 4000), 5);
@@ -44,6 +29,5 @@ int main(int arguments, char **argument)
 {
     test_net(0);
     test_net(12345);
-    test_uniform_points();
     return subjects_test(arguments, argument, test_subject);
 }
