@@ -37,6 +37,7 @@ static void test_values(void)
         {"--+-1", -1},
         {".5 + 1. + 1e-1+1E+1", 11.6},
         {"pi", PI},
+        {"--slope 1\\ +1", 2},
         {"--slope a*b_1 --set a=0.3 --set b_1=-2", -0.6},
         {"\t r \n", r},
         {"--slope gamma(gamma) --set gamma=2.5", tgamma(2.5)},
