@@ -9,7 +9,7 @@ static const char head[] =
     "efficiency_light,mean,noise,lost,variance,efficiency\n";
 
 /* Columns. */
-enum { ALPHA_Y = 4, MEMORY, FILE_BYTES, MOMENTS, WRONG, NS, BATCH, RATIO = 17, TV, BELOW, WEIGHT };
+enum { ALPHA_Y = 4, MEMORY, FILE_BYTES, MOMENTS, WRONG, NS, BATCH, RATIO = 17, TV, BELOW, WEIGHT, SOBOL };
 enum { MEAN = 25, LOST = 27, COLUMNS = 30 };
 
 /* Where a field of a line of CSV begins: commas between quotes are text. */
@@ -66,6 +66,7 @@ static void test_normals(void)
     TEST_HAS(row, "\"--slope 'exp(-a*r)' --set a=3\",\"" TABLE "\",table,");
     TEST(number(row, MEMORY) > number(row, FILE_BYTES) && number(row, FILE_BYTES) > 7900);
     TEST(number(row, MOMENTS) == 4 && number(row, WEIGHT) > 1 && number(row, BATCH) > 0);
+    TEST(number(row, SOBOL) > 0.1 && number(row, SOBOL) < 1.6); /* of caps */
     TEST(number(row, BELOW) > number(row, TV) && fabs(number(row, TV) - 2.44e-4) < 2e-5);
 }
 
