@@ -43,22 +43,22 @@ static float clamp(float value, float most)
 /* ---- looking up ---- */
 
 /* The first of four nodes, and their weights. */
-typedef struct place {
+typedef struct cell_place {
     int first;
     float weight[4];
-} place;
+} cell_place;
 
 /* At a part of the way from the first of the nodes to the last. */
-static place place_of(float part, int nodes)
+static cell_place place_of(float part, int nodes)
 {
     float at = clamp(part, 1.0f) * (float)(nodes - 1);
     int first = (int)at - 1;
     first = first < 0 ? 0 : first > nodes - 4 ? nodes - 4 : first;
     float p = at - (float)first, q = p - 1.0f, r = p - 2.0f, s = p - 3.0f;
-    return (place){first, {q * r * s / -6.0f, p * r * s / 2.0f, p * q * s / -2.0f, p * q * r / 6.0f}};
+    return (cell_place){first, {q * r * s / -6.0f, p * r * s / 2.0f, p * q * s / -2.0f, p * q * r / 6.0f}};
 }
 
-static float sum_at(const float *value, const place *at)
+static float sum_at(const float *value, const cell_place *at)
 {
     const float *v = value + at->first;
     return (v[0] * at->weight[0] + v[1] * at->weight[1]) + (v[2] * at->weight[2] + v[3] * at->weight[3]);
@@ -70,13 +70,13 @@ static float slope_of(const vndf_albedo *albedo, float alpha)
     return clamp(alpha, VNDF_ALBEDO_ALPHA_MAX) * albedo->scale;
 }
 
-static place row_of(const vndf_albedo *albedo, float slope)
+static cell_place row_of(const vndf_albedo *albedo, float slope)
 {
     float most = VNDF_ALBEDO_ALPHA_MAX * albedo->scale;
     return place_of(sqrtf(slope * (1.0f + bend * most) / (most * (1.0f + bend * slope))), ROWS);
 }
 
-static place column_of(const vndf_albedo *albedo, float cosine, float slope)
+static cell_place column_of(const vndf_albedo *albedo, float cosine, float slope)
 {
     float c = clamp(fabsf(cosine), 1.0f), bent = knee * slope;
     float t = c + bent > 0.0f ? c * (1.0f + bent) / (c + bent) : 0.0f;
@@ -88,7 +88,7 @@ float vndf_albedo_directional(const vndf_albedo *albedo, float cosine, float alp
     if (!albedo)
         return 1.0f;
     float slope = slope_of(albedo, alpha), sum = 0.0f;
-    place x = column_of(albedo, cosine, slope), y = row_of(albedo, slope);
+    cell_place x = column_of(albedo, cosine, slope), y = row_of(albedo, slope);
     int side = albedo->eta > 0.0f && cosine < 0.0f;
     for (int i = 0; i < 4; i++)
         sum += y.weight[i] * sum_at(albedo->value[side][y.first + i], &x);
@@ -99,7 +99,7 @@ float vndf_albedo_average(const vndf_albedo *albedo, float alpha)
 {
     if (!albedo)
         return 1.0f;
-    place y = row_of(albedo, slope_of(albedo, alpha));
+    cell_place y = row_of(albedo, slope_of(albedo, alpha));
     return clamp(sum_at(albedo->average, &y), 1.0f);
 }
 

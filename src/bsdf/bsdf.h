@@ -26,22 +26,22 @@
 /* ---- the kernel for one double, with functions of src/math ---- */
 
 /* x as the calls of vndf.h take it. */
-HERE real narrow(real x)
+KERNEL real narrow(real x)
 {
     return (real)(float)x;
 }
 
-HERE real exp_of(real x)
+KERNEL real exp_of(real x)
 {
     return vndf_exp(x);
 }
 
-HERE real log_of(real x)
+KERNEL real log_of(real x)
 {
     return vndf_log(x);
 }
 
-HERE real log_beyond(real x)
+KERNEL real log_beyond(real x)
 {
     return vndf_log1p(x);
 }

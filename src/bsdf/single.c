@@ -166,7 +166,8 @@ static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 
 /* ---- values and densities ---- */
 
-VNDF_INLINE int look(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int reflects, float *value, float *pdf)
+VNDF_INLINE int load_row(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int reflects, float *value,
+                         float *pdf)
 {
     const vndf_material *m = b->material;
     direction from = vndf_direction(b->own.wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
@@ -196,8 +197,8 @@ static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value
     double rise = (double)vndf_hit_cosine(&b->own.view, wo);
     (void)seed;
     if (rise > 0.0)
-        return lobes != VNDF_LOBES_TRANSMISSION && look(b, wo, rise, 1, value, pdf);
-    return rise < 0.0 && lobes != VNDF_LOBES_REFLECTION && look(b, wo, -rise, 0, value, pdf);
+        return lobes != VNDF_LOBES_TRANSMISSION && load_row(b, wo, rise, 1, value, pdf);
+    return rise < 0.0 && lobes != VNDF_LOBES_REFLECTION && load_row(b, wo, -rise, 0, value, pdf);
 }
 
 const vndf_routines vndf_routines_single = {sample, eval};

@@ -170,7 +170,7 @@ static void refuse(builder *b)
                      (double)(above ? less.floor_above : less.floor));
     if (b->best)
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET, "%s takes some %lu bytes: %lu leave %.3g",
-                  target, (unsigned long)(b->best->bytes * 17 / 16), (unsigned long)bytes, (double)left);
+                  target, (unsigned long)(b->best->bytes * 9 / 8), (unsigned long)bytes, (double)left);
     else
         vndf_fail(vndf_guard_why(b->profile->guard), VNDF_ERROR_TARGET,
                   "no table reaches %s: %d moments leave %.3g whatever the size%s", target, (int)b->moments,

@@ -82,10 +82,10 @@ static void halve(survey *s, const float *knot)
 /* ---- one direction ---- */
 
 /* What is drawn in a cell, from the direction: below the horizon from v.first on, whose coordinate is 0 at rho. */
-static vndf_drawn drawn_in(table t, seen v, int i, int below)
+static vndf_drawn drawn_in(table t, radial_law v, int i, int below)
 {
     const weights near = {0, v.c, 0, 0};
-    piece p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
+    cell_density p = below ? law_cell_below(t, v, i) : law_cell_above(t, v, i < v.first ? near : v.w, i);
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
 }
 
@@ -125,7 +125,8 @@ static double largest_weight(const survey *s, double least)
 }
 
 /* Compares what is drawn with what is seen, half a strip after the other. What is lost lies beyond all slopes. */
-static void compare(survey *s, seen v, int below, size_t edge, double area_seen, double area_drawn, double *figure)
+static void compare(survey *s, radial_law v, int below, size_t edge, double area_seen, double area_drawn,
+                    double *figure)
 {
     const size_t *strip = s->strips.first;
     double miss = 0, lost = 0, weight = 1, add = below ? 0 : PI * v.rho, per = v.s / (PI * area_seen);
@@ -181,7 +182,7 @@ static void look_at_side(survey *s, double rho, size_t edge, int below, double *
     table t = s->table;
     double sine = 1 / (1 + rho), beyond = 0, all = 0;
     int cell = find_knot(t, rho * rho, 1);
-    seen v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
+    radial_law v = below ? law_see_below(t, sine, rho * sine, rho, cell) : law_see_above(t, sine, rho * sine, rho);
     for (size_t i = edge; i < s->strips.count; i++)
         beyond += s->in[i].seen;
     if (below && !(beyond > vndf_profile_claimed(s->profile) * 2 * PI * s->profile->f1 * hypot(1, rho)))
@@ -267,7 +268,7 @@ static void look_around(survey *s)
     for (int i = 0; i <= s->table.cells; i += s->table.cells / CELLS_MOST + 1)
         look_from_edge(s, s->strips.first[i]);
     for (int i = 1; i < VNDF_RHO_PARTS; i++)
-        if (look_first(s->table, i) != look_first(s->table, i - 1)) {
+        if (first_knot(s->table, i) != first_knot(s->table, i - 1)) {
             double rho = of_bits((VNDF_RHO_FIRST + i) * (1 << 20));
             size_t edge = vndf_last_before(&at->edge, sizeof *at, s->strips.count, rho * before);
             look_from(s, rho * before, edge, 1);
@@ -324,13 +325,13 @@ static double last_claimed(const survey *s)
 {
     int cell = 0;
     for (int step = s->table.highest; step > 0; step /= 2) {
-        double next = look(s->table, VNDF_KNOT, least_whole(cell + step, s->table.cells)).b;
+        double next = load_knot(s->table, min_int(cell + step, s->table.cells)).z;
         if (cell + step <= s->table.cells &&
             is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below))
             cell += step;
     }
-    quad k = look(s->table, VNDF_KNOT, cell);
-    double z = k.b, width = cell < s->table.cells ? k.c : k.b;
+    knot_row k = load_knot(s->table, cell);
+    double z = k.z, width = cell < s->table.cells ? k.width : k.z;
     for (int n = 1; n <= 6; n++) {
         double next = z - ldexp(width, -n);
         z = is_claimed(s, next, vndf_profile_below(s->profile, next, 1 - next).below) ? next : z;
@@ -345,12 +346,12 @@ static double area_error(const survey *s)
     enum { PLACES = 3, HALVINGS = 3 };
     double worst = 0, where = 1, step = 0, last = last_claimed(s);
     for (int i = 0; i <= s->table.cells; i++) {
-        quad k = look(s->table, VNDF_KNOT, i);
-        double end = k.b - (i < s->table.cells ? k.c : k.b), width = (k.b - end) / (PLACES + 1);
-        if (last > end && last < k.b)
-            width = (k.b - last) / PLACES;
-        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.b * (1 - k.b); n++)
-            if (note_area(s, i, k.b - n * width, &worst, &where))
+        knot_row k = load_knot(s->table, i);
+        double end = k.z - (i < s->table.cells ? k.width : k.z), width = (k.z - end) / (PLACES + 1);
+        if (last > end && last < k.z)
+            width = (k.z - last) / PLACES;
+        for (int n = 1; n <= PLACES && width > VNDF_GRAIN * k.z * (1 - k.z); n++)
+            if (note_area(s, i, k.z - n * width, &worst, &where))
                 step = width;
     }
     for (int n = 0; n < 2 * HALVINGS; n++) {
@@ -373,7 +374,7 @@ static double ndf_error(const survey *s)
     double sum = 0, worst = 0;
     for (int i = 0; i <= s->table.cells; i++) {
         int tail = i == s->table.cells;
-        piece all = law_cell_all(s->table, i);
+        cell_density all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0, next;
         for (size_t n = first[i]; n < first[i + 1]; n++, before = next) {
@@ -416,7 +417,7 @@ int vndf_certificate_measure(vndf_certificate *c, const vndf_distribution *d, co
     survey s = {.table = table_of(d), .profile = profile, .to = c};
     float *knot = malloc((cells + 1) * sizeof *knot);
     for (unsigned i = 0; knot && i <= cells; i++)
-        knot[i] = (float)look(s.table, VNDF_KNOT, (int)i).a;
+        knot[i] = (float)load_knot(s.table, (int)i).r;
     int good = knot && vndf_strips_from(&s.strips, profile, knot, cells + 1, cells);
     size_t n = good ? s.strips.count : 0;
     s.at = calloc(n + 1, sizeof *s.at);

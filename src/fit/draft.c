@@ -21,14 +21,14 @@ static void put_cells(vndf_distribution *t, const vndf_strips *s, const vndf_pro
     double beyond = 0;
     for (unsigned i = (unsigned)t->cells + 1; i-- > 0;) {
         vndf_cell c = vndf_cell_measure(profile, s, s->first[i], s->first[i + 1], (unsigned)t->squarings);
-        float *law = vndf_table_row(t, VNDF_LAW, i), *more = vndf_table_row(t, VNDF_MORE, i);
-        law[0] = (float)c.g0;
-        law[1] = (float)c.g1;
-        law[2] = (float)c.m0;
-        law[3] = (float)c.m1;
-        more[0] = (float)c.m2;
-        beyond += (double)(float)c.cube * law[2];
-        more[1] = t->moments == 4 && beyond > FOURTH_LEAST ? (float)c.cube : 0.0f;
+        vndf_knot_numbers *k = vndf_knot_at(t, i);
+        k->left = (float)c.g0;
+        k->right = (float)c.g1;
+        k->m0 = (float)c.m0;
+        k->m1 = (float)c.m1;
+        k->m2 = (float)c.m2;
+        beyond += (double)(float)c.cube * k->m0;
+        k->cube = t->moments == 4 && beyond > FOURTH_LEAST ? (float)c.cube : 0.0f;
     }
 }
 
@@ -94,11 +94,10 @@ static void put_shares(vndf_distribution *t, const vndf_strips *s, double *grazi
         for (size_t k = s->first[i]; k < s->first[i + 1]; k++)
             sum += s->at[k].along;
     for (unsigned i = 0; i <= cells; i++) {
-        float *shares = vndf_table_row(t, VNDF_MORE, i) + 2;
         double rho = s->at[s->first[i ? i : 1]].edge * (i ? 1 : 0.1);
         put_best(room, cast(s, i, cells, rho, grazing, room), &b0, &b1);
-        shares[0] = b0;
-        shares[1] = b1;
+        vndf_knot_at(t, i)->b0 = b0;
+        vndf_knot_at(t, i)->b1 = b1;
     }
 }
 
@@ -179,10 +178,10 @@ vndf_distribution *vndf_draft_from(vndf_knots *knots, unsigned moments)
         t->scale = profile->scale;
         for (unsigned i = 0; i < count; i++) {
             const vndf_area *area = vndf_knots_area(knots, knots->at[i]);
-            float *low = vndf_table_row(t, VNDF_LOW, i), r = knot[i] = (float)knots->strips.at[knots->at[i]].edge;
-            vndf_table_row(t, VNDF_KNOT, i)[0] = r;
-            low[2] = (float)(area->below + (double)r / (1 + (double)r));
-            low[3] = (float)(1 - area->turned - area->along);
+            vndf_knot_numbers *k = vndf_knot_at(t, i);
+            k->r = knot[i] = (float)knots->strips.at[knots->at[i]].edge;
+            k->area = (float)(area->below + (double)k->r / (1 + (double)k->r));
+            k->slope = (float)(1 - area->turned - area->along);
         }
         if (vndf_strips_from(&strips, profile, knot, count, count - 1))
             rays = malloc(2 * strips.count * sizeof *rays);

@@ -26,18 +26,16 @@ typedef struct arc {
 } arc;
 
 /* From cz = |c| z, sx = s x and edge = sx - cz, which keeps its digits where it is small. */
-HERE arc arc_of(real cz, real sx, real edge, const int below)
+KERNEL arc arc_of(real cz, real sx, real edge, const int below)
 {
-    real sum = cz + sx, reach = root(most(edge, set(0.0f)) * sum), per = 1.0f / sum;
-    real cc = cz * per, e = edge * per, q = least(reach * per, set(1.0f)),
-         q2 = least(most(e, set(0.0f)), set(1.0f));
+    real sum = cz + sx, reach = sqrt(max(edge, set(0.0f)) * sum), per = 1.0f / sum;
+    real cc = cz * per, e = edge * per, q = min(reach * per, set(1.0f)), q2 = min(max(e, set(0.0f)), set(1.0f));
     if (below) {
-        q = most(q, set(1e-5f)); /* cubes of q occur */
-        q2 = most(q2, set(1e-10f));
+        q = max(q, set(1e-5f)); /* cubes of q occur */
+        q2 = max(q2, set(1e-10f));
     }
     real g = arc_rest(q2), bend = 2.0f * q * (1.0f - q2 * g), rest = (q * q2) * (1.0f + g * (1.0f - q2));
-    arc k = {cc, most(-e, set(0.0f)), q, q2, least(cc, sx * per), 3.14159265f - bend, 3.14159265f * cc + rest,
-             sum};
+    arc k = {cc, max(-e, set(0.0f)), q, q2, min(cc, sx * per), 3.14159265f - bend, 3.14159265f * cc + rest, sum};
     if (below) {
         k.cc = -cc;
         k.p = set(0.0f);
@@ -49,20 +47,20 @@ HERE arc arc_of(real cz, real sx, real edge, const int below)
 }
 
 /* 1/sqrt(x) within 0.2%, from the bits of x > 0 and one step of Newton's. */
-HERE real arc_inverse_root(real x)
+KERNEL real arc_inverse_root(real x)
 {
     real y = of_bits(0x5f375a86 - bits(x) / 2);
     return y * (1.5f - 0.5f * x * (y * y));
 }
 
 /* x^(2/3) within 5%, x >= 0, from the bits of x. */
-HERE real arc_two_thirds(real x)
+KERNEL real arc_two_thirds(real x)
 {
-    return of_bits(to_whole(to_real(bits(x)) * 0.666666667f + 355.0e6f));
+    return of_bits(to_int(to_real(bits(x)) * 0.666666667f + 355.0e6f));
 }
 
 /* A d with F(d) near v T, from v^2/d^2 as a sum of the powers of v that the terms of F have alone. */
-HERE real arc_start(arc k, real v, const int below)
+KERNEL real arc_start(arc k, real v, const int below)
 {
     real v2 = v * v, p = k.p, t = k.q2;
     if (below) {
@@ -74,16 +72,16 @@ HERE real arc_start(arc k, real v, const int below)
     real p2 = p * p, straight = (0.390562f - 0.568917f * p) + p2 * 0.280348f;
     inverse = (inverse + p * (0.024493f * v2 - 0.118976f * v43)) + p2 * straight;
     inverse = inverse + k.q * (0.248745f * v + (0.285757f * v) * t);
-    return v * arc_inverse_root(most(inverse, set(1e-36f)));
+    return v * arc_inverse_root(max(inverse, set(1e-36f)));
 }
 
 /* Of a normal at azimuth a: ss cos a, ss sin a, and cc + ss cos a, which is what is seen of it. */
-typedef struct bearing {
-    real along, aside, facing;
-} bearing;
+typedef struct azimuth {
+    real cosine, sine, visible;
+} azimuth;
 
 /* sqrt(2) sin(d/2)/d from d^2, 0 <= d <= pi; relative error 6e-9. */
-HERE real arc_sine(real d2)
+KERNEL real arc_sine(real d2)
 {
     real d4 = d2 * d2;
     return (0.707106778f - 0.0294627649f * d2) +
@@ -91,7 +89,7 @@ HERE real arc_sine(real d2)
 }
 
 /* sin d and 1 - cos d, 0 <= d <= pi, both with their digits where they are small. */
-HERE turn arc_turn(real d)
+KERNEL turn arc_turn(real d)
 {
     real rest = 3.14159265f - d, sine = d * arc_sine(d * d), cosine = rest * arc_sine(rest * rest);
     const turn t = {sine * cosine, sine * sine};
@@ -100,47 +98,47 @@ HERE turn arc_turn(real d)
 
 /* One step from d. With P = q sin d - r cos d and Q = q cos d + r sin d the derivatives of F are cc + P, Q, -P; all are
  * turned by the step. */
-HERE bearing arc_step(arc k, real d, real goal)
+KERNEL azimuth arc_step(arc k, real d, real goal)
 {
     turn t = arc_turn(d);
     real sn = t.sine, vs = t.cosine, cs = 1.0f - vs, f1 = k.p + (k.q * sn + k.r * vs);
     real f = ((k.p * d - goal) + k.q * vs) + k.r * (d - sn);
     real p = k.q * sn - k.r * cs, q = k.q * cs + k.r * sn, fq = f * q, f12 = f1 * f1;
     real below = f1 * (f12 - fq) - (f * f * (p * 0.166666667f) - 1e-36f), step = f * (0.5f * fq - f12) / below;
-    step = most(least(step, least(set(0.25f), k.length - d)), most(set(-0.25f), -d));
+    step = max(min(step, min(set(0.25f), k.length - d)), max(set(-0.25f), -d));
     real s2 = step * step, ds = 1.0f - s2 * 0.166666667f, dc = step * (0.5f - s2 * 0.0416666667f);
     real more = step * (q * ds - p * dc);
-    bearing a = {p + more, q - step * (q * dc + p * ds), f1 + more};
+    azimuth a = {p + more, q - step * (q * dc + p * ds), f1 + more};
     return a;
 }
 
 /* The azimuth that u1 stands for: from behind wi (0) on one side through that of wi (1/2) to behind it on the other. v
  * is the part of half the arc, the bearing that of v. */
-HERE real arc_half(real u1)
+KERNEL real arc_half(real u1)
 {
-    return 2.0f * least(u1, 1.0f - u1);
+    return 2.0f * min(u1, 1.0f - u1);
 }
 
-HERE bearing arc_side(bearing bare, real u1)
+KERNEL azimuth arc_side(azimuth bare, real u1)
 {
-    bearing a = bare;
-    a.aside = with_sign(a.aside, u1 - 0.5f);
+    azimuth a = bare;
+    a.sine = with_sign(a.sine, u1 - 0.5f);
     return a;
 }
 
-HERE bearing arc_draw(arc k, real u1, const int below)
+KERNEL azimuth arc_draw(arc k, real u1, const int below)
 {
     real v = arc_half(u1);
     return arc_side(arc_step(k, arc_start(k, v, below), v * k.mass), u1);
 }
 
 /* The number u1 of a normal whose azimuth has this cosine and sine, both times a positive number. */
-HERE real arc_invert(arc k, real along, real aside)
+KERNEL real arc_invert(arc k, real along, real aside)
 {
-    real d = most(k.length - angle_of(size(aside), along), set(0.0f));
+    real d = max(k.length - angle_of(abs(aside), along), set(0.0f));
     turn t = arc_turn(d);
-    real v = least(((k.p * d + k.q * t.cosine) + k.r * (d - t.sine)) / k.mass, set(1.0f)) * 0.5f;
-    return pick(less(aside, set(0.0f)), v, 1.0f - v);
+    real v = min(((k.p * d + k.q * t.cosine) + k.r * (d - t.sine)) / k.mass, set(1.0f)) * 0.5f;
+    return select(lt(aside, set(0.0f)), v, 1.0f - v);
 }
 
 #endif

@@ -33,33 +33,33 @@ typedef struct beckmann_place {
 } beckmann_place;
 
 /* The law of a direction. K is held above -1e4, where areas have long been 0. */
-HERE beckmann_law beckmann_law_of(real vx, real vy, real vz)
+KERNEL beckmann_law beckmann_law_of(real vx, real vy, real vz)
 {
     ggx_direction w = ggx_direction_of(vx, vy, vz);
-    real bound = most(vz / w.across, set(-1e4f)), z = least(size(bound), set(1e4f)), gauss = exp_of(-(z * z));
+    real bound = max(vz / w.across, set(-1e4f)), z = min(abs(bound), set(1e4f)), gauss = exp_of(-(z * z));
     erfc_quotient n = erfc_rest(z);
-    mask far = at_most(set(1.25f), bound);
-    real under = n.above + z * n.below, fall = pick(far, set(1.0f), most(gauss, set(0.2f))),
+    mask far = le(set(1.25f), bound);
+    real under = n.above + z * n.below, fall = select(far, set(1.0f), max(gauss, set(0.2f))),
          per = 1.0f / (under * fall);
-    real line = 3.54490770f * most(bound, set(0.0f)) * (under * per), around = pick(far, set(0.0f), set(1.0f));
+    real line = 3.54490770f * max(bound, set(0.0f)) * (under * per), around = select(far, set(0.0f), set(1.0f));
     const beckmann_law law = {
-        w.cosine, w.sine, w.across, bound, line, line + n.above * per * pick(far, gauss, fall), around};
+        w.cosine, w.sine, w.across, bound, line, line + n.above * per * select(far, gauss, fall), around};
     return law;
 }
 
 /* A(w), measured: 3e-6 where it is above 1e-10 of what it is at grazing; at least 1e-37. */
-HERE real beckmann_area(real vx, real vy, real vz)
+KERNEL real beckmann_area(real vx, real vy, real vz)
 {
     beckmann_law law = beckmann_law_of(vx, vy, vz);
     real fall = exp_of(-(law.around * law.bound * law.bound));
-    return most(0.282094792f * law.across * law.whole * fall, set(1e-37f));
+    return max(0.282094792f * law.across * law.whole * fall, set(1e-37f));
 }
 
-HERE beckmann_view beckmann_see(real vx, real vy, real vz)
+KERNEL beckmann_view beckmann_see(real vx, real vy, real vz)
 {
     beckmann_law law = beckmann_law_of(vx, vy, vz);
-    real near = pick(less(law.bound, set(2.0f)), set(1.0f), set(0.0f)), bound = most(law.bound, set(0.0f));
-    real k = least(bound, 4.0f / most(bound, set(1.0f)));
+    real near = select(lt(law.bound, set(2.0f)), set(1.0f), set(0.0f)), bound = max(law.bound, set(0.0f));
+    real k = min(bound, 4.0f / max(bound, set(1.0f)));
     beckmann_view v;
     v.law = law;
     v.near = near;
@@ -77,14 +77,14 @@ HERE beckmann_view beckmann_see(real vx, real vy, real vz)
 }
 
 /* P22 of the slope over z^4, as for GGX; 0 where it underflows. */
-HERE real beckmann_p22(real x, real y, real z)
+KERNEL real beckmann_p22(real x, real y, real z)
 {
-    real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f), square = per * per;
+    real per = 1.0f / max(z, 1e-9f * (abs(x) + abs(y)) + 1e-37f), square = per * per;
     return 0.318309886f * exp_of(-((x * x + y * y) * square)) * square * square;
 }
 
 /* x^2, less K^2 for K < 5/4: one of two products, chosen by arithmetic, which is the fastest. */
-HERE real beckmann_exponent(beckmann_law v, real x, real d)
+KERNEL real beckmann_exponent(beckmann_law v, real x, real d)
 {
     real t = v.around * d + (1.0f - v.around) * x;
     return t * (t - 2.0f * v.around * v.bound);
@@ -92,16 +92,16 @@ HERE real beckmann_exponent(beckmann_law v, real x, real d)
 
 /* The density of the slopes; 0 where it underflows, as P22 does: of nearly level normals the least float is times z^-3,
  * which is much. */
-HERE real beckmann_slopes(beckmann_law v, real x, real y, real d)
+KERNEL real beckmann_slopes(beckmann_law v, real x, real y, real d)
 {
     return 1.12837917f * exp_of(-(beckmann_exponent(v, x, d) + y * y)) * d / v.whole;
 }
 
 /* The factor K of a normal that faces w, facing = w.(x, y, z) > 0: never 0. */
-HERE real beckmann_density(beckmann_view view, real x, real y, real z, real facing)
+KERNEL real beckmann_density(beckmann_view view, real x, real y, real z, real facing)
 {
     beckmann_law v = view.law;
-    real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f);
+    real per = 1.0f / max(z, 1e-9f * (abs(x) + abs(y)) + 1e-37f);
     real along = v.cosine * x + v.sine * y, across = v.cosine * y - v.sine * x;
     return beckmann_slopes(v, -(along * per), across * per, facing * per / v.across) * per * per * per;
 }
@@ -110,24 +110,24 @@ HERE real beckmann_density(beckmann_view view, real x, real y, real z, real faci
  * rho exactly. K <= 0: exponents compared, d^2 - 2 K d = rho^2 - 2 K m rho/(1 + b rho). 0 < K < 5/4: d = rho m (1 + b
  * rho)/(1 + b m rho), b = 0.8. Above: Taylor's shift h = 1/(2 K) of the quantile q of u F(K)/c, x = q/(1 + h^2), damped
  * in the tail where that goes too far; except close to the end, where m rho = d exp(2 K d/3). */
-HERE beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
+KERNEL beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
 {
-    real k = v.bound, rho2 = -log_of(u), rho = root(rho2), m = root(v.whole), mrho = m * rho;
-    real more = rho2 - 2.0f * least(k, set(0.0f)) * mrho /
-                           (1.0f + root(0.055f + 0.865f * least(v.whole, set(1.0f))) * rho);
-    real low = more / (root(k * k + more) + size(k)), middle = mrho * (1.0f + 0.8f * rho) / (1.0f + 0.8f * mrho);
-    real d = pick(less(set(0.0f), k), middle, low);
+    real k = v.bound, rho2 = -log_of(u), rho = sqrt(rho2), m = sqrt(v.whole), mrho = m * rho;
+    real more =
+        rho2 - 2.0f * min(k, set(0.0f)) * mrho / (1.0f + sqrt(0.055f + 0.865f * min(v.whole, set(1.0f))) * rho);
+    real low = more / (sqrt(k * k + more) + abs(k)), middle = mrho * (1.0f + 0.8f * rho) / (1.0f + 0.8f * mrho);
+    real d = select(lt(set(0.0f), k), middle, low);
     beckmann_place p = {k - d, d};
-    mask far = at_most(set(1.25f), k);
+    mask far = le(set(1.25f), k);
     if (any(far)) {
-        real h = 0.5f / most(k, set(1.0f)),
-             q = erf_quantile(least(u * v.whole / most(v.line, set(1.0f)), set(1.0f))) - h;
-        real e = 1.0f + 0.7f * h * size(q), x = q * e / (e + h * h), small = least(k, set(6.0f));
+        real h = 0.5f / max(k, set(1.0f)),
+             q = erf_quantile(min(u * v.whole / max(v.line, set(1.0f)), set(1.0f))) - h;
+        real e = 1.0f + 0.7f * h * abs(q), x = q * e / (e + h * h), small = min(k, set(6.0f));
         real l = log_of(1.0f + small * mrho * exp_of(0.5f * small * small) * 0.666666667f);
         real end = 3.0f * h * l * (1.0f - log_of(1.0f + l) / (2.0f + l));
-        mask close = both(less(k - x, set(0.7f)), less(k, set(6.0f)));
-        p.x = pick(far, pick(close, k - end, x), p.x);
-        p.d = pick(far, pick(close, end, k - x), p.d);
+        mask close = both(lt(k - x, set(0.7f)), lt(k, set(6.0f)));
+        p.x = select(far, select(close, k - end, x), p.x);
+        p.d = select(far, select(close, end, k - x), p.d);
     }
     return p;
 }
@@ -136,7 +136,7 @@ HERE beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
  * the quantile of exp(-x^2)/sqrt(pi), from a logarithm that is linear between powers of 2, p = p0 + ... + p4 z^4 with
  * coefficients that are quadratic in K, or in 4/K, and d = p^2 for K < 2, x = z - p beyond; fitted for the least
  * largest error after the step. */
-HERE beckmann_place beckmann_first(beckmann_view v, real u)
+KERNEL beckmann_place beckmann_first(beckmann_view v, real u)
 {
     real l = 127.0f - to_real(bits(erf_middle(u))) * 1.1920929e-7f;
     real z = (u - (1.0f - u)) * ((0.880354f + l * 0.176364f) - l * l * (7.7609e-4f + l * 9.60636e-5f));
@@ -147,62 +147,62 @@ HERE beckmann_place beckmann_first(beckmann_view v, real u)
 }
 
 /* F''/F' = -1/d - 2 x and F'''/F' = 4 x/d + 4 x^2 - 2. No step leaves x < K or is longer than 1. */
-HERE beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
+KERNEL beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
 {
-    real x = at.x, d = at.d, z = size(x), side = with_sign(set(1.0f), x);
+    real x = at.x, d = at.d, z = abs(x), side = with_sign(set(1.0f), x);
     erfc_quotient n = erfc_rest(z);
     real under = n.above + z * n.below, per = 1.0f / (under * d), nearness = under * per;
     real rest = u * v.whole - (0.5f + 0.5f * side) * v.line,
-         up = exp_near(least(beckmann_exponent(v, x, d), set(80.0f)));
+         up = exp_near(min(beckmann_exponent(v, x, d), set(80.0f)));
     real h = 0.5f * ((n.above - side * d * n.below) * per - rest * nearness * up);
     real second = nearness + 2.0f * x, third = x * (nearness + x) * 0.666666667f - 0.333333333f;
-    real step = h * (1.0f + 0.5f * h * second) / most(1.0f + h * (h * third + second), set(0.1f));
-    step = least(most(step, -0.5f * d), set(1.0f));
+    real step = h * (1.0f + 0.5f * h * second) / max(1.0f + h * (h * third + second), set(0.1f));
+    step = min(max(step, -0.5f * d), set(1.0f));
     const beckmann_place p = {x - step, d + step};
     return p;
 }
 
 /* The slope along w: u1 is met within 7e-7 (3e-7 above the horizon), measured, and within 2e-5 of itself where it is
  * small. */
-HERE beckmann_place beckmann_along(beckmann_view v, real u1)
+KERNEL beckmann_place beckmann_along(beckmann_view v, real u1)
 {
-    real u = least(most(u1, set(5.42101086e-20f)), set(0.99999994f));
+    real u = min(max(u1, set(5.42101086e-20f)), set(0.99999994f));
     beckmann_place p = beckmann_first(v, u);
-    mask rare = either(less(v.law.bound, set(0.0f)), less(erf_middle(u), set(3.4e-4f)));
+    mask rare = either(lt(v.law.bound, set(0.0f)), lt(erf_middle(u), set(3.4e-4f)));
     if (any(rare)) {
         beckmann_place q = beckmann_step(v.law, beckmann_first_anywhere(v.law, u), u);
-        p.x = pick(rare, q.x, p.x);
-        p.d = pick(rare, q.d, p.d);
+        p.x = select(rare, q.x, p.x);
+        p.d = select(rare, q.d, p.d);
     }
     return beckmann_step(v.law, p, u);
 }
 
 /* u1 draws the slope along w, from far behind, u2 that across. The density is that of beckmann_density within 3e-6 for
  * 99.9 % of the samples at 0 to 110 degrees, 3e-5 at 160, measured. */
-HERE drawn beckmann_draw(beckmann_view v, real u1, real u2)
+KERNEL normal_sample beckmann_draw(beckmann_view v, real u1, real u2)
 {
     beckmann_place p = beckmann_along(v, u1);
     real y = erf_quantile(u2);
-    const drawn n = {v.law.sine * y - v.law.cosine * p.x, -(v.law.sine * p.x + v.law.cosine * y), set(1.0f),
-                     beckmann_slopes(v.law, p.x, y, p.d)};
+    const normal_sample n = {v.law.sine * y - v.law.cosine * p.x, -(v.law.sine * p.x + v.law.cosine * y),
+                             set(1.0f), beckmann_slopes(v.law, p.x, y, p.d)};
     return n;
 }
 
 /* F(x)/F(K). */
-HERE real beckmann_part(beckmann_law v, real x, real d)
+KERNEL real beckmann_part(beckmann_law v, real x, real d)
 {
-    real z = least(size(x), set(1e4f)), side = with_sign(set(1.0f), x);
+    real z = min(abs(x), set(1e4f)), side = with_sign(set(1.0f), x);
     erfc_quotient n = erfc_rest(z);
     real part = (n.above - side * d * n.below) / (n.above + z * n.below) * exp_of(-beckmann_exponent(v, x, d));
-    return least(most((part + pick(less(set(0.0f), x), v.line, set(0.0f))) / v.whole, set(0.0f)), set(1.0f));
+    return min(max((part + select(lt(set(0.0f), x), v.line, set(0.0f))) / v.whole, set(0.0f)), set(1.0f));
 }
 
 /* The numbers that draw a normal; measured: within 7e-7 of them at 0 to 135 degrees. */
-HERE pair beckmann_invert(beckmann_view view, real x, real y, real z)
+KERNEL pair beckmann_invert(beckmann_view view, real x, real y, real z)
 {
     beckmann_law v = view.law;
-    real per = 1.0f / most(z, 1e-9f * (size(x) + size(y)) + 1e-37f);
-    real along = (v.cosine * x + v.sine * y) * per, d = most(v.bound + along, set(0.0f));
+    real per = 1.0f / max(z, 1e-9f * (abs(x) + abs(y)) + 1e-37f);
+    real along = (v.cosine * x + v.sine * y) * per, d = max(v.bound + along, set(0.0f));
     const pair u = {beckmann_part(v, -along, d), half_erfc((v.cosine * y - v.sine * x) * per)};
     return u;
 }

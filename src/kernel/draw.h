@@ -7,86 +7,86 @@
 #include "kernel/law.h"
 
 /* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
-typedef struct aim {
+typedef struct target {
     weights w;
     real at, left;
-} aim;
+} target;
 
 /* The weights of the law, before `first` too. */
-HERE weights table_weights(seen v, mask near)
+KERNEL weights table_weights(radial_law v, mask near)
 {
-    weights w = {pick(near, set(0.0f), v.w.w1), pick(near, v.c, v.w.w0), pick(near, set(0.0f), v.w.wq),
-                 pick(near, set(0.0f), v.w.w4)};
+    weights w = {select(near, set(0.0f), v.w.w1), select(near, v.c, v.w.w0), select(near, set(0.0f), v.w.wq),
+                 select(near, set(0.0f), v.w.w4)};
     return w;
 }
 
-HERE aim table_aim(seen v, real u2, const int below)
+KERNEL target table_aim(radial_law v, real u2, const int below)
 {
-    real at = least(u2, set(0.99999994f)) * v.total;
-    aim a = {v.w, at, v.total - at};
+    real at = min(u2, set(0.99999994f)) * v.total;
+    target a = {v.w, at, v.total - at};
     if (!below) {
-        mask near = less(at, v.near);
+        mask near = lt(at, v.near);
         a.w = table_weights(v, near);
-        a.left = pick(near, v.c - at, a.left);
+        a.left = select(near, v.c - at, a.left);
     }
     return a;
 }
 
 /* The cell of the slope, and the law beyond its knot. Where sums round, the cell may be on the other side of `first`,
  * at whose knot the slope then is. */
-typedef struct reached {
-    whole i;
+typedef struct knot_hit {
+    integer i;
     real beyond;
-} reached;
+} knot_hit;
 
-HERE reached table_find(table t, seen v, aim a, const int below)
+KERNEL knot_hit table_find(table t, radial_law v, target a, const int below)
 {
-    reached r;
+    knot_hit r;
     if (below) {
         r.i = law_find_below(t, v, a.left);
         r.beyond = law_beyond(t, v, r.i);
     } else {
         r.i = find_sum(t, a.w.w1, a.w.w0, a.w.wq, a.w.w4, a.left);
-        r.beyond = law_sum(a.w, look(t, VNDF_TAIL, r.i));
+        r.beyond = law_sum(a.w, load_tail(t, r.i));
     }
     return r;
 }
 
 /* The place of the slope: cell and the mass before it there. */
-typedef struct found {
-    piece at;
+typedef struct cell_hit {
+    cell_density at;
     real before;
-} found;
+} cell_hit;
 
-HERE found table_cell(table t, seen v, aim a, reached r, const int below)
+KERNEL cell_hit table_cell(table t, radial_law v, target a, knot_hit r, const int below)
 {
-    found f;
+    cell_hit f;
     f.before = r.beyond - a.left;
     if (below) {
         f.at = law_cell_below(t, v, r.i);
-        f.before = pick(at_most(to_real(r.i), to_real(v.first)), a.at, f.before);
+        f.before = select(le(to_real(r.i), to_real(v.first)), a.at, f.before);
     } else {
         f.at = law_cell_above(t, v, a.w, r.i);
-        f.before = pick(same(r.i, 0), a.at, f.before);
+        f.before = select(eq(r.i, 0), a.at, f.before);
     }
     return f;
 }
 
 /* A slope length as it was drawn, and its mass per x, all times over + rest and its powers (law.h). */
-typedef struct drawn_length {
+typedef struct length_sample {
     slope_length r;
     real density; /* over x total */
-} drawn_length;
+} length_sample;
 
-HERE drawn_length table_length(table t, seen v, found f, place in, const int below)
+KERNEL length_sample table_length(table t, radial_law v, cell_hit f, cell_place in, const int below)
 {
-    drawn_length d;
+    length_sample d;
     d.r = law_length(t, v, f.at, in, below);
-    d.density = (f.at.mass * in.root) / (in.below * law_width(t, f.at, in) * (d.r.x * v.total));
+    d.density = (f.at.mass * in.root) / (in.denominator * law_width(t, f.at, in) * (d.r.x * v.total));
     return d;
 }
 
-HERE arc table_arc(seen v, slope_length r, const int below)
+KERNEL arc table_arc(radial_law v, slope_length r, const int below)
 {
     if (below)
         return arc_of(-v.c * r.z, v.s * r.x, r.edge, below);
@@ -94,125 +94,127 @@ HERE arc table_arc(seen v, slope_length r, const int below)
 }
 
 /* The normal in the frame of the direction: x towards it. */
-HERE drawn table_normal(seen v, drawn_length d, arc k, bearing a)
+KERNEL normal_sample table_normal(radial_law v, length_sample d, arc k, azimuth a)
 {
-    real reach = k.sum / v.s, facing = most(a.facing, set(1e-7f) * k.mass);
-    drawn n = {a.along * reach, a.aside * reach, d.r.z, (d.density / (2.0f * k.mass)) * facing};
+    real reach = k.sum / v.s, facing = max(a.visible, set(1e-7f) * k.mass);
+    normal_sample n = {a.cosine * reach, a.sine * reach, d.r.z, (d.density / (2.0f * k.mass)) * facing};
     return n;
 }
 
 /* The visible density over the density as drawn, where the slope length is that of f at that place of the cell; 0 from
  * below where next to nothing is seen. */
-HERE real table_weight(table t, seen v, whole i, found f, place in, slope_length r, arc k, real area,
-                       const int below)
+KERNEL real table_weight(table t, radial_law v, integer i, cell_hit f, cell_place in, slope_length r, arc k,
+                         real area, const int below)
 {
-    piece all = law_cell_all(t, i);
+    cell_density all = law_cell_all(t, i);
     real over = in.over, rest = in.rest, under = over + rest, part = set(1.0f);
-    real z = most(r.z, 1e-36f * r.x); /* which rounding makes 0 at the very end */
-    if (below) {                      /* from the place in what is seen of the cell to that in the cell */
-        part = pick(at_most(to_real(i), to_real(v.first)), v.near, part);
+    real z = max(r.z, 1e-36f * r.x); /* which rounding makes 0 at the very end */
+    if (below) {                     /* from the place in what is seen of the cell to that in the cell */
+        part = select(le(to_real(i), to_real(v.first)), v.near, part);
         rest = rest * part;
         over = under - rest;
     }
-    real below_all = law_below(all, over, rest),
+    real below_all = law_denominator(all, over, rest),
          f_mass = law_of_f(all, over, rest, r.x, z) * f.at.per / (below_all * below_all);
-    real weight = f_mass * part * ((in.below * v.total) / (in.root * area)) * (0.318309886f * k.mass * k.sum / z);
+    real weight =
+        f_mass * part * ((in.denominator * v.total) / (in.root * area)) * (0.318309886f * k.mass * k.sum / z);
     if (below)
-        weight = pick(less(set(1e-30f), area), weight, set(0.0f));
+        weight = select(lt(set(1e-30f), area), weight, set(0.0f));
     return weight;
 }
 
 /* ---- given normals ---- */
 
 /* A normal (x, y, z) of the unit problem, in the frame of the direction, any length: its slope and cell. */
-typedef struct given {
+typedef struct query {
     real square, under;         /* squares of the slope's two parts, by which its cell is found */
     real across, up, per, x, z; /* slope = across/up; 1/(across + up), and both times that */
-    whole cell;
-} given;
+    integer cell;
+} query;
 
-HERE given table_given_slope(real x, real y, real z)
+KERNEL query table_given_slope(real x, real y, real z)
 {
-    given g;
-    g.square = least(x * x + y * y, set(3.4028234e38f)); /* not infinite, which no end of the knots would exceed */
+    query g;
+    g.square = min(x * x + y * y, set(3.4028234e38f)); /* not infinite, which no end of the knots would exceed */
     g.under = z * z;
-    g.across = root(g.square);
-    g.up = most(z, g.across * 1e-28f);
+    g.across = sqrt(g.square);
+    g.up = max(z, g.across * 1e-28f);
     g.per = 1.0f / (g.across + g.up);
     g.x = g.across * g.per;
     g.z = g.up * g.per;
-    g.cell = set_whole(0);
+    g.cell = set_int(0);
     return g;
 }
 
-HERE given table_given(table t, real x, real y, real z)
+KERNEL query table_given(table t, real x, real y, real z)
 {
-    given g = table_given_slope(x, y, z);
+    query g = table_given_slope(x, y, z);
     g.cell = find_knot(t, g.square, g.under);
     return g;
 }
 
 /* The cell of a given slope as the direction draws it. */
-HERE piece table_given_cell(table t, seen v, whole i, const int below)
+KERNEL cell_density table_given_cell(table t, radial_law v, integer i, const int below)
 {
     if (below)
         return law_cell_below(t, v, i);
-    return law_cell_above(t, v, table_weights(v, less(to_real(i), to_real(v.first))), i);
+    return law_cell_above(t, v, table_weights(v, lt(to_real(i), to_real(v.first))), i);
 }
 
-HERE arc table_given_arc(seen v, given g, const int below)
+KERNEL arc table_given_arc(radial_law v, query g, const int below)
 {
-    real edge = v.s * g.x - size(v.c) * g.z;
+    real edge = v.s * g.x - abs(v.c) * g.z;
     if (below)
         edge = (g.across - v.rho * g.up) * (g.per * v.s);
-    return arc_of(size(v.c) * g.z, v.s * g.x, edge, below);
+    return arc_of(abs(v.c) * g.z, v.s * g.x, edge, below);
 }
 
 /* The density of a given normal, of which `facing` is seen from (s, 0, c): per steradian over len^3/|det| (math.h). */
-HERE real table_density(table t, seen v, given g, real facing, const int below)
+KERNEL real table_density(table t, radial_law v, query g, real facing, const int below)
 {
-    whole i = g.cell;
+    integer i = g.cell;
     if (below)
-        i = most_whole(i, v.first);
-    piece at = table_given_cell(t, v, i, below);
-    place in = law_place(t, at, g.across, g.up, g.per);
+        i = max_int(i, v.first);
+    cell_density at = table_given_cell(t, v, i, below);
+    cell_place in = law_place(t, at, g.across, g.up, g.per);
     arc k = table_given_arc(v, g, below);
-    real x = pick(same(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x),
+    real x = select(eq(i, 0), at.x0 * in.rest + at.x1 * in.over, g.x),
          per = g.per * g.per; /* held away from the pole */
-    real per_x = law_shape(at, in.over, in.rest) / (in.below * in.below * law_width(t, at, in) * (x * v.total));
-    return per_x * (most(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
+    real per_x =
+        law_shape(at, in.over, in.rest) / (in.denominator * in.denominator * law_width(t, at, in) * (x * v.total));
+    return per_x * (max(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }
 
 /* P22 over z^4 of a given normal: D times |det| over len^4. */
-HERE real table_p22(table t, given g)
+KERNEL real table_p22(table t, query g)
 {
-    piece all = law_cell_all(t, g.cell);
-    place in = law_place(t, all, g.across, g.up, g.per);
+    cell_density all = law_cell_all(t, g.cell);
+    cell_place in = law_place(t, all, g.across, g.up, g.per);
     real per = g.per * g.per, density = law_of_f(all, in.over, in.rest, g.x, g.z);
-    density = density / (in.below * in.below * law_width(t, all, in));
-    real x = pick(same(g.cell, 0), all.x1 * in.over, g.x);
+    density = density / (in.denominator * in.denominator * law_width(t, all, in));
+    real x = select(eq(g.cell, 0), all.x1 * in.over, g.x);
     return density / (6.28318531f * x * g.z) * (per * per);
 }
 
 /* The numbers that draw a given normal, nearly. */
-HERE pair table_invert(table t, seen v, given g, real x, real y, const int below)
+KERNEL pair table_invert(table t, radial_law v, query g, real x, real y, const int below)
 {
-    whole i = g.cell;
+    integer i = g.cell;
     if (below)
-        i = most_whole(i, v.first);
-    piece at = table_given_cell(t, v, i, below);
-    place in = law_place(t, at, g.across, g.up, g.per);
-    real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.below;
+        i = max_int(i, v.first);
+    cell_density at = table_given_cell(t, v, i, below);
+    cell_place in = law_place(t, at, g.across, g.up, g.per);
+    real before = at.mass * in.over * (in.over + at.e0 * in.rest) / in.denominator;
     real sum = before;
     if (below)
-        sum = pick(at_most(to_real(i), to_real(v.first)), before, (v.total - law_beyond(t, v, i)) + before);
+        sum = select(le(to_real(i), to_real(v.first)), before, (v.total - law_beyond(t, v, i)) + before);
     else {
-        quad tail = look(t, VNDF_TAIL, i);
-        mask near = less(to_real(i), to_real(v.first));
-        sum = pick(near, v.c * (1.0f - tail.b) + before, (v.total - law_sum(v.w, tail)) + before);
-        sum = pick(same(i, 0), before, sum);
+        tail_row tail = load_tail(t, i);
+        mask near = lt(to_real(i), to_real(v.first));
+        sum = select(near, v.c * (1.0f - tail.all) + before, (v.total - law_sum(v.w, tail)) + before);
+        sum = select(eq(i, 0), before, sum);
     }
-    pair u = {arc_invert(table_given_arc(v, g, below), x, y), least(most(sum / v.total, set(0.0f)), set(1.0f))};
+    pair u = {arc_invert(table_given_arc(v, g, below), x, y), min(max(sum / v.total, set(0.0f)), set(1.0f))};
     return u;
 }
 

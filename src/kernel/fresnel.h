@@ -6,7 +6,7 @@
 
 /* Squared cosine of the refracted direction, eta the index beyond over the one before; <= 0 in total reflection.
  * Near grazing incidence 1 - sin^2/eta^2 keeps its digits, also where eta is 1 or near it. */
-HERE real refracted_square(real cosine, real eta)
+KERNEL real refracted_square(real cosine, real eta)
 {
     return ((eta - 1.0f) * (eta + 1.0f) + cosine * cosine) / (eta * eta);
 }
@@ -14,18 +14,18 @@ HERE real refracted_square(real cosine, real eta)
 /* With c, t the cosines before and beyond, r_s = (c - eta t)/(c + eta t) and r_p = (eta c - t)/(eta c + t), and
  *
  *     eta^2 t^2 - c^2 = eta^2 - 1,    eta^2 (eta^2 c^2 - t^2) = (eta^2 - 1) ((eta^2 + 1) c^2 - 1). */
-HERE real dielectric_at(real c, real t, real eta)
+KERNEL real dielectric_at(real c, real t, real eta)
 {
     real square = eta * eta, rise = (eta - 1.0f) * (eta + 1.0f), s = c + eta * t, p = eta * (eta * c + t);
     real rs = rise / (s * s), rp = rise * ((square + 1.0f) * (c * c) - 1.0f) / (p * p);
     return 0.5f * (rs * rs + rp * rp);
 }
 
-HERE real dielectric(real cosine, real eta)
+KERNEL real dielectric(real cosine, real eta)
 {
-    real c = least(cosine, set(1.0f)), square = refracted_square(c, eta);
-    mask passes = less(set(0.0f), square);
-    return pick(passes, dielectric_at(c, root(pick(passes, square, set(1.0f))), eta), set(1.0f));
+    real c = min(cosine, set(1.0f)), square = refracted_square(c, eta);
+    mask passes = lt(set(0.0f), square);
+    return select(passes, dielectric_at(c, sqrt(select(passes, square, set(1.0f))), eta), set(1.0f));
 }
 
 /* (n + ik)^2 - sin^2 = (a + ib)^2, hence a^2 - b^2 = t = n^2 - k^2 - sin^2 and a b = n k (Born & Wolf, "Principles
@@ -34,22 +34,22 @@ HERE real dielectric(real cosine, real eta)
  *
  *     s = ((a - c)^2 + b^2)/((a + c)^2 + b^2),    p = s ((a c - sin^2)^2 + b^2 c^2)/((a c + sin^2)^2 + b^2
  * c^2). */
-HERE real conductor(real cosine, real n, real k)
+KERNEL real conductor(real cosine, real n, real k)
 {
-    real c = least(cosine, set(1.0f)), c2 = c * c, s2 = 1.0f - c2, nk = n * k;
-    real t = (n * n - k * k) - s2, larger = 0.5f * (root(t * t + 4.0f * nk * nk) + size(t));
-    real lesser = nk * nk / most(larger, set(1e-37f));
-    mask turned = at_most(t, set(0.0f));
-    real a2 = pick(turned, lesser, larger), b2 = pick(turned, larger, lesser), a = root(a2), sum = a + c;
+    real c = min(cosine, set(1.0f)), c2 = c * c, s2 = 1.0f - c2, nk = n * k;
+    real t = (n * n - k * k) - s2, larger = 0.5f * (sqrt(t * t + 4.0f * nk * nk) + abs(t));
+    real lesser = nk * nk / max(larger, set(1e-37f));
+    mask turned = le(t, set(0.0f));
+    real a2 = select(turned, lesser, larger), b2 = select(turned, larger, lesser), a = sqrt(a2), sum = a + c;
     real apart = (n - 1.0f) * (n + 1.0f) - k * k + b2, inner = a * c - s2, outer = a * c + s2;
     real square = sum * sum, over = inner * inner + b2 * c2, under = outer * outer + b2 * c2;
     real below = square * (square + b2) * under;
     real mean = 0.5f * (apart * apart + b2 * square) * (under + over);
-    return pick(less(set(0.0f), below), least(mean / below, set(1.0f)), set(1.0f)); /* 0/0 at right angles */
+    return select(lt(set(0.0f), below), min(mean / below, set(1.0f)), set(1.0f)); /* 0/0 at right angles */
 }
 
 /* f0 + (1 - f0) (1 - cos)^5, from rest = 1 - cos >= 0, which keeps its digits (lobes.h). */
-HERE real schlick(real rest, real f0)
+KERNEL real schlick(real rest, real f0)
 {
     real square = rest * rest;
     return f0 + (1.0f - f0) * (square * square * rest);
@@ -57,11 +57,11 @@ HERE real schlick(real rest, real f0)
 
 /* 1 - cos of the refracted direction, from cos = 1 - rest; 1 in total reflection: Schlick's term takes the cosine
  * in the thinner medium. */
-HERE real refracted_rest(real rest, real eta)
+KERNEL real refracted_rest(real rest, real eta)
 {
     real square = refracted_square(1.0f - rest, eta);
     real sine2 = rest * (2.0f - rest) / (eta * eta);
-    return pick(less(set(0.0f), square), sine2 / (1.0f + root(most(square, set(0.0f)))), set(1.0f));
+    return select(lt(set(0.0f), square), sine2 / (1.0f + sqrt(max(square, set(0.0f)))), set(1.0f));
 }
 
 #endif

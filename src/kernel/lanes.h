@@ -8,7 +8,9 @@
 #ifndef VNDF_KERNEL_LANES_H
 #define VNDF_KERNEL_LANES_H
 
+#include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "core/inline.h"
@@ -21,7 +23,7 @@
 #  define VNDF_KERNEL_X86 0
 #endif
 
-#define HERE VNDF_INLINE
+#define KERNEL VNDF_INLINE
 
 /* Before loops over lanes, which gcc -O2 would not unroll. */
 #if defined(__clang__)
@@ -33,12 +35,12 @@
 enum { LANES = VNDF_LANES };
 
 typedef float real __attribute__((vector_size(4 * VNDF_LANES)));
-typedef int32_t whole __attribute__((vector_size(4 * VNDF_LANES)));
+typedef int32_t integer __attribute__((vector_size(4 * VNDF_LANES)));
 
 #if VNDF_LANES == 16
 typedef __mmask16 mask;
 #else
-typedef whole mask; /* 0 or -1 */
+typedef integer mask; /* 0 or -1 */
 #endif
 
 #if VNDF_KERNEL_X86 && VNDF_LANES == 16
@@ -60,34 +62,34 @@ typedef struct quad {
     real a, b, c, d;
 } quad;
 
-HERE real set(float x)
+KERNEL real set(float x)
 {
     return x - (real){0};
 }
 
-HERE whole set_whole(int i)
+KERNEL integer set_int(int i)
 {
-    return i - (whole){0};
+    return i - (integer){0};
 }
 
-HERE real load(const float *from)
+KERNEL real load(const float *from)
 {
     real x;
     memcpy(&x, from, sizeof x);
     return x;
 }
 
-HERE void store(float *to, real x)
+KERNEL void store(float *to, real x)
 {
     memcpy(to, &x, sizeof x);
 }
 
-HERE whole bits(real x)
+KERNEL integer bits(real x)
 {
-    return (whole)x;
+    return (integer)x;
 }
 
-HERE real of_bits(whole i)
+KERNEL real of_bits(integer i)
 {
     return (real)i;
 }
@@ -96,64 +98,64 @@ HERE real of_bits(whole i)
 
 #if VNDF_LANES == 16 /* masks in registers of their own */
 
-HERE mask less(real a, real b)
+KERNEL mask lt(real a, real b)
 {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LT_OQ);
 }
 
-HERE mask at_most(real a, real b)
+KERNEL mask le(real a, real b)
 {
     return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_LE_OQ);
 }
 
-HERE mask same(whole a, int b)
+KERNEL mask eq(integer a, int b)
 {
     return _mm512_cmpeq_epi32_mask((__m512i)a, _mm512_set1_epi32(b));
 }
 
-HERE mask less_whole(whole a, whole b)
+KERNEL mask lt_int(integer a, integer b)
 {
     return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
 }
 
-HERE int any(mask m)
+KERNEL int any(mask m)
 {
     return m != 0;
 }
 
-HERE real pick(mask m, real yes, real no)
+KERNEL real select(mask m, real yes, real no)
 {
     return (real)_mm512_mask_blend_ps(m, (__m512)no, (__m512)yes);
 }
 
-HERE whole pick_whole(mask m, whole yes, whole no)
+KERNEL integer select_int(mask m, integer yes, integer no)
 {
-    return (whole)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
+    return (integer)_mm512_mask_blend_epi32(m, (__m512i)no, (__m512i)yes);
 }
 
 #else
 
-HERE mask less(real a, real b)
+KERNEL mask lt(real a, real b)
 {
     return a < b;
 }
 
-HERE mask at_most(real a, real b)
+KERNEL mask le(real a, real b)
 {
     return a <= b;
 }
 
-HERE mask same(whole a, int b)
+KERNEL mask eq(integer a, int b)
 {
     return a == b;
 }
 
-HERE mask less_whole(whole a, whole b)
+KERNEL mask lt_int(integer a, integer b)
 {
     return a < b;
 }
 
-HERE int any(mask m)
+KERNEL int any(mask m)
 {
 #  if VNDF_KERNEL_X86
     return LANES_INSTRUCTION(movemask_ps)((lanes_register)m);
@@ -164,52 +166,52 @@ HERE int any(mask m)
 #  endif
 }
 
-HERE whole pick_whole(mask m, whole yes, whole no)
+KERNEL integer select_int(mask m, integer yes, integer no)
 {
 #  if VNDF_KERNEL_X86 && VNDF_LANES == 8 /* one instruction for three */
-    return (whole)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, (__m256i)m);
+    return (integer)_mm256_blendv_epi8((__m256i)no, (__m256i)yes, (__m256i)m);
 #  else
     return (m & yes) | (~m & no);
 #  endif
 }
 
-HERE real pick(mask m, real yes, real no)
+KERNEL real select(mask m, real yes, real no)
 {
-    return of_bits(pick_whole(m, bits(yes), bits(no)));
+    return of_bits(select_int(m, bits(yes), bits(no)));
 }
 
 #endif
 
-HERE mask both(mask a, mask b)
+KERNEL mask both(mask a, mask b)
 {
     return (mask)(a & b);
 }
 
-HERE mask either(mask a, mask b)
+KERNEL mask either(mask a, mask b)
 {
     return (mask)(a | b);
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. That is what the instructions of x86 do. */
-HERE real least(real a, real b)
+KERNEL real min(real a, real b)
 {
 #if VNDF_KERNEL_X86
     return (real)LANES_INSTRUCTION(min_ps)((lanes_register)a, (lanes_register)b);
 #else
-    return pick(less(a, b), a, b);
+    return select(lt(a, b), a, b);
 #endif
 }
 
-HERE real most(real a, real b)
+KERNEL real max(real a, real b)
 {
 #if VNDF_KERNEL_X86
     return (real)LANES_INSTRUCTION(max_ps)((lanes_register)a, (lanes_register)b);
 #else
-    return pick(less(b, a), a, b);
+    return select(lt(b, a), a, b);
 #endif
 }
 
-HERE real root(real x)
+KERNEL real kernel_sqrt(real x)
 {
 #if VNDF_KERNEL_X86
     return (real)LANES_INSTRUCTION(sqrt_ps)((lanes_register)x);
@@ -220,36 +222,40 @@ HERE real root(real x)
 #endif
 }
 
-HERE real size(real x)
+KERNEL real kernel_abs(real x)
 {
     return of_bits(bits(x) & 0x7fffffff);
 }
 
+/* C's own are of doubles and of ints. */
+#define sqrt(x) kernel_sqrt(x)
+#define abs(x) kernel_abs(x)
+
 /* |x| with the sign of y. */
-HERE real with_sign(real x, real y)
+KERNEL real with_sign(real x, real y)
 {
     return of_bits((bits(x) & 0x7fffffff) | (bits(y) & ~0x7fffffff));
 }
 
-HERE real to_real(whole i)
+KERNEL real to_real(integer i)
 {
     return __builtin_convertvector(i, real);
 }
 
 /* The whole part of x, |x| < 2^31. */
-HERE whole to_whole(real x)
+KERNEL integer to_int(real x)
 {
-    return __builtin_convertvector(x, whole);
+    return __builtin_convertvector(x, integer);
 }
 
-HERE whole least_whole(whole a, whole b)
+KERNEL integer min_int(integer a, integer b)
 {
-    return pick_whole(less_whole(a, b), a, b);
+    return select_int(lt_int(a, b), a, b);
 }
 
-HERE whole most_whole(whole a, whole b)
+KERNEL integer max_int(integer a, integer b)
 {
-    return pick_whole(less_whole(b, a), a, b);
+    return select_int(lt_int(b, a), a, b);
 }
 
 /* ---- tables ---- */
@@ -273,7 +279,7 @@ typedef struct table {
 } table;
 
 /* Four numbers of each lane, those of lane l from row[l] on: quarters of registers are transposed. */
-HERE quad transposed(const float *const row[LANES])
+KERNEL quad transposed(const float *const row[LANES])
 {
 #if VNDF_KERNEL_X86
     lanes_register r[4];
@@ -305,7 +311,7 @@ HERE quad transposed(const float *const row[LANES])
 #endif
 }
 
-HERE quad look_rows(table t, int group, whole i)
+KERNEL quad load_rows(table t, int group, integer i)
 {
     const float *first = t.numbers + 4 * group, *row[LANES];
     int32_t at[LANES];
@@ -319,36 +325,36 @@ HERE quad look_rows(table t, int group, whole i)
 #if VNDF_LANES == 16
 
 /* Entry i of 32 numbers; of 64, which bit 5 of i halves. */
-HERE real look_32(const float *c, whole i)
+KERNEL real entry_32(const float *c, integer i)
 {
     return (real)_mm512_permutex2var_ps(_mm512_load_ps(c), (__m512i)i, _mm512_load_ps(c + 16));
 }
 
-HERE real look_64(const float *c, whole i)
+KERNEL real entry_64(const float *c, integer i)
 {
     mask odd = _mm512_test_epi32_mask((__m512i)i, _mm512_set1_epi32(32));
-    return pick(odd, look_32(c + 32, i), look_32(c, i));
+    return select(odd, entry_32(c + 32, i), entry_32(c, i));
 }
 
-HERE real look_column(table t, const float *c, whole i)
+KERNEL real column_entry(table t, const float *c, integer i)
 {
-    real r = look_64(c, i);
+    real r = entry_64(c, i);
     if (t.copied > 2)
-        r = pick(_mm512_test_epi32_mask((__m512i)i, _mm512_set1_epi32(64)), look_64(c + 64, i), r);
+        r = select(_mm512_test_epi32_mask((__m512i)i, _mm512_set1_epi32(64)), entry_64(c + 64, i), r);
     return r;
 }
 
 #endif
 
 /* The knot where the law begins, by the eighth of an octave of rho. */
-HERE whole look_first(table t, whole eighth)
+KERNEL integer first_knot(table t, integer eighth)
 {
 #if VNDF_LANES == 16
     const float *parts = (const float *)(const void *)t.layout->first;
-    real first = look_64(parts, eighth);
+    real first = entry_64(parts, eighth);
     LANES_UNROLLED
     for (int n = 64; n < VNDF_RHO_PARTS; n += 64)
-        first = pick(less_whole(eighth, set_whole(n)), first, look_64(parts + n, eighth));
+        first = select(lt_int(eighth, set_int(n)), first, entry_64(parts + n, eighth));
     return bits(first);
 #else
     LANES_UNROLLED
@@ -359,20 +365,20 @@ HERE whole look_first(table t, whole eighth)
 }
 
 /* A row of knot i. */
-HERE quad look(table t, int group, whole i)
+KERNEL quad load_row(table t, int group, integer i)
 {
 #if VNDF_LANES == 16
     if (t.copied) {
         const float(*c)[VNDF_COPIED] = t.layout->column[group];
-        quad q = {look_column(t, c[0], i), look_column(t, c[1], i), look_column(t, c[2], i),
-                  look_column(t, c[3], i)};
+        quad q = {column_entry(t, c[0], i), column_entry(t, c[1], i), column_entry(t, c[2], i),
+                  column_entry(t, c[3], i)};
         return q;
     }
 #endif
-    return look_rows(t, group, i);
+    return load_rows(t, group, i);
 }
 
-HERE table table_of(const vndf_distribution *d)
+KERNEL table table_of(const vndf_distribution *d)
 {
     const int steps = d->steps > VNDF_STEPS_LEAST ? d->steps : VNDF_STEPS_LEAST,
               levels = steps < LEVELS ? steps : LEVELS,
@@ -389,10 +395,10 @@ HERE table table_of(const vndf_distribution *d)
  * The last knot that passes: each step compares with the knot in the middle of what is left. An entry `at` of a step is
  * followed in the next by entry 2 `at` or, if its knot passes, 2 `at` + 1. */
 
-HERE whole follow(whole at, mask passes)
+KERNEL integer follow(integer at, mask passes)
 {
 #if VNDF_LANES == 16
-    return (whole)_mm512_mask_add_epi32((__m512i)(at + at), passes, (__m512i)(at + at), _mm512_set1_epi32(1));
+    return (integer)_mm512_mask_add_epi32((__m512i)(at + at), passes, (__m512i)(at + at), _mm512_set1_epi32(1));
 #else
     return at + at - passes;
 #endif
@@ -401,25 +407,25 @@ HERE whole follow(whole at, mask passes)
 #if VNDF_LANES < 16
 
 /* By bit `bit` of `at`. */
-HERE real pick_bit(whole at, int bit, real yes, real no)
+KERNEL real select_bit(integer at, int bit, real yes, real no)
 {
 #  if VNDF_LANES == 8 /* which reads signs alone */
     return (real)_mm256_blendv_ps((__m256)no, (__m256)yes, (__m256)(at << (31 - bit)));
 #  else
-    return pick((at << (31 - bit)) >> 31, yes, no);
+    return select((at << (31 - bit)) >> 31, yes, no);
 #  endif
 }
 
 #endif
 
 /* Entry `at` of a column, which is one of step `level`. */
-HERE real look_level(table t, int column, whole at, int level)
+KERNEL real level_entry(table t, int column, integer at, int level)
 {
     const float *c = t.layout->level[column];
 #if VNDF_LANES == 16
     if (level < 5)
         return (real)_mm512_permutexvar_ps((__m512i)at, _mm512_load_ps(c + (level < 4 ? 0 : 16)));
-    return level == 5 ? look_32(c + 32, at) : look_64(c + 64, at);
+    return level == 5 ? entry_32(c + 32, at) : entry_64(c + 64, at);
 #else
     enum { BITS = VNDF_LANES == 8 ? 3 : 0 }; /* of an entry's place in a register */
     const float *first = c + (1 << level);
@@ -435,7 +441,7 @@ HERE real look_level(table t, int column, whole at, int level)
     LANES_UNROLLED
     for (; registers > 1; registers /= 2, bit++)
         for (int n = 0; n < registers / 2; n++)
-            r[n] = pick_bit(at, bit, r[2 * n + 1], r[2 * n]);
+            r[n] = select_bit(at, bit, r[2 * n + 1], r[2 * n]);
     return r[0];
 #endif
 }

@@ -23,30 +23,87 @@ static const float law_terms[12] = {0.297494729f, 0.702505271f, 0.0f,         0.
                                     0.319817399f, 0.473797580f, 0.206385021f, 0.0f,
                                     0.318081264f, 0.504334526f, 0.151012047f, 0.026572163f};
 
+/* ---- rows of a table (layout.h) ---- */
+
+typedef struct knot_row {
+    real r, z, width, turn;
+} knot_row;
+
+KERNEL knot_row load_knot(table t, integer i)
+{
+    quad q = load_row(t, VNDF_KNOT, i);
+    knot_row row = {q.a, q.b, q.c, q.d};
+    return row;
+}
+
+typedef struct law_row {
+    real left, right, m0, m1;
+} law_row;
+
+KERNEL law_row load_law(table t, integer i)
+{
+    quad q = load_row(t, VNDF_LAW, i);
+    law_row row = {q.a, q.b, q.c, q.d};
+    return row;
+}
+
+typedef struct shares_row {
+    real m2, cube, b0, b1;
+} shares_row;
+
+KERNEL shares_row load_shares(table t, integer i)
+{
+    quad q = load_row(t, VNDF_SHARES, i);
+    shares_row row = {q.a, q.b, q.c, q.d};
+    return row;
+}
+
+typedef struct tail_row {
+    real along, all, over, over4;
+} tail_row;
+
+KERNEL tail_row load_tail(table t, integer i)
+{
+    quad q = load_row(t, VNDF_TAIL, i);
+    tail_row row = {q.a, q.b, q.c, q.d};
+    return row;
+}
+
+typedef struct area_row {
+    real t1, t2, area, slope;
+} area_row;
+
+KERNEL area_row load_area(table t, integer i)
+{
+    quad q = load_row(t, VNDF_AREA, i);
+    area_row row = {q.a, q.b, q.c, q.d};
+    return row;
+}
+
 /* Weights of the measures f R, f, f/R, f/R^4. */
 typedef struct weights {
     real w1, w0, wq, w4;
 } weights;
 
 /* A direction as a table sees it. */
-typedef struct seen {
+typedef struct radial_law {
     real s, c, rho;
-    whole first; /* above: the knot where the law of k~ begins; below: the cell of rho */
-    weights w;   /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
+    integer first; /* above: the knot where the law of k~ begins; below: the cell of rho */
+    weights w; /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
     real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
-} seen;
+} radial_law;
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
 /* The last knot R with R^2 under <= square: slopes are looked up by squares of their two parts. */
-HERE whole find_knot(table t, real square, real under)
+KERNEL integer find_knot(table t, real square, real under)
 {
-    whole i = set_whole(0);
+    integer i = set_int(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        real r = look(t, VNDF_KNOT, next).a;
-        i = pick_whole(at_most((r * r) * under, square), next, i);
+        integer next = min_int(i + step, set_int(t.cells));
+        real r = load_knot(t, next).r;
+        i = select_int(le((r * r) * under, square), next, i);
         step = step / 2;
     }
     return i;
@@ -54,14 +111,14 @@ HERE whole find_knot(table t, real square, real under)
 
 /* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
  * terms do. */
-HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
+KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
-    whole i = set_whole(0);
+    integer i = set_int(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = least_whole(i + step, set_whole(t.cells));
-        quad tail = look(t, VNDF_TAIL, next);
-        i = pick_whole(at_most(left, (w1 * tail.a + w0 * tail.b) + (wq * tail.c + w4 * tail.d)), next, i);
+        integer next = min_int(i + step, set_int(t.cells));
+        tail_row tail = load_tail(t, next);
+        i = select_int(le(left, (w1 * tail.along + w0 * tail.all) + (wq * tail.over + w4 * tail.over4)), next, i);
         step = step / 2;
     }
     return i;
@@ -73,45 +130,44 @@ HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
 
 /* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there; so it is for all
  * rho beyond the parts, where it begins far before rho. */
-HERE weights law_weights_at(weights w, real c, mask end)
+KERNEL weights law_weights_at(weights w, real c, mask end)
 {
-    weights at = {w.w1, pick(end, c, w.w0), pick(end, set(0.0f), w.wq), pick(end, set(0.0f), w.w4)};
+    weights at = {w.w1, select(end, c, w.w0), select(end, set(0.0f), w.wq), select(end, set(0.0f), w.w4)};
     return at;
 }
 
-HERE real law_sum(weights w, quad tail)
+KERNEL real law_sum(weights w, tail_row tail)
 {
-    return (w.w1 * tail.a + w.w0 * tail.b) + (w.wq * tail.c + w.w4 * tail.d);
+    return (w.w1 * tail.along + w.w0 * tail.all) + (w.wq * tail.over + w.w4 * tail.over4);
 }
 
 /* The eighth of an octave that rho lies in (table/table.h). */
-HERE whole law_eighth(real rho)
+KERNEL integer law_eighth(real rho)
 {
-    return least_whole(most_whole((bits(rho) >> 20) - VNDF_RHO_FIRST, set_whole(0)),
-                       set_whole(VNDF_RHO_PARTS - 1));
+    return min_int(max_int((bits(rho) >> 20) - VNDF_RHO_FIRST, set_int(0)), set_int(VNDF_RHO_PARTS - 1));
 }
 
-/* Before `first` the law is c f, of which 1 - tail.b lies there. Where `first` is 0 that is the first cell, whose
+/* Before `first` the law is c f, of which 1 - tail.all lies there. Where `first` is 0 that is the first cell, whose
  * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). A part that u2 = 0 alone would draw, far too
  * often for its mass, is not drawn. */
-HERE seen law_see_above(table t, real s, real c, real rho)
+KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 {
-    seen v;
+    radial_law v;
     v.s = s;
     v.c = c;
     v.rho = rho;
-    whole eighth = law_eighth(rho);
-    v.first = look_first(t, eighth);
-    quad tail = look(t, VNDF_TAIL, v.first);
-    real reach = least(rho, set(1e9f)), square = reach * reach;
+    integer eighth = law_eighth(rho);
+    v.first = first_knot(t, eighth);
+    tail_row tail = load_tail(t, v.first);
+    real reach = min(rho, set(1e9f)), square = reach * reach;
     int n = 4 * (t.moments - 2);
-    mask low = less(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
+    mask low = lt(rho, set(1e-3f)); /* where R^-4 adds next to nothing, and denormal numbers */
     weights w = {s * law_terms[n], c * law_terms[n + 1], c * reach * law_terms[n + 2],
-                 pick(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
-    v.w = law_weights_at(w, c, either(same(v.first, t.cells), same(eighth, VNDF_RHO_PARTS - 1)));
-    real near = c * most(1.0f - tail.b, set(0.0f));
+                 select(low, set(0.0f), c * (square * square) * law_terms[n + 3])};
+    v.w = law_weights_at(w, c, either(eq(v.first, t.cells), eq(eighth, VNDF_RHO_PARTS - 1)));
+    real near = c * max(1.0f - tail.all, set(0.0f));
     v.total = near + law_sum(v.w, tail);
-    v.near = pick(either(same(v.first, 0), less(near, 1e-12f * v.total)), set(0.0f), near);
+    v.near = select(either(eq(v.first, 0), lt(near, 1e-12f * v.total)), set(0.0f), near);
     return v;
 }
 
@@ -119,33 +175,33 @@ HERE seen law_see_above(table t, real s, real c, real rho)
 
 /* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
  * at the beginning. */
-typedef struct piece {
+typedef struct cell_density {
     real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
     real from, x0, z0, x1, z1;   /* the slope where it begins */
     real edge0, edge1, width;    /* edge: s x - |c| z */
     mask last;
-} piece;
+} cell_density;
 
-HERE piece law_cell_at(table t, real s, real c, whole i, quad k)
+KERNEL cell_density law_cell_at(table t, real s, real c, integer i, knot_row k)
 {
-    piece at;
-    at.last = same(i, t.cells);
-    at.from = k.a;
-    at.z0 = k.b;
-    at.x0 = k.a * k.b;
-    at.width = k.c;
-    at.x1 = pick(at.last, set(1.0f), at.x0 + k.c);
-    at.z1 = pick(at.last, set(0.0f), at.z0 - k.c);
+    cell_density at;
+    at.last = eq(i, t.cells);
+    at.from = k.r;
+    at.z0 = k.z;
+    at.x0 = k.r * k.z;
+    at.width = k.width;
+    at.x1 = select(at.last, set(1.0f), at.x0 + k.width);
+    at.z1 = select(at.last, set(0.0f), at.z0 - k.width);
     at.edge0 = s * at.x0 - c * at.z0;
     at.edge1 = s * at.x1 - c * at.z1;
     return at;
 }
 
 /* The densities at both ends over the mass. */
-HERE piece law_cell_of(piece bare, real mass, real d0, real d1)
+KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
 {
-    piece at = bare;
-    at.mass = most(mass, set(1e-36f));
+    cell_density at = bare;
+    at.mass = max(mass, set(1e-36f));
     at.per = 1.0f / at.mass;
     at.e0 = d0 * at.per;
     at.e1 = d1 * at.per;
@@ -154,63 +210,67 @@ HERE piece law_cell_of(piece bare, real mass, real d0, real d1)
 }
 
 /* What a cell's density is divided by, at xi = over/(over + rest), times (over + rest)^2. */
-HERE real law_below(piece at, real over, real rest)
+KERNEL real law_denominator(cell_density at, real over, real rest)
 {
     real under = over + rest;
     return under * under + (at.sum - 2.0f) * (over * rest);
 }
 
 /* Mass per xi over under^2, times the square of `below`. */
-HERE real law_shape(piece at, real over, real rest)
+KERNEL real law_shape(cell_density at, real over, real rest)
 {
     return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
 }
 
 /* w_1 x^2 + w_0 x z + w_q z^2: the weight over z^2. */
-HERE real law_weight_at(weights w, real x, real z)
+KERNEL real law_weight_at(weights w, real x, real z)
 {
     return x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
 }
 
 /* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
-HERE piece law_cell_above(table t, seen v, weights of_all, whole i)
+KERNEL cell_density law_cell_above(table t, radial_law v, weights of_all, integer i)
 {
-    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, v.s, v.c, i, k);
-    weights w = law_weights_at(of_all, v.c, same(i, 0));
-    w.wq = w.wq + w.w4 * more.b;
-    real a = w.w1 * k.a, line = a + w.w0, m = w.w1 * more.a + (line + a) * l.d + (line * k.a + w.wq) * l.c;
-    return law_cell_of(at, m, l.a * law_weight_at(w, at.x0, at.z0), l.b * law_weight_at(w, at.x1, at.z1));
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
+    cell_density at = law_cell_at(t, v.s, v.c, i, k);
+    weights w = law_weights_at(of_all, v.c, eq(i, 0));
+    w.wq = w.wq + w.w4 * more.cube;
+    real a = w.w1 * k.r, line = a + w.w0, m = w.w1 * more.m2 + (line + a) * l.m1 + (line * k.r + w.wq) * l.m0;
+    return law_cell_of(at, m, l.left * law_weight_at(w, at.x0, at.z0), l.right * law_weight_at(w, at.x1, at.z1));
 }
 
 /* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
-HERE piece law_cell_all(table t, whole i)
+KERNEL cell_density law_cell_all(table t, integer i)
 {
-    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
-    real m = l.d + k.a * l.c, slope = more.a + k.a * (l.d + m), z0 = pick(at.last, at.x0, at.z0),
-         z1 = pick(at.last, at.x1, at.z1);
-    return law_cell_of(at, pick(at.last, slope, m), l.a * (at.x0 * z0), l.b * (at.x1 * z1));
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
+    cell_density at = law_cell_at(t, set(1.0f), set(0.0f), i, k);
+    real m = l.m1 + k.r * l.m0, slope = more.m2 + k.r * (l.m1 + m), z0 = select(at.last, at.x0, at.z0),
+         z1 = select(at.last, at.x1, at.z1);
+    return law_cell_of(at, select(at.last, slope, m), l.left * (at.x0 * z0), l.right * (at.x1 * z1));
 }
 
 /* Its mass per xi, over (over + rest)^2 and times below^2, for the slope length (x, z). */
-HERE real law_of_f(piece at, real over, real rest, real x, real z)
+KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 {
     real m = law_shape(at, over, rest);
-    return pick(at.last, m * (z / x), m);
+    return select(at.last, m * (z / x), m);
 }
 
 /* ---- below the horizon ---- */
 
 /* Mass beyond knot k, whose row is `low`, a sum of positive terms: `beyond` = R_k - rho >= 0. */
-HERE real law_sum_below(weights w, real r, real beyond, quad tail, quad low)
+KERNEL real law_sum_below(weights w, real r, real beyond, tail_row tail, area_row low)
 {
     real e = w.w1 * r + w.w0 * beyond;
-    return (w.w1 + w.w0) * (low.b + beyond * low.a) + e * (low.a + beyond * tail.c);
+    return (w.w1 + w.w0) * (low.t2 + beyond * low.t1) + e * (low.t1 + beyond * tail.over);
 }
 
 /* The weight over z^2 at x, where R - rho = beyond/z. */
-HERE real law_weight_below(weights w, real x, real beyond)
+KERNEL real law_weight_below(weights w, real x, real beyond)
 {
     return beyond * (w.w1 * x + w.w0 * beyond);
 }
@@ -218,107 +278,111 @@ HERE real law_weight_below(weights w, real x, real beyond)
 /* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
  * both ends; the factor makes the mass exact where rho is the knot. The end is held to 1e4 times the mean, so that
  * places in the piece are of moderate size. `part` of the cell is seen. */
-HERE weights law_partial(weights of_all, real rho, mask last, quad k, quad after, quad l, real m2, real part)
+KERNEL weights law_partial(weights of_all, real rho, mask last, knot_row k, knot_row after, law_row l, real m2,
+                           real part)
 {
     weights w = of_all;
-    real x1 = pick(last, set(1.0f), after.a * after.b), one = set(1.0f);
-    real beyond = pick(last, one, most(after.a - rho, set(0.0f)) * after.b);
-    real at_knot = pick(last, one, (after.a - k.a) * after.b);
-    real all = (w.w1 + w.w0) * m2 + w.w1 * k.a * l.d, third = 0.333333333f * l.b + 0.166666667f * l.a;
+    real x1 = select(last, set(1.0f), after.r * after.z), one = set(1.0f);
+    real beyond = select(last, one, max(after.r - rho, set(0.0f)) * after.z);
+    real at_knot = select(last, one, (after.r - k.r) * after.z);
+    real all = (w.w1 + w.w0) * m2 + w.w1 * k.r * l.m1, third = 0.333333333f * l.right + 0.166666667f * l.left;
     real near = law_weight_below(w, x1, at_knot) * third, end = part * law_weight_below(w, x1, beyond);
-    real here = third + 0.166666667f * (1.0f - part) * (l.b - l.a),
-         factor = all / most(near, 1e-3f * all + 1e-36f);
-    w.wq = most(end * here * factor, set(1e-34f));
-    w.w4 = least(end * l.b, 1e4f * w.wq);
+    real here = third + 0.166666667f * (1.0f - part) * (l.right - l.left),
+         factor = all / max(near, 1e-3f * all + 1e-36f);
+    w.wq = max(end * here * factor, set(1e-34f));
+    w.w4 = min(end * l.right, 1e4f * w.wq);
     return w;
 }
 
-HERE seen law_see_below(table t, real s, real c, real rho, whole cell)
+KERNEL radial_law law_see_below(table t, real s, real c, real rho, integer cell)
 {
-    seen v;
+    radial_law v;
     v.s = s;
     v.c = c;
     v.rho = rho;
     v.first = cell;
-    mask last = same(v.first, t.cells);
-    whole next = pick_whole(last, v.first, v.first + 1);
-    quad k = look(t, VNDF_KNOT, v.first), after = look(t, VNDF_KNOT, next);
-    quad more = look(t, VNDF_MORE, v.first), shares = look(t, VNDF_MORE, next);
-    real beyond = most(after.a - v.rho, set(0.0f)), tail = least(s / k.b, set(1.0f));
+    mask last = eq(v.first, t.cells);
+    integer next = select_int(last, v.first, v.first + 1);
+    knot_row k = load_knot(t, v.first), after = load_knot(t, next);
+    shares_row more = load_shares(t, v.first), shares = load_shares(t, next);
+    real beyond = max(after.r - v.rho, set(0.0f)), tail = min(s / k.z, set(1.0f));
     for (int n = 0; n < t.squarings; n++)
-        tail = root(tail);
-    v.near = least(most(pick(last, tail, s * (beyond * after.b) / k.c), set(1e-9f)), set(1.0f));
+        tail = sqrt(tail);
+    v.near = min(max(select(last, tail, s * (beyond * after.z) / k.width), set(1e-9f)), set(1.0f));
     real xi = 1.0f - v.near;
-    weights w = {more.c + xi * (shares.c - more.c), more.d + xi * (shares.d - more.d), set(0.0f), set(0.0f)};
-    v.w = law_partial(w, v.rho, last, k, after, look(t, VNDF_LAW, v.first), more.a, v.near);
-    real rest = law_sum_below(v.w, after.a, beyond, look(t, VNDF_TAIL, next), look(t, VNDF_LOW, next));
-    v.total = v.w.wq + pick(last, set(0.0f), rest);
+    weights w = {more.b0 + xi * (shares.b0 - more.b0), more.b1 + xi * (shares.b1 - more.b1), set(0.0f), set(0.0f)};
+    v.w = law_partial(w, v.rho, last, k, after, load_law(t, v.first), more.m2, v.near);
+    real rest = law_sum_below(v.w, after.r, beyond, load_tail(t, next), load_area(t, next));
+    v.total = v.w.wq + select(last, set(0.0f), rest);
     return v;
 }
 
 /* The mass beyond knot i, which is at rho or beyond it. */
-HERE real law_beyond(table t, seen v, whole i)
+KERNEL real law_beyond(table t, radial_law v, integer i)
 {
-    real r = look(t, VNDF_KNOT, i).a;
-    return law_sum_below(v.w, r, most(r - v.rho, set(0.0f)), look(t, VNDF_TAIL, i), look(t, VNDF_LOW, i));
+    real r = load_knot(t, i).r;
+    return law_sum_below(v.w, r, max(r - v.rho, set(0.0f)), load_tail(t, i), load_area(t, i));
 }
 
 /* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
  * cell is found depends on the order of the steps. */
-HERE mask law_passes(table t, seen v, whole next, real beyond, real left)
+KERNEL mask law_passes(table t, radial_law v, integer next, real beyond, real left)
 {
-    return either(at_most(to_real(next), to_real(v.first)),
-                  both(at_most(to_real(next), to_real(set_whole(t.cells))), at_most(left, beyond)));
+    return either(le(to_real(next), to_real(v.first)),
+                  both(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
 }
 
 /* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
-HERE whole law_find_below(table t, seen v, real left)
+KERNEL integer law_find_below(table t, radial_law v, real left)
 {
-    whole i = set_whole(0);
+    integer i = set_int(0);
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
-        whole next = i + step;
-        real beyond = law_beyond(t, v, least_whole(next, set_whole(t.cells)));
-        i = pick_whole(law_passes(t, v, next, beyond, left), next, i);
+        integer next = i + step;
+        real beyond = law_beyond(t, v, min_int(next, set_int(t.cells)));
+        i = select_int(law_passes(t, v, next, beyond, left), next, i);
         step = step / 2;
     }
     return i;
 }
 
-HERE piece law_cell_below(table t, seen v, whole i)
+KERNEL cell_density law_cell_below(table t, radial_law v, integer i)
 {
-    quad k = look(t, VNDF_KNOT, i), l = look(t, VNDF_LAW, i), more = look(t, VNDF_MORE, i);
-    piece at = law_cell_at(t, v.s, v.c, i, k);
-    real beyond = most(k.a - v.rho, set(0.0f)), e = v.w.w1 * k.a + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
-    real m = b * more.a + (b * beyond + e) * l.d + beyond * e * l.c, start = beyond * at.z0;
-    real end = pick(at.last, set(1.0f), k.c * (1.0f + k.a) + beyond * at.z1);
-    real d0 = l.a * law_weight_below(v.w, at.x0, start), d1 = l.b * law_weight_below(v.w, at.x1, end);
-    mask partial = at_most(to_real(i), to_real(v.first));
-    at.from = pick(partial, v.rho, at.from);
-    at.x0 = pick(partial, -v.c, at.x0);
-    at.z0 = pick(partial, v.s, at.z0);
-    at.width = pick(partial, pick(at.last, k.c * (v.s / k.b), k.c * v.near), at.width);
-    at.edge0 = pick(partial, set(0.0f), v.s * start);
-    at.edge1 = pick(at.last, v.s, at.edge0 + at.width);
-    return law_cell_of(at, pick(partial, v.w.wq, m), pick(partial, set(0.0f), d0), pick(partial, v.w.w4, d1));
+    knot_row k = load_knot(t, i);
+    law_row l = load_law(t, i);
+    shares_row more = load_shares(t, i);
+    cell_density at = law_cell_at(t, v.s, v.c, i, k);
+    real beyond = max(k.r - v.rho, set(0.0f)), e = v.w.w1 * k.r + v.w.w0 * beyond, b = v.w.w1 + v.w.w0;
+    real m = b * more.m2 + (b * beyond + e) * l.m1 + beyond * e * l.m0, start = beyond * at.z0;
+    real end = select(at.last, set(1.0f), k.width * (1.0f + k.r) + beyond * at.z1);
+    real d0 = l.left * law_weight_below(v.w, at.x0, start), d1 = l.right * law_weight_below(v.w, at.x1, end);
+    mask partial = le(to_real(i), to_real(v.first));
+    at.from = select(partial, v.rho, at.from);
+    at.x0 = select(partial, -v.c, at.x0);
+    at.z0 = select(partial, v.s, at.z0);
+    at.width = select(partial, select(at.last, k.width * (v.s / k.z), k.width * v.near), at.width);
+    at.edge0 = select(partial, set(0.0f), v.s * start);
+    at.edge1 = select(at.last, v.s, at.edge0 + at.width);
+    return law_cell_of(at, select(partial, v.w.wq, m), select(partial, set(0.0f), d0),
+                       select(partial, v.w.w4, d1));
 }
 
 /* ---- places in a cell ---- */
 
 /* xi = over/under, 1 - xi = rest/under, under = over + rest; the mass per xi is mass root under^2/below. */
-typedef struct place {
-    real over, rest, root, below;
-} place;
+typedef struct cell_place {
+    real over, rest, root, denominator;
+} cell_place;
 
 /* The place with the mass m before it: no root is a difference. */
-HERE place law_invert(piece at, real m)
+KERNEL cell_place law_invert(cell_density at, real m)
 {
-    real q = least(most(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
-    real middle = at.e0 - q * at.sum, square = root(middle * middle + (4.0f * q) * p);
-    mask rising = at_most(set(0.0f), middle + 2.0f * q);
-    place in = {pick(rising, 2.0f * q, square - middle), pick(rising, square + middle, 2.0f * p), square,
-                set(0.0f)};
-    in.below = law_below(at, in.over, in.rest);
+    real q = min(max(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
+    real middle = at.e0 - q * at.sum, square = sqrt(middle * middle + (4.0f * q) * p);
+    mask rising = le(set(0.0f), middle + 2.0f * q);
+    cell_place in = {select(rising, 2.0f * q, square - middle), select(rising, square + middle, 2.0f * p), square,
+                     set(0.0f)};
+    in.denominator = law_denominator(at, in.over, in.rest);
     return in;
 }
 
@@ -327,7 +391,7 @@ typedef struct slope_length {
     real x, z, edge;
 } slope_length;
 
-HERE slope_length law_length(table t, seen v, piece at, place in, const int below)
+KERNEL slope_length law_length(table t, radial_law v, cell_density at, cell_place in, const int below)
 {
     real under = in.over + in.rest;
     slope_length r = {at.x0 * in.rest + at.x1 * in.over, at.z0 * in.rest + at.z1 * in.over,
@@ -338,34 +402,34 @@ HERE slope_length law_length(table t, seen v, piece at, place in, const int belo
         real power = in.rest / under;
         for (int n = 0; n < t.squarings; n++)
             power = power * power;
-        r.z = pick(at.last, most(at.z0 * power, set(1e-26f)) * under, r.z); /* no slope beyond 1e26 */
-        r.x = pick(at.last, under - r.z, r.x);
-        r.edge = pick(at.last, v.s * under - r.z, r.edge);
+        r.z = select(at.last, max(at.z0 * power, set(1e-26f)) * under, r.z); /* no slope beyond 1e26 */
+        r.x = select(at.last, under - r.z, r.x);
+        r.edge = select(at.last, v.s * under - r.z, r.edge);
     }
     return r;
 }
 
 /* The place of the slope x/z in its cell; per = 1/(x + z). */
-HERE place law_place(table t, piece at, real x, real z, real per)
+KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
 {
     real over = (x - at.from * z) * (per * (at.z0 / at.width)), rest = 1.0f - over;
     if (any(at.last)) { /* there 1 - xi is what keeps its digits */
         real eta = z * per / at.z0;
         for (int n = 0; n < t.squarings; n++)
-            eta = root(eta);
-        rest = pick(at.last, eta, rest);
+            eta = sqrt(eta);
+        rest = select(at.last, eta, rest);
         if (t.squarings > 0)
-            over = pick(at.last, 1.0f - eta, over);
+            over = select(at.last, 1.0f - eta, over);
     }
-    over = least(most(over, set(1e-6f)), set(0.9999999f));
-    rest = least(most(rest, set(1e-7f)), set(0.999999f));
-    place in = {over, rest, set(0.0f), set(0.0f)};
-    in.below = law_below(at, in.over, in.rest);
+    over = min(max(over, set(1e-6f)), set(0.9999999f));
+    rest = min(max(rest, set(1e-7f)), set(0.999999f));
+    cell_place in = {over, rest, set(0.0f), set(0.0f)};
+    in.denominator = law_denominator(at, in.over, in.rest);
     return in;
 }
 
 /* The derivative of x by xi at that place. */
-HERE real law_width(table t, piece at, place in)
+KERNEL real law_width(table t, cell_density at, cell_place in)
 {
     real width = at.width;
     if (t.squarings > 0 && any(at.last)) {
@@ -374,7 +438,7 @@ HERE real law_width(table t, piece at, place in)
             power = power * eta;
             eta = eta * eta;
         }
-        width = pick(at.last, width * most(power, set(1e-30f)), width);
+        width = select(at.last, width * max(power, set(1e-30f)), width);
     }
     return width;
 }
@@ -382,39 +446,41 @@ HERE real law_width(table t, piece at, place in)
 /* ---- area ---- */
 
 /* A/(c + s) above the horizon for the direction (s, 0, |c|): a cubic spline of c/(c + s). `cell` is that of rho. */
-HERE real law_area_above(table t, seen v, whole cell)
+KERNEL real law_area_above(table t, radial_law v, integer cell)
 {
-    mask last = same(cell, t.cells);
-    whole next = pick_whole(last, cell, cell + 1);
-    quad k = look(t, VNDF_KNOT, cell), low = look(t, VNDF_LOW, cell), up = look(t, VNDF_LOW, next);
-    real width = pick(last, k.b, k.c), a1 = pick(last, set(1.0f), up.c), d1 = width * pick(last, set(1.0f), up.d);
-    real u = least((v.rho - k.a) * k.b * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.d;
-    real area = w * w * (low.c + u * (2.0f * low.c + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
-    return most(area, size(v.c)); /* no less than the plane */
+    mask last = eq(cell, t.cells);
+    integer next = select_int(last, cell, cell + 1);
+    knot_row k = load_knot(t, cell);
+    area_row low = load_area(t, cell), up = load_area(t, next);
+    real width = select(last, k.z, k.width), a1 = select(last, set(1.0f), up.area),
+         d1 = width * select(last, set(1.0f), up.slope);
+    real u = min((v.rho - k.r) * k.z * v.s / width, set(1.0f)), w = 1.0f - u, d0 = width * low.slope;
+    real area = w * w * (low.area + u * (2.0f * low.area + d0)) + u * u * (a1 + w * (2.0f * a1 - d1));
+    return max(area, abs(v.c)); /* no less than the plane */
 }
 
 /* The area of what is drawn, by which mixtures share: it is there with the law, without the spline. Straight from below
  * nothing is seen. */
-HERE real law_drawn_area(seen v, const int below)
+KERNEL real law_drawn_area(radial_law v, const int below)
 {
     if (!below)
         return v.total;
-    return pick(less(set(2e-15f), v.s), v.s * v.total * 0.318309886f, set(0.0f));
+    return select(lt(set(2e-15f), v.s), v.s * v.total * 0.318309886f, set(0.0f));
 }
 
 /* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
  * digits, and the area that is drawn where it does not. */
-HERE real law_area_in(table t, seen v, whole cell, const int below)
+KERNEL real law_area_in(table t, radial_law v, integer cell, const int below)
 {
     real above = law_area_above(t, v, cell);
     if (!below)
         return above;
     real sampled = law_drawn_area(v, below);
-    real mixed = least(most((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
-    return sampled + mixed * ((above - size(v.c)) - sampled);
+    real mixed = min(max((sampled / above - 4e-4f) * 625.0f, set(0.0f)), set(1.0f));
+    return sampled + mixed * ((above - abs(v.c)) - sampled);
 }
 
-HERE real law_area(table t, seen v, const int below)
+KERNEL real law_area(table t, radial_law v, const int below)
 {
     return law_area_in(t, v, find_knot(t, v.rho * v.rho, set(1.0f)), below);
 }

@@ -17,15 +17,15 @@
 #  include "kernel/math.h"
 
 /* x as the normals of the kernel have it. */
-HERE real narrow(real x)
+KERNEL real narrow(real x)
 {
     return x;
 }
 
 /* log(1 + x), x >= 0. */
-HERE real log_beyond(real x)
+KERNEL real log_beyond(real x)
 {
-    return pick(less(x, set(0.4f)), log_near(least(x, set(0.4f))), log_of(1.0f + x));
+    return select(lt(x, set(0.4f)), log_near(min(x, set(0.4f))), log_of(1.0f + x));
 }
 
 #endif
@@ -34,7 +34,7 @@ typedef struct direction {
     real x, y, z;
 } direction;
 
-HERE real dot_of(direction a, direction b)
+KERNEL real dot_of(direction a, direction b)
 {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
@@ -55,20 +55,20 @@ typedef struct seen_cosine {
     real facing, rest;
 } seen_cosine;
 
-HERE seen_cosine seen_cosine_of(direction wi, direction wm)
+KERNEL seen_cosine seen_cosine_of(direction wi, direction wm)
 {
     real dot = dot_of(wi, wm);
     seen_cosine s = {dot, 1.0f - dot};
-    mask near = less(set(0.9f), dot);
+    mask near = lt(set(0.9f), dot);
     if (any(near)) {
         real x = wi.x - wm.x, y = wi.y - wm.y, z = wi.z - wm.z;
-        s.rest = pick(near, 0.5f * ((x * x + y * y) + z * z), s.rest);
-        s.facing = pick(near, 1.0f - s.rest, dot);
+        s.rest = select(near, 0.5f * ((x * x + y * y) + z * z), s.rest);
+        s.facing = select(near, 1.0f - s.rest, dot);
     }
     return s;
 }
 
-HERE event reflected_at(direction wi, direction wm, seen_cosine c)
+KERNEL event reflected_at(direction wi, direction wm, seen_cosine c)
 {
     real twice = 2.0f * c.facing;
     event e;
@@ -81,15 +81,15 @@ HERE event reflected_at(direction wi, direction wm, seen_cosine c)
     e.beyond = c.facing;
     e.rest = c.rest;
     e.jacobian = 0.25f / c.facing;
-    e.met = less(set(0.0f), c.facing);
+    e.met = lt(set(0.0f), c.facing);
     return e;
 }
 
 /* wi + r (-up) = along wm, along = (r^2 - 1)/(wi.wm + r |wo.wm|), which keeps its digits where r is near 1. A
  * ratio of 1 leaves wi as it is, and has no Jacobian. */
-HERE event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
+KERNEL event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
 {
-    real square = refracted_square(c.facing, eta), beyond = root(most(square, set(0.0f)));
+    real square = refracted_square(c.facing, eta), beyond = sqrt(max(square, set(0.0f)));
     real along = (eta - 1.0f) * (eta + 1.0f) / (c.facing + eta * beyond), per = 1.0f / eta;
     event e;
     e.wm = wm;
@@ -101,18 +101,18 @@ HERE event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
     e.beyond = beyond;
     e.rest = c.rest;
     e.jacobian = eta * eta * beyond / (along * along);
-    e.met = both(less(set(0.0f), c.facing), less(set(0.0f), square));
+    e.met = both(lt(set(0.0f), c.facing), lt(set(0.0f), square));
     return e;
 }
 
 /* ---- of two directions ---- */
 
 /* Where both graze the sum is short, and lengths matter: wo is given that of wi. */
-HERE event reflecting(direction wi, direction wo)
+KERNEL event reflecting(direction wi, direction wo)
 {
     real longer = 0.5f * (dot_of(wi, wi) - dot_of(wo, wo));
     real x = (wi.x + wo.x) + longer * wo.x, y = (wi.y + wo.y) + longer * wo.y, z = (wi.z + wo.z) + longer * wo.z;
-    real square = (x * x + y * y) + z * z, per = 1.0f / root(square);
+    real square = (x * x + y * y) + z * z, per = 1.0f / sqrt(square);
     event e;
     e.wm.x = narrow(x * per);
     e.wm.y = narrow(y * per);
@@ -123,19 +123,19 @@ HERE event reflecting(direction wi, direction wo)
     e.beyond = e.facing;
     e.rest = 1.0f - e.facing;
     e.jacobian = 0.25f / e.facing;
-    e.met = both(both(less(set(0.0f), square), at_most(set(0.0f), z)), less(set(0.0f), e.facing));
+    e.met = both(both(lt(set(0.0f), square), le(set(0.0f), z)), lt(set(0.0f), e.facing));
     return e;
 }
 
 /* Its 1 - wi.wm with all digits, for Fresnel's terms: from the sine of half the turn from wi to wo. */
-HERE real reflecting_rest(event e, direction wi, direction wo)
+KERNEL real reflecting_rest(event e, direction wi, direction wo)
 {
     real rest = e.rest;
-    mask near = less(rest, set(0.1f));
+    mask near = lt(rest, set(0.1f));
     if (any(near)) {
         real x = wi.x - wo.x, y = wi.y - wo.y, z = wi.z - wo.z;
-        real sine2 = least(0.25f * ((x * x + y * y) + z * z), set(1.0f));
-        rest = pick(near, sine2 / (1.0f + root(1.0f - sine2)), rest);
+        real sine2 = min(0.25f * ((x * x + y * y) + z * z), set(1.0f));
+        rest = select(near, sine2 / (1.0f + sqrt(1.0f - sine2)), rest);
     }
     return rest;
 }
@@ -143,14 +143,14 @@ HERE real reflecting_rest(event e, direction wi, direction wo)
 /* up = -wo. Where wi + r wo is small an error of a length matters, so both lengths are made 1. A normal so steep that
  * its z is less than the rounding of wo has lost its sign: it faces wi, and its z is that rounding, where D is finite;
  * of a tail of r^-3.2 these are some percent of what is drawn. */
-HERE event refracting(direction wi, direction up, real eta)
+KERNEL event refracting(direction wi, direction up, real eta)
 {
-    real i = 1.0f / root(dot_of(wi, wi)), o = 1.0f / root(dot_of(up, up)), change = eta - 1.0f;
+    real i = 1.0f / sqrt(dot_of(wi, wi)), o = 1.0f / sqrt(dot_of(up, up)), change = eta - 1.0f;
     real ix = wi.x * i, iy = wi.y * i, iz = wi.z * i, ox = up.x * o, oy = up.y * o, oz = up.z * o;
     real x = (ix - ox) - change * ox, y = (iy - oy) - change * oy, z = (iz - oz) - change * oz;
     real round = (1.0f + eta) * 1.1920929e-7f;
-    z = pick(less(size(z), round), with_sign(round, (ix * x + iy * y) + iz * z), z);
-    real square = (x * x + y * y) + z * z, per = with_sign(1.0f / root(square), z);
+    z = select(lt(abs(z), round), with_sign(round, (ix * x + iy * y) + iz * z), z);
+    real square = (x * x + y * y) + z * z, per = with_sign(1.0f / sqrt(square), z);
     event e;
     e.wm.x = narrow(x * per);
     e.wm.y = narrow(y * per);
@@ -161,8 +161,8 @@ HERE event refracting(direction wi, direction up, real eta)
     e.beyond = ((ox * x + oy * y) + oz * z) * per;
     e.rest = 1.0f - e.facing;
     e.jacobian = eta * eta * e.beyond / square;
-    mask faces = both(less(set(0.0f), e.facing), less(set(0.0f), e.beyond));
-    e.met = both(both(less(set(0.0f), square), less(set(0.0f), size(change))), faces);
+    mask faces = both(lt(set(0.0f), e.facing), lt(set(0.0f), e.beyond));
+    e.met = both(both(lt(set(0.0f), square), lt(set(0.0f), abs(change))), faces);
     return e;
 }
 
@@ -175,33 +175,33 @@ HERE event refracting(direction wi, direction up, real eta)
 
 /* 1/(cos_i cos_o (1 + Lambda_i + Lambda_o)), at most 1/(cos_o A_i), so that no weight of visible normals exceeds
  * 1. */
-HERE real masked_by_height(real cos_i, real cos_o, real area_i, real area_o)
+KERNEL real masked_by_height(real cos_i, real cos_o, real area_i, real area_o)
 {
-    return 1.0f / (cos_o * area_i + cos_i * most(area_o - cos_o, set(0.0f)));
+    return 1.0f / (cos_o * area_i + cos_i * max(area_o - cos_o, set(0.0f)));
 }
 
-HERE real masked_apart(real area_i, real area_o)
+KERNEL real masked_apart(real area_i, real area_o)
 {
     return 1.0f / (area_i * area_o);
 }
 
 /* G1 of V-cavities, exactly 1 where nothing hides. */
-HERE real in_cavity(real cosine, real facing, real cos_m)
+KERNEL real in_cavity(real cosine, real facing, real cos_m)
 {
-    return least(2.0f * cos_m * cosine / facing, set(1.0f));
+    return min(2.0f * cos_m * cosine / facing, set(1.0f));
 }
 
 /* The smaller of the two is visible to both. */
-HERE real masked_in_cavities(real cos_i, real cos_o, real facing, real cos_m)
+KERNEL real masked_in_cavities(real cos_i, real cos_o, real facing, real cos_m)
 {
-    return least(in_cavity(cos_i, facing, cos_m), in_cavity(cos_o, facing, cos_m)) / (cos_i * cos_o);
+    return min(in_cavity(cos_i, facing, cos_m), in_cavity(cos_o, facing, cos_m)) / (cos_i * cos_o);
 }
 
 /* From above the upper part of a side is seen, from below the lower one. */
-HERE real passed_in_cavities(real cos_i, real cos_o, real facing, real beyond, real cos_m)
+KERNEL real passed_in_cavities(real cos_i, real cos_o, real facing, real beyond, real cos_m)
 {
     real i = in_cavity(cos_i, facing, cos_m), o = in_cavity(cos_o, beyond, cos_m);
-    return most(least(i, o) - (1.0f - most(i, o)), set(0.0f)) / (cos_i * cos_o);
+    return max(min(i, o) - (1.0f - max(i, o)), set(0.0f)) / (cos_i * cos_o);
 }
 
 /* ---- transmission, masked by height: Euler's Beta function ----
@@ -218,7 +218,7 @@ HERE real passed_in_cavities(real cos_i, real cos_o, real facing, real beyond, r
  * light passes, 1/Gamma is a polynomial through Chebyshev's nodes: a division and no logarithm; error 3.4e-9. */
 
 /* 1/Gamma(2 + v), |v| <= 1. */
-HERE real per_gamma_low(real v)
+KERNEL real per_gamma_low(real v)
 {
     real v2 = v * v, v4 = v2 * v2;
     real a =
@@ -231,7 +231,7 @@ HERE real per_gamma_low(real v)
 }
 
 /* 1/Gamma(4 + v), |v| <= 2. */
-HERE real per_gamma_high(real v)
+KERNEL real per_gamma_high(real v)
 {
     real v2 = v * v, v4 = v2 * v2, v8 = v4 * v4;
     real a =
@@ -250,7 +250,7 @@ typedef struct gamma_factor {
     real over, under;
 } gamma_factor;
 
-HERE gamma_factor gamma_factor_at(real per)
+KERNEL gamma_factor gamma_factor_at(real per)
 {
     real square = per * per;
     const gamma_factor g = {
@@ -260,35 +260,35 @@ HERE gamma_factor gamma_factor_at(real per)
 }
 
 /* a >= b >= 1. */
-HERE real beta_beyond(real a, real b)
+KERNEL real beta_beyond(real a, real b)
 {
     real s = a + b, per_a = 1.0f / a;
     real fall = exp_of(-((a - 0.5f) * log_beyond(b * per_a) + (b - 0.5f) * log_of(s / b)));
     gamma_factor at_a = gamma_factor_at(per_a), at_b = gamma_factor_at(1.0f / b), at_s = gamma_factor_at(1.0f / s);
     real over = 2.5066282746310005 * (at_a.over * at_b.over) * at_s.under;
-    return fall * over / (at_a.under * at_b.under * at_s.over * root(s));
+    return fall * over / (at_a.under * at_b.under * at_s.over * sqrt(s));
 }
 
 /* Beta(x, y), x and y from 1 to infinity; with bsdf/bsdf.h the relative error is below 2e-8 where it exceeds
  * 1e-37. */
-HERE real beta_of(real x, real y)
+KERNEL real beta_of(real x, real y)
 {
-    real a = most(x, y), b = least(x, y), value = set(0.0f);
-    mask near = at_most(a, set(3.0f)), far = both(less(set(3.0f), a), less(a, set(1e37f)));
+    real a = max(x, y), b = min(x, y), value = set(0.0f);
+    mask near = le(a, set(3.0f)), far = both(lt(set(3.0f), a), lt(a, set(1e37f)));
     if (any(near)) {
-        real p = least(a, set(3.0f)), q = least(b, set(3.0f));
+        real p = min(a, set(3.0f)), q = min(b, set(3.0f));
         real under = per_gamma_low(p - 2.0f) * per_gamma_low(q - 2.0f);
-        value = pick(near, per_gamma_high((p - 4.0f) + q) / under, value);
+        value = select(near, per_gamma_high((p - 4.0f) + q) / under, value);
     }
     if (any(far))
-        value = pick(far, beta_beyond(least(a, set(1e37f)), least(b, set(1e37f))), value);
+        value = select(far, beta_beyond(min(a, set(1e37f)), min(b, set(1e37f))), value);
     return value;
 }
 
 /* G of transmission. */
-HERE real passed_by_height(real cos_i, real cos_o, real area_i, real area_o)
+KERNEL real passed_by_height(real cos_i, real cos_o, real area_i, real area_o)
 {
-    real i = most(area_i / cos_i, set(1.0f)), o = most(area_o / cos_o, set(1.0f));
+    real i = max(area_i / cos_i, set(1.0f)), o = max(area_o / cos_o, set(1.0f));
     return beta_of(i, o) / (cos_i * cos_o);
 }
 

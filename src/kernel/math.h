@@ -1,14 +1,14 @@
 /* Functions of the kernel from + - * /, roots and bits alone: angles, exponentials, the error function, differences
  * of products. Errors are those before rounding, which adds some 1e-7, unless "measured" stands beside them. Each
- * polynomial was fitted for the least largest relative error of the whole function, unless said otherwise. */
+ * polynomial was fitted for the least largest relative error of the integer function, unless said otherwise. */
 #ifndef VNDF_KERNEL_MATH_H
 #define VNDF_KERNEL_MATH_H
 
 /* A normal of the unit problem, of any length, in the frame of the stretched direction, z >= 0; and the factor K of the
  * density with which it is drawn: K len^3/|det M| per steradian, where len is the length of (M (x, y), z). */
-typedef struct drawn {
+typedef struct normal_sample {
     real x, y, z, density;
-} drawn;
+} normal_sample;
 
 typedef struct pair {
     real a, b;
@@ -21,7 +21,7 @@ typedef struct turn {
 /* ---- products ---- */
 
 /* The first half of the digits of a. */
-HERE real head(real a)
+KERNEL real head(real a)
 {
     real t = 4097.0f * a;
     return t - (t - a);
@@ -29,29 +29,29 @@ HERE real head(real a)
 
 /* What the product p = a b lost where it was rounded (Dekker, "A floating-point technique for extending the available
  * precision", 1971). */
-HERE real product_rest(real a, real b, real p)
+KERNEL real product_rest(real a, real b, real p)
 {
     real c = head(a), d = head(b);
     return ((c * d - p) + (c * (b - d) + (a - c) * d)) + (a - c) * (b - d);
 }
 
 /* a b - c d, measured within 0.5 units of its last digit where no part is denormal. */
-HERE real difference_of_products(real a, real b, real c, real d)
+KERNEL real difference_of_products(real a, real b, real c, real d)
 {
     real p = a * b, q = c * d;
     return (p - q) + (product_rest(a, b, p) - product_rest(c, d, q));
 }
 
 /* The power of two that brings |x| into [1, 2); 2^127 for less than 2^-126, and 2^-126 for more than 2^126. */
-HERE real inverse_scale(real x)
+KERNEL real inverse_scale(real x)
 {
-    return of_bits(2130706432 - (bits(least(size(x), set(8.5e37f))) & 2139095040));
+    return of_bits(2130706432 - (bits(min(abs(x), set(8.5e37f))) & 2139095040));
 }
 
 /* ---- angles ---- */
 
 /* sin(pi f), f in [0, 1/2]: 5.3e-9. */
-HERE real sine_quarter(real f)
+KERNEL real sine_quarter(real f)
 {
     real q = f * f;
     return f * (3.14159263696f +
@@ -59,15 +59,15 @@ HERE real sine_quarter(real f)
 }
 
 /* Sine and cosine of pi u, u in [0, 1], each with its digits next to its zeros; measured: 2.0e-7 absolute. */
-HERE turn half_turn(real u)
+KERNEL turn half_turn(real u)
 {
     real rest = 0.5f - u;
-    const turn t = {sine_quarter(least(u, 1.0f - u)), with_sign(sine_quarter(size(rest)), rest)};
+    const turn t = {sine_quarter(min(u, 1.0f - u)), with_sign(sine_quarter(abs(rest)), rest)};
     return t;
 }
 
 /* G of atan q = q (1 - q^2 G(q^2)), q in [0, 1]: the angle is within 1.7e-8 of itself. */
-HERE real arc_rest(real t)
+KERNEL real arc_rest(real t)
 {
     real t2 = t * t;
     real low = (0.333331527f - 0.199937728f * t) + t2 * (0.142110553f - 0.106660045f * t);
@@ -76,21 +76,21 @@ HERE real arc_rest(real t)
 }
 
 /* The angle of (x, y) in [0, pi], y >= 0; of (0, 0): 0. Measured: 2e-7 relative. */
-HERE real angle_of(real y, real x)
+KERNEL real angle_of(real y, real x)
 {
-    real across = size(x), larger = most(across, y), smaller = least(across, y);
-    real q = smaller / most(larger, set(1e-37f)), t = q * q, angle = q - q * t * arc_rest(t);
-    angle = pick(less(across, y), 1.57079633f - angle, angle);
-    return pick(less(x, set(0.0f)), 3.14159265f - angle, angle);
+    real across = abs(x), larger = max(across, y), smaller = min(across, y);
+    real q = smaller / max(larger, set(1e-37f)), t = q * q, angle = q - q * t * arc_rest(t);
+    angle = select(lt(across, y), 1.57079633f - angle, angle);
+    return select(lt(x, set(0.0f)), 3.14159265f - angle, angle);
 }
 
 /* ---- exponentials ---- */
 
 /* exp(x), |x| <= 87: 3.1e-9. Measured: 1e-7. k is the nearest whole number to x/log 2; log 2 is split so that k times
  * its first part is exact. */
-HERE real exp_near(real x)
+KERNEL real exp_near(real x)
 {
-    whole n = to_whole(x * 1.44269504f + 127.5f);
+    integer n = to_int(x * 1.44269504f + 127.5f);
     real k = to_real(n - 127), r = (x - k * 0.693145752f) - k * 1.42860677e-6f, r2 = r * r;
     real more =
         (0.499999934f + 0.166665201f * r) + r2 * ((0.0416683938f + 0.00836877631f * r) + r2 * 0.00138144754f);
@@ -99,13 +99,13 @@ HERE real exp_near(real x)
 }
 
 /* The same for x <= 87, 0 below -87. */
-HERE real exp_of(real x)
+KERNEL real exp_of(real x)
 {
-    return pick(less(x, set(-87.0f)), set(0.0f), exp_near(most(x, set(-87.0f))));
+    return select(lt(x, set(-87.0f)), set(0.0f), exp_near(max(x, set(-87.0f))));
 }
 
 /* log(1 + f) for 1/sqrt(2) <= 1 + f <= sqrt(2): 3.2e-8. */
-HERE real log_near(real f)
+KERNEL real log_near(real f)
 {
     real f2 = f * f;
     real low = (0.333339107f - 0.25001337f * f) + f2 * (0.199630638f - 0.165775847f * f);
@@ -114,9 +114,9 @@ HERE real log_near(real f)
 }
 
 /* log(x), x > 0 and not denormal. Measured: 1e-7 relative. */
-HERE real log_of(real x)
+KERNEL real log_of(real x)
 {
-    whole k = (bits(x) - 1060439283) & -8388608;
+    integer k = (bits(x) - 1060439283) & -8388608;
     real n = to_real(k) * 1.1920929e-7f; /* x = 2^n m, m from 1/sqrt(2) to sqrt(2) */
     return n * 0.693145752f + (log_near(of_bits(bits(x) - k) - 1.0f) + n * 1.42860677e-6f);
 }
@@ -129,7 +129,7 @@ typedef struct erfc_quotient {
     real above, below;
 } erfc_quotient;
 
-HERE erfc_quotient erfc_rest(real z)
+KERNEL erfc_quotient erfc_rest(real z)
 {
     real z2 = z * z;
     real above = (0.564189582f + z2 * (0.434423688f + z2 * 0.0355887364f)) +
@@ -141,35 +141,35 @@ HERE erfc_quotient erfc_rest(real z)
 }
 
 /* erfc(x)/2. Measured: 2.1e-7 absolute, 4e-6 relative down to 1e-30. */
-HERE real half_erfc(real x)
+KERNEL real half_erfc(real x)
 {
-    real z = least(size(x), set(1e4f));
+    real z = min(abs(x), set(1e4f));
     erfc_quotient n = erfc_rest(z);
     real tail = 0.282094792f * exp_of(-(z * z)) * n.below / (z * n.below + n.above);
-    return pick(less(x, set(0.0f)), 1.0f - tail, tail);
+    return select(lt(x, set(0.0f)), 1.0f - tail, tail);
 }
 
 /* 4 u (1 - u), where u and 1 - u are at least 2^-64 and 2^-26. */
-HERE real erf_middle(real u)
+KERNEL real erf_middle(real u)
 {
-    return 4.0f * most(u, set(5.42101086e-20f)) * most(1.0f - u, set(1.49011612e-8f));
+    return 4.0f * max(u, set(5.42101086e-20f)) * max(1.0f - u, set(1.49011612e-8f));
 }
 
 /* y with (1 + erf y)/2 = u, from w = -log(4 u (1 - u)) (Giles, "Approximating the erfinv function", GPU Computing Gems
  * 2, 2011): 9e-8 for w < 8, 1.1e-7 beyond, where y/((2 u - 1) sqrt(w)) is a polynomial in 1/sqrt(w). */
-HERE real erf_quantile(real u)
+KERNEL real erf_quantile(real u)
 {
-    real w = -log_of(erf_middle(u)), q = least(w, set(8.0f)) - 4.0f, q2 = q * q, q4 = q2 * q2;
+    real w = -log_of(erf_middle(u)), q = min(w, set(8.0f)) - 4.0f, q2 = q * q, q4 = q2 * q2;
     real low = (1.85877906f + 0.22835425f * q) + q2 * (-0.00722088791f - 0.000203399073f * q);
     real middle = (0.000118794057f - 1.57276808e-5f * q) + q2 * (5.0177458e-7f + 2.10143173e-7f * q);
     real high = (-3.48735493e-8f - 5.01036624e-10f * q) + q2 * 3.88030775e-10f,
          ratio = low + q4 * (middle + q4 * high);
-    mask far = less(set(8.0f), w);
+    mask far = lt(set(8.0f), w);
     if (any(far)) {
-        real root_w = root(w), r = 1.0f / root_w, r2 = r * r;
+        real root_w = sqrt(w), r = 1.0f / root_w, r2 = r * r;
         real even = 1.00250887f + r2 * (-0.347504458f + r2 * (10.3058436f + r2 * 20.1312207f));
         real odd = -0.0954507242f + r2 * (-1.21607528f - r2 * 23.7076448f);
-        ratio = pick(far, root_w * (even + r * odd), ratio);
+        ratio = select(far, root_w * (even + r * odd), ratio);
     }
     return (u - (1.0f - u)) * ratio;
 }

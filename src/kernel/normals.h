@@ -20,65 +20,65 @@ typedef struct any_slope {
 } any_slope;
 
 /* R^2 = u/(1 - u). */
-HERE any_slope ggx_slope(real u2)
+KERNEL any_slope ggx_slope(real u2)
 {
-    real z = root(most(1.0f - u2, set(1.49011612e-8f)));
-    const any_slope r = {root(u2), z, 0.318309886f * z};
+    real z = sqrt(max(1.0f - u2, set(1.49011612e-8f)));
+    const any_slope r = {sqrt(u2), z, 0.318309886f * z};
     return r;
 }
 
 /* R^2 = -log(1 - u), with its digits where u is small. */
-HERE any_slope beckmann_slope(real u2)
+KERNEL any_slope beckmann_slope(real u2)
 {
-    real rest = most(1.0f - u2, set(1.49011612e-8f));
-    real square = -pick(less(u2, set(0.25f)), log_near(-least(u2, set(0.25f))), log_of(rest));
-    const any_slope r = {root(square), set(1.0f), 0.318309886f * rest};
+    real rest = max(1.0f - u2, set(1.49011612e-8f));
+    real square = -select(lt(u2, set(0.25f)), log_near(-min(u2, set(0.25f))), log_of(rest));
+    const any_slope r = {sqrt(square), set(1.0f), 0.318309886f * rest};
     return r;
 }
 
 /* u1 turns, once about z, from -x (0) through x (1/2) and round. */
-HERE drawn all_normals_draw(any_slope r, real u1)
+KERNEL normal_sample all_normals_draw(any_slope r, real u1)
 {
     real half = 2.0f * u1 - 1.0f;
-    turn a = half_turn(size(half));
-    const drawn n = {r.x * a.cosine, r.x * with_sign(a.sine, half), r.z, r.density};
+    turn a = half_turn(abs(half));
+    const normal_sample n = {r.x * a.cosine, r.x * with_sign(a.sine, half), r.z, r.density};
     return n;
 }
 
 /* Sine and cosine of the azimuth from that of wi; p and q not both 0. u1 turns from behind wi (0) through its azimuth
  * (1/2) and round; it is met as the azimuth of a table is. */
-HERE turn v_cavity_azimuth(real p, real q, real u1)
+KERNEL turn v_cavity_azimuth(real p, real q, real u1)
 {
-    real lean = most(q, 1e-6f * p + 1e-37f), rest = arc_half(u1);
+    real lean = max(q, 1e-6f * p + 1e-37f), rest = arc_half(u1);
     arc k = arc_of(p, lean, lean - p, 0);
     real goal = 3.14159265f * k.cc * rest, per = k.sum / lean;
-    bearing b = arc_step(k, arc_start(k, least(goal / k.mass, set(1.0f)), 0), goal);
+    azimuth b = arc_step(k, arc_start(k, min(goal / k.mass, set(1.0f)), 0), goal);
     turn front = half_turn(0.5f - 0.5f * rest);
-    mask both_see = at_most(1.57079633f * (1.0f + rest), k.length);
-    const turn a = {with_sign(pick(both_see, b.aside * per, front.sine), u1 - 0.5f),
-                    pick(both_see, b.along * per, front.cosine)};
+    mask both_see = le(1.57079633f * (1.0f + rest), k.length);
+    const turn a = {with_sign(select(both_see, b.sine * per, front.sine), u1 - 0.5f),
+                    select(both_see, b.cosine * per, front.cosine)};
     return a;
 }
 
 /* What V-cavities draw a normal more often than all normals do: 2 f/(f + f'), f = up + level and f' = up - level what
  * it and its twin see of wi, not below 0. */
-HERE real v_cavity_share(real level, real up)
+KERNEL real v_cavity_share(real level, real up)
 {
-    real facing = most(up + level, set(0.0f));
-    return pick(less(level, up), facing / most(up, set(1e-37f)), set(2.0f));
+    real facing = max(up + level, set(0.0f));
+    return select(lt(level, up), facing / max(up, set(1e-37f)), set(2.0f));
 }
 
 /* A normal that w sees in V-cavities, vz >= 0. */
-HERE drawn v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
+KERNEL normal_sample v_cavity_draw(any_slope r, real vx, real vy, real vz, real u1)
 {
-    real across2 = vx * vx + vy * vy, s = root(across2), per = 1.0f / most(s, set(1e-15f));
-    mask leans = less(set(1e-30f), across2);
-    real cosine = pick(leans, vx * per, set(1.0f)), sine = pick(leans, vy * per, set(0.0f));
+    real across2 = vx * vx + vy * vy, s = sqrt(across2), per = 1.0f / max(s, set(1e-15f));
+    mask leans = lt(set(1e-30f), across2);
+    real cosine = select(leans, vx * per, set(1.0f)), sine = select(leans, vy * per, set(0.0f));
     turn a = v_cavity_azimuth(vz * r.z, s * r.x, u1);
     real x = r.x * (cosine * a.cosine - sine * a.sine), y = r.x * (sine * a.cosine + cosine * a.sine);
     real level = s * r.x * a.cosine, up = vz * r.z,
-         side = pick(less(set(0.0f), up + level), set(1.0f), set(-1.0f));
-    const drawn n = {side * x, side * y, r.z, r.density * v_cavity_share(side * level, up)};
+         side = select(lt(set(0.0f), up + level), set(1.0f), set(-1.0f));
+    const normal_sample n = {side * x, side * y, r.z, r.density * v_cavity_share(side * level, up)};
     return n;
 }
 #endif

@@ -1,4 +1,4 @@
-/* The types of the kernel as one number: `real`, `whole` and `mask` are a float, an int and a truth. lanes.h has the
+/* The types of the kernel as one number: `real`, `integer` and `mask` are a float, an int and a truth. lanes.h has the
  * same names for several numbers side by side; exported kernels have them in each language (tools/export). With either
  * page below it the text of the kernel gives the same bits: + - * /, roots, comparisons and bits of floats alone.
  *
@@ -10,10 +10,11 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include "core/inline.h"
 
-#define HERE VNDF_INLINE
+#define KERNEL VNDF_INLINE
 
 #if defined(VNDF_KERNEL_DOUBLE)
 typedef double real;
@@ -27,71 +28,75 @@ typedef float real;
 
 typedef int mask;
 
-HERE mask less(real a, real b)
+KERNEL mask lt(real a, real b)
 {
     return a < b;
 }
 
-HERE mask at_most(real a, real b)
+KERNEL mask le(real a, real b)
 {
     return a <= b;
 }
 
-HERE mask same(int32_t a, int b)
+KERNEL mask eq(int32_t a, int b)
 {
     return a == b;
 }
 
-HERE mask both(mask a, mask b)
+KERNEL mask both(mask a, mask b)
 {
     return a & b;
 }
 
-HERE mask either(mask a, mask b)
+KERNEL mask either(mask a, mask b)
 {
     return a | b;
 }
 
-HERE int any(mask m)
+KERNEL int any(mask m)
 {
     return m;
 }
 
-HERE real pick(mask m, real yes, real no)
+KERNEL real select(mask m, real yes, real no)
 {
     return m ? yes : no;
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
-HERE real least(real a, real b)
+KERNEL real min(real a, real b)
 {
     return a < b ? a : b;
 }
 
-HERE real most(real a, real b)
+KERNEL real max(real a, real b)
 {
     return a > b ? a : b;
 }
 
 /* ---- numbers ---- */
 
-HERE real set(real x)
+KERNEL real set(real x)
 {
     return x;
 }
 
-HERE real root(real x)
+KERNEL real kernel_sqrt(real x)
 {
     return REAL(sqrt)(x);
 }
 
-HERE real size(real x)
+KERNEL real kernel_abs(real x)
 {
     return REAL(fabs)(x);
 }
 
+/* C's own are of doubles and of ints. */
+#define sqrt(x) kernel_sqrt(x)
+#define abs(x) kernel_abs(x)
+
 /* |x| with the sign of y. */
-HERE real with_sign(real x, real y)
+KERNEL real with_sign(real x, real y)
 {
     return REAL(copysign)(x, y);
 }
@@ -105,7 +110,7 @@ HERE real with_sign(real x, real y)
 #  define VNDF_KERNEL_SSE2 1
 
 /* Lane 0 is x; with gcc without an instruction that clears the others. */
-HERE __m128 lane(float x)
+KERNEL __m128 lane(float x)
 {
 #  if defined(__clang__)
     return _mm_set_ss(x);
@@ -117,33 +122,33 @@ HERE __m128 lane(float x)
 }
 
 /* How many of the first four lanes are set before one is not, added up over two masks. */
-HERE int count_ones(unsigned bits_set)
+KERNEL int count_ones(unsigned bits_set)
 {
     return __builtin_ctz(~bits_set);
 }
 
 /* x four times, from a register. */
-HERE __m128 spread(float x)
+KERNEL __m128 spread(float x)
 {
     return _mm_shuffle_ps(lane(x), lane(x), 0);
 }
 
-HERE unsigned at_most_4(const float *numbers, __m128 square, __m128 under)
+KERNEL unsigned le_4(const float *numbers, __m128 square, __m128 under)
 {
     __m128 r = _mm_loadu_ps(numbers);
     return (unsigned)_mm_movemask_ps(_mm_cmple_ps(_mm_mul_ps(_mm_mul_ps(r, r), under), square));
 }
 
 /* The last knot R with R^2 under <= square (law.h has the same as a loop). */
-HERE whole find_knot(table t, real square, real under)
+KERNEL integer find_knot(table t, real square, real under)
 {
     int block = 0;
     const float *pivot = t.columns + VNDF_COLUMNS * t.column;
     __m128 x = spread(square), y = spread(under);
     for (int i = 0; i < t.pivots; i += 4)
-        block += count_ones(at_most_4(pivot + i, x, y));
+        block += count_ones(le_4(pivot + i, x, y));
     const float *first = t.columns + VNDF_COLUMN_STEP * block + 1;
-    return VNDF_COLUMN_STEP * block + count_ones(at_most_4(first, x, y) | at_most_4(first + 4, x, y) << 4);
+    return VNDF_COLUMN_STEP * block + count_ones(le_4(first, x, y) | le_4(first + 4, x, y) << 4);
 }
 
 /* Weights of a law, four times each. */
@@ -152,7 +157,7 @@ typedef struct weights_4 {
 } weights_4;
 
 /* Which of four sums are at least `left`, in the order of law_sum. */
-HERE unsigned sums_4(const float *columns, int stride, weights_4 w)
+KERNEL unsigned sums_4(const float *columns, int stride, weights_4 w)
 {
     __m128 a =
         _mm_add_ps(_mm_mul_ps(w.w1, _mm_loadu_ps(columns)), _mm_mul_ps(w.w0, _mm_loadu_ps(columns + stride)));
@@ -162,7 +167,7 @@ HERE unsigned sums_4(const float *columns, int stride, weights_4 w)
 }
 
 /* The last knot beyond which at least `left` of the law lies. */
-HERE whole find_sum(table t, real w1, real w0, real wq, real w4, real left)
+KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
     int block = 0;
     const float *pivot = t.columns + VNDF_COLUMNS * t.column + t.pivots;

@@ -7,49 +7,49 @@
 
 #include "table/table.h"
 
-typedef int32_t whole;
+typedef int32_t integer;
 
-HERE whole set_whole(int i)
+KERNEL integer set_int(int i)
 {
     return i;
 }
 
-HERE whole pick_whole(mask m, whole yes, whole no)
+KERNEL integer select_int(mask m, integer yes, integer no)
 {
     return no + ((yes - no) & -any(m));
 }
 
-HERE real to_real(whole i)
+KERNEL real to_real(integer i)
 {
     return (real)i;
 }
 
 /* The whole part of x, |x| < 2^31. */
-HERE whole to_whole(real x)
+KERNEL integer to_int(real x)
 {
-    return (whole)x;
+    return (integer)x;
 }
 
-HERE whole least_whole(whole a, whole b)
+KERNEL integer min_int(integer a, integer b)
 {
     return a < b ? a : b;
 }
 
-HERE whole most_whole(whole a, whole b)
+KERNEL integer max_int(integer a, integer b)
 {
     return a > b ? a : b;
 }
 
 /* Of the nearest float, and back. */
-HERE whole bits(real x)
+KERNEL integer bits(real x)
 {
     float narrow = (float)x;
-    whole i;
+    integer i;
     memcpy(&i, &narrow, sizeof i);
     return i;
 }
 
-HERE real of_bits(whole i)
+KERNEL real of_bits(integer i)
 {
     float x;
     memcpy(&x, &i, sizeof x);
@@ -69,20 +69,20 @@ typedef struct table {
     int column, pivots;                            /* table/table.h */
 } table;
 
-HERE table table_of(const vndf_distribution *d)
+KERNEL table table_of(const vndf_distribution *d)
 {
     table t = {d->numbers + VNDF_HEAD, d->columns, d->layout, d->cells,  d->moments,
                d->squarings,           d->highest, d->steps,  d->column, d->pivots};
     return t;
 }
 
-HERE whole look_first(table t, whole eighth)
+KERNEL integer first_knot(table t, integer eighth)
 {
     return t.layout->first[eighth];
 }
 
 /* A row of knot i. */
-HERE quad look(table t, int group, whole i)
+KERNEL quad load_row(table t, int group, integer i)
 {
     const float *row = t.numbers + VNDF_STRIDE * (size_t)(unsigned)i + 4 * group;
     quad q = {row[0], row[1], row[2], row[3]};

@@ -14,7 +14,7 @@ VNDF_INLINE int vndf_weigh_lobes(int lobes, int stride, float *weight)
     float largest = 0.0f, sum = 0.0f;
     for (int l = 0; l < lobes; l++) {
         valid &= (weight[l * stride] >= 0.0f) & (weight[l * stride] <= FLT_MAX);
-        largest = most(largest, weight[l * stride]);
+        largest = max(largest, weight[l * stride]);
     }
     valid &= largest > 0.0f;
     for (int l = 0; l < lobes; l++) {

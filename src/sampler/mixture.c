@@ -63,9 +63,9 @@ static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn
     for (int i = 0; i < view->count; i++) {
         const float density = i == drawn_lobe ? known : vndf_pdf(&view->part[i].view, wm);
         sum += view->part[i].share * density;
-        largest = most(largest, density);
+        largest = max(largest, density);
     }
-    return largest > 0.0f ? least(most(sum, FLT_MIN), FLT_MAX) : 0.0f;
+    return largest > 0.0f ? min(max(sum, FLT_MIN), FLT_MAX) : 0.0f;
 }
 
 vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe)
@@ -101,7 +101,7 @@ float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
     shares_of(view, vndf_view_own_area, share);
     for (int i = 0; i < view->count; i++)
         sum += share[i] * vndf_visible(&view->part[i].view, wm);
-    return least(sum, FLT_MAX);
+    return min(sum, FLT_MAX);
 }
 
 int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2)
@@ -140,7 +140,7 @@ static float sum_of_views(const vndf_mixture_view *view, of_view *function, vndf
 
 float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
 {
-    return least(sum_of_views(view, vndf_view_ndf, wm), FLT_MAX);
+    return min(sum_of_views(view, vndf_view_ndf, wm), FLT_MAX);
 }
 
 float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w)
@@ -163,7 +163,7 @@ static float weighed_sum(const vndf_mixture *mixture, of_surface *function, vndf
         return 0.0f;
     for (int i = 0; i < mixture->count; i++)
         sum += weight[i] > 0.0f ? weight[i] * function(&mixture->lobe[i].surface, w) : 0.0f;
-    return least(sum, FLT_MAX);
+    return min(sum, FLT_MAX);
 }
 
 static float cosine_of(const vndf_surface *s, vndf_vec3 w)

@@ -13,16 +13,16 @@ static double facing_of(const vndf_view *view, vndf_vec3 wm)
 /* With the visible density over the drawn one. */
 static vndf_drawn_normal with_weight(const vndf_view *view, vndf_vec3 wm, float density)
 {
-    float facing = most((float)facing_of(view, wm), 0.0f), area = most(vndf_view_own_area(view), 1e-37f);
+    float facing = max((float)facing_of(view, wm), 0.0f), area = max(vndf_view_own_area(view), 1e-37f);
     const vndf_drawn_normal n = {wm, density,
                                  density > 0.0f ? vndf_view_ndf(view, wm) / density * (facing / area) : 0.0f};
     return n;
 }
 
 /* A drawn normal on the surface, as the frame places it. */
-static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, drawn n)
+static vndf_drawn_normal on_surface(const vndf_view *view, const frame *f, normal_sample n)
 {
-    sampled_normal s = frame_sampled(*f, n);
+    surface_sample s = frame_sampled(*f, n);
     return with_weight(view, (vndf_vec3){s.x, s.y, s.z}, s.pdf);
 }
 
@@ -34,9 +34,9 @@ static int has_bounds(const vndf_view *view, table_bounds *b)
     const vndf_state *s = vndf_state_of(view);
     ellipse e = ellipse_of(s->f.m);
     if (view->distribution->kind != VNDF_KIND_TABLE ||
-        !(size(e.e12) <= 1e-5f * e.e11 && size(e.e11 - e.e22) <= 1e-5f * e.e11))
+        !(abs(e.e12) <= 1e-5f * e.e11 && abs(e.e11 - e.e22) <= 1e-5f * e.e11))
         return 0;
-    *b = table_bounds_of(table_of(view->distribution), s->of.table, root(e.e11));
+    *b = table_bounds_of(table_of(view->distribution), s->of.table, sqrt(e.e11));
     return 1;
 }
 
@@ -73,7 +73,7 @@ static vndf_drawn_normal raised(const vndf_view *view, vndf_drawn_normal n)
     if (2.0 * facing * n.wm.z > view->wi.z)
         return n;
     float x = 2.0f * (float)facing * n.wm.x, y = 2.0f * (float)facing * n.wm.y, z = view->wi.z + 1e-6f;
-    float per = 1.0f / root(x * x + y * y + z * z);
+    float per = 1.0f / sqrt(x * x + y * y + z * z);
     n.wm = (vndf_vec3){x * per, y * per, z * per};
     return with_weight(view, n.wm, pdf_bounded(view, n.wm));
 }
@@ -83,7 +83,7 @@ static vndf_drawn_normal sample_bounded(const vndf_view *view, float u1, float u
     const vndf_state *s = vndf_state_of(view);
     table_bounds bounds;
     if (has_bounds(view, &bounds)) {
-        drawn n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
+        normal_sample n = table_draw_bounded(table_of(view->distribution), s->of.table, bounds, u1, u2);
         return raised(view, on_surface(view, &s->f, n));
     }
     number_box b = box_of(view);

@@ -11,16 +11,16 @@ typedef struct vndf_mapped {
 } vndf_mapped;
 
 /* Whether all but xx and yy are 0, of either sign. */
-VNDF_INLINE int is_plain(const vndf_surface *s)
+VNDF_INLINE int surface_is_diagonal(const vndf_surface *s)
 {
     return (uint32_t)(bits(s->xy) | bits(s->yx) | bits(s->mean_x) | bits(s->mean_y)) << 1 == 0;
 }
 
-VNDF_INLINE vndf_mapped mapped_as(const vndf_surface *surface, const int plain)
+VNDF_INLINE vndf_mapped mapped_as(const vndf_surface *surface, const int is_diagonal)
 {
     float unit = surface->distribution->unit;
-    affine_map m = {surface->xx * unit, 0.0f, 0.0f, surface->yy * unit, 0.0f, 0.0f, plain, 0.0f};
-    if (!plain) {
+    affine_map m = {surface->xx * unit, 0.0f, 0.0f, surface->yy * unit, 0.0f, 0.0f, is_diagonal, 0.0f};
+    if (!is_diagonal) {
         m.xy = surface->xy * unit;
         m.yx = surface->yx * unit;
         m.mean_x = surface->mean_x;
@@ -36,7 +36,7 @@ VNDF_INLINE vndf_mapped mapped(const vndf_surface *surface)
     const vndf_mapped none = {0};
     if (!surface || !surface->distribution)
         return none;
-    return is_plain(surface) ? mapped_as(surface, 1) : mapped_as(surface, 0);
+    return surface_is_diagonal(surface) ? mapped_as(surface, 1) : mapped_as(surface, 0);
 }
 
 VNDF_INLINE int is_direction(vndf_vec3 w)
@@ -127,10 +127,10 @@ VNDF_INLINE vndf_vec3 vec3_of(float x, float y, float z)
     return v;
 }
 
-VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int weigh)
+VNDF_INLINE weighted_sample draw(const vndf_view *view, float u1, float u2, const int weigh)
 {
     const vndf_state *s = vndf_state_of(view);
-    weighed w = {{0.0f, 0.0f, 1.0f, 0.0f}, 1.0f};
+    weighted_sample w = {{0.0f, 0.0f, 1.0f, 0.0f}, 1.0f};
     if (view->distribution->kind == VNDF_KIND_TABLE) {
         table t = table_of(view->distribution);
         return vndf_is_below(s) ? table_draw_weighed(t, s->of.table, u1, u2, 1, weigh)
@@ -145,10 +145,10 @@ VNDF_INLINE weighed draw(const vndf_view *view, float u1, float u2, const int we
 
 VNDF_INLINE vndf_vec3 sample(const vndf_view *view, float u1, float u2, float *pdf, float *weight)
 {
-    sampled_normal n = {0.0f, 0.0f, 1.0f, 0.0f};
+    surface_sample n = {0.0f, 0.0f, 1.0f, 0.0f};
     float factor = 0.0f;
     if (view->distribution) {
-        weighed w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
+        weighted_sample w = draw(view, vndf_clamp_unit(u1), vndf_clamp_unit(u2), weight != NULL);
         n = frame_sampled(vndf_state_of(view)->f, w.n);
         factor = w.weight;
     }
@@ -234,7 +234,7 @@ float vndf_visible(const vndf_view *view, vndf_vec3 wm)
     const vndf_state *s = vndf_state_of(view);
     if (!vndf_is_table(view->distribution))
         return frame_density(s->f, density(view, n) / s->f.determinant);
-    float area = most(unit_area(view->distribution, s), 1e-37f);
+    float area = max(unit_area(view->distribution, s), 1e-37f);
     return frame_density(s->f, unit_ndf(view->distribution, n) / s->f.determinant * (n.facing / area));
 }
 
@@ -243,7 +243,7 @@ void vndf_invert(const vndf_view *view, vndf_vec3 wm, float *u1, float *u2)
     pair u = {0.0f, 0.0f};
     if (view->distribution) {
         const vndf_state *s = vndf_state_of(view);
-        unit_normal n = frame_normal(s->f, wm.x, wm.y, most(wm.z, 0.0f));
+        unit_normal n = frame_normal(s->f, wm.x, wm.y, max(wm.z, 0.0f));
         if (view->distribution->kind == VNDF_KIND_TABLE)
             u = vndf_is_below(s) ? table_numbers(table_of(view->distribution), s->of.table, n, 1)
                                  : table_numbers(table_of(view->distribution), s->of.table, n, 0);
@@ -262,7 +262,7 @@ float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm)
     if (!view->distribution || !(wm.z >= 0.0f))
         return 0.0f;
     const frame *f = &vndf_state_of(view)->f;
-    return least(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
+    return min(unit_ndf(view->distribution, frame_normal(*f, wm.x, wm.y, wm.z)) / f->determinant, FLT_MAX);
 }
 
 float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
@@ -271,14 +271,14 @@ float vndf_ndf(const vndf_surface *surface, vndf_vec3 wm)
     if (!s.distribution || !(wm.z >= 0.0f))
         return 0.0f;
     frame f = frame_of(s.m, 0.0f, 0.0f, 1.0f);
-    return least(unit_ndf(s.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
+    return min(unit_ndf(s.distribution, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, FLT_MAX);
 }
 
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
 float vndf_p22(const vndf_surface *surface, float x, float y)
 {
     vndf_vec3 normal = {-x, -y, 1.0f};
-    return size(x) <= FLT_MAX && size(y) <= FLT_MAX ? vndf_ndf(surface, normal) : 0.0f;
+    return abs(x) <= FLT_MAX && abs(y) <= FLT_MAX ? vndf_ndf(surface, normal) : 0.0f;
 }
 
 /* ---- area and masking ---- */
@@ -297,7 +297,7 @@ VNDF_INLINE float area_along(const vndf_distribution *d, const frame *f)
         return beckmann_area(f->ux, f->uy, f->uz);
     table t = table_of(d);
     table_direction w = table_direction_of(*f);
-    seen v = {.s = w.s, .c = w.c, .rho = w.rho};
+    radial_law v = {.s = w.s, .c = w.c, .rho = w.rho};
     if (f->uz < 0.0f)
         v = law_see_below(t, w.s, w.c, w.rho, find_knot(t, w.square, w.under));
     return law_area(t, v, f->uz < 0.0f) * frame_reach(*f);
@@ -324,7 +324,7 @@ float vndf_view_own_area(const vndf_view *view)
 float vndf_view_drawn_area(const vndf_view *view)
 {
     const vndf_state *s = vndf_state_of(view);
-    if (!view->distribution || !(s->f.densest > 0.0f))
+    if (!view->distribution || !(s->f.max_pdf > 0.0f))
         return 0.0f;
     if (!vndf_is_table(view->distribution))
         return vndf_view_own_area(view);
@@ -348,7 +348,7 @@ float vndf_view_cosine(const vndf_view *view, vndf_vec3 w)
  * product of two small ones would underflow. */
 float vndf_g2_of(float gi, float go, vndf_g2_model model)
 {
-    float lesser = least(gi, go), greater = most(gi, go);
+    float lesser = min(gi, go), greater = max(gi, go);
     if (model == VNDF_G2_SEPARABLE || lesser == 0.0f)
         return gi * go;
     return lesser * (greater / (greater + lesser * (1.0f - greater)));

@@ -10,6 +10,7 @@
  *
  * A reader checks the size, the checksum, every count against its limit, and every array against what the sampler
  * relies on: ascending knots, positive masses that add up to 1, finite densities. */
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,11 +19,11 @@
 
 static const vndf_frame FRAME = {"VNDFtab\n", "table", 5, VNDF_LIMIT_TABLE_BYTES};
 
-/* Where the arrays of the file stand in memory: row and place. */
+/* Which numbers of a knot the arrays of the file hold. */
+#define AT(number) offsetof(vndf_knot_numbers, number) / sizeof(float)
 enum { ARRAYS = 11, ARRAY_OF_CUBES = 6 };
-static const int PLACES[ARRAYS][2] = {{VNDF_KNOT, 0}, {VNDF_LAW, 0},  {VNDF_LAW, 1},  {VNDF_LAW, 2},
-                                      {VNDF_LAW, 3},  {VNDF_MORE, 0}, {VNDF_MORE, 1}, {VNDF_MORE, 2},
-                                      {VNDF_MORE, 3}, {VNDF_LOW, 2},  {VNDF_LOW, 3}};
+static const size_t PLACES[ARRAYS] = {AT(r),    AT(left), AT(right), AT(m0),   AT(m1),   AT(m2),
+                                      AT(cube), AT(b0),   AT(b1),    AT(area), AT(slope)};
 
 /* The number after this one in the file, the first after NULL; NULL after the last. */
 static float *next_number(const vndf_distribution *table, int *array, size_t *knot)
@@ -31,7 +32,7 @@ static float *next_number(const vndf_distribution *table, int *array, size_t *kn
         *knot = 0;
         *array += *array + 1 == ARRAY_OF_CUBES && table->moments < 4 ? 2 : 1;
     }
-    return *array < ARRAYS ? vndf_table_row(table, PLACES[*array][0], (*knot)++) + PLACES[*array][1] : NULL;
+    return *array < ARRAYS ? &vndf_knot_at(table, (*knot)++)->r + PLACES[*array] : NULL;
 }
 
 /* ---- writing ---- */

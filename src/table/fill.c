@@ -25,22 +25,20 @@ static const char *knot_invalid(const vndf_distribution *t, size_t i)
 {
     static const double least = 1e-37, most = 1e36, steepest = 1e4;
     int last = i == (size_t)t->cells;
-    const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i),
-                *more = vndf_table_row(t, VNDF_MORE, i), *area = vndf_table_row(t, VNDF_LOW, i);
-    double r = knot[0], next = last ? HUGE_VAL : knot[VNDF_STRIDE], z0 = 1 / (1 + r), z1 = 1 / (1 + next);
-    double m0 = law[2], m1 = law[3], m2 = more[0], gap = 8 * (next - r), width = z0 - z1;
+    const vndf_knot_numbers *k = vndf_knot_at(t, i);
+    double r = k->r, next = last ? HUGE_VAL : k[1].r, z0 = 1 / (1 + r), z1 = 1 / (1 + next);
+    double m0 = k->m0, m1 = k->m1, m2 = k->m2, gap = 8 * (next - r), width = z0 - z1;
     double mean0 = m0 / (z0 * z0), mean1 = last ? m2 + r * (2 * m1 + r * m0) : m0 / (z1 * z1);
-    double a0 = area[2], a1 = last ? 1 : area[VNDF_STRIDE + 2], s0 = area[3],
-           s1 = last ? 1 : area[VNDF_STRIDE + 3];
+    double a0 = k->area, a1 = last ? 1 : k[1].area, s0 = k->slope, s1 = last ? 1 : k[1].slope;
     if (!(next > r))
         return "the knots do not ascend";
     if (!in_range(m0, least, most) || !in_range(m1, least, fmin(most, gap * m0 + 1e-35)) ||
         !in_range(m2, least, fmin(most, gap * m1 + 1e-35)) ||
-        !in_range(more[1], 0.0, i ? fmin(most, 1.0001 * pow(r, -3)) : most))
+        !in_range(k->cube, 0.0, i ? fmin(most, 1.0001 * pow(r, -3)) : most))
         return "a moment is out of range";
-    if (!in_range(law[0], 0.0, steepest * mean0) || !in_range(law[1], 0.0, steepest * mean1))
+    if (!in_range(k->left, 0.0, steepest * mean0) || !in_range(k->right, 0.0, steepest * mean1))
         return "a density is out of range";
-    if (!in_range(more[2], 0.0, 1e6) || !in_range(more[3], 0.0, 1e6) || !(more[2] + more[3] > 1e-6f))
+    if (!in_range(k->b0, 0.0, 1e6) || !in_range(k->b1, 0.0, 1e6) || !(k->b0 + k->b1 > 1e-6f))
         return "a share is out of range";
     if (!in_range(a0, 1e-20, 1e20) || !in_range(s0, -1e20, 1e20) || width * s0 < -3 * a0 ||
         !(width * s1 <= 3 * a1))
@@ -50,8 +48,8 @@ static const char *knot_invalid(const vndf_distribution *t, size_t i)
 
 static const char *numbers_invalid(const vndf_distribution *t)
 {
-    const float *knot = vndf_table_row(t, VNDF_KNOT, 0);
-    if (knot[0] != 0.0f || !(knot[VNDF_STRIDE] > 1e-12f) || !(knot[VNDF_STRIDE * t->cells] < 1e14f))
+    const vndf_knot_numbers *k = vndf_knot_at(t, 0);
+    if (k->r != 0.0f || !(k[1].r > 1e-12f) || !(k[t->cells].r < 1e14f))
         return "the knots do not run from 0 to below 1e14";
     if (!in_range(t->scale, 1e-18, 1e18) || !in_range(t->normalization, DBL_TRUE_MIN, DBL_MAX))
         return "the scale or normalization is out of range";
@@ -71,24 +69,18 @@ static const char *numbers_invalid(const vndf_distribution *t)
     return NULL;
 }
 
-static void put(float *to, double a, double b, double c, double d)
-{
-    to[0] = (float)a;
-    to[1] = (float)b;
-    to[2] = (float)c;
-    to[3] = (float)d;
-}
-
 /* Places of knots, and from which rho on the law of k~ begins there. */
 static void fill_knots(vndf_distribution *t)
 {
     double before = 0;
     for (int i = 0; i <= t->cells; i++) {
-        float *knot = vndf_table_row(t, VNDF_KNOT, (size_t)i);
-        double r = knot[0], z = 1 / (1 + r), h = ldexp(z, t->squarings);
+        vndf_knot_numbers *k = vndf_knot_at(t, (size_t)i);
+        double r = k->r, z = 1 / (1 + r), width = ldexp(z, t->squarings);
         if (i < t->cells)
-            h = (knot[VNDF_STRIDE] - r) * z / (1 + (double)knot[VNDF_STRIDE]);
-        put(knot, r, z, h, fmin(i > 1 ? fmax(NEAR * before, sqrt(before * r)) : NEAR_FIRST * r, r));
+            width = (k[1].r - r) * z / (1 + (double)k[1].r);
+        k->z = (float)z;
+        k->width = (float)width;
+        k->turn = (float)fmin(i > 1 ? fmax(NEAR * before, sqrt(before * r)) : NEAR_FIRST * r, r);
         before = r;
     }
 }
@@ -97,22 +89,22 @@ static void fill_knots(vndf_distribution *t)
  * 0 has the sum of f R from there on, and those of knot 1. */
 static double fill_sums(vndf_distribution *t)
 {
-    const float *first = vndf_table_row(t, VNDF_TAIL, 1);
     double t1 = 0, t0 = 0, tq = 0, t4 = 0, n1 = 0, n2 = 0;
     for (size_t i = (size_t)t->cells + 1; i-- > 0;) {
-        const float *knot = vndf_table_row(t, VNDF_KNOT, i), *law = vndf_table_row(t, VNDF_LAW, i),
-                    *more = vndf_table_row(t, VNDF_MORE, i);
-        float *low = vndf_table_row(t, VNDF_LOW, i);
-        double r = knot[0], gap = i < (size_t)t->cells ? knot[VNDF_STRIDE] - r : 0, m0 = law[2], m1 = law[3],
-               m2 = more[0];
+        vndf_knot_numbers *k = vndf_knot_at(t, i);
+        double r = k->r, gap = i < (size_t)t->cells ? k[1].r - r : 0, m0 = k->m0, m1 = k->m1, m2 = k->m2;
         n2 += gap * (2 * n1 + gap * tq) + m2;
         n1 += gap * tq + m1;
         tq += m0;
         t0 += m1 + r * m0;
         t1 += m2 + r * (2 * m1 + r * m0);
-        t4 += i > 0 ? more[1] * m0 : 0.0;
-        put(vndf_table_row(t, VNDF_TAIL, i), t1, i ? t0 : first[1], i ? tq : first[2], i ? t4 : first[3]);
-        put(low, n1, n2, low[2], low[3]);
+        t4 += i > 0 ? k->cube * m0 : 0.0;
+        k->along = (float)t1;
+        k->all = i ? (float)t0 : k[1].all;
+        k->over = i ? (float)tq : k[1].over;
+        k->over4 = i ? (float)t4 : k[1].over4;
+        k->t1 = (float)n1;
+        k->t2 = (float)n2;
     }
     return t0;
 }
@@ -123,9 +115,10 @@ static void fill_columns(vndf_distribution *t)
     float *pivot = t->columns + VNDF_COLUMNS * t->column;
     for (int c = 0; c < VNDF_COLUMNS; c++) {
         float *column = t->columns + c * t->column, beyond = c ? -1.0f : 3e38f;
-        int row = c ? VNDF_TAIL : VNDF_KNOT, place = c ? c - 1 : 0;
-        for (int i = 0; i < t->column; i++)
-            column[i] = i > t->cells ? beyond : vndf_table_row(t, row, (size_t)i)[place];
+        for (int i = 0; i < t->column; i++) {
+            const vndf_knot_numbers *k = vndf_knot_at(t, (size_t)i);
+            column[i] = i > t->cells ? beyond : c ? (&k->along)[c - 1] : k->r;
+        }
         for (int i = 0; i < t->pivots; i++) {
             int knot = (i + 1) * VNDF_COLUMN_STEP;
             pivot[c * t->pivots + i] = knot < t->column ? column[knot] : beyond;
@@ -142,7 +135,7 @@ static void fill_first(vndf_distribution *t)
             int32_t bits;
             float rho;
         } middle = {((VNDF_RHO_FIRST + i) << 20) + (1 << 19)};
-        while (knot < t->cells && vndf_table_row(t, VNDF_KNOT, (size_t)knot + 1)[3] <= middle.rho)
+        while (knot < t->cells && vndf_knot_at(t, (size_t)knot + 1)->turn <= middle.rho)
             knot++;
         t->layout->first[i] = knot;
     }
@@ -153,9 +146,8 @@ static void fill_level(const vndf_distribution *t, int at, int i)
 {
     float of[VNDF_SEARCHED] = {HUGE_VALF, 0.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f, -1.0f};
     if (i <= t->cells) {
-        const float r = vndf_table_row(t, VNDF_KNOT, (size_t)i)[0],
-                    *tail = vndf_table_row(t, VNDF_TAIL, (size_t)i), *low = vndf_table_row(t, VNDF_LOW, (size_t)i);
-        const float knot[VNDF_SEARCHED] = {r * r, r, tail[0], tail[1], tail[2], tail[3], low[0], low[1]};
+        const vndf_knot_numbers *k = vndf_knot_at(t, (size_t)i);
+        const float knot[VNDF_SEARCHED] = {k->r * k->r, k->r, k->along, k->all, k->over, k->over4, k->t1, k->t2};
         memcpy(of, knot, sizeof of);
     }
     for (int c = 0; c < VNDF_SEARCHED; c++)
@@ -169,9 +161,8 @@ static void fill_layout(const vndf_distribution *t)
         for (int n = 1 << level; n < 2 << level; n++)
             fill_level(t, n, (2 * n + 1 - (2 << level)) << (steps - level - 1));
     for (int i = 0; i < VNDF_COPIED && t->cells < VNDF_COPIED; i++)
-        for (int g = 0; g < VNDF_GROUPS; g++)
-            for (int k = 0; k < 4; k++)
-                t->layout->column[g][k][i] = vndf_table_row(t, g, (size_t)(i < t->cells ? i : t->cells))[k];
+        for (int k = 0; k < VNDF_STRIDE; k++)
+            t->layout->column[k / 4][k % 4][i] = (&vndf_knot_at(t, (size_t)(i < t->cells ? i : t->cells))->r)[k];
 }
 
 enum { LINE = 64 }; /* bytes of a line of a cache, and of the widest register */
@@ -216,8 +207,9 @@ const char *vndf_table_fill(vndf_distribution *t)
     for (t->highest = t->steps = 1; 2 * t->highest <= t->cells; t->steps++)
         t->highest *= 2;
     t->unit = (float)t->scale;
-    put(t->numbers, t->cells, t->moments, t->squarings, t->scale);
-    put(t->numbers + 4, t->highest, t->steps, 0, 0);
+    const float head[VNDF_HEAD] = {(float)t->cells, (float)t->moments, (float)t->squarings,
+                                   t->unit,         (float)t->highest, (float)t->steps};
+    memcpy(t->numbers, head, sizeof head);
     fill_knots(t);
     if (!(fabs(fill_sums(t) - 1) < 1e-4))
         return "the masses of the cells do not add up to 1";

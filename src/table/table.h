@@ -8,8 +8,7 @@
  * A cell knows the moments of f/R, integral t^k f/R dR with t = R - R_i, and the density of f/R per xi at its ends. All
  * that is drawn follows from these numbers (kernel/law.h).
  *
- * In memory they stand in one array of floats, the same that GPUs read (vndf_numbers): a head, then for each knot
- * VNDF_GROUPS rows of four numbers, side by side since a sample reads nearly all of them. */
+ * In memory they stand in one array of floats, the same that GPUs read, which layout.h draws. */
 #ifndef VNDF_TABLE_TABLE_H
 #define VNDF_TABLE_TABLE_H
 
@@ -17,29 +16,22 @@
 
 #include "core/cursor.h"
 #include "core/inline.h"
+#include "table/layout.h"
 #include "vndf.h"
 
-enum {
-    VNDF_CELLS_MAX = 4095,  /* N */
-    VNDF_SQUARINGS_MAX = 5, /* tails of P22 down to r^-3.04 */
-    VNDF_HEAD = 8           /* numbers before the rows: N, moments, squarings, scale, highest, steps, 0, 0 */
-};
+enum { VNDF_CELLS_MAX = 4095, VNDF_SQUARINGS_MAX = 5 }; /* N; tails of P22 down to r^-3.04 */
 
-/* Where the law of k~ begins is looked up by rho, rounded to the middle of an eighth of an octave from 2^-13 to 2^15.
- * Eighth i is that of floats whose highest bits are VNDF_RHO_FIRST + i. */
-enum { VNDF_RHO_PARTS = 224, VNDF_RHO_FIRST = (127 - 13) * 8 };
+/* The numbers of a knot, as layout.h draws them. `turn` is the (rounded) rho from which on the law of k~ begins at it;
+ * `right` of the last cell is the limit for xi -> 1. */
+typedef struct vndf_knot_numbers {
+    float r, z, width, turn;
+    float left, right, m0, m1;
+    float m2, cube, b0, b1;
+    float along, all, over, over4;
+    float t1, t2, area, slope;
+} vndf_knot_numbers;
 
-/* The rows of a knot, 0 to N. */
-enum {
-    VNDF_KNOT, /* R, z, h, and the turn: the (rounded) rho from which on the law of k~ begins at this knot */
-    VNDF_LAW,  /* densities of f/R per xi, over z^2, at the left and the right end, in the last cell its limit for
-                  xi -> 1; moments 0 and 1 */
-    VNDF_MORE, /* moment 2; mean of R^-3 in f/R; shares of the two terms below the horizon at this knot */
-    VNDF_TAIL, /* integrals beyond the knot of f R, f, f/R and f/R^4; at knot 0 the last three are those of knot 1 */
-    VNDF_LOW, /* integrals beyond the knot of t f/R and t^2 f/R; area over c + s, and its derivative by x */
-    VNDF_GROUPS,
-    VNDF_STRIDE = 4 * VNDF_GROUPS /* from knot to knot */
-};
+_Static_assert(sizeof(vndf_knot_numbers) == VNDF_STRIDE * sizeof(float), "the rows of layout.h");
 
 /* Knots and the sums beyond them, each in a column, for searches that compare four numbers at once: R, then the four
  * sums of VNDF_TAIL. A search counts pivots, every eighth knot from the eighth on, then the knots of one block of
@@ -83,14 +75,14 @@ VNDF_INLINE int vndf_is_table(const vndf_distribution *d)
     return d->kind == VNDF_KIND_TABLE;
 }
 
-/* The four numbers of a knot in a row. */
-VNDF_INLINE float *vndf_table_row(const vndf_distribution *d, int row, size_t knot)
+/* Knot i, 0 to N. */
+VNDF_INLINE vndf_knot_numbers *vndf_knot_at(const vndf_distribution *d, size_t i)
 {
-    return d->numbers + VNDF_HEAD + VNDF_STRIDE * knot + 4 * (size_t)row;
+    return (vndf_knot_numbers *)(void *)(d->numbers + VNDF_HEAD + VNDF_STRIDE * i);
 }
 
-/* A table whose numbers are zeros. A builder or a reader puts scale, normalization and texts, and of each knot R, all
- * of VNDF_LAW and VNDF_MORE, and the areas of VNDF_LOW. NULL if there is no memory. */
+/* A table whose numbers are zeros. A builder or a reader puts scale, normalization and texts, and of each knot R, both
+ * densities, all moments, shares, area and slope. NULL if there is no memory. */
 vndf_distribution *vndf_table_allocate(unsigned cells, unsigned moments, unsigned squarings);
 
 /* Fills all other numbers; returns what is wrong with those that were put, NULL if nothing is. */

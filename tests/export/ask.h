@@ -10,16 +10,16 @@ typedef struct answer {
     float a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11, a12, a13, a14, a15;
 } answer;
 
-HERE vndf_surface surface_asked(question q)
+KERNEL vndf_surface surface_asked(question q)
 {
-    const vndf_surface s = {to_whole(q.of), q.xx, q.xy, q.yx, q.yy, q.mean_x, q.mean_y};
+    const vndf_surface s = {to_int(q.of), q.xx, q.xy, q.yx, q.yy, q.mean_x, q.mean_y};
     return s;
 }
 
 /* only normals */
 /* The normal that is drawn, the density that comes with it, and what calls say of that normal and of wi: G2 is of wi
  * and the normal. Then a normal of the family tails.vndfs with the shape of the surface, and of GGX with alpha 0.3. */
-HERE answer ask(question q)
+KERNEL answer ask(question q)
 {
     const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
@@ -53,7 +53,7 @@ HERE answer ask(question q)
 /* end */
 /* only bsdf */
 /* A sample: wo, weight, density, lobe; f and density of the given wo; both of that of the sample. */
-HERE answer ask(question q)
+KERNEL answer ask(question q)
 {
     vndf_material material;
     material.surface = surface_asked(q);

@@ -10,7 +10,7 @@ typedef struct vndf_surface {
 } vndf_surface;
 
 /* The surface with roughness alpha_x and alpha_y along x and y. */
-HERE vndf_surface vndf_rough(int distribution, float alpha_x, float alpha_y)
+KERNEL vndf_surface vndf_rough(int distribution, float alpha_x, float alpha_y)
 {
     const vndf_surface m = {distribution, alpha_x, 0.0f, 0.0f, alpha_y, 0.0f, 0.0f};
     return m;
@@ -25,12 +25,12 @@ typedef struct vndf_view {
     float unit_area; /* of the unit problem */
     table t;
     float ex, ey;
-    seen v;
+    radial_law v;
     int below;
 } vndf_view;
 
 /* A view without what the distribution makes of it; its frame has the matrix in units of the distribution's slopes. */
-HERE vndf_view placed(vndf_surface m, vec3 wi)
+KERNEL vndf_view placed(vndf_surface m, vec3 wi)
 {
     vndf_view view;
     float scale = 1.0f;
@@ -47,14 +47,14 @@ HERE vndf_view placed(vndf_surface m, vec3 wi)
 }
 
 /* wi is unit, and may be below the surface. */
-HERE vndf_view vndf_view_from(vndf_surface m, vec3 wi)
+KERNEL vndf_view vndf_view_from(vndf_surface m, vec3 wi)
 {
     vndf_view view = placed(m, wi);
     if (m.distribution == VNDF_GGX)
         view.unit_area = ggx_area(view.at.ux, view.at.uy, view.at.uz);
     if (m.distribution == VNDF_BECKMANN)
         view.unit_area = beckmann_area(view.at.ux, view.at.uy, view.at.uz);
-    view.below = pick_whole(less(view.at.uz, 0.0f), 1, 0);
+    view.below = select_int(lt(view.at.uz, 0.0f), 1, 0);
     if (m.distribution >= 0) {
         const table_view seen_from = table_view_of(view.t, view.at, view.below);
         view.ex = seen_from.ex;
@@ -66,7 +66,7 @@ HERE vndf_view vndf_view_from(vndf_surface m, vec3 wi)
 }
 
 /* The area of the surface as it is seen from wi. */
-HERE float vndf_projected_area(vndf_view view)
+KERNEL float vndf_projected_area(vndf_view view)
 {
     return view.unit_area * view.at.size;
 }
@@ -74,7 +74,7 @@ HERE float vndf_projected_area(vndf_view view)
 /* ---- given normals ---- */
 
 /* D times |det M|, of a normal of the unit problem. */
-HERE float unit_ndf(vndf_view view, unit_normal n)
+KERNEL float unit_ndf(vndf_view view, unit_normal n)
 {
     if (view.surface.distribution == VNDF_GGX)
         return ggx_p22(n.x, n.y, n.z);
@@ -86,21 +86,21 @@ HERE float unit_ndf(vndf_view view, unit_normal n)
 }
 
 /* D of the surface of a view. */
-HERE float placed_ndf(vndf_view view, vec3 wm)
+KERNEL float placed_ndf(vndf_view view, vec3 wm)
 {
     if (!(wm.z >= 0.0f))
         return 0.0f;
-    return least(unit_ndf(view, frame_normal(view.at, wm.x, wm.y, wm.z)) / view.at.determinant, 3.4028234e38f);
+    return min(unit_ndf(view, frame_normal(view.at, wm.x, wm.y, wm.z)) / view.at.determinant, 3.4028234e38f);
 }
 
 /* D(wm) per steradian; wm is unit, here and below. */
-HERE float vndf_ndf(vndf_surface m, vec3 wm)
+KERNEL float vndf_ndf(vndf_surface m, vec3 wm)
 {
     return placed_ndf(placed(m, vec3(0.0f, 0.0f, 1.0f)), wm);
 }
 
 /* The density with which vndf_sample draws wm. */
-HERE float vndf_pdf(vndf_view view, vec3 wm)
+KERNEL float vndf_pdf(vndf_view view, vec3 wm)
 {
     const frame f = view.at;
     unit_normal n = frame_normal(f, wm.x, wm.y, wm.z);
@@ -121,7 +121,7 @@ HERE float vndf_pdf(vndf_view view, vec3 wm)
 }
 
 /* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */
-HERE float vndf_visible(vndf_view view, vec3 wm)
+KERNEL float vndf_visible(vndf_view view, vec3 wm)
 {
     unit_normal n = frame_normal(view.at, wm.x, wm.y, wm.z);
     if (view.surface.distribution < 0)
@@ -129,7 +129,7 @@ HERE float vndf_visible(vndf_view view, vec3 wm)
     if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
         return 0.0f;
     float ndf = unit_ndf(view, n) / view.at.determinant;
-    return frame_density(view.at, ndf * (n.facing / most(view.unit_area, 1e-37f)));
+    return frame_density(view.at, ndf * (n.facing / max(view.unit_area, 1e-37f)));
 }
 
 /* ---- sampling ---- */
@@ -142,10 +142,10 @@ typedef struct vndf_sampled {
 } vndf_sampled;
 
 /* Draws a visible normal with two uniform numbers in [0, 1]. */
-HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
+KERNEL vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 {
-    const float u1 = least(most(w1, 0.0f), 1.0f), u2 = least(most(w2, 0.0f), 1.0f);
-    drawn n = {0.0f, 0.0f, 1.0f, 0.0f};
+    const float u1 = min(max(w1, 0.0f), 1.0f), u2 = min(max(w2, 0.0f), 1.0f);
+    normal_sample n = {0.0f, 0.0f, 1.0f, 0.0f};
     float weight = 1.0f;
     if (view.surface.distribution == VNDF_GGX)
         n = ggx_draw(ggx_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
@@ -153,11 +153,11 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
         n = beckmann_draw(beckmann_see(view.at.ux, view.at.uy, view.at.uz), u1, u2);
     if (view.surface.distribution >= 0) {
         const table_view seen_from = {view.ex, view.ey, view.v};
-        const weighed both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
+        const weighted_sample both_drawn = table_draw_weighed(view.t, seen_from, u1, u2, view.below, 1);
         n = both_drawn.n;
         weight = both_drawn.weight;
     }
-    const sampled_normal s = frame_sampled(view.at, n);
+    const surface_sample s = frame_sampled(view.at, n);
     const vndf_sampled drawn_normal = {vec3(s.x, s.y, s.z), s.pdf, weight};
     return drawn_normal;
 }
@@ -165,22 +165,22 @@ HERE vndf_sampled vndf_sample(vndf_view view, float w1, float w2)
 /* ---- masking ---- */
 
 /* Lambda(w) = A(w)/cos - 1, where cos is w.z less what the mean slope takes of it. */
-HERE float vndf_lambda(vndf_surface m, vec3 w)
+KERNEL float vndf_lambda(vndf_surface m, vec3 w)
 {
     vndf_view view = vndf_view_from(m, w);
     return lambda_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
-HERE float vndf_g1(vndf_surface m, vec3 w)
+KERNEL float vndf_g1(vndf_surface m, vec3 w)
 {
     vndf_view view = vndf_view_from(m, w);
     return g1_of(vndf_projected_area(view), view.at.uz * view.at.size);
 }
 
 /* Masking and shadowing of two directions on the same side, height-correlated: 1/(1 + Lambda_i + Lambda_o). */
-HERE float vndf_g2(vndf_surface m, vec3 wi, vec3 wo)
+KERNEL float vndf_g2(vndf_surface m, vec3 wi, vec3 wo)
 {
-    float gi = vndf_g1(m, wi), go = vndf_g1(m, wo), lesser = least(gi, go), greater = most(gi, go);
+    float gi = vndf_g1(m, wi), go = vndf_g1(m, wo), lesser = min(gi, go), greater = max(gi, go);
     if (lesser == 0.0f)
         return 0.0f;
     return lesser * (greater / (greater + lesser * (1.0f - greater)));
@@ -204,10 +204,10 @@ typedef struct vndf_mixture_view {
 } vndf_mixture_view;
 
 /* The area of what a view draws. */
-HERE float drawn_area(vndf_view view)
+KERNEL float drawn_area(vndf_view view)
 {
     float area = view.unit_area;
-    if (!(view.at.densest > 0.0f))
+    if (!(view.at.max_pdf > 0.0f))
         return 0.0f;
     if (view.surface.distribution >= 0)
         area = law_drawn_area(view.v, view.below) * frame_reach(view.at);
@@ -216,13 +216,13 @@ HERE float drawn_area(vndf_view view)
 
 /* The weights, of sum 1. Copies, here and below, since some languages index no parameter. Loops have a constant
  * end, so that a GPU unrolls them: what is indexed by a variable lies in local memory. */
-HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
+KERNEL vndf_mixture weighed_evenly(vndf_mixture mixture)
 {
     vndf_mixture lobes = mixture;
     float largest = 1e-37f, sum = 0.0f;
     for (int i = 0; i < VNDF_LOBES; i++)
         if (i < lobes.count)
-            largest = most(largest, lobes.weight[i]);
+            largest = max(largest, lobes.weight[i]);
     for (int j = 0; j < VNDF_LOBES; j++)
         if (j < lobes.count) {
             lobes.weight[j] = lobes.weight[j] / largest;
@@ -234,7 +234,7 @@ HERE vndf_mixture weighed_evenly(vndf_mixture mixture)
     return lobes;
 }
 
-HERE vndf_mixture_view vndf_mixture_view_from(vndf_mixture mixture, vec3 wi)
+KERNEL vndf_mixture_view vndf_mixture_view_from(vndf_mixture mixture, vec3 wi)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     vndf_mixture_view view;
@@ -258,14 +258,14 @@ HERE vndf_mixture_view vndf_mixture_view_from(vndf_mixture mixture, vec3 wi)
 }
 
 /* A sum of densities, above 0 where something is seen. */
-HERE float mixed_density(float sum)
+KERNEL float mixed_density(float sum)
 {
     if (!(sum > 0.0f))
         return 0.0f;
-    return least(most(sum, 1.17549435e-38f), 3.4028234e38f);
+    return min(max(sum, 1.17549435e-38f), 3.4028234e38f);
 }
 
-HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
+KERNEL float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f;
@@ -275,7 +275,7 @@ HERE float vndf_mixture_pdf(vndf_mixture_view view, vec3 wm)
     return mixed_density(density);
 }
 
-HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
+KERNEL float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
 {
     vndf_mixture_view lobes = view;
     float density = 0.0f, area = 0.0f;
@@ -289,7 +289,7 @@ HERE float vndf_mixture_visible(vndf_mixture_view view, vec3 wm)
                 share = share * vndf_projected_area(lobes.lobe[j]) / area;
             density = density + share * vndf_visible(lobes.lobe[j], wm);
         }
-    return least(density, 3.4028234e38f);
+    return min(density, 3.4028234e38f);
 }
 
 /* u1 says which lobe is drawn, and its part of 1 is stretched to [0, 1]; the density is that of the whole. */
@@ -298,7 +298,7 @@ typedef struct vndf_mixed {
     float pdf;
 } vndf_mixed;
 
-HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
+KERNEL vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
 {
     vndf_mixture_view lobes = view;
     vndf_view chosen = lobes.lobe[0];
@@ -311,7 +311,7 @@ HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
             chosen = lobes.lobe[i];
             share = lobes.share[i];
         }
-    const vndf_sampled one = vndf_sample(chosen, (u1 - before) / most(share, 1e-37f), u2);
+    const vndf_sampled one = vndf_sample(chosen, (u1 - before) / max(share, 1e-37f), u2);
     for (int j = 0; j < VNDF_LOBES; j++)
         if (j < lobes.count) {
             if (j == at)
@@ -323,42 +323,42 @@ HERE vndf_mixed vndf_mixture_sample(vndf_mixture_view view, float u1, float u2)
     return drawn_normal;
 }
 
-HERE float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
+KERNEL float vndf_mixture_ndf(vndf_mixture mixture, vec3 wm)
 {
     vndf_mixture lobes = weighed_evenly(mixture);
     float density = 0.0f;
     for (int i = 0; i < VNDF_LOBES; i++)
         if (i < lobes.count)
             density = density + lobes.weight[i] * vndf_ndf(lobes.lobe[i], wm);
-    return least(density, 3.4028234e38f);
+    return min(density, 3.4028234e38f);
 }
 
 /* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
-HERE vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape)
+KERNEL vndf_mixture vndf_family_at(int family, float parameter, vndf_surface shape)
 {
-    const int knots = to_whole(fetch(family));
-    const float p = least(most(parameter, fetch(family + 2)), fetch(family + 2 * knots));
+    const int knots = to_int(fetch(family));
+    const float p = min(max(parameter, fetch(family + 2)), fetch(family + 2 * knots));
     int at = family + 2;
     for (int i = 2; i < knots; i++)
         if (fetch(at + 2) <= p)
             at = at + 2;
     vndf_mixture mixture;
-    mixture.count = least_whole(knots, 2);
+    mixture.count = min_int(knots, 2);
     for (int k = 0; k < VNDF_LOBES; k++) {
         mixture.lobe[k] = shape;
         mixture.weight[k] = 0.0f;
     }
-    mixture.lobe[0].distribution = to_whole(fetch(at + 1));
+    mixture.lobe[0].distribution = to_int(fetch(at + 1));
     mixture.weight[0] = 1.0f;
     if (knots > 1) {
         const float next = fetch(at + 2);
         float share = (p - fetch(at)) / (next - fetch(at));
         if (fetch(family + 1) > 0.0f)
             share = share * (next / p);
-        mixture.lobe[1].distribution = to_whole(fetch(at + 3));
+        mixture.lobe[1].distribution = to_int(fetch(at + 3));
         mixture.weight[1] = share;
         mixture.weight[0] = 1.0f - share;
     }

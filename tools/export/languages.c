@@ -9,10 +9,10 @@ static const char common[] =
     "VARIABLE: $T $V; MEMBER: $T $V; SEVERAL: $T $V[$N]; END: ;; MEMBER_END: ;; FUNCTION: $T $D($P) {$S}; "
     "STRUCT: struct $D {$M};; CONSTANT: enum { $D = $N };; MAKE: {$I}; FOR: for (int $V = $A$;$V < $B$;$V++); "
     "OPEN:  {; CLOSE: }; "
-    "real: float; whole: int; mask: bool; vec3: float3; direction: float3; "
-    "set = $1; set_whole = $1; any = $1; less = ($1 < $2); at_most = ($1 <= $2); same = ($1 == $2); both = ($1 && $2); "
-    "either = ($1 || $2); pick = ($1 ? $2 : $3); pick_whole = ($1 ? $2 : $3); root = sqrt($1); size = abs($1); "
-    "to_real = float($1); to_whole = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
+    "real: float; integer: int; mask: bool; vec3: float3; direction: float3; "
+    "set = $1; set_int = $1; any = $1; lt = ($1 < $2); le = ($1 <= $2); eq = ($1 == $2); both = ($1 && $2); "
+    "either = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
+    "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
 
 #define BOUND(how, declared)                                                     \
   "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else" how \
@@ -37,9 +37,9 @@ static const char python_begin[] =
     "        for name, value in zip(self.__slots__, values):\n            setattr(self, name, value)\n\n\n"
     "def _copy(s):\n    if not isinstance(s, _Struct):\n        return s\n"
     "    return type(s)(*(getattr(s, name, None) for name in s.__slots__))\n\n\n"
-    "def _least(a, b):\n    return dr.select(a < b, a, b)\n\n\n"
-    "def _most(a, b):\n    return dr.select(a > b, a, b)\n\n\n"
-    "def _root(x):\n    return dr.sqrt(_most(x, 1e-36))\n\n\n"
+    "def _min(a, b):\n    return dr.select(a < b, a, b)\n\n\n"
+    "def _max(a, b):\n    return dr.select(a > b, a, b)\n\n\n"
+    "def _sqrt(x):\n    return dr.sqrt(_max(x, 1e-36))\n\n\n"
     "def _bits(x):\n    if dr.is_jit_v(mi.Float):\n"
     "        return dr.reinterpret_array(mi.Int32, dr.detach(mi.Float(x)))\n"
     "    return struct.unpack(\"i\", struct.pack(\"f\", x))[0]\n\n\n"
@@ -52,22 +52,22 @@ static const language languages[] = {
      "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
      "ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: const float *; "
      "vec3: vndf_vec3; direction: vndf_vec3; "
-     "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_whole = (int)($1); "
+     "sqrt = sqrtf($1); abs = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_int = (int)($1); "
      "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cpp", "C++11", 0, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
      "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {}; "
-     "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; root = std::sqrt($1); size = std::fabs($1); "
+     "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; sqrt = std::sqrt($1); abs = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cuda", "CUDA", 0, 0, NULL, NULL, "",
      "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {$S}; "
      "ARRAY: static __device__ const float $D[$N] = {\n    $I\n};; ZERO:  = {}; POINTER: const float *__restrict__ ; "
-     "root = sqrtf($1); size = fabsf($1); with_sign = copysignf($1, $2); "
+     "sqrt = sqrtf($1); abs = fabsf($1); with_sign = copysignf($1, $2); "
      "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
      "FUNCTION: static inline $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
-     "ARRAY: __constant float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: __global const float *; size = fabs($1); "
-     "with_sign = copysign($1, $2); to_real = (float)($1); to_whole = (int)($1); bits = as_int($1); "
+     "ARRAY: __constant float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: __global const float *; abs = fabs($1); "
+     "with_sign = copysign($1, $2); to_real = (float)($1); to_int = (int)($1); bits = as_int($1); "
      "of_bits = as_float($1); vec3 = (float3)($1, $2, $3); "},
     {"glsl", "GLSL 4.30 and GLSL ES 3.00", 0, 4096,
      "drivers copy a constant array that is read at an index into registers, or refuse it",
@@ -87,9 +87,9 @@ static const language languages[] = {
      "VARIABLE: var $V: $T; MEMBER: $V: $T; SEVERAL: $V: array<$T, $N>; MEMBER_END: ,; "
      "FUNCTION: fn $D($P) -> $T {$S}; STRUCT: struct $D {$M}; CONSTANT: const $D: i32 = $N;; "
      "ARRAY: var<private> $D: array<f32, $N> = array<f32, $N>(\n    $I\n);; MAKE: $T($I); "
-     "FOR: for (var $V: i32 = $A$;$V < $B$;$V++); int: i32; float: f32; real: f32; whole: i32; "
+     "FOR: for (var $V: i32 = $A$;$V < $B$;$V++); int: i32; float: f32; real: f32; integer: i32; "
      "vec3: vec3<f32>; direction: vec3<f32>; "
-     "pick = select($3, $2, $1); pick_whole = select($3, $2, $1); to_real = f32($1); to_whole = i32($1); "
+     "select = select($3, $2, $1); select_int = select($3, $2, $1); to_real = f32($1); to_int = i32($1); "
      "bits = bitcast<i32>($1); of_bits = bitcast<f32>($1); vec3 = vec3<f32>($1, $2, $3); fetch = vndf_numbers[$1]; "},
     {"msl", "the Metal shading language", 0, 16384, "Metal has 64 KiB of constants", NULL,
      "#include <metal_stdlib>\nusing namespace metal;\n",
@@ -100,11 +100,11 @@ static const language languages[] = {
      "VARIABLE: $V; MEMBER: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
      "STRUCT: class $D(_Struct):\n    __slots__ = \"\"\"$M\"\"\".split(); CONSTANT: $D = $N; ARRAY: $D = ($I); "
      "MAKE: $T($I); ZERO:  = $T(); UNSET:  = 0; FOR: for $V in range($A, $B); OPEN: :; CLOSE: ; "
-     "any = True; both = ($1 & $2); either = ($1 | $2); pick = dr.select($1, $2, $3); "
-     "pick_whole = dr.select($1, $2, $3); least = _least($1, $2); most = _most($1, $2); "
-     "least_whole = _least($1, $2); most_whole = _most($1, $2); root = _root($1); with_sign = dr.copysign($1, $2); "
-     "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_whole = mi.Int32($1); "
-     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); look = $1.look($2, $3); fetch = ; "},
+     "any = True; both = ($1 & $2); either = ($1 | $2); select = dr.select($1, $2, $3); "
+     "select_int = dr.select($1, $2, $3); min = _min($1, $2); max = _max($1, $2); "
+     "min_int = _min($1, $2); max_int = _max($1, $2); sqrt = _sqrt($1); with_sign = dr.copysign($1, $2); "
+     "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_int = mi.Int32($1); "
+     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); load_row = $1.load_row($2, $3); fetch = ; "},
 };
 
 const language *language_named(const char *name)

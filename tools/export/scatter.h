@@ -21,18 +21,18 @@ typedef struct vndf_bsdf {
 } vndf_bsdf;
 
 /* w.z without a mean slope. */
-HERE float projected(vndf_surface m, vec3 w)
+KERNEL float projected(vndf_surface m, vec3 w)
 {
     return w.z - (w.x * m.mean_x + w.y * m.mean_y);
 }
 
-HERE vec3 scaled(float factor, vec3 w)
+KERNEL vec3 scaled(float factor, vec3 w)
 {
     return vec3(factor * w.x, factor * w.y, factor * w.z);
 }
 
 /* wi is unit, towards the viewer. */
-HERE vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
+KERNEL vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
 {
     const vndf_surface m = material.surface;
     vndf_bsdf b;
@@ -49,12 +49,12 @@ HERE vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
     b.view = vndf_view_from(m, scaled(b.side, wi));
     b.rise = projected(m, b.view.wi);
     b.area = vndf_projected_area(b.view);
-    b.tilt = root(1.0f + (m.mean_x * m.mean_x + m.mean_y * m.mean_y));
+    b.tilt = sqrt(1.0f + (m.mean_x * m.mean_x + m.mean_y * m.mean_y));
     return b;
 }
 
 /* The cosine of wo that goes with f: wo.z, or to the normal of the mean plane. */
-HERE float vndf_bsdf_cosine(vndf_bsdf b, vec3 wo)
+KERNEL float vndf_bsdf_cosine(vndf_bsdf b, vec3 wo)
 {
     return projected(b.material.surface, wo) / b.tilt;
 }
@@ -62,9 +62,9 @@ HERE float vndf_bsdf_cosine(vndf_bsdf b, vec3 wo)
 /* ---- terms ---- */
 
 /* Reflectances of the three wavelengths at a microfacet. */
-HERE vec3 reflectances(vndf_bsdf b, seen_cosine c)
+KERNEL vec3 reflectances(vndf_bsdf b, seen_cosine c)
 {
-    const float total = pick(less(0.0f, refracted_square(c.facing, b.eta)), 0.0f, 1.0f); /* only fresnel=none */
+    const float total = select(lt(0.0f, refracted_square(c.facing, b.eta)), 0.0f, 1.0f); /* only fresnel=none */
     return vec3(total, total, total);                                                    /* only fresnel=none */
     const float one = dielectric(c.facing, b.eta); /* only fresnel=dielectric */
     return vec3(one, one, one);                    /* only fresnel=dielectric */
@@ -91,7 +91,7 @@ typedef struct lobe_share {
     float part;
 } lobe_share;
 
-HERE lobe_share share_of(vndf_bsdf b, meeting m)
+KERNEL lobe_share share_of(vndf_bsdf b, meeting m)
 {
     lobe_share s = {vec3(1.0f, 1.0f, 1.0f), 1.0f};
     /* only coloured */
@@ -108,7 +108,7 @@ HERE lobe_share share_of(vndf_bsdf b, meeting m)
 }
 
 /* G2/(cos_i cos_o), of transmission with what the transport asks for. */
-HERE float masked(vndf_bsdf b, meeting m)
+KERNEL float masked(vndf_bsdf b, meeting m)
 {
     const event e = m.e;
     const float area_o = vndf_projected_area(vndf_view_from(b.material.surface, e.up)); /* only smith */
@@ -141,7 +141,7 @@ typedef struct vndf_scattered {
 } vndf_scattered;
 
 /* Of three uniform numbers in [0, 1] two draw the normal; the third chooses the lobe where there are two. */
-HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
+KERNEL vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
 {
     vndf_scattered s = {vec3(0.0f, 0.0f, 1.0f), vec3(0.0f, 0.0f, 0.0f), 0.0f, 0};
     const vndf_sampled n = vndf_sample(b.view, u.x, u.y);
@@ -155,7 +155,7 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     m.e.facing = c.facing;
     m.e.rest = c.rest;
     const float part = share_of(b, m).part;
-    m.reflects = pick_whole(either(both(less(0.0f, part), less(u.z, part)), at_most(1.0f, part)), 1, 0);
+    m.reflects = select_int(either(both(lt(0.0f, part), lt(u.z, part)), le(1.0f, part)), 1, 0);
     /* end */
     if (m.reflects != 0)                      /* only reflects */
         m.e = reflected_at(wi, wm, c);        /* only reflects */
@@ -166,9 +166,9 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
         return s;
     const lobe_share share = share_of(b, m);                 /* only coloured */
     const lobe_share share = {vec3(1.0f, 1.0f, 1.0f), 1.0f}; /* only fresnel=none lobes=reflection */
-    s.wo = scaled(pick(same(m.reflects, 1), b.side, -b.side), m.e.up);
+    s.wo = scaled(select(eq(m.reflects, 1), b.side, -b.side), m.e.up);
     s.weight = scaled(masked(b, m) * m.e.rise * (b.area * n.weight) / share.part, share.f);
-    s.pdf = least(most(n.pdf * m.e.jacobian * share.part, 1.17549435e-38f), 3.4028234e38f);
+    s.pdf = min(max(n.pdf * m.e.jacobian * share.part, 1.17549435e-38f), 3.4028234e38f);
     s.lobe = 2 - m.reflects;
     /* only transmits */
     if (m.reflects == 0 && b.eta == 1.0f) {
@@ -183,7 +183,7 @@ HERE vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
 
 /* ---- values and densities ---- */
 
-HERE meeting meeting_of(vndf_bsdf b, vec3 given)
+KERNEL meeting meeting_of(vndf_bsdf b, vec3 given)
 {
     const vec3 wi = b.view.wi;
     vec3 wo = scaled(b.side, given);
@@ -191,8 +191,8 @@ HERE meeting meeting_of(vndf_bsdf b, vec3 given)
     if (wo.z > 0.0f)                   /* only reflection=retro */
         wo = vec3(-wo.x, -wo.y, wo.z); /* only reflection=retro */
     const float rise = projected(b.material.surface, wo);
-    m.reflects = pick_whole(less(0.0f, rise), 1, 0);
-    m.e.met = less(rise, rise); /* no */
+    m.reflects = select_int(lt(0.0f, rise), 1, 0);
+    m.e.met = lt(rise, rise); /* no */
     /* only reflects */
     if (rise > 0.0f) {
         m.e = reflecting(wi, wo);
@@ -201,13 +201,13 @@ HERE meeting meeting_of(vndf_bsdf b, vec3 given)
     /* end */
     if (rise < 0.0f)                                    /* only transmits */
         m.e = refracting(wi, scaled(-1.0f, wo), b.eta); /* only transmits */
-    m.e.rise = size(rise);
-    m.e.met = both(m.e.met, less(0.0f, b.rise));
+    m.e.rise = abs(rise);
+    m.e.met = both(m.e.met, lt(0.0f, b.rise));
     return m;
 }
 
 /* f of the three wavelengths, without the cosine. */
-HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
+KERNEL vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
 {
     const meeting m = meeting_of(b, wo);
     vec3 f = vec3(1.0f, 1.0f, 1.0f);
@@ -219,12 +219,12 @@ HERE vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
 }
 
 /* The density per steradian with which vndf_bsdf_sample draws wo. */
-HERE float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
+KERNEL float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
 {
     const meeting m = meeting_of(b, wo);
     float part = 1.0f;
     if (!any(m.e.met))
         return 0.0f;
     part = share_of(b, m).part; /* only lobes=both */
-    return least(part * (vndf_pdf(b.view, m.e.wm) * m.e.jacobian), 3.4028234e38f);
+    return min(part * (vndf_pdf(b.view, m.e.wm) * m.e.jacobian), 3.4028234e38f);
 }

@@ -97,7 +97,7 @@ static int read_declaration(printer *t, int at)
         const char *begins;
         declaration_kind kind;
         int name, inner, after; /* words from the first one; behind the bracket that closes */
-    } shapes[] = {{"HERE", FUNCTION, 2, 3, 0},
+    } shapes[] = {{"KERNEL", FUNCTION, 2, 3, 0},
                   {"typedef", STRUCT, 2, 3, 3},
                   {"static", ARRAY, 3, 8, 2},
                   {"enum", CONSTANT, 2, 1, 2}};

@@ -84,7 +84,7 @@ vndf_call vndf_call_of(const vndf_batch *b, const vndf_surface_batch *s)
                             .shared = (b->shared & VNDF_SHARED_SURFACE ? surface : 0) |
                                       (b->shared & VNDF_SHARED_WI ? direction : 0),
                             .read = {s->xx, s->xy, s->yx, s->yy, s->mean_x, s->mean_y, b->wi_x, b->wi_y, b->wi_z},
-                            .plain = !s->xy && !s->yx && !s->mean_x && !s->mean_y};
+                            .is_diagonal = !s->xy && !s->yx && !s->mean_x && !s->mean_y};
     return call;
 }
 

@@ -33,8 +33,8 @@ typedef struct vndf_call {
     const float *read[VNDF_READS]; /* NULL for zeros */
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
     size_t count;
-    const int *at; /* which elements of the arrays; NULL: the first */
-    int plain;     /* surfaces are matrices of xx and yy alone */
+    const int *at;   /* which elements of the arrays; NULL: the first */
+    int is_diagonal; /* surfaces are matrices of xx and yy alone */
 } vndf_call;
 
 /* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL in lanes; those of

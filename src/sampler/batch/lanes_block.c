@@ -37,29 +37,29 @@ typedef struct block {
     vndf_kind kind;
     float unit;
     table t;
-    int groups, plain, below; /* plain: of all its surfaces (kernel/surface.h) */
+    int groups, is_diagonal, below; /* is_diagonal: all its surfaces are (kernel/surface.h) */
     const float *read[VNDF_READS];
     float *write[VNDF_WRITES];
 } block;
 
-HERE real input(const block *b, int which, int g)
+KERNEL real input(const block *b, int which, int g)
 {
     return load(b->read[which] + g * LANES);
 }
 
 /* Of the numbers u1 and u2: in [0, 1], 0 for NaN. */
-HERE real unit_input(const block *b, int which, int g)
+KERNEL real unit_input(const block *b, int which, int g)
 {
-    return least(most(input(b, which, g), set(0.0f)), set(1.0f));
+    return min(max(input(b, which, g), set(0.0f)), set(1.0f));
 }
 
-HERE void put(const block *b, int which, int g, real x)
+KERNEL void put(const block *b, int which, int g, real x)
 {
     store(b->write[which] + g * LANES, x);
 }
 
 /* A matrix in units of the distribution's slopes. */
-HERE affine_map map_at(const block *b, int g, const int plain)
+KERNEL affine_map map_at(const block *b, int g, const int is_diagonal)
 {
     const real zero = set(0.0f);
     affine_map m = {input(b, VNDF_READ_XX, g) * b->unit,
@@ -68,9 +68,9 @@ HERE affine_map map_at(const block *b, int g, const int plain)
                     input(b, VNDF_READ_YY, g) * b->unit,
                     zero,
                     zero,
-                    plain,
+                    is_diagonal,
                     zero};
-    if (!plain) {
+    if (!is_diagonal) {
         m.xy = input(b, VNDF_READ_XY, g) * b->unit;
         m.yx = input(b, VNDF_READ_YX, g) * b->unit;
         m.mean_x = input(b, VNDF_READ_MEAN_X, g);
@@ -79,31 +79,31 @@ HERE affine_map map_at(const block *b, int g, const int plain)
     return affine_measured(m);
 }
 
-HERE frame frame_at(const block *b, int g, const int plain)
+KERNEL frame frame_at(const block *b, int g, const int is_diagonal)
 {
-    return frame_of(map_at(b, g, plain), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+    return frame_of(map_at(b, g, is_diagonal), input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                     input(b, VNDF_READ_WI_Z, g));
 }
 
 /* ---- searches ---- */
 
 /* The knot of entry `at` of a step of searches. */
-HERE whole knot_of(table t, whole at, int level)
+KERNEL integer knot_of(table t, integer at, int level)
 {
     return (at + at + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
 }
 
 /* One step: entries that follow `at`. */
-HERE whole step_slope(table t, real square, real under, whole at, int level)
+KERNEL integer step_slope(table t, real square, real under, integer at, int level)
 {
-    return follow(at, at_most(look_level(t, VNDF_AT_KNOT, at, level) * under, square));
+    return follow(at, le(level_entry(t, VNDF_AT_KNOT, at, level) * under, square));
 }
 
 /* The cells of slopes whose squares have these two parts. */
-HERE void find_slopes(table t, int groups, const real *square, const real *under, whole *i)
+KERNEL void find_slopes(table t, int groups, const real *square, const real *under, integer *i)
 {
     for (int g = 0; g < groups; g++) {
-        whole at = set_whole(1);
+        integer at = set_int(1);
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
             at = step_slope(t, square[g], under[g], at, level);
@@ -114,67 +114,67 @@ HERE void find_slopes(table t, int groups, const real *square, const real *under
         for (int g = 0; level < t.levels && g < groups; g++)
             i[g] = step_slope(t, square[g], under[g], i[g], level);
     for (int g = 0; g < groups; g++)
-        i[g] = (i[g] - set_whole(1 << t.levels)) * set_whole(t.stride);
+        i[g] = (i[g] - set_int(1 << t.levels)) * set_int(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++) {
-            whole next = least_whole(i[g] + step, set_whole(t.cells));
-            real r = look(t, VNDF_KNOT, next).a;
-            i[g] = pick_whole(at_most((r * r) * under[g], square[g]), next, i[g]);
+            integer next = min_int(i[g] + step, set_int(t.cells));
+            real r = load_knot(t, next).r;
+            i[g] = select_int(le((r * r) * under[g], square[g]), next, i[g]);
         }
 }
 
 /* law_sum, whose fourth term is 0 for fewer moments. */
-HERE real sum_beyond(table t, weights w, quad tail)
+KERNEL real sum_beyond(table t, weights w, tail_row tail)
 {
-    real far = w.wq * tail.c;
+    real far = w.wq * tail.over;
     if (t.moments > 3)
-        far = far + w.w4 * tail.d;
-    return (w.w1 * tail.a + w.w0 * tail.b) + far;
+        far = far + w.w4 * tail.over4;
+    return (w.w1 * tail.along + w.w0 * tail.all) + far;
 }
 
 /* One step of a search for the cell of a sample. */
-HERE reached step_cell(table t, seen v, aim a, reached r, int level, const int below)
+KERNEL knot_hit step_cell(table t, radial_law v, target a, knot_hit r, int level, const int below)
 {
-    const quad zero = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
-    quad tail = zero, low = zero;
+    tail_row tail = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
+    area_row low = {set(0.0f), set(0.0f), set(0.0f), set(0.0f)};
     real beyond;
     mask passes;
-    tail.c = look_level(t, VNDF_AT_TQ, r.i, level);
+    tail.over = level_entry(t, VNDF_AT_TQ, r.i, level);
     if (below) {
-        real knot = look_level(t, VNDF_AT_R, r.i, level);
-        low.a = look_level(t, VNDF_AT_N1, r.i, level);
-        low.b = look_level(t, VNDF_AT_N2, r.i, level);
-        beyond = law_sum_below(v.w, knot, most(knot - v.rho, set(0.0f)), tail, low);
+        real knot = level_entry(t, VNDF_AT_R, r.i, level);
+        low.t1 = level_entry(t, VNDF_AT_N1, r.i, level);
+        low.t2 = level_entry(t, VNDF_AT_N2, r.i, level);
+        beyond = law_sum_below(v.w, knot, max(knot - v.rho, set(0.0f)), tail, low);
         passes = law_passes(t, v, knot_of(t, r.i, level), beyond, a.left);
     } else {
-        tail.a = look_level(t, VNDF_AT_T1, r.i, level);
-        tail.b = look_level(t, VNDF_AT_T0, r.i, level);
+        tail.along = level_entry(t, VNDF_AT_T1, r.i, level);
+        tail.all = level_entry(t, VNDF_AT_T0, r.i, level);
         if (t.moments > 3)
-            tail.d = look_level(t, VNDF_AT_T4, r.i, level);
+            tail.over4 = level_entry(t, VNDF_AT_T4, r.i, level);
         beyond = sum_beyond(t, a.w, tail);
-        passes = at_most(a.left, beyond);
+        passes = le(a.left, beyond);
     }
     r.i = follow(r.i, passes);
-    r.beyond = pick(passes, beyond, r.beyond);
+    r.beyond = select(passes, beyond, r.beyond);
     return r;
 }
 
 /* The same by rows: r.i is a knot. */
-HERE reached step_rows(table t, seen v, aim a, reached r, int step, const int below)
+KERNEL knot_hit step_rows(table t, radial_law v, target a, knot_hit r, int step, const int below)
 {
-    whole next = r.i + step, there = least_whole(next, set_whole(t.cells));
-    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, look(t, VNDF_TAIL, there));
-    mask passes = below ? law_passes(t, v, next, beyond, a.left) : at_most(a.left, beyond);
-    r.i = pick_whole(passes, there, r.i);
-    r.beyond = pick(passes, beyond, r.beyond);
+    integer next = r.i + step, there = min_int(next, set_int(t.cells));
+    real beyond = below ? law_beyond(t, v, there) : sum_beyond(t, a.w, load_tail(t, there));
+    mask passes = below ? law_passes(t, v, next, beyond, a.left) : le(a.left, beyond);
+    r.i = select_int(passes, there, r.i);
+    r.beyond = select(passes, beyond, r.beyond);
     return r;
 }
 
 /* Cells of samples. */
-HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *r, const int below)
+KERNEL void find_cells(table t, int groups, const radial_law *v, const target *a, knot_hit *r, const int below)
 {
     for (int g = 0; g < groups; g++) {
-        reached at = {set_whole(1), set(0.0f)};
+        knot_hit at = {set_int(1), set(0.0f)};
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
             at = step_cell(t, v[g], a[g], at, level, below);
@@ -185,7 +185,7 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *
         for (int g = 0; level < t.levels && g < groups; g++)
             r[g] = step_cell(t, v[g], a[g], r[g], level, below);
     for (int g = 0; g < groups; g++)
-        r[g].i = (r[g].i - set_whole(1 << t.levels)) * set_whole(t.stride);
+        r[g].i = (r[g].i - set_int(1 << t.levels)) * set_int(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++)
             r[g] = step_rows(t, v[g], a[g], r[g], step, below);
@@ -194,9 +194,9 @@ HERE void find_cells(table t, int groups, const seen *v, const aim *a, reached *
 /* ---- tables ---- */
 
 /* How a table sees directions. */
-HERE void see(table t, int groups, const table_direction *w, seen *v, const int below)
+KERNEL void see(table t, int groups, const table_direction *w, radial_law *v, const int below)
 {
-    whole cell[GROUPS];
+    integer cell[GROUPS];
     real square[GROUPS], under[GROUPS];
     for (int g = 0; below && g < groups; g++) {
         square[g] = w[g].square;
@@ -210,10 +210,10 @@ HERE void see(table t, int groups, const table_direction *w, seen *v, const int 
 }
 
 /* Areas of what is seen. */
-HERE void find_areas(table t, int groups, const seen *v, real *area, const int below)
+KERNEL void find_areas(table t, int groups, const radial_law *v, real *area, const int below)
 {
     real square[GROUPS], under[GROUPS];
-    whole cell[GROUPS];
+    integer cell[GROUPS];
     for (int g = 0; g < groups; g++) {
         square[g] = v[g].rho * v[g].rho;
         under[g] = set(1.0f);
@@ -224,10 +224,10 @@ HERE void find_areas(table t, int groups, const seen *v, real *area, const int b
 }
 
 /* The given normals, with their cells. */
-HERE void place_given(table t, int groups, const unit_normal *n, given *at)
+KERNEL void place_given(table t, int groups, const unit_normal *n, query *at)
 {
     real square[GROUPS], under[GROUPS];
-    whole cell[GROUPS];
+    integer cell[GROUPS];
     for (int g = 0; g < groups; g++) {
         at[g] = table_given_slope(n[g].x, n[g].y, n[g].z);
         square[g] = at[g].square;
@@ -239,15 +239,16 @@ HERE void place_given(table t, int groups, const unit_normal *n, given *at)
 }
 
 /* Normals in the frames of their directions, with K, and their weights. */
-HERE void draw_side(const block *b, table_direction *w, drawn *n, real *weight, const int weigh, const int below)
+KERNEL void draw_side(const block *b, table_direction *w, normal_sample *n, real *weight, const int weigh,
+                      const int below)
 {
     const table t = b->t;
     const int groups = b->groups;
-    seen v[GROUPS];
-    aim a[GROUPS];
-    reached r[GROUPS];
-    found f[GROUPS];
-    drawn_length d[GROUPS];
+    radial_law v[GROUPS];
+    target a[GROUPS];
+    knot_hit r[GROUPS];
+    cell_hit f[GROUPS];
+    length_sample d[GROUPS];
     arc k[GROUPS];
     real start[GROUPS], area[GROUPS];
     see(t, groups, w, v, below);
@@ -264,19 +265,19 @@ HERE void draw_side(const block *b, table_direction *w, drawn *n, real *weight, 
         start[g] = arc_start(k[g], arc_half(unit_input(b, VNDF_READ_A, g)), below);
     for (int g = 0; g < groups; g++) {
         real u = unit_input(b, VNDF_READ_A, g);
-        bearing turned = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
+        azimuth turned = arc_side(arc_step(k[g], start[g], arc_half(u) * k[g].mass), u);
         n[g] = table_normal(v[g], d[g], k[g], turned);
     }
     if (!weigh)
         return;
     find_areas(t, groups, v, area, below);
     for (int g = 0; g < groups; g++) {
-        place in = law_invert(f[g].at, f[g].before);
+        cell_place in = law_invert(f[g].at, f[g].before);
         weight[g] = table_weight(t, v[g], r[g].i, f[g], in, d[g].r, k[g], area[g], below);
     }
 }
 
-STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const int weigh)
+STEP void draw(const block *b, table_direction *w, normal_sample *n, real *weight, const int weigh)
 {
     if (b->below)
         draw_side(b, w, n, weight, weigh, 1);
@@ -288,8 +289,8 @@ STEP void draw(const block *b, table_direction *w, drawn *n, real *weight, const
 STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
 {
     const int below = b->below;
-    seen v[GROUPS];
-    given at[GROUPS];
+    radial_law v[GROUPS];
+    query at[GROUPS];
     see(b->t, b->groups, w, v, below);
     place_given(b->t, b->groups, n, at);
     for (int g = 0; g < b->groups; g++)
@@ -299,7 +300,7 @@ STEP void densities(const block *b, table_direction *w, unit_normal *n, real *de
 STEP void table_areas(const block *b, table_direction *w, real *area)
 {
     const int below = b->below;
-    seen v[GROUPS];
+    radial_law v[GROUPS];
     see(b->t, b->groups, w, v, below);
     if (b->task != VNDF_TASK_DRAWN_AREA)
         find_areas(b->t, b->groups, v, area, below);
@@ -310,7 +311,7 @@ STEP void table_areas(const block *b, table_direction *w, real *area)
 /* D times the determinant of given normals. */
 STEP void p22_table(const block *b, unit_normal *n, real *p22)
 {
-    given at[GROUPS];
+    query at[GROUPS];
     place_given(b->t, b->groups, n, at);
     for (int g = 0; g < b->groups; g++)
         p22[g] = table_p22(b->t, at[g]);
@@ -318,22 +319,22 @@ STEP void p22_table(const block *b, unit_normal *n, real *p22)
 
 /* ---- tasks, of which the compiler knows the kind of distribution ---- */
 
-HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
+KERNEL void sample_as(const block *b, const vndf_kind kind, const int is_diagonal)
 {
     frame at[GROUPS]; /* what is needed to the end: the matrix is read again */
     table_direction w[GROUPS];
     ggx_view caps[GROUPS];
     beckmann_view laws[GROUPS];
-    drawn n[GROUPS];
+    normal_sample n[GROUPS];
     real weight[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, plain);
+        frame f = frame_at(b, g, is_diagonal);
         at[g].wx = f.wx;
         at[g].wy = f.wy;
         at[g].wz = f.wz;
         at[g].determinant = f.determinant;
-        at[g].densest = f.densest;
-        at[g].near = f.near;
+        at[g].max_pdf = f.max_pdf;
+        at[g].flip_cosine = f.flip_cosine;
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
         else if (kind == VNDF_KIND_GGX)
@@ -347,12 +348,12 @@ HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
         n[g] = beckmann_draw(laws[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
     for (int g = 0; g < b->groups; g++) {
         frame f = at[g];
-        f.m = map_at(b, g, plain);
+        f.m = map_at(b, g, is_diagonal);
         if (kind == VNDF_KIND_TABLE)
             n[g] = table_turned(w[g].ex, w[g].ey, n[g]);
         else if (kind == VNDF_KIND_GGX)
             n[g] = ggx_draw(caps[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
-        sampled_normal s = frame_sampled(f, n[g]);
+        surface_sample s = frame_sampled(f, n[g]);
         put(b, 0, g, s.x);
         put(b, 1, g, s.y);
         put(b, 2, g, s.z);
@@ -363,34 +364,34 @@ HERE void sample_as(const block *b, const vndf_kind kind, const int plain)
     }
 }
 
-HERE void sample(const block *b, const vndf_kind kind)
+KERNEL void sample(const block *b, const vndf_kind kind)
 {
-    if (b->plain) /* once more, where the compiler knows it */
+    if (b->is_diagonal) /* once more, where the compiler knows it */
         sample_as(b, kind, 1);
     else
         sample_as(b, kind, 0);
 }
 
 /* The normal of a group in the unit problem, seen or not. */
-HERE unit_normal normal_at(const block *b, int g, frame f)
+KERNEL unit_normal normal_at(const block *b, int g, frame f)
 {
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
 }
 
 /* The drawn density, or the visible one; for closed forms they are the same. */
-HERE void density(const block *b, const vndf_kind kind)
+KERNEL void density(const block *b, const vndf_kind kind)
 {
     const int visible = b->task == VNDF_TASK_VISIBLE;
-    frame at[GROUPS]; /* `determinant` and `densest` are needed to the end */
+    frame at[GROUPS]; /* `determinant` and `max_pdf` are needed to the end */
     table_direction w[GROUPS];
     unit_normal n[GROUPS];
     real facing[GROUPS], reach[GROUPS], value[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, b->plain);
+        frame f = frame_at(b, g, b->is_diagonal);
         n[g] = normal_at(b, g, f);
         facing[g] = n[g].facing;
         at[g].determinant = f.determinant;
-        at[g].densest = f.densest;
+        at[g].max_pdf = f.max_pdf;
         if (kind == VNDF_KIND_GGX)
             value[g] = ggx_density(ggx_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
         else if (kind == VNDF_KIND_BECKMANN)
@@ -411,18 +412,18 @@ HERE void density(const block *b, const vndf_kind kind)
     for (int g = 0; g < b->groups; g++) {
         real k = value[g] / at[g].determinant;
         if (kind == VNDF_KIND_TABLE && visible)
-            k = p22[g] / at[g].determinant * (facing[g] / most(value[g] * reach[g], set(1e-37f)));
-        mask seen_at_all = both(at_most(set(0.0f), input(b, VNDF_READ_C, g)), less(set(0.0f), facing[g]));
-        put(b, 0, g, pick(seen_at_all, frame_density(at[g], k), set(0.0f)));
+            k = p22[g] / at[g].determinant * (facing[g] / max(value[g] * reach[g], set(1e-37f)));
+        mask seen_at_all = both(le(set(0.0f), input(b, VNDF_READ_C, g)), lt(set(0.0f), facing[g]));
+        put(b, 0, g, select(seen_at_all, frame_density(at[g], k), set(0.0f)));
     }
 }
 
-HERE void ndf(const block *b, const vndf_kind kind)
+KERNEL void ndf(const block *b, const vndf_kind kind)
 {
     unit_normal n[GROUPS];
     real determinant[GROUPS], p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_of(map_at(b, g, b->plain), set(0.0f), set(0.0f), set(1.0f));
+        frame f = frame_of(map_at(b, g, b->is_diagonal), set(0.0f), set(0.0f), set(1.0f));
         n[g] = normal_at(b, g, f);
         determinant[g] = f.determinant;
         if (kind == VNDF_KIND_GGX)
@@ -433,21 +434,21 @@ HERE void ndf(const block *b, const vndf_kind kind)
     if (kind == VNDF_KIND_TABLE)
         p22_table(b, n, p22);
     for (int g = 0; g < b->groups; g++) {
-        real d = least(p22[g] / determinant[g], set(3.40282347e38f));
-        put(b, 0, g, pick(at_most(set(0.0f), input(b, VNDF_READ_C, g)), d, set(0.0f)));
+        real d = min(p22[g] / determinant[g], set(3.40282347e38f));
+        put(b, 0, g, select(le(set(0.0f), input(b, VNDF_READ_C, g)), d, set(0.0f)));
     }
 }
 
 /* Areas, and what masking makes of them. */
-HERE void areas(const block *b, const vndf_kind kind)
+KERNEL void areas(const block *b, const vndf_kind kind)
 {
     table_direction w[GROUPS];
-    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], densest[GROUPS];
+    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], max_pdf[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_at(b, g, b->plain);
+        frame f = frame_at(b, g, b->is_diagonal);
         cosine[g] = f.uz * f.size;
         scale[g] = f.size;
-        densest[g] = f.densest;
+        max_pdf[g] = f.max_pdf;
         reach[g] = frame_reach(f);
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
@@ -459,7 +460,7 @@ HERE void areas(const block *b, const vndf_kind kind)
     for (int g = 0; g < b->groups; g++) {
         real all = (kind == VNDF_KIND_TABLE ? area[g] * reach[g] : area[g]) * scale[g];
         if (b->task == VNDF_TASK_DRAWN_AREA)
-            all = pick(less(set(0.0f), densest[g]), all, set(0.0f));
+            all = select(lt(set(0.0f), max_pdf[g]), all, set(0.0f));
         if (b->task == VNDF_TASK_LAMBDA)
             all = lambda_of(all, cosine[g]);
         else if (b->task == VNDF_TASK_G1)
@@ -470,7 +471,7 @@ HERE void areas(const block *b, const vndf_kind kind)
     }
 }
 
-HERE void block_of(const block *b, const vndf_kind kind)
+KERNEL void block_of(const block *b, const vndf_kind kind)
 {
     switch (b->task) {
     case VNDF_TASK_SAMPLE: sample(b, kind); break;
@@ -504,7 +505,7 @@ typedef struct copies {
 } copies;
 
 /* Reads and writes in place, or copies that go on, with the last element, to the last lane. */
-HERE void enter(block *b, const vndf_call *call, const elements *e, copies *c)
+KERNEL void enter(block *b, const vndf_call *call, const elements *e, copies *c)
 {
     b->groups = (e->count + LANES - 1) / LANES;
     const int in_place = !e->at && e->count == b->groups * LANES;
@@ -523,7 +524,7 @@ HERE void enter(block *b, const vndf_call *call, const elements *e, copies *c)
 }
 
 /* Runs a block that was entered, and puts back what it copied. */
-HERE void run_entered(const block *b, const vndf_call *call, const elements *e)
+KERNEL void run_entered(const block *b, const vndf_call *call, const elements *e)
 {
     run_block(b);
     for (int w = 0; w < VNDF_WRITES; w++)
@@ -532,9 +533,9 @@ HERE void run_entered(const block *b, const vndf_call *call, const elements *e)
 }
 
 /* Which elements of a group are valid. */
-HERE mask valid_at(const block *b, int g)
+KERNEL mask valid_at(const block *b, int g)
 {
-    mask valid = affine_is_valid(map_at(b, g, b->plain));
+    mask valid = affine_is_valid(map_at(b, g, b->is_diagonal));
     if (b->task != VNDF_TASK_NDF)
         valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
                                                input(b, VNDF_READ_WI_Z, g)));
@@ -547,46 +548,46 @@ enum { ABOVE, BELOW, INVALID, SORTS };
 
 /* Whether all elements are valid and plainly of one side, which b->below becomes: what frames make of the height hangs
  * on no rounding. */
-HERE int is_one_sort(block *b, const int sided)
+KERNEL int is_one_sort(block *b, const int sided)
 {
-    const mask none = less(set(0.0f), set(0.0f));
+    const mask none = lt(set(0.0f), set(0.0f));
     mask good = (mask)~none, below = none, above = none;
     for (int g = 0; g < b->groups; g++) {
         real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
              height = input(b, VNDF_READ_WI_Z, g);
-        if (!b->plain)
+        if (!b->is_diagonal)
             height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
         good = both(good, valid_at(b, g));
         if (sided)
-            good = both(good, less(1e-20f * (size(x) + size(y)), size(height)));
-        below = either(below, less(height, set(0.0f)));
-        above = either(above, less(set(0.0f), height));
+            good = both(good, lt(1e-20f * (abs(x) + abs(y)), abs(height)));
+        below = either(below, lt(height, set(0.0f)));
+        above = either(above, lt(set(0.0f), height));
     }
     b->below = sided && any(below);
     return !any((mask)~good) && !(sided && any(below) && any(above));
 }
 
 /* The sort of each element. */
-HERE void sort_elements(const block *b, const int sided, int32_t *sorts)
+KERNEL void sort_elements(const block *b, const int sided, int32_t *sorts)
 {
     for (int g = 0; g < b->groups; g++) {
-        mask below = less(frame_at(b, g, b->plain).uz, set(0.0f));
-        whole side = pick_whole(below, set_whole(sided ? BELOW : ABOVE), set_whole(ABOVE));
-        whole sort = pick_whole(valid_at(b, g), side, set_whole(INVALID));
+        mask below = lt(frame_at(b, g, b->is_diagonal).uz, set(0.0f));
+        integer side = select_int(below, set_int(sided ? BELOW : ABOVE), set_int(ABOVE));
+        integer sort = select_int(valid_at(b, g), side, set_int(INVALID));
         memcpy(sorts + g * LANES, &sort, sizeof sort);
     }
 }
 
 /* Gives all elements but those of one sort the unit matrix and a direction on that side, in copies. */
-HERE void replace_others(block *b, const int32_t *sorts, int kept, copies *c)
+KERNEL void replace_others(block *b, const int32_t *sorts, int kept, copies *c)
 {
     const float other[VNDF_READ_A] = {
         1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, kept == BELOW ? -1.0f : 1.0f};
     for (int r = 0; r < VNDF_READ_A; r++) {
         for (int g = 0; g < b->groups; g++) {
-            whole sort;
+            integer sort;
             memcpy(&sort, sorts + g * LANES, sizeof sort);
-            store(c->read[r] + g * LANES, pick(same(sort, kept), input(b, r, g), set(other[r])));
+            store(c->read[r] + g * LANES, select(eq(sort, kept), input(b, r, g), set(other[r])));
         }
         b->read[r] = c->read[r];
     }
@@ -631,7 +632,7 @@ void LANES_ENTRY(const vndf_call *call)
     copies c;
     const vndf_distribution *d = call->distribution;
     const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
-    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .plain = call->plain};
+    block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .is_diagonal = call->is_diagonal};
     if (b.kind == VNDF_KIND_TABLE)
         b.t = table_of(d);
     for (int r = 0; r < VNDF_READS; r++) {

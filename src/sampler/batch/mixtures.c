@@ -109,7 +109,7 @@ static void sample_mixtures(mixed *m, const float *const inputs[3], float to[4][
         return;
     sum_lobes(m, VNDF_TASK_PDF, m->share, normal, chosen, to[3], sum);
     for (int i = 0; i < m->count; i++)
-        to[3][i] = to[3][i] > 0.0f ? least(most(sum[i], FLT_MIN), FLT_MAX) : 0.0f;
+        to[3][i] = to[3][i] > 0.0f ? min(max(sum[i], FLT_MIN), FLT_MAX) : 0.0f;
 }
 
 /* Lambda or G1 of mixtures with these areas. */
@@ -127,7 +127,7 @@ static void mask_mixtures(const mixed *m, vndf_task task, float *to)
             const float part = m->weight[l][i] * (vndf_call_number(call, VNDF_READ_WI_Z, at) - level);
             cosine += m->weight[l][i] > 0.0f ? part : 0.0f;
         }
-        cosine = least(cosine, FLT_MAX);
+        cosine = min(cosine, FLT_MAX);
         to[i] = task == VNDF_TASK_LAMBDA ? lambda_of(to[i], cosine) : g1_of(to[i], cosine);
     }
 }
@@ -144,8 +144,8 @@ static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3],
         for (int l = 0; l < m->lobes; l++)
             is_seen |= (m->weight[l][i] > 0.0f) & (m->value[l][i] > 0.0f);
         if (task == VNDF_TASK_PDF)
-            to[i] = is_seen ? most(to[i], FLT_MIN) : 0.0f;
-        to[i] = least(to[i], FLT_MAX);
+            to[i] = is_seen ? max(to[i], FLT_MIN) : 0.0f;
+        to[i] = min(to[i], FLT_MAX);
     }
     if (masks)
         mask_mixtures(m, task, to);
@@ -212,7 +212,7 @@ void vndf_run_mixtures(const vndf_batch *b, vndf_task task, vndf_arrays a)
             set_shares(&m, VNDF_TASK_AREA);
             sum_mixtures(&m, VNDF_TASK_VISIBLE, normal, to[4]);
             for (int i = 0; i < m.count; i++)
-                to[4][i] = to[3][i] > 0.0f ? least(to[4][i] / to[3][i], FLT_MAX) : 0.0f;
+                to[4][i] = to[3][i] > 0.0f ? min(to[4][i] / to[3][i], FLT_MAX) : 0.0f;
         }
         for (int w = 0; w < VNDF_WRITES; w++)
             if (a.write[w])

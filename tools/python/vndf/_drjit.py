@@ -140,12 +140,12 @@ class Table:
         self.scale = float(numbers[3])
         self.steps = self.cells.bit_length()
         self.highest = 1 << (self.steps - 1)
-        rows = numbers[8:]  # after the head
+        rows = numbers[kernel.VNDF_HEAD :]
         self._numbers = mi.Float(rows) if dr.is_jit_v(mi.Float) else rows.tolist()
 
-    def look(self, group: int, i: Any) -> Any:
+    def load_row(self, group: int, i: Any) -> Any:
         """Row i of a group: four numbers."""
-        row = 20 * i + 4 * group
+        row = kernel.VNDF_STRIDE * i + 4 * group
         if not dr.is_jit_v(mi.Float):
             return kernel.vndf_quad(*self._numbers[int(row) : int(row) + 4])
         at = mi.UInt32(row)
