@@ -90,6 +90,14 @@ static void test_signal(const char *name, int number)
     TEST(is_alone());
 }
 
+/* Of a report nothing is left behind; the page is larger than 100 KiB, most of the data is not. */
+static void test_unfinished_report(void)
+{
+    run_line(128 + SIGINT, "interrupted", "(sleep 1; kill -s INT $$) &\nexec \"$VNDF\" report --seconds 60 page");
+    run_line(2, "cannot write", "ulimit -f 200; vndf report --family ggx --seconds 1 page");
+    TEST(run_count("page", "") == -1);
+}
+
 int main(void)
 {
     char folder[] = "outputs.XXXXXX";
@@ -116,6 +124,7 @@ int main(void)
     test_stdout();
     test_signal("INT", SIGINT);
     test_signal("TERM", SIGTERM);
+    test_unfinished_report();
     shell("rm *.scene *.png *.csv && rmdir folder");
     return run_end(folder);
 }
