@@ -78,87 +78,48 @@ static void test_unbiased(method m, const method_reference *reference)
 
 /* ---- verification ------------------------------------------------------------------------------ */
 
-static enum { LENGTH, AWAY, OTHER_BITS } defect;
-
-static method scalar; /* of GGX, ours */
+/* One number of the sixth result of a run is off, of normals of ours or of a material. */
+static enum { LENGTH, AWAY, OTHER_BITS, WO, LOBE, NOT_A_NUMBER, BATCH, DEFECTS } defect;
+static method_run *right;
 
 static void off(const method *m, block *b)
 {
-    scalar.each(m, b);
-    b->x[5] *= defect == LENGTH ? 1.0001f : defect == AWAY ? -1.0f : 1.0f;
-    b->y[5] *= defect == AWAY ? -1.0f : 1.0f;
-    b->pdf[5] = defect == OTHER_BITS ? nextafterf(b->pdf[5], 0) : b->pdf[5];
-}
-
-static int is_right(const method *m, vndf_instructions set, double theta)
-{
-    static block b[2];
-    const block_law law = {vndf_ggx(), 0.05f, 0.95f, theta, 0};
-    return evidence_verify(m, set, &law, b, 1);
-}
-
-/* What is wrong is noticed: a length, normals that face away (seen along the surface), a bit of a batch. */
-static void test_verify(void)
-{
-    const vndf_instructions single = VNDF_INSTRUCTIONS_BEST, lanes = VNDF_INSTRUCTIONS_PORTABLE;
-    scalar = method_ours(vndf_ggx(), "", METHOD_SAMPLE);
-    method m = scalar, batch = scalar;
-    TEST(is_right(&scalar, single, NAN) && is_right(&scalar, lanes, NAN));
-    m.each = batch.batch = off;
-    TEST(!is_right(&m, single, NAN));
-    defect = AWAY;
-    TEST(is_right(&scalar, single, 89.9) && !is_right(&m, single, 89.9));
-    defect = OTHER_BITS;
-    TEST(is_right(&m, single, NAN)); /* nobody to compare with */
-    TEST(!is_right(&batch, lanes, NAN));
-}
-
-/* The same of materials: one number of a run's sixth result is off. */
-enum { WO, LOBE, NOT_A_NUMBER, SHARED, BATCH, DEFECTS = BATCH + 4 };
-
-static int off_number;
-static method_run *right;
-
-static void off_material(const method *m, block *of)
-{
-    vndf_scattered *spoilt = &of->out[5];
-    right(m, of);
-    switch (off_number) {
-    case WO: spoilt->wo.x *= 1.001f; break;
-    case LOBE: spoilt->lobe = VNDF_LOBE_TRANSMISSION; break;
-    case BATCH: of->y[5] = nextafterf(of->y[5], 2); break;
-    case BATCH + 1: of->value[2][5] = nextafterf(of->value[2][5], 2); break;
-    case BATCH + 2: of->pdf[5] = nextafterf(of->pdf[5], 0); break;
-    case BATCH + 3: of->lobe[5] ^= 1; break;
-    default: spoilt->weight[0] = NAN;
+    vndf_scattered *s = &b->out[5];
+    right(m, b);
+    switch (defect) {
+    case LENGTH: b->x[5] *= 1.0001f; break;
+    case AWAY: b->x[5] = -b->x[5], b->y[5] = -b->y[5]; break; /* seen along the surface */
+    case OTHER_BITS: b->pdf[5] = nextafterf(b->pdf[5], 0); break;
+    case WO: s->wo.x *= 1.001f; break;
+    case LOBE: s->lobe = VNDF_LOBE_TRANSMISSION; break;
+    case NOT_A_NUMBER: s->weight[0] = NAN; break;
+    default: b->value[2][5] = nextafterf(b->value[2][5], 2);
     }
 }
 
-static void test_verify_material(void)
+static void test_verify(void)
 {
     static block b[2];
     const effect_set set = {.name = "conductor", .effects = {.fresnel = VNDF_FRESNEL_CONDUCTOR}};
     const vndf_surface surface = vndf_rough(vndf_ggx(), 0.3f, 0.3f);
-    const block_law law = effect_law(&set);
+    const block_law laws[] = {{vndf_ggx(), 0.05f, 0.95f, 89.9, 0}, effect_law(&set)};
     vndf_error error;
-    method m = method_effect(&set, &surface, &error);
-    TEST(evidence_verify(&m, VNDF_INSTRUCTIONS_BEST, &law, b, 5) &&
-         evidence_verify(&m, VNDF_INSTRUCTIONS_PORTABLE, &law, b, 5));
-    for (off_number = 0; off_number < DEFECTS; off_number++) {
-        const int is_batch = off_number >= BATCH;
-        method_run **run = is_batch ? &m.batch : off_number == SHARED ? &m.shared : &m.each;
-        right = *run;
-        *run = off_material;
-        TEST(!evidence_verify(&m, is_batch ? VNDF_INSTRUCTIONS_PORTABLE : VNDF_INSTRUCTIONS_BEST, &law, b, 5));
+    method of[] = {method_ours(vndf_ggx(), "", METHOD_SAMPLE), method_effect(&set, &surface, &error)};
+    for (int i = 0; i < DEFECTS; i++) {
+        const int k = i >= WO, is_batch = i == OTHER_BITS || i == BATCH;
+        const vndf_instructions lanes = is_batch ? VNDF_INSTRUCTIONS_PORTABLE : VNDF_INSTRUCTIONS_BEST;
+        method_run **run = is_batch ? &of[k].batch : &of[k].each;
+        TEST(evidence_verify(&of[k], lanes, &laws[k], b, 5));
+        right = *run, *run = off, defect = i;
+        TEST(!evidence_verify(&of[k], lanes, &laws[k], b, 5));
         *run = right;
     }
-    method_release(&m);
+    method_release(&of[1]);
 }
 
 int main(void)
 {
     test_verify();
-    test_verify_material();
     test_caps();
     vndf_distribution *table = oracle_build("student-t:2.5", 32768, NULL, NULL);
     const vndf_distribution *const all[] = {vndf_ggx(), vndf_beckmann(), table};
