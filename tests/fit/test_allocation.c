@@ -70,10 +70,17 @@ void *__wrap_realloc(void *block, size_t size)
 
 static const char saved[] = "allocation.vndf";
 
-/* From a shell's words, or a file. */
+static double laplace(double r, void *user)
+{
+    return exp(-r) * (user == NULL);
+}
+
+/* From a shell's words, a file, or a function. */
 static vndf_source *source_of(const char *words, vndf_error *error)
 {
-    return words[0] == '-' ? vndf_source_from_description(words, error) : vndf_source_csv_file(words, error);
+    return words[0] == '-'   ? vndf_source_from_description(words, error)
+           : words[0] == '/' ? vndf_source_csv_file(words, error)
+                             : vndf_source_slope_callback(laplace, NULL, words, error);
 }
 
 static int build(const char *words, vndf_error *error)
@@ -139,6 +146,7 @@ static const struct trial {
     {build, "--family 'mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)'"},
     {build, "--family sgd:alum-bronze/r"},
     {build, VNDF_SOURCE_DIR "/tables/example.csv"},
+    {build, "callback"},
     {use_table, VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"},
     {use_family, "student-t"},
     {albedo, "ggx"},
