@@ -30,7 +30,7 @@
  * estimator that divides by this density is unbiased at every size of the table: a coarse table costs variance,
  * never bias. The density is positive wherever the true one is, and the certificate holds the largest ratio of
  * both. No density is zero, infinite or NaN, and no normal is turned away from wi. The run time computes in float.
- * The density of a sample is that of a normal within one rounding (2^-23) of the normal returned, to 1e-5. Beside
+ * The density is right to 1e-5 for a normal at most one float rounding (2^-23) from the returned one. Beside
  * vndf_pdf of the normal returned it is within 1e-5 for 99.9% of the samples and 1e-4 for 99.99% above the horizon,
  * 1e-4 and 1e-3 below it, where alpha times the scale of the table is at least 0.02 and no lobe of D is narrower than a
  * tenth of its slope: there one rounding of wm moves the density itself.

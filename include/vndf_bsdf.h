@@ -47,8 +47,8 @@
  * normals of a closed form the weight is within 5e-6 of that. A rounding of wo turns the facet by 2^-23/(2 wi.wm) in
  * reflection and by 2^-23 r/|r - 1| in transmission: most on smooth surfaces, at grazing light and for r near 1. f is
  * reciprocal to 1e-4. Of tables whose tail is heavier than r^-3.6 more samples are off, far out in that tail: 1% where
- * it is r^-3.2. Facets of transmission whose z that rounding exceeds are taken to have z = 2^-23 (1 + r) of |wi + r
- * wo|: with a tail of r^-3.2 and alpha 0.05, 0.4, 1 those are 0.4%, 2% and 3% of all samples, whose vndf_bsdf_pdf is
+ * it is r^-3.2. If that rounding exceeds the z of a transmission facet, z is set to 2^-23 (1 + r) of |wi + r wo|:
+ * with a tail of r^-3.2 and alpha 0.05, 0.4, 1 those are 0.4%, 2% and 3% of all samples, whose vndf_bsdf_pdf is
  * too small, but not 0.
  *
  * There is no smooth limit: the caller handles mirrors (alpha from 1e-4 on keeps all digits). A description with
@@ -253,7 +253,7 @@ typedef struct vndf_bsdf {
     const vndf_material *material;
     struct {
         double eta;       /* index on the other side over that on the side of wi */
-        double carried;   /* what transmission has more than for importance: 1/eta^2 for radiance */
+        double carried;   /* extra factor of transmission: 1/eta^2 for radiance, 1 for importance */
         float side;       /* -1 where wi is below the mean plane, 1 else; the frame of the hit is turned by it, */
         vndf_vec3 wi;     /* so that this is above */
         float rise, area; /* of wi: its projection on the mean plane, and the projected area */

@@ -232,15 +232,31 @@ static void look_from_edge(survey *s, size_t edge)
 
 /* ---- all directions ---- */
 
-/* Whether a direction between two may be worse than the worst so far, by how bad they are and how much that changes. */
-static int may_be_worse(const survey *s, const direction *a, const direction *b)
+/* By how much a figure rises per edge on the way from the last known edge to this one. */
+static double rise_to(const survey *s, size_t edge, int back, int side, int figure)
+{
+    size_t before = edge, steps = 0;
+    do {
+        before += back ? 1 : (size_t)-1;
+        steps++;
+    } while (before < s->strips.count && !s->at[before].known);
+    double rise = before < s->strips.count ? s->at[edge].side[side][figure] - s->at[before].side[side][figure] : 0;
+    return rise / (double)steps;
+}
+
+/* Whether a direction between two edges may be worse than the worst so far: by how much figures change from one to the
+ * other, or if they go on halfway as they change beyond both. */
+static int may_be_worse(const survey *s, size_t a, size_t b)
 {
     const double more = 1.05, tv[2] = {s->to->tv_above, s->to->tv}, weight = (double)s->to->max_weight - 1;
     int may = 0;
     for (int side = 0; side < 2; side++)
         for (int figure = TV; figure <= WEIGHT; figure++) {
-            double one = a->side[side][figure], other = b->side[side][figure];
-            may |= fmax(one, other) + fabs(one - other) > more * (figure == TV ? tv[side] : weight);
+            double one = s->at[a].side[side][figure], other = s->at[b].side[side][figure],
+                   half = (double)(b - a) / 2, most = fmax(one, other) + fabs(one - other);
+            most = fmax(most, one + half * rise_to(s, a, 0, side, figure));
+            most = fmax(most, other + half * rise_to(s, b, 1, side, figure));
+            may |= most > more * (figure == TV ? tv[side] : weight);
         }
     return may;
 }
@@ -249,7 +265,7 @@ static int may_be_worse(const survey *s, const direction *a, const direction *b)
 static void look_between(survey *s, size_t a, size_t b)
 {
     size_t middle = a + (b - a) / 2;
-    if (middle == a || !may_be_worse(s, &s->at[a], &s->at[b]))
+    if (middle == a || !may_be_worse(s, a, b))
         return;
     look_from_edge(s, middle);
     look_between(s, a, middle);
@@ -384,7 +400,7 @@ static double ndf_error(const survey *s)
             const double apart = log(strip[1].edge / strip->edge);
             sum += strip->f;
             if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 1)))
+                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 0.1)))
                 continue;
             worst = fmax(worst, fabs((next - before) / (tail ? strip->along : strip->f) - 1));
             if (!(in->middle > 0) || tail)

@@ -8,18 +8,24 @@
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
-/* Weights of errors: below the horizon, beyond one that k~ hides there anyway, or less where cells err by less than AT;
- * of the area, and of what is drawn of it below; of the largest of D; and of the width of the first cell, where D errs
- * by twice that. */
-static const double BELOW = 1.4e-2, ANYWAY = 2e-3, AT = 1e-5;
-static const double AREA = 0.3, DRAWN = 1e-4, DENSITY = 2e-4, FIRST = 1e-3;
+/* Weights of the errors of a cell. */
+static const double BELOW = 1.4e-2;     /* seen from below the horizon, ... */
+static const double FLOOR_BELOW = 2e-3; /* ... beyond what k~ hides there anyway, */
+static const double FLOOR_ERROR = 1e-5; /* or less of it where cells err by less than this */
+static const double AREA = 0.3;         /* of the area */
+static const double DRAWN = 1e-4;       /* of what is drawn of it below */
+static const double DENSITY = 2e-4;     /* of the largest error of D */
+static const double FIRST = 1e-3;       /* of the width of the first cell, where D errs by twice that */
 
-static const double ENOUGH = 1e-13, MOST = 0.1; /* errors of cells */
-/* A cell that holds more than WIDE_MASS is no wider than this factor, since k~ begins at a knot near rho. */
-static const double WIDE = 2.5, WIDE_MASS = 1e-6;
-static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p43;
-static const double M0_LEAST = 1e-28;  /* of f/R beyond the last knot, since numbers are floats */
-static const double RHO_MOST = 0x1p20; /* claims end there */
+/* Errors of cells that are tried. */
+static const double ENOUGH = 1e-13, MOST = 0.1;
+
+/* A cell that holds more than this of the mass is no wider than the factor, since k~ begins at a knot near rho. */
+static const double HEAVY = 1e-6, RATIO_MOST = 2.5;
+
+/* Ends of knots, and of directions; what lies beyond the last knot has to be a float. */
+static const double KNOT_LEAST = 1e-10, KNOT_MOST = 0x1p43, M0_LEAST = 1e-28;
+static const double RHO_MOST = 0x1p20;
 
 /* ---- the error of a cell ---- */
 
@@ -129,7 +135,7 @@ static double area_miss(const view *v)
     return fmax(area_miss_at(v, v->from + (v->end - v->from) / 2), area_miss_at(v, low > v->from ? low : high));
 }
 
-/* The error of the cell between two edges, or some of it that is more than enough. */
+/* The error of the cell between two edges; it returns early once the error exceeds `enough`. */
 static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
 {
     const double small = 1e-3; /* a part of the mass below which D counts less */
@@ -140,7 +146,7 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     vndf_guard_spend(k->profile->guard, 8 * (double)(end - from));
     view v = {k, from, end, vndf_cell_measure(k->profile, &k->strips, from, end, k->squarings)};
     double per = v.cell.z / v.cell.h, mass = v.cell.m1 + v.cell.r * v.cell.m0;
-    if (from > 0 && !tail && k->strips.at[end].edge > WIDE * v.cell.r && mass > WIDE_MASS)
+    if (from > 0 && !tail && k->strips.at[end].edge > RATIO_MOST * v.cell.r && mass > HEAVY)
         return MOST;
     for (size_t i = from; i <= end; i++)
         k->xi[i - from] = tail ? vndf_cell_place(&v.cell, k->strips.at[i].edge)
@@ -153,11 +159,11 @@ static double error_of(vndf_knots *k, size_t from, size_t end, double enough)
     else
         error = fmax(error, DENSITY * fmin(density, 1) * fmin(mass / small, 1));
     size_t middle = from + (end - from) / 2;
-    double anyway = ANYWAY * fmin(enough / AT, 1);
+    double hidden = FLOOR_BELOW * fmin(enough / FLOOR_ERROR, 1);
     if (error <= enough && from > 0)
-        error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - anyway));
+        error = fmax(error, BELOW * (miss_below(&v, from < k->deep ? from : k->deep) - hidden));
     if (error <= enough)
-        error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - anyway));
+        error = fmax(error, BELOW * (miss_below(&v, middle < k->deep ? middle : k->deep) - hidden));
     return error <= enough ? fmax(error, area_miss(&v)) : error;
 }
 

@@ -18,7 +18,7 @@
 
 #include "kernel/math.h"
 
-/* Of a slope: what is above, its arc A and half mass T, all over `sum`. */
+/* The constants above for one slope length; all but A and sum are over `sum`. */
 typedef struct arc {
     real cc, p, q, q2, r;
     real length, mass; /* A and T */
@@ -75,7 +75,7 @@ KERNEL real arc_start(arc k, real v, const int below)
     return v * arc_inverse_root(max(inverse, set(1e-36f)));
 }
 
-/* Of a normal at azimuth a: ss cos a, ss sin a, and cc + ss cos a, which is what is seen of it. */
+/* Of a normal at azimuth a: ss cos a, ss sin a, and its visible part cc + ss cos a. */
 typedef struct azimuth {
     real cosine, sine, visible;
 } azimuth;
@@ -112,8 +112,8 @@ KERNEL azimuth arc_step(arc k, real d, real goal)
     return a;
 }
 
-/* The azimuth that u1 stands for: from behind wi (0) on one side through that of wi (1/2) to behind it on the other. v
- * is the part of half the arc, the bearing that of v. */
+/* u1 runs from behind wi (0) along one side to the azimuth of wi (1/2), and along the other side behind it again (1).
+ * v in [0, 1] is the fraction of the half arc. */
 KERNEL real arc_half(real u1)
 {
     return 2.0f * min(u1, 1.0f - u1);
@@ -132,7 +132,7 @@ KERNEL azimuth arc_draw(arc k, real u1, const int below)
     return arc_side(arc_step(k, arc_start(k, v, below), v * k.mass), u1);
 }
 
-/* The number u1 of a normal whose azimuth has this cosine and sine, both times a positive number. */
+/* u1 of a normal whose azimuth has this cosine and sine, up to a common positive factor. */
 KERNEL real arc_invert(arc k, real along, real aside)
 {
     real d = max(k.length - angle_of(abs(aside), along), set(0.0f));

@@ -1,18 +1,29 @@
-/* Visible normals of a table in its unit problem: draws, densities and inverses, by the law of the slope length (law.h)
- * and the azimuth that goes with it (arc.h). Each function is a step that short loops over a block of samples take one
- * after the other, since a processor overlaps short bodies better than one long one. */
+/* Visible normals of a table in the unit problem: draws, densities and inverses.
+ *
+ * A sample from the direction (s, 0, c) with the random numbers u1, u2:
+ *
+ *     1. m = u2 times the mass of the law of R                          table_aim
+ *     2. find the cell with the mass m in it                            table_find, table_cell
+ *     3. invert the rational quadratic of the cell: xi, then R          law_invert, table_length  (law.h)
+ *     4. the arc of azimuths that are visible at R                      table_arc
+ *     5. solve Kepler's equation for the azimuth of u1                  arc_draw                  (arc.h)
+ *     6. the normal and its density                                     table_normal
+ *     7. if asked, the true density over the drawn one                  table_weight
+ *
+ * Each step is a function: batches take it for a block of samples before the next, since a processor overlaps short
+ * bodies better than one long one (sample.h has them in a row). */
 #ifndef VNDF_KERNEL_DRAW_H
 #define VNDF_KERNEL_DRAW_H
 
 #include "kernel/law.h"
 
-/* What u2 asks for: the mass `at` before the slope and `left` beyond it, in the law with these weights. */
+/* The mass `at` before the sampled slope and `left` beyond it, in the law with these weights. */
 typedef struct target {
     weights w;
     real at, left;
 } target;
 
-/* The weights of the law, before `first` too. */
+/* The weights of the law; it is c f before `first` (near). */
 KERNEL weights table_weights(radial_law v, mask near)
 {
     weights w = {select(near, set(0.0f), v.w.w1), select(near, v.c, v.w.w0), select(near, set(0.0f), v.w.wq),
@@ -32,8 +43,8 @@ KERNEL target table_aim(radial_law v, real u2, const int below)
     return a;
 }
 
-/* The cell of the slope, and the law beyond its knot. Where sums round, the cell may be on the other side of `first`,
- * at whose knot the slope then is. */
+/* The cell of the slope, and the mass beyond its knot. Rounding may put the cell across `first`; the sample is then
+ * clamped to that knot. */
 typedef struct knot_hit {
     integer i;
     real beyond;
@@ -52,7 +63,7 @@ KERNEL knot_hit table_find(table t, radial_law v, target a, const int below)
     return r;
 }
 
-/* The place of the slope: cell and the mass before it there. */
+/* The cell of the slope, and the mass in it before the slope. */
 typedef struct cell_hit {
     cell_density at;
     real before;
@@ -72,7 +83,7 @@ KERNEL cell_hit table_cell(table t, radial_law v, target a, knot_hit r, const in
     return f;
 }
 
-/* A slope length as it was drawn, and its mass per x, all times over + rest and its powers (law.h). */
+/* A sampled slope length, scaled as law.h scales it, and its density. */
 typedef struct length_sample {
     slope_length r;
     real density; /* over x total */
@@ -93,7 +104,7 @@ KERNEL arc table_arc(radial_law v, slope_length r, const int below)
     return arc_of(v.c * r.z, v.s * r.x, r.edge, below);
 }
 
-/* The normal in the frame of the direction: x towards it. */
+/* The normal, not of unit length, in the frame whose x points towards the direction. */
 KERNEL normal_sample table_normal(radial_law v, length_sample d, arc k, azimuth a)
 {
     real reach = k.sum / v.s, facing = max(a.visible, set(1e-7f) * k.mass);
@@ -101,8 +112,7 @@ KERNEL normal_sample table_normal(radial_law v, length_sample d, arc k, azimuth 
     return n;
 }
 
-/* The visible density over the density as drawn, where the slope length is that of f at that place of the cell; 0 from
- * below where next to nothing is seen. */
+/* True over drawn density of a sample whose slope lies at `in` of cell i; 0 from below if the area is under 1e-30. */
 KERNEL real table_weight(table t, radial_law v, integer i, cell_hit f, cell_place in, slope_length r, arc k,
                          real area, const int below)
 {
@@ -125,7 +135,7 @@ KERNEL real table_weight(table t, radial_law v, integer i, cell_hit f, cell_plac
 
 /* ---- given normals ---- */
 
-/* A normal (x, y, z) of the unit problem, in the frame of the direction, any length: its slope and cell. */
+/* Slope and cell of a normal (x, y, z) of any length, in the frame of the direction. */
 typedef struct query {
     real square, under;         /* squares of the slope's two parts, by which its cell is found */
     real across, up, per, x, z; /* slope = across/up; 1/(across + up), and both times that */
@@ -153,7 +163,7 @@ KERNEL query table_given(table t, real x, real y, real z)
     return g;
 }
 
-/* The cell of a given slope as the direction draws it. */
+/* The density of the law in cell i. */
 KERNEL cell_density table_given_cell(table t, radial_law v, integer i, const int below)
 {
     if (below)
@@ -169,7 +179,7 @@ KERNEL arc table_given_arc(radial_law v, query g, const int below)
     return arc_of(abs(v.c) * g.z, v.s * g.x, edge, below);
 }
 
-/* The density of a given normal, of which `facing` is seen from (s, 0, c): per steradian over len^3/|det| (math.h). */
+/* Density of a given normal, over len^3/|det| per steradian (math.h); facing = (s, 0, c) . n. */
 KERNEL real table_density(table t, radial_law v, query g, real facing, const int below)
 {
     integer i = g.cell;
@@ -185,7 +195,7 @@ KERNEL real table_density(table t, radial_law v, query g, real facing, const int
     return per_x * (max(facing * g.per, 1e-7f * (k.mass * k.sum)) / (2.0f * k.mass * k.sum)) * (per * g.per);
 }
 
-/* P22 over z^4 of a given normal: D times |det| over len^4. */
+/* P22/z^4 of a given normal, which is D |det|/len^4. */
 KERNEL real table_p22(table t, query g)
 {
     cell_density all = law_cell_all(t, g.cell);
@@ -196,7 +206,7 @@ KERNEL real table_p22(table t, query g)
     return density / (6.28318531f * x * g.z) * (per * per);
 }
 
-/* The numbers that draw a given normal, nearly. */
+/* Inverse of a sample: the numbers u1, u2 that draw a given normal, within some roundings. */
 KERNEL pair table_invert(table t, radial_law v, query g, real x, real y, const int below)
 {
     integer i = g.cell;

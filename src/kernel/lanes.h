@@ -59,7 +59,7 @@ typedef __m128d lanes_doubles;
 
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
-    real a, b, c, d;
+    real x, y, z, w;
 } quad;
 
 KERNEL real set(float x)

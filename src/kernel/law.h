@@ -32,7 +32,7 @@ typedef struct knot_row {
 KERNEL knot_row load_knot(table t, integer i)
 {
     quad q = load_row(t, VNDF_KNOT, i);
-    knot_row row = {q.a, q.b, q.c, q.d};
+    knot_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -43,7 +43,7 @@ typedef struct law_row {
 KERNEL law_row load_law(table t, integer i)
 {
     quad q = load_row(t, VNDF_LAW, i);
-    law_row row = {q.a, q.b, q.c, q.d};
+    law_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -54,7 +54,7 @@ typedef struct shares_row {
 KERNEL shares_row load_shares(table t, integer i)
 {
     quad q = load_row(t, VNDF_SHARES, i);
-    shares_row row = {q.a, q.b, q.c, q.d};
+    shares_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -65,7 +65,7 @@ typedef struct tail_row {
 KERNEL tail_row load_tail(table t, integer i)
 {
     quad q = load_row(t, VNDF_TAIL, i);
-    tail_row row = {q.a, q.b, q.c, q.d};
+    tail_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -76,7 +76,7 @@ typedef struct area_row {
 KERNEL area_row load_area(table t, integer i)
 {
     quad q = load_row(t, VNDF_AREA, i);
-    area_row row = {q.a, q.b, q.c, q.d};
+    area_row row = {q.x, q.y, q.z, q.w};
     return row;
 }
 
@@ -85,17 +85,19 @@ typedef struct weights {
     real w1, w0, wq, w4;
 } weights;
 
-/* A direction as a table sees it. */
+/* The law of R that a table draws from one direction. */
 typedef struct radial_law {
     real s, c, rho;
-    integer first; /* above: the knot where the law of k~ begins; below: the cell of rho */
-    weights w; /* above: of that law. Below: the shares b_0, b_1, and mass and end density of the piece at rho */
-    real near, total; /* mass before `first`, or below: the part of the piece at rho that is seen, in xi; all */
+    integer first; /* above: the knot where k~ begins; below: the cell of rho */
+    weights
+        w; /* above: the terms of k~; below: shares b_0, b_1, then mass and end density of the cell cut at rho */
+    real near; /* above: the mass before `first`; below: the visible part of the cell cut at rho, in xi */
+    real total;
 } radial_law;
 
 #ifndef VNDF_KERNEL_FINDS /* searches that the page does not have */
 
-/* The last knot R with R^2 under <= square: slopes are looked up by squares of their two parts. */
+/* The last knot R with R^2 under <= square. A slope sqrt(square/under) is found without a root or a division. */
 KERNEL integer find_knot(table t, real square, real under)
 {
     integer i = set_int(0);
@@ -109,8 +111,8 @@ KERNEL integer find_knot(table t, real square, real under)
     return i;
 }
 
-/* The last knot beyond which at least `left` of the law lies. Sums fall from knot to knot, rounded too, since all their
- * terms do. */
+/* The last knot beyond which at least `left` of the law lies. All terms fall from knot to knot, so rounded sums fall
+ * too. */
 KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 {
     integer i = set_int(0);
@@ -128,8 +130,8 @@ KERNEL integer find_sum(table t, real w1, real w0, real wq, real w4, real left)
 
 /* ---- above the horizon ---- */
 
-/* Where k~ begins in the first cell, whose 1/R has no moment, or in the last, it is a_1 y + pi there; so it is for all
- * rho beyond the parts, where it begins far before rho. */
+/* In cell 0 (where f/R has no finite moment), in the tail cell, and for rho outside the look-up range, k~ is
+ * a_1 y + pi. */
 KERNEL weights law_weights_at(weights w, real c, mask end)
 {
     weights at = {w.w1, select(end, c, w.w0), select(end, set(0.0f), w.wq), select(end, set(0.0f), w.w4)};
@@ -141,15 +143,15 @@ KERNEL real law_sum(weights w, tail_row tail)
     return (w.w1 * tail.along + w.w0 * tail.all) + (w.wq * tail.over + w.w4 * tail.over4);
 }
 
-/* The eighth of an octave that rho lies in (table/table.h). */
+/* Index of the eighth of an octave that holds rho (table/layout.h). */
 KERNEL integer law_eighth(real rho)
 {
     return min_int(max_int((bits(rho) >> 20) - VNDF_RHO_FIRST, set_int(0)), set_int(VNDF_RHO_PARTS - 1));
 }
 
-/* Before `first` the law is c f, of which 1 - tail.all lies there. Where `first` is 0 that is the first cell, whose
- * 1/R has no moment: its row of sums is that of knot 1 (table/table.h). A part that u2 = 0 alone would draw, far too
- * often for its mass, is not drawn. */
+/* Below knot `first` every normal is visible and the law is c f; its mass there is c (1 - tail.all). If `first` is 0
+ * that is the mass of cell 0, since knot 0 holds the sums of knot 1 (table/layout.h). A mass below 1e-12 of all is
+ * dropped: u2 = 0 alone would draw it, far too often. */
 KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 {
     radial_law v;
@@ -173,8 +175,8 @@ KERNEL radial_law law_see_above(table t, real s, real c, real rho)
 
 /* ---- a cell ---- */
 
-/* What a cell draws: its mass, and end densities over it; where it begins, and what leads to its end. `width` is dx/dxi
- * at the beginning. */
+/* The density of one cell: its mass, both end densities, and both ends of its slopes. `width` is dx/dxi at the left
+ * end. */
 typedef struct cell_density {
     real mass, per, e0, e1, sum; /* per: 1/mass; e0 + e1 */
     real from, x0, z0, x1, z1;   /* the slope where it begins */
@@ -197,7 +199,7 @@ KERNEL cell_density law_cell_at(table t, real s, real c, integer i, knot_row k)
     return at;
 }
 
-/* The densities at both ends over the mass. */
+/* Completes a cell with its mass and end densities; the latter are kept over the mass. */
 KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
 {
     cell_density at = bare;
@@ -209,14 +211,14 @@ KERNEL cell_density law_cell_of(cell_density bare, real mass, real d0, real d1)
     return at;
 }
 
-/* What a cell's density is divided by, at xi = over/(over + rest), times (over + rest)^2. */
+/* Denominator of the rational quadratic at xi = over/(over + rest), times (over + rest)^2. */
 KERNEL real law_denominator(cell_density at, real over, real rest)
 {
     real under = over + rest;
     return under * under + (at.sum - 2.0f) * (over * rest);
 }
 
-/* Mass per xi over under^2, times the square of `below`. */
+/* Numerator of the density: mass per xi times denominator^2, over (over + rest)^2. */
 KERNEL real law_shape(cell_density at, real over, real rest)
 {
     return at.mass * (at.e1 * (over * over) + 2.0f * (over * rest) + at.e0 * (rest * rest));
@@ -228,7 +230,7 @@ KERNEL real law_weight_at(weights w, real x, real z)
     return x * (w.w1 * x + w.w0 * z) + w.wq * (z * z);
 }
 
-/* In a cell R^-4 is R^-1 times the mean of R^-3, which makes masses exact. */
+/* The term R^-4 is R^-1 times the cell's mean of R^-3, so its mass is exact. */
 KERNEL cell_density law_cell_above(table t, radial_law v, weights of_all, integer i)
 {
     knot_row k = load_knot(t, i);
@@ -241,7 +243,8 @@ KERNEL cell_density law_cell_above(table t, radial_law v, weights of_all, intege
     return law_cell_of(at, m, l.left * law_weight_at(w, at.x0, at.z0), l.right * law_weight_at(w, at.x1, at.z1));
 }
 
-/* The same of f alone; in the last cell of f R, which is smooth there for heavy tails too: law_of_f makes f of it. */
+/* The cell of f itself, not of the law. The tail cell holds f R, which is smooth for heavy tails too; law_of_f divides
+ * R out. */
 KERNEL cell_density law_cell_all(table t, integer i)
 {
     knot_row k = load_knot(t, i);
@@ -253,7 +256,7 @@ KERNEL cell_density law_cell_all(table t, integer i)
     return law_cell_of(at, select(at.last, slope, m), l.left * (at.x0 * z0), l.right * (at.x1 * z1));
 }
 
-/* Its mass per xi, over (over + rest)^2 and times below^2, for the slope length (x, z). */
+/* law_shape of that cell at the slope length x/z. */
 KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 {
     real m = law_shape(at, over, rest);
@@ -262,22 +265,22 @@ KERNEL real law_of_f(cell_density at, real over, real rest, real x, real z)
 
 /* ---- below the horizon ---- */
 
-/* Mass beyond knot k, whose row is `low`, a sum of positive terms: `beyond` = R_k - rho >= 0. */
+/* Mass beyond the knot r, as a sum of positive terms; beyond = r - rho >= 0. */
 KERNEL real law_sum_below(weights w, real r, real beyond, tail_row tail, area_row low)
 {
     real e = w.w1 * r + w.w0 * beyond;
     return (w.w1 + w.w0) * (low.t2 + beyond * low.t1) + e * (low.t1 + beyond * tail.over);
 }
 
-/* The weight over z^2 at x, where R - rho = beyond/z. */
+/* The weight W/z^2 at R = x/z, where beyond/z = R - rho. */
 KERNEL real law_weight_below(weights w, real x, real beyond)
 {
     return beyond * (w.w1 * x + w.w0 * beyond);
 }
 
-/* Mass and end density of the piece at rho, from rho on: its density begins at 0, and is estimated from those of f/R at
- * both ends; the factor makes the mass exact where rho is the knot. The end is held to 1e4 times the mean, so that
- * places in the piece are of moderate size. `part` of the cell is seen. */
+/* The cell cut at rho: mass (wq) and end density (w4) of its visible part. The density starts at 0; it is estimated
+ * from the densities of f/R at both ends, scaled so that the mass is exact if rho is the knot. The end density is at
+ * most 1e4 times the mean, which keeps the places of law_invert moderate. `part` is the visible part in xi. */
 KERNEL weights law_partial(weights of_all, real rho, mask last, knot_row k, knot_row after, law_row l, real m2,
                            real part)
 {
@@ -324,15 +327,15 @@ KERNEL real law_beyond(table t, radial_law v, integer i)
     return law_sum_below(v.w, r, max(r - v.rho, set(0.0f)), load_tail(t, i), load_area(t, i));
 }
 
-/* A step of a search: whether the cell is not before knot `next`. Rounded sums need not fall from knot to knot: which
- * cell is found depends on the order of the steps. */
+/* True if the sample lies at or beyond knot `next`. Rounded sums need not fall from knot to knot here, so the cell
+ * found depends on the order of the steps: all searches take the same. */
 KERNEL mask law_passes(table t, radial_law v, integer next, real beyond, real left)
 {
     return either(le(to_real(next), to_real(v.first)),
                   both(le(to_real(next), to_real(set_int(t.cells))), le(left, beyond)));
 }
 
-/* The last knot beyond rho, or its cell, beyond which at least `left` of the law lies. */
+/* The last knot, from the cell of rho on, beyond which at least `left` of the law lies. */
 KERNEL integer law_find_below(table t, radial_law v, real left)
 {
     integer i = set_int(0);
@@ -369,12 +372,13 @@ KERNEL cell_density law_cell_below(table t, radial_law v, integer i)
 
 /* ---- places in a cell ---- */
 
-/* xi = over/under, 1 - xi = rest/under, under = over + rest; the mass per xi is mass root under^2/below. */
+/* xi as a fraction: xi = over/under, 1 - xi = rest/under, under = over + rest; neither is a difference. The density per
+ * xi is mass root under^2/denominator. */
 typedef struct cell_place {
     real over, rest, root, denominator;
 } cell_place;
 
-/* The place with the mass m before it: no root is a difference. */
+/* Solves for xi with the mass m before it, by the form of the quadratic's root that has no cancellation. */
 KERNEL cell_place law_invert(cell_density at, real m)
 {
     real q = min(max(m * at.per, set(1e-12f)), set(0.99999994f)), p = 1.0f - q;
@@ -386,7 +390,7 @@ KERNEL cell_place law_invert(cell_density at, real m)
     return in;
 }
 
-/* A slope length in a cell: x, z and edge, all times over + rest. */
+/* A slope length R = x/z in a cell, with edge = s x - |c| z; all are times over + rest. */
 typedef struct slope_length {
     real x, z, edge;
 } slope_length;
@@ -409,7 +413,7 @@ KERNEL slope_length law_length(table t, radial_law v, cell_density at, cell_plac
     return r;
 }
 
-/* The place of the slope x/z in its cell; per = 1/(x + z). */
+/* xi of the slope x/z in its cell; per = 1/(x + z). */
 KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
 {
     real over = (x - at.from * z) * (per * (at.z0 / at.width)), rest = 1.0f - over;
@@ -428,7 +432,7 @@ KERNEL cell_place law_place(table t, cell_density at, real x, real z, real per)
     return in;
 }
 
-/* The derivative of x by xi at that place. */
+/* dx/dxi at a place. */
 KERNEL real law_width(table t, cell_density at, cell_place in)
 {
     real width = at.width;
@@ -459,8 +463,7 @@ KERNEL real law_area_above(table t, radial_law v, integer cell)
     return max(area, abs(v.c)); /* no less than the plane */
 }
 
-/* The area of what is drawn, by which mixtures share: it is there with the law, without the spline. Straight from below
- * nothing is seen. */
+/* The area of the drawn law, over s + |c|; mixtures share by it since it costs nothing. Straight from below it is 0. */
 KERNEL real law_drawn_area(radial_law v, const int below)
 {
     if (!below)
@@ -468,8 +471,8 @@ KERNEL real law_drawn_area(radial_law v, const int below)
     return select(lt(set(2e-15f), v.s), v.s * v.total * 0.318309886f, set(0.0f));
 }
 
-/* The projected area of the direction: above, from the spline; below, what it leaves of |c| where that keeps its
- * digits, and the area that is drawn where it does not. */
+/* The projected area over s + |c|. Above: the spline. Below: the spline less |c| while that difference keeps its
+ * digits, blended into the area of the drawn law where it does not. */
 KERNEL real law_area_in(table t, radial_law v, integer cell, const int below)
 {
     real above = law_area_above(t, v, cell);

@@ -16,7 +16,7 @@
 
 #  include "kernel/math.h"
 
-/* x as the normals of the kernel have it. */
+/* x rounded to the precision of the normals. */
 KERNEL real narrow(real x)
 {
     return x;
@@ -107,7 +107,7 @@ KERNEL event refracted_at(direction wi, direction wm, seen_cosine c, real eta)
 
 /* ---- of two directions ---- */
 
-/* Where both graze the sum is short, and lengths matter: wo is given that of wi. */
+/* At grazing wi + wo is short, so an error of the length of wo would tilt wm: wo is rescaled to |wi|. */
 KERNEL event reflecting(direction wi, direction wo)
 {
     real longer = 0.5f * (dot_of(wi, wi) - dot_of(wo, wo));
@@ -191,7 +191,7 @@ KERNEL real in_cavity(real cosine, real facing, real cos_m)
     return min(2.0f * cos_m * cosine / facing, set(1.0f));
 }
 
-/* The smaller of the two is visible to both. */
+/* V-cavities mask by the smaller G1: what it shows, the other shows, too. */
 KERNEL real masked_in_cavities(real cos_i, real cos_o, real facing, real cos_m)
 {
     return min(in_cavity(cos_i, facing, cos_m), in_cavity(cos_o, facing, cos_m)) / (cos_i * cos_o);

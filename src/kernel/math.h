@@ -1,6 +1,6 @@
 /* Functions of the kernel from + - * /, roots and bits alone: angles, exponentials, the error function, differences
  * of products. Errors are those before rounding, which adds some 1e-7, unless "measured" stands beside them. Each
- * polynomial was fitted for the least largest relative error of the integer function, unless said otherwise. */
+ * polynomial was fitted for the least largest relative error of the whole function, unless said otherwise. */
 #ifndef VNDF_KERNEL_MATH_H
 #define VNDF_KERNEL_MATH_H
 

@@ -46,7 +46,7 @@ KERNEL normal_sample all_normals_draw(any_slope r, real u1)
 }
 
 /* Sine and cosine of the azimuth from that of wi; p and q not both 0. u1 turns from behind wi (0) through its azimuth
- * (1/2) and round; it is met as the azimuth of a table is. */
+ * (1/2) and round; it is solved like the azimuth of a table. */
 KERNEL turn v_cavity_azimuth(real p, real q, real u1)
 {
     real lean = max(q, 1e-6f * p + 1e-37f), rest = arc_half(u1);
@@ -60,8 +60,8 @@ KERNEL turn v_cavity_azimuth(real p, real q, real u1)
     return a;
 }
 
-/* What V-cavities draw a normal more often than all normals do: 2 f/(f + f'), f = up + level and f' = up - level what
- * it and its twin see of wi, not below 0. */
+/* Density of V-cavities over that of all normals: 2 f/(f + f') with f = max(up + level, 0) of the normal and
+ * f' = max(up - level, 0) of its twin, the visible parts from wi. */
 KERNEL real v_cavity_share(real level, real up)
 {
     real facing = max(up + level, set(0.0f));

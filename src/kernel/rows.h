@@ -1,4 +1,4 @@
-/* Whole numbers and the rows of a table. With doubles it is included where a table is read. */
+/* Integers, and the table as the kernel reads it. A kernel of doubles includes it where it reads a table. */
 #ifndef VNDF_KERNEL_ROWS_H
 #define VNDF_KERNEL_ROWS_H
 
@@ -40,7 +40,7 @@ KERNEL integer max_int(integer a, integer b)
     return a > b ? a : b;
 }
 
-/* Of the nearest float, and back. */
+/* Bit pattern of x rounded to float, and its inverse. */
 KERNEL integer bits(real x)
 {
     float narrow = (float)x;
@@ -58,7 +58,7 @@ KERNEL real of_bits(integer i)
 
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
-    real a, b, c, d;
+    real x, y, z, w;
 } quad;
 
 /* A table as the kernel reads it (table/table.h). */

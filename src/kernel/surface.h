@@ -1,5 +1,6 @@
-/* Surfaces: slopes are M u + mean, where u are slopes of the unit problem (design: affine images of slopes, Dupuy et
- * al., "Linear Efficient Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013; Atanasov et al. 2022).
+/* Surfaces: slopes are M u + mean, where u are slopes of the unit problem: roughness 1 and no mean slope, the stretched
+ * space or standard configuration of the literature (affine images of slopes: Dupuy et al., "Linear Efficient
+ * Antialiased Displacement and Reflectance Mapping", TOG 32(6), 2013; Atanasov et al. 2022).
  *
  * A normal of the unit problem, (x, y, z) with the slope -(x, y)/z, is the normal (M (x, y) - mean z, z) of the
  * surface, and wi . wm is w . (x, y, z) with w = (M^T wi_xy, wi_z - wi_xy . mean): the surface is seen from wi as the
@@ -17,7 +18,7 @@ typedef struct affine_map {
     real determinant; /* of M */
 } affine_map;
 
-/* The same with its determinant. Only where its two products are close do they need all their digits. */
+/* Completes a map with its determinant. If its two products are close, their difference takes all their digits. */
 KERNEL affine_map affine_measured(affine_map bare)
 {
     affine_map m = bare;
@@ -46,7 +47,7 @@ KERNEL mask affine_is_valid(affine_map m)
     return both(both(large, small), le(largest, set(1e15f)));
 }
 
-/* Of a length that stays a float when it is stretched; not NaN. */
+/* True if the length stays a finite float when it is stretched; NaN is false. */
 KERNEL mask direction_is_valid(real x, real y, real z)
 {
     real length = (abs(x) + abs(y)) + abs(z);
@@ -124,7 +125,7 @@ typedef struct surface_sample {
     real x, y, z, pdf;
 } surface_sample;
 
-/* A density that a float can hold, not 0 where something is seen. */
+/* Clamps a density to normal floats: it is 0 only where nothing is visible. */
 KERNEL real frame_density(frame f, real density)
 {
     return min(max(density, set(1.17549435e-38f)), f.max_pdf);
@@ -136,7 +137,7 @@ KERNEL triple triple_times(triple w, real k)
     return t;
 }
 
-/* 1, or where the length is not within `low` and `high`, nor 0, the power of two that makes it about 1. */
+/* 1, or for a length outside [low, high] that is not 0 the power of two that makes it about 1. */
 KERNEL real triple_scale(triple w, real low, real high)
 {
     real longest = max(max(abs(w.x), abs(w.y)), abs(w.z));
@@ -172,7 +173,8 @@ KERNEL normal_sample frame_turned_back(frame f, normal_sample n)
     return m;
 }
 
-/* The normal of the surface for one of the unit problem; the density is that of where it was turned to. */
+/* Maps a normal of the unit problem to the surface, with its density. If rounding turned it away from wi, it
+ * is turned back, and both are of the corrected normal. */
 KERNEL surface_sample frame_sampled(frame f, normal_sample n)
 {
     affine_map m = f.m;
@@ -198,7 +200,7 @@ KERNEL surface_sample frame_sampled(frame f, normal_sample n)
     return s;
 }
 
-/* The normal of the unit problem for a unit normal of the surface; what w sees of it, for w = (ux, uy, uz). */
+/* A unit normal of the surface in the unit problem, and facing = (ux, uy, uz) . n. */
 typedef struct unit_normal {
     real x, y, z, facing;
 } unit_normal;
@@ -238,7 +240,7 @@ KERNEL real g1_of(real area, real cosine)
 
 /* ---- a table on a surface ---- */
 
-/* The direction of (ux, uy), and the direction as the unit problem sees it (law.h). */
+/* The azimuth of the stretched direction, and (s, 0, c) and rho of law.h. */
 typedef struct table_direction {
     real ex, ey, s, c, rho;
     real square, under; /* rho^2 as two parts, by which its cell is found */
@@ -290,7 +292,7 @@ KERNEL normal_sample table_turned(real ex, real ey, normal_sample n)
     return turned;
 }
 
-/* What |(ux, uy)| + |uz| is: facing of a frame over it is that of (s, 0, c). */
+/* L1 length of the stretched direction: n.facing over it is (s, 0, c) . n with s + |c| = 1. */
 KERNEL real frame_reach(frame f)
 {
     return sqrt(f.ux * f.ux + f.uy * f.uy) + abs(f.uz);

@@ -1,156 +1,188 @@
-/* Mixtures of surfaces: D = sum of w_i D_i gives A = sum of w_i A_i and Dv = sum of (w_i A_i/A) Dv_i (Heitz &
- * d'Eon 2014 are linear in D; d'Eon et al. 2023). Lobe i is drawn with the share w_i A_i/A, in which A_i is the area
- * that is drawn of it, and the density is the whole sum. Shares are kept themselves, never as differences of running
- * sums: that of a faint lobe has all its digits. */
+/* The calls of mixtures for one element: what is asked of invalid ones, and the text of kernel/mixture.h. */
 #include "sampler/lobes.h"
 #include "sampler/sampler.h"
+
+/* ---- what kernel/mixture.h asks for ---- */
+
+typedef const vndf_view *view;
+
+/* With room for what is made of it. */
+typedef struct mixture_view {
+    const vndf_mixture_view *of;
+    float *weights, *areas;
+} mixture_view;
+
+typedef struct sampled {
+    vec3 wm;
+    float pdf;
+} sampled;
+
+KERNEL int its_count(mixture_view m)
+{
+    return m.of->count;
+}
+
+KERNEL view its_view(mixture_view m, int i)
+{
+    return &m.of->part[i].view;
+}
+
+KERNEL float its_share(mixture_view m, int i)
+{
+    return m.of->part[i].share;
+}
+
+KERNEL lobe_numbers its_weights(mixture_view m)
+{
+    for (int i = 0; i < m.of->count; i++)
+        m.weights[i] = m.of->part[i].weight;
+    return (lobe_numbers){m.weights};
+}
+
+KERNEL lobe_numbers its_areas(mixture_view m)
+{
+    for (int i = 0; i < m.of->count; i++)
+        m.areas[i] = vndf_view_own_area(its_view(m, i));
+    return (lobe_numbers){m.areas};
+}
+
+KERNEL float unit_number(float u)
+{
+    return vndf_clamp_unit(u);
+}
+
+KERNEL sampled sample(view v, float u1, float u2)
+{
+    sampled n;
+    n.wm = vndf_sample(v, u1, u2, &n.pdf);
+    return n;
+}
+
+KERNEL float pdf(view v, vec3 wm)
+{
+    return vndf_pdf(v, vndf_packed(wm));
+}
+
+KERNEL float visible(view v, vec3 wm)
+{
+    return vndf_visible(v, vndf_packed(wm));
+}
+
+#include "kernel/mixture.h"
 
 /* ---- views ---- */
 
 /* The weights of a mixture over their sum; 0 if they are invalid. */
-static int weights_of(const vndf_mixture *mixture, float weight[VNDF_MIXTURE_LOBES])
+static int weights_of(const vndf_mixture *m, float weight[VNDF_MIXTURE_LOBES])
 {
-    if (!mixture || mixture->count < 1 || mixture->count > VNDF_MIXTURE_LOBES)
+    if (!m || m->count < 1 || m->count > VNDF_MIXTURE_LOBES)
         return 0;
-    for (int i = 0; i < mixture->count; i++)
-        weight[i] = mixture->lobe[i].weight;
-    return vndf_weigh_lobes(mixture->count, 1, weight);
+    for (int i = 0; i < m->count; i++)
+        weight[i] = m->lobe[i].weight;
+    return vndf_weigh(weight, m->count);
 }
 
-static void shares_of(const vndf_mixture_view *view, float (*area)(const vndf_view *view), float share[])
+vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *m, vndf_vec3 wi)
 {
-    float weight[VNDF_MIXTURE_LOBES];
-    for (int i = 0; i < view->count; i++) {
-        weight[i] = view->part[i].weight;
-        share[i] = area(&view->part[i].view);
-    }
-    vndf_share_lobes(view->count, 1, 1, weight, share);
-}
-
-vndf_mixture_view vndf_mixture_view_from(const vndf_mixture *mixture, vndf_vec3 wi)
-{
-    vndf_mixture_view view;
+    vndf_mixture_view v;
     float weight[VNDF_MIXTURE_LOBES], share[VNDF_MIXTURE_LOBES];
-    view.count = 0;
-    if (!weights_of(mixture, weight))
-        return view;
-    for (int i = 0; i < mixture->count; i++) {
-        vndf_mixture_part *part = &view.part[view.count];
+    v.count = 0;
+    if (!weights_of(m, weight))
+        return v;
+    for (int i = 0; i < m->count; i++) {
+        vndf_mixture_part *part = &v.part[v.count];
         if (weight[i] == 0.0f)
             continue;
-        vndf_view_make(&part->view, &mixture->lobe[i].surface, wi);
+        vndf_view_make(&part->view, &m->lobe[i].surface, wi);
         if (!part->view.distribution) {
-            view.count = 0;
-            return view;
+            v.count = 0;
+            return v;
         }
         part->lobe = i;
-        part->weight = weight[i];
-        view.count++;
+        part->weight = weight[v.count++] = weight[i];
     }
-    shares_of(&view, vndf_view_drawn_area, share);
-    for (int i = 0; i < view.count; i++)
-        view.part[i].share = share[i];
-    return view;
+    for (int i = 0; i < v.count; i++)
+        share[i] = vndf_view_drawn_area(&v.part[i].view);
+    lobe_shares((lobe_numbers){weight}, (lobe_numbers){share}, v.count);
+    for (int i = 0; i < v.count; i++)
+        v.part[i].share = share[i];
+    return v;
 }
 
 /* ---- samples and densities ---- */
 
-/* The density of the whole, of which lobe `drawn` has the density `known`; none is known if that is -1. It is 0 where
- * no lobe sees wm. */
-static float density_with(const vndf_mixture_view *view, vndf_vec3 wm, int drawn_lobe, float known)
+vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *v, float u1, float u2, float *pdf_of_all, int *lobe)
 {
-    float sum = 0.0f, largest = 0.0f;
-    for (int i = 0; i < view->count; i++) {
-        const float density = i == drawn_lobe ? known : vndf_pdf(&view->part[i].view, wm);
-        sum += view->part[i].share * density;
-        largest = max(largest, density);
+    mixed n = {{0.0f, 0.0f, 1.0f}, 0.0f, -1};
+    if (v->count) {
+        n = mixture_sample((mixture_view){v, NULL, NULL}, u1, u2);
+        n.lobe = v->part[n.lobe].lobe;
     }
-    return largest > 0.0f ? min(max(sum, FLT_MIN), FLT_MAX) : 0.0f;
-}
-
-vndf_vec3 vndf_mixture_sample(const vndf_mixture_view *view, float u1, float u2, float *pdf, int *lobe)
-{
-    vndf_vec3 wm = {0.0f, 0.0f, 1.0f};
-    float begin = 0.0f, end = 0.0f, density = 0.0f, u = vndf_clamp_unit(u1);
-    int i = 0;
-    for (int l = 0; l < view->count; l++)
-        if (view->part[l].share > 0.0f && u >= end) { /* the last one takes what rounding leaves */
-            i = l;
-            begin = end;
-            end += view->part[l].share;
-        }
-    if (view->count) {
-        wm = vndf_sample(&view->part[i].view, (u - begin) / view->part[i].share, u2, &density);
-        density = density > 0.0f ? density_with(view, wm, i, density) : 0.0f;
-    }
-    if (pdf)
-        *pdf = density;
+    if (pdf_of_all)
+        *pdf_of_all = n.pdf;
     if (lobe)
-        *lobe = view->count ? view->part[i].lobe : -1;
-    return wm;
+        *lobe = n.lobe;
+    return vndf_packed(n.wm);
 }
 
-float vndf_mixture_pdf(const vndf_mixture_view *view, vndf_vec3 wm)
+float vndf_mixture_pdf(const vndf_mixture_view *v, vndf_vec3 wm)
 {
-    return density_with(view, wm, -1, 0.0f);
+    return mixture_pdf((mixture_view){v, NULL, NULL}, wm);
 }
 
-float vndf_mixture_visible(const vndf_mixture_view *view, vndf_vec3 wm)
+float vndf_mixture_visible(const vndf_mixture_view *v, vndf_vec3 wm)
 {
-    float sum = 0.0f, share[VNDF_MIXTURE_LOBES];
-    shares_of(view, vndf_view_own_area, share);
-    for (int i = 0; i < view->count; i++)
-        sum += share[i] * vndf_visible(&view->part[i].view, wm);
-    return min(sum, FLT_MAX);
+    float by_weight[VNDF_MIXTURE_LOBES], by_area[VNDF_MIXTURE_LOBES];
+    return mixture_visible((mixture_view){v, by_weight, by_area}, wm);
 }
 
-int vndf_mixture_invert(const vndf_mixture_view *view, vndf_vec3 wm, int lobe, float *u1, float *u2)
+int vndf_mixture_invert(const vndf_mixture_view *v, vndf_vec3 wm, int lobe, float *u1, float *u2)
 {
     float begin = 0.0f, best = -1.0f, best_begin = 0.0f;
     int found_lobe = -1;
-    for (int i = 0; i < view->count; i++) {
-        float drawn_here = lobe >= 0 ? 0.0f : view->part[i].share * vndf_pdf(&view->part[i].view, wm);
-        if ((lobe >= 0 && view->part[i].lobe == lobe) || (lobe < 0 && drawn_here > best)) {
+    for (int i = 0; i < v->count; i++) {
+        float drawn_here = lobe >= 0 ? 0.0f : v->part[i].share * vndf_pdf(&v->part[i].view, wm);
+        if ((lobe >= 0 && v->part[i].lobe == lobe) || (lobe < 0 && drawn_here > best)) {
             best = drawn_here;
             best_begin = begin;
             found_lobe = i;
         }
-        begin += view->part[i].share;
+        begin += v->part[i].share;
     }
     *u1 = *u2 = 0.0f;
     if (found_lobe < 0)
         return -1;
-    vndf_invert(&view->part[found_lobe].view, wm, u1, u2);
-    *u1 = vndf_clamp_unit(best_begin + *u1 * view->part[found_lobe].share);
-    return view->part[found_lobe].lobe;
+    vndf_invert(&v->part[found_lobe].view, wm, u1, u2);
+    *u1 = vndf_clamp_unit(best_begin + *u1 * v->part[found_lobe].share);
+    return v->part[found_lobe].lobe;
 }
 
 /* ---- the whole ---- */
 
 /* A function of the views, weighed. */
-typedef float of_view(const vndf_view *view, vndf_vec3 w);
+typedef float of_view(const vndf_view *one, vndf_vec3 w);
 
-static float sum_of_views(const vndf_mixture_view *view, of_view *function, vndf_vec3 w)
+static float sum_of_views(const vndf_mixture_view *v, of_view *function, vndf_vec3 w)
 {
     float sum = 0.0f;
-    for (int i = 0; i < view->count; i++)
-        sum += view->part[i].weight * function(&view->part[i].view, w);
+    for (int i = 0; i < v->count; i++)
+        sum += v->part[i].weight * function(&v->part[i].view, w);
     return sum;
 }
 
-float vndf_mixture_view_ndf(const vndf_mixture_view *view, vndf_vec3 wm)
+float vndf_mixture_view_ndf(const vndf_mixture_view *v, vndf_vec3 wm)
 {
-    return min(sum_of_views(view, vndf_view_ndf, wm), FLT_MAX);
+    return min(sum_of_views(v, vndf_view_ndf, wm), FLT_MAX);
 }
 
-float vndf_mixture_view_area(const vndf_mixture_view *view, vndf_vec3 w)
+float vndf_mixture_view_area(const vndf_mixture_view *v, vndf_vec3 w)
 {
-    return sum_of_views(view, vndf_view_area, w);
+    return sum_of_views(v, vndf_view_area, w);
 }
 
-float vndf_mixture_view_cosine(const vndf_mixture_view *view, vndf_vec3 w)
+float vndf_mixture_view_cosine(const vndf_mixture_view *v, vndf_vec3 w)
 {
-    return sum_of_views(view, vndf_view_cosine, w);
+    return sum_of_views(v, vndf_view_cosine, w);
 }
 
 /* A function of the surfaces, weighed. */

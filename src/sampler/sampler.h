@@ -14,7 +14,7 @@ void vndf_view_make(vndf_view *view, const vndf_surface *surface, vndf_vec3 wi);
 float vndf_view_ndf(const vndf_view *view, vndf_vec3 wm);
 float vndf_view_area(const vndf_view *view, vndf_vec3 w);
 
-/* That of its own wi; and that of what is drawn, which for tables is within the certificate's TV of it. */
+/* Projected area along the view's wi: the true one, and that of the drawn law, which is within a table's TV of it. */
 float vndf_view_own_area(const vndf_view *view);
 float vndf_view_drawn_area(const vndf_view *view);
 

@@ -7,37 +7,38 @@
 #include "bsdf.kernel"
 #include "normals.kernel"
 
-#ifdef __CUDACC__
-#  define ON(kernel, count) kernel<<<(count + 127) / 128, 128>>>
-#  define FIRST (int)(blockIdx.x * blockDim.x + threadIdx.x)
-#  define STEP (int)(gridDim.x * blockDim.x)
-#else
-#  define __global__ static
-#  define ON(kernel, count) kernel
-#  define FIRST 0
-#  define STEP 1
+#ifndef __CUDACC__
+#  define __host__
+#  define __device__
 #endif
 
-__global__ void ask_normals(const normals_question *asked, normals_answer *said, int count)
+__host__ __device__ static void answer(const float *numbers, const normals_question *asked, normals_answer *said,
+                                       const bsdf_question *hit, bsdf_answer *scattered, int i)
 {
-    for (int i = FIRST; i < count; i += STEP)
-        said[i] = normals_ask(asked[i]);
+    said[i] = normals_ask(asked[i]);
+    scattered[i] = bsdf_ask(numbers, hit[i]);
 }
 
-__global__ void ask_bsdf(const float *numbers, const bsdf_question *asked, bsdf_answer *said, int count)
+static int on_device;
+
+#ifdef __CUDACC__
+__global__ void answer_all(const float *numbers, const normals_question *asked, normals_answer *said,
+                           const bsdf_question *hit, bsdf_answer *scattered, int count)
 {
-    for (int i = FIRST; i < count; i += STEP)
-        said[i] = bsdf_ask(numbers, asked[i]);
+    const int i = (int)(blockIdx.x * blockDim.x + threadIdx.x);
+    if (i < count)
+        answer(numbers, asked, said, hit, scattered, i);
 }
+#endif
 
 static void *room_for(size_t bytes)
 {
 #ifdef __CUDACC__
     void *room = NULL;
-    return cudaMallocManaged(&room, bytes) == cudaSuccess ? room : NULL;
-#else
-    return malloc(bytes);
+    if (on_device)
+        return cudaMallocManaged(&room, bytes) == cudaSuccess ? room : NULL;
 #endif
+    return malloc(bytes);
 }
 
 /* The whole file, and how many questions it has. */
@@ -67,23 +68,23 @@ int main(void)
     int n;
 #ifdef __CUDACC__
     cudaDeviceProp device;
-    if (cudaGetDeviceProperties(&device, 0) != cudaSuccess) {
-        puts("SKIPPED: nvcc compiles the kernels, but no GPU of its is here");
-        return 77;
-    }
-    puts(device.name);
+    on_device = cudaGetDeviceProperties(&device, 0) == cudaSuccess;
+    puts(on_device ? device.name : "no GPU: the functions of the host");
 #endif
     const float *numbers = (const float *)all_of("numbers.f32", &n);
     const bsdf_question *hit = (const bsdf_question *)all_of("bsdf.asked", &n);
     bsdf_answer *scattered = (bsdf_answer *)room_for((size_t)n * sizeof *scattered);
     const normals_question *asked = (const normals_question *)all_of("normals.asked", &n);
     normals_answer *said = (normals_answer *)room_for((size_t)n * sizeof *said);
-    ON(ask_bsdf, n)(numbers, hit, scattered, n);
-    ON(ask_normals, n)(asked, said, n);
 #ifdef __CUDACC__
-    if (cudaDeviceSynchronize() != cudaSuccess)
-        return 2;
+    if (on_device) {
+        answer_all<<<(n + 127) / 128, 128>>>(numbers, asked, said, hit, scattered, n);
+        if (cudaDeviceSynchronize() != cudaSuccess)
+            return 2;
+    }
 #endif
+    for (int i = 0; i < n && !on_device; i++)
+        answer(numbers, asked, said, hit, scattered, i);
     write_all("bsdf.said", scattered, n);
     write_all("normals.said", said, n);
     return 0;

@@ -26,8 +26,8 @@ KERNEL answer ask(question q)
     const vndf_view view = vndf_view_from(surface, wi);
     const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
     vndf_mixture mixture = vndf_family_at(VNDF_TAILS, q.wo_x, surface);
-    mixture.lobe[2] = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
-    mixture.weight[2] = 0.6f;
+    mixture.lobe[2].surface = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
+    mixture.lobe[2].weight = 0.6f;
     mixture.count = 3;
     const vndf_mixture_view lobes = vndf_mixture_view_from(mixture, wi);
     const vndf_mixed mixed = vndf_mixture_sample(lobes, q.u1, q.u2);
@@ -42,7 +42,7 @@ KERNEL answer ask(question q)
                       vndf_lambda(surface, wi),
                       vndf_g1(surface, wi),
                       vndf_g2(surface, wi, wm),
-                      vndf_projected_area(view),
+                      vndf_projected_area(surface, wi),
                       of_all.x,
                       of_all.y,
                       of_all.z,

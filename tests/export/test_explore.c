@@ -12,7 +12,7 @@ static const char *const parts[] = {" data-tv=\"0.0003",
                                     ">a&amp;b</option>",
                                     "const int VNDF_STUDENT_T_2_5 = ",
                                     "What an engine makes of it in one pass",
-                                    "vndf_sampled vndf_sample(vndf_view view, float w1, float w2) {"},
+                                    "vndf_sampled vndf_sample(vndf_view s, float u1, float u2) {"},
                          /* What is left of a frame, or may ask the network. */
     *const none[] = {"{{",    "a&b",     "http:",   "https:",  "src=",  "url(h",    "url(/",
                      "url('", "@import", "import(", "XMLHttp", "<link", "WebSocket"};

@@ -195,7 +195,7 @@ static void test_refusals(void)
 
 #define BYTES(literal) literal, sizeof literal - 1
 
-/* 0 to 8 in three rows, times a scale, but where nan says that there is none (images: render_files). */
+/* 0 to 8 in three rows, times a scale, but where nan says that there is none (images: render_command). */
 static void test_kinds(void)
 {
     static const struct {

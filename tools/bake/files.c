@@ -184,7 +184,7 @@ int bake_page(html_page *page, const baked_list *list, unsigned forms, const cha
                     b->error);
         fprintf(page->html,
                 "</ul>\n<figure><img src=\"%s.png\" alt=\"%s as a picture\" style=\"image-rendering:pixelated;"
-                "max-width:100%%\">\n<figcaption>The last axis to the right, the one before it down. Channels are "
+                "max-width:100%%\">\n<figcaption>Columns: the last axis. Rows: the axis before it. Channels are "
                 "red, green and blue.</figcaption></figure>\n",
                 b->name, b->name);
         for (bake_form f = BAKE_NPY; f <= BAKE_PICTURE; f++)

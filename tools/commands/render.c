@@ -2,6 +2,7 @@
  * the scene, renders, saves the picture, prints figures. */
 
 #include "cli/figures.h"
+#include "cli/files.h"
 #include "cli/output.h"
 #include "cli/progress.h"
 #include "command.h"
@@ -183,8 +184,9 @@ static int render(render_work *w)
 
 static int run(const arguments *given)
 {
-    vndf_error error = {VNDF_OK, ""};
+    const char *path = given->positional.item[0];
     render_work w;
+    size_t length;
     int status = STATUS_USE;
     if (option_value(given, "--grammar"))
         return scene_print_manual(), STATUS_GOOD;
@@ -192,11 +194,9 @@ static int run(const arguments *given)
         return complain(name, "SCENE is missing; `%s --help` has an example", name);
     if (!read_words(given, &w))
         return STATUS_USE;
-    scene *s = scene_read(given->positional.item[0]);
-    const int good = s && (!w.width || scene_resize(s, (int)w.width));
-    if (good && !comparison_begin(&w.ways, s, &error))
-        complain(name, "%s", error.message);
-    else if (good && (!w.path || output_open(&w.output, name, w.path))) {
+    char *text = input_read(name, path, SCENE_BYTES_MAX, &length);
+    scene *s = text ? scene_read(path, text, length, (int)w.width) : NULL;
+    if (s && comparison_begin(&w.ways, s) && (!w.path || output_open(&w.output, name, w.path))) {
         w.ways.samples = w.samples ? (uint64_t)w.samples : (uint64_t)s->samples;
         w.exposure = w.exposure > 0 ? w.exposure : s->exposure;
         status = render(&w);

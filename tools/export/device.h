@@ -3,7 +3,7 @@
 
 /* Four numbers of a table that stand side by side. */
 typedef struct quad {
-    real a, b, c, d;
+    real x, y, z, w;
 } quad;
 
 /* A table: where its rows begin among the numbers, how many cells it has, terms of its law, squarings of its last cell,
@@ -20,12 +20,17 @@ KERNEL table table_at(int base)
     return t;
 }
 
+/* Numbers i to i + 3, i a multiple of 4: some languages read 16 bytes at once. */
+KERNEL quad fetch_4(int i)
+{
+    const quad row = {fetch(i), fetch(i + 1), fetch(i + 2), fetch(i + 3)};
+    return row;
+}
+
 /* Row i of a group. */
 KERNEL quad load_row(table t, int group, integer i)
 {
-    const int at = t.at + VNDF_STRIDE * i + 4 * group;
-    const quad row = {fetch(at), fetch(at + 1), fetch(at + 2), fetch(at + 3)};
-    return row;
+    return fetch_4(t.at + VNDF_STRIDE * i + 4 * group);
 }
 
 /* a < b ? a : b, so b for NaN; and a > b ? a : b. */
@@ -61,7 +66,7 @@ KERNEL integer first_knot(table t, integer eighth)
     int step = t.highest;
     for (int n = 0; n < t.steps; n++) {
         integer next = min_int(first + step, set_int(t.cells));
-        first = select_int(le(load_row(t, VNDF_KNOT, next).d, rho), next, first);
+        first = select_int(le(load_row(t, VNDF_KNOT, next).w, rho), next, first);
         step = step / 2;
     }
     return first;

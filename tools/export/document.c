@@ -39,8 +39,8 @@ static void name_table(exported_table *table)
 static int is_taken(const export_document *document, const char *name)
 {
     static const char taken[] =
-        " GGX BECKMANN LOBES NUMBERS KERNEL FETCH FUNCTION KNOT LAW MORE TAIL LOW RHO_PARTS "
-        "RHO_FIRST ";
+        " GGX BECKMANN LOBES NUMBERS KERNEL FETCH FUNCTION ARRAY HEAD KNOT LAW SHARES TAIL AREA GROUPS STRIDE "
+        "RHO_PARTS RHO_FIRST ";
     char spaced[80];
     for (size_t i = 0; i < document->tables; i++)
         if (strcmp(document->table[i].name, name) == 0)
@@ -52,11 +52,12 @@ static int is_taken(const export_document *document, const char *name)
 /* Room for more numbers, which begin at the old count; 0 if there is no memory. */
 static int add_numbers(export_document *document, size_t more)
 {
-    float *numbers = realloc(document->numbers, (document->count + more + 1) * sizeof *numbers);
+    float *numbers = realloc(document->numbers, (document->count + more + 4) * sizeof *numbers);
     if (!numbers)
         return 0;
     document->numbers = numbers;
-    document->count += more;
+    for (size_t end = document->count + more; document->count < end || document->count % 4;)
+        numbers[document->count++] = 0; /* rows of four are read at once */
     return 1;
 }
 
@@ -257,7 +258,7 @@ int document_write(const export_document *document, FILE *to, const char *more)
     const int guarded = !(in->is & LANGUAGE_APART);
     const char *calls = document->scatters ? "vndf_rough vndf_bsdf"
                                            : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible "
-                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area "
+                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area vndf_area "
                                              "vndf_mixture vndf_family_at";
     char *whole = whole_text(document, more);
     if (in->is & LANGUAGE_INDENTS)

@@ -12,23 +12,38 @@ static const char common[] =
     "real: float; integer: int; mask: bool; vec3: float3; direction: float3; "
     "set = $1; set_int = $1; any = $1; lt = ($1 < $2); le = ($1 <= $2); eq = ($1 == $2); both = ($1 && $2); "
     "either = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
-    "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; ";
+    "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; "
+    "view_frame = $1.f; view_table = $1.t; view_weighs = 1; lobe_end = VNDF_LOBES; its_count = $1.count; "
+    "its_view = $1.lobe[$2]; its_share = $1.share.lobe[$2]; its_weights = $1.weight; ";
 
 #define BOUND(how, declared)                                                     \
   "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else" how \
   ".\n#ifndef VNDF_FETCH\n" declared "\n#define VNDF_FETCH(i) vndf_numbers[i]\n#endif\n"
 
+#define FUNCTION(declared)                                                                                             \
+  "\n// Define VNDF_FUNCTION before this to have functions declared in another way.\n#ifndef VNDF_FUNCTION\n" declared \
+  "#endif\n"
+
+#define BITS                                                                                                  \
+  "\nVNDF_FUNCTION int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n    return i;\n}\n\n" \
+  "VNDF_FUNCTION float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n"
+
 /* What C and C++ do not have. Functions that are not inlined pass views through memory: a sample of a table took 1.6
  * times as long as the library's, and takes 1.2 times. */
-#define C_BEGIN                                                                                                \
-  "\n// Define VNDF_FUNCTION before this to have functions declared in another way.\n#ifndef VNDF_FUNCTION\n"  \
-  "#if defined(__GNUC__)\n#define VNDF_FUNCTION static inline __attribute__((always_inline))\n#else\n"         \
-  "#define VNDF_FUNCTION static inline\n#endif\n#endif\n\n"                                                    \
-  "VNDF_FUNCTION int vndf_bits(float x) {\n    int i;\n    memcpy(&i, &x, sizeof i);\n    return i;\n}\n\n"    \
-  "VNDF_FUNCTION float vndf_of_bits(int i) {\n    float x;\n    memcpy(&x, &i, sizeof x);\n    return x;\n}\n" \
-  "\ntypedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;\n\n"                                         \
-  "VNDF_FUNCTION vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"                                        \
-  "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n"
+#define C_BEGIN                                                                                          \
+  FUNCTION("#if defined(__GNUC__)\n#define VNDF_FUNCTION static inline __attribute__((always_inline))\n" \
+           "#else\n#define VNDF_FUNCTION static inline\n#endif\n")                                       \
+  BITS "\ntypedef struct vndf_vec3 {\n    float x, y, z;\n} vndf_vec3;\n\n"                              \
+       "VNDF_FUNCTION vndf_vec3 vndf_vec3_of(float x, float y, float z) {\n"                             \
+       "    vndf_vec3 v = {x, y, z};\n    return v;\n}\n"
+
+/* Host and device each have arrays of their own. */
+#define CUDA_ARRAYS                                                                                       \
+  "\n#ifndef VNDF_ARRAY\n#ifdef __CUDA_ARCH__\n#define VNDF_ARRAY static __device__ const float\n#else\n" \
+  "#define VNDF_ARRAY static const float\n#endif\n#endif\n"
+
+#define CUDA_BEGIN \
+  "#include <cstring>\n" FUNCTION("#define VNDF_FUNCTION __host__ __device__ inline\n") CUDA_ARRAYS BITS
 
 /* What stands before the kernel in Python; derivatives of bits are 0, those of roots at 0 too. */
 static const char python_begin[] =
@@ -59,11 +74,12 @@ static const language languages[] = {
      "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; sqrt = std::sqrt($1); abs = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
-    {"cuda", "CUDA", 0, 0, NULL, NULL, "",
-     "UNROLL: #pragma unroll; FUNCTION: __device__ inline $T $D($P) {$S}; "
-     "ARRAY: static __device__ const float $D[$N] = {\n    $I\n};; ZERO:  = {}; POINTER: const float *__restrict__ ; "
+    {"cuda", "CUDA", 0, 0, NULL, NULL, CUDA_BEGIN,
+     "UNROLL: #pragma unroll; FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; "
+     "ARRAY: VNDF_ARRAY $D[$N] = {\n    $I\n};; ZERO:  = {}; POINTER: const float *__restrict__ ; "
      "sqrt = sqrtf($1); abs = fabsf($1); with_sign = copysignf($1, $2); "
-     "bits = __float_as_int($1); of_bits = __int_as_float($1); vec3 = make_float3($1, $2, $3); "},
+     "quad: float4; fetch_4 = *reinterpret_cast<const float4 *>(numbers + ($1)); bits = vndf_bits($1); "
+     "of_bits = vndf_of_bits($1); vec3 = make_float3($1, $2, $3); "},
     {"opencl", "OpenCL C 1.2", 0, 16384, "OpenCL promises 64 KiB of constants", NULL, "",
      "FUNCTION: static inline $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
      "ARRAY: __constant float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: __global const float *; abs = fabs($1); "

@@ -48,7 +48,7 @@ KERNEL vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
     /* end */
     b.view = vndf_view_from(m, scaled(b.side, wi));
     b.rise = projected(m, b.view.wi);
-    b.area = vndf_projected_area(b.view);
+    b.area = area(b.view);
     b.tilt = sqrt(1.0f + (m.mean_x * m.mean_x + m.mean_y * m.mean_y));
     return b;
 }
@@ -111,7 +111,7 @@ KERNEL lobe_share share_of(vndf_bsdf b, meeting m)
 KERNEL float masked(vndf_bsdf b, meeting m)
 {
     const event e = m.e;
-    const float area_o = vndf_projected_area(vndf_view_from(b.material.surface, e.up)); /* only smith */
+    const float area_o = area_along(b.view, e.up); /* only smith */
     float carried = 1.0f;
     /* only transmits transport=radiance */
     if (m.reflects == 0)
@@ -214,7 +214,7 @@ KERNEL vec3 vndf_bsdf_eval(vndf_bsdf b, vec3 wo)
     if (!any(m.e.met))
         return vec3(0.0f, 0.0f, 0.0f);
     f = share_of(b, m).f; /* only coloured */
-    const float ndf = placed_ndf(b.view, m.e.wm);
+    const float ndf = seen_ndf(b.view, m.e.wm);
     return scaled(b.tilt * ndf * m.e.facing * m.e.jacobian * masked(b, m), f);
 }
 

@@ -1,6 +1,7 @@
 #include "export/export.h"
 
 #include <ctype.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -145,10 +146,18 @@ static int read_text(printer *t, const char *source)
 
 /* ---- names --------------------------------------------------------------------------------------- */
 
+/* Without the prefix, if it has one. */
+static const char *bare(const char *text)
+{
+    return text + (strncmp(text, "vndf_", 5) == 0 ? 5 : 0);
+}
+
 static int is_same(const printer *t, int a, int b)
 {
     const word *v = &t->word[a], *w = &t->word[b];
-    return v->length == w->length && memcmp(v->text, w->text, (size_t)v->length) == 0;
+    const char *one = bare(v->text), *other = bare(w->text);
+    const ptrdiff_t length = v->text + v->length - one;
+    return length == w->text + w->length - other && memcmp(one, other, (size_t)length) == 0;
 }
 
 /* The declaration of that name, if it is of one of these kinds (1 << FUNCTION ...), or NULL. */
@@ -164,8 +173,8 @@ static declaration *declared(printer *t, int name, int kinds)
 static const char *own_word(const printer *t, int name, const char *means)
 {
     const word *w = &t->word[name];
-    if (t->as->embeds && word_is(w, "fetch"))
-        return "VNDF_NUMBERS[$1]; ";
+    if (t->as->embeds && strncmp(w->text, "fetch", 5) == 0)
+        return word_is(w, "fetch") ? "VNDF_NUMBERS[$1]; " : NULL;
     return language_word(t->as->to, w->text, w->length, means);
 }
 
@@ -429,7 +438,7 @@ static int put_if(printer *t, int at)
 static int put_for(printer *t, int at)
 {
     const int bound = word_find(t, at + 2, t->words, ";") + 3;
-    if (declared(t, bound, 1 << CONSTANT) && put_form(t, "UNROLL", NULL, 0, 0))
+    if ((declared(t, bound, 1 << CONSTANT) || own_word(t, bound, " = ")) && put_form(t, "UNROLL", NULL, 0, 0))
         put_line(t, at);
     put_form(t, "FOR", NULL, 0, at + 3);
     return put_governed(t, at, t->word[at + 1].other + 1);
@@ -511,7 +520,7 @@ static void want(printer *t, declaration *d)
     for (int i = d->begin; i < d->end && d->kind != CONSTANT; i++) {
         const int is_call = word_is(&t->word[i + 1], "("), is_member = i > 0 && word_is(&t->word[i - 1], ".");
         declaration *of = is_member ? NULL : declared(t, i, is_call ? -1 : ~(1 << FUNCTION));
-        d->fetches |= word_is(&t->word[i], "fetch");
+        d->fetches |= word_is(&t->word[i], "fetch") || word_is(&t->word[i], "fetch_4");
         if (of && of != d && !own_word(t, i, " = ") && !own_word(t, i, ": ")) {
             want(t, of);
             d->fetches |= of->fetches;
@@ -519,11 +528,12 @@ static void want(printer *t, declaration *d)
     }
 }
 
-static void want_named(printer *t, const char *name, size_t length)
+static void want_named(printer *t, const char *name, const char *end)
 {
+    const size_t length = (size_t)(end - bare(name));
     for (int i = 0; i < t->count; i++) {
-        const word *own = &t->word[t->at[i].name];
-        if (strncmp(own->text, name, length) == 0 && ((size_t)own->length == length || own->text[length] == '_'))
+        const char *own = bare(t->word[t->at[i].name].text);
+        if (strncmp(own, bare(name), length) == 0 && (own[length] == '_' || !isalnum((unsigned char)own[length])))
             want(t, &t->at[i]);
     }
 }
@@ -536,8 +546,9 @@ int translate(const export_document *as, const char *source, const char *wanted,
     const int good = read_text(&t, source);
     t.by_pointer = !as->embeds && language_word(as->to, "POINTER", 7, ": ");
     for (; good && *wanted; wanted += strcspn(wanted, " "), wanted += strspn(wanted, " "))
-        want_named(&t, wanted, strcspn(wanted, " "));
-    want_named(&t, "VNDF_NUMBERS", 12);
+        want_named(&t, wanted, wanted + strcspn(wanted, " "));
+    static const char numbers[] = "VNDF_NUMBERS";
+    want_named(&t, numbers, numbers + sizeof numbers - 1);
     for (int i = 0, in_constants = 0; i < t.count && good; i++) {
         const declaration *d = &t.at[i];
         if (!d->wanted && d->begin > 0) /* the first constants are its host's */

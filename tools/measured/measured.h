@@ -4,7 +4,6 @@
 #include "cli/arguments.h"
 #include "cli/files.h"
 #include "render/image.h"
-#include "render/lines.h"
 #include "vndf_build.h"
 
 /* A file, whose bytes are not trusted, with a 0 behind them. A reader returns 1, or 0 with the reason in `error`: the
@@ -19,7 +18,7 @@ typedef struct data_file {
 } data_file;
 
 /* "NAME: message"; 0, so that a reader can end with it. */
-#define refuse(file, ...) refuse_at(&(file)->error, (file)->name, 0, __VA_ARGS__)
+#define refuse(file, ...) refuse_at(&(file)->error, (file)->name, __VA_ARGS__)
 
 /* Adds a line, unless it does not fit. */
 void note(data_file *file, const char *format, ...) PRINTF_LIKE(2, 3);

@@ -8,7 +8,7 @@
  *
  * Bins of |u| hold equal parts of the slopes, and halves of what is left in the tail; a row stands where the mean
  * square of a bin's lengths is, since a density that falls evenly in r^2 has its mean there. Beyond the last bins the
- * curve is the power of r that has their masses: of slopes that end abruptly a high one. Errors come from the spread
+ * curve is the power of r that has their masses; if slopes end abruptly, the power is high. Errors come from the spread
  * between 64 parts of the surface: neighbouring slopes are not independent, parts nearly are. */
 #include "measured/measured.h"
 

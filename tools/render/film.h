@@ -1,34 +1,27 @@
-/* Light along paths from the eye, and how rough materials are sampled on the way. All pixels, rendered by threads: sums
- * of samples, whose mean is the picture; they do not depend on the number of threads, to the bit. And one scene by
- * several samplers side by side, in equal time or with equal samples: how noisy their films are, and whether they show
- * the same. */
+/* Light along paths from the eye, through all pixels, by threads: sums of samples, whose mean is the picture; they
+ * do not depend on the number of threads, to the bit. And one scene by several samplers side by side, in equal time
+ * or with equal samples: how noisy their films are, and whether they show the same. */
 #pragma once
 
 #include "render/scene.h"
-#include "vndf_build.h"
+#include "vndf_build.h" /* vndf_progress */
 
-/* How rough materials draw directions: by normals of the library, or (perfect) as a yardstick by the BSDF itself.
- */
+/* How rough materials draw directions: by normals of the library, or (perfect) as a yardstick by the BSDF itself. */
 typedef enum path_sampler { SAMPLER_VISIBLE, SAMPLER_ALL, SAMPLER_PERFECT, SAMPLERS } path_sampler;
-
 extern const char *const path_sampler_names[SAMPLERS + 1]; /* NULL at the end */
 
+/* A scene, which has to outlive it, with a sampler; to be freed. NULL after a complaint: a material cannot have it. */
 typedef struct path_plan path_plan;
+path_plan *path_prepare(const scene *s, path_sampler sampler);
 
-/* Resolves the materials of a scene, which must outlive the plan, with a sampler; to be freed. NULL and an error if
- * one of them cannot have it. */
-path_plan *path_prepare(const scene *s, path_sampler sampler, vndf_error *error);
-
-/* Counters of one thread. */
+/* Counters of one thread; lost are paths whose light was not finite. */
 typedef struct path_counts {
-    uint64_t rays, lost; /* lost: paths whose light was not finite */
+    uint64_t rays, lost;
 } path_counts;
 
 /* The radiance of one path through pixel (x, y): path `index` of the pixel under `seed`, whichever thread asks. */
 void path_trace(const path_plan *plan, int x, int y, uint64_t index, uint64_t seed, path_counts *counts,
                 float rgb[3]);
-
-/* ---- films ---- */
 
 typedef struct film {
     int width, height;
@@ -45,32 +38,22 @@ static inline size_t film_pixels(const film *f)
     return (size_t)f->width * (size_t)f->height;
 }
 
-/* 0 if there is no memory. */
-int film_make(film *f, int width, int height);
-void film_free(film *f);
-
-/* Adds samples to each pixel, by so many threads, at most 256. */
-void film_add(film *f, const path_plan *plan, uint64_t samples, unsigned threads, uint64_t seed);
+/* The luminance of a pixel. */
+double film_light(const film *f, size_t pixel);
 
 /* The number of threads that the machine runs at once, 1 to 256. */
 unsigned film_processors(void);
 
-/* The luminance of a pixel, and the variance of that mean: not known (NaN) of less than two samples. */
-double film_light(const film *f, size_t pixel);
-double film_variance(const film *f, size_t pixel);
-
 /* ---- samplers side by side ---- */
-
-typedef struct way {
-    path_sampler sampler;
-    path_plan *plan;
-    film film;
-} way;
 
 /* The first way is the measure: the others get as many samples, or as much time of processors. One alone is rendered
  * as it is. */
 typedef struct comparison {
-    way way[SAMPLERS];
+    struct {
+        path_sampler sampler;
+        path_plan *plan;
+        film film;
+    } way[SAMPLERS];
     size_t count;
     int has_equal_time;
     uint64_t samples; /* a pixel, of the first way */
@@ -80,8 +63,8 @@ typedef struct comparison {
     void *user;
 } comparison;
 
-/* Makes plans and films of the ways, of samplers that are given; 0 and an error. To be ended in both cases. */
-int comparison_begin(comparison *c, const scene *s, vndf_error *error);
+/* Makes plans and films of the ways, of samplers that are given; 0 after a complaint. To be ended in both cases. */
+int comparison_begin(comparison *c, const scene *s);
 void comparison_end(comparison *c);
 
 /* Renders the ways in turns, so that a busy machine slows all of them alike. 0 if it was stopped: the films then hold

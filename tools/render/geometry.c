@@ -1,13 +1,8 @@
-/* Rays against shapes, and the hierarchy of boxes about them.
- *
- *   meets      one shape: a sphere by the part of its centre across the ray (small and distant spheres do not cancel),
- *              a parallelogram or half of one by Moeller & Trumbore ("Fast, Minimum Storage Ray/Triangle
- *              Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes between neighbours
- *   build      from the root down, in the middle of the longest side
- *   walk       the nearer child first
- *   describe   the place that was met: computed from the shape, so that it lies on it
- *
- * All of it is in double from coordinates below 1e7: places are exact to some 1e-15 of the coordinates. */
+/* Rays against shapes, and the hierarchy of boxes about them. A sphere is met by the part of its centre across the
+ * ray (small and distant spheres do not cancel), a parallelogram or half of one by Moeller & Trumbore ("Fast,
+ * Minimum Storage Ray/Triangle Intersection", JGT 1997), with edges that overlap by 1e-13, so that no ray passes
+ * between neighbours. The place that was met is computed from the shape, so that it lies on it. All of it is in
+ * double from coordinates below 1e7: places are exact to some 1e-15 of the coordinates. */
 #include "render/geometry.h"
 
 #include <float.h>
@@ -73,14 +68,12 @@ static void enclose(box *to, vec3 p, double margin)
 
 static void enclose_shape(box *to, const shape *s)
 {
-    const vec3 opposite = add(s->corner, s->edge_u);
+    const vec3 right = along(s->corner, 1, s->edge_u);
     enclose(to, s->corner, s->radius);
-    if (s->kind == SHAPE_SPHERE)
-        return;
-    enclose(to, opposite, 0);
-    enclose(to, add(s->corner, s->edge_v), 0);
+    enclose(to, right, 0);
+    enclose(to, along(s->corner, 1, s->edge_v), 0);
     if (s->kind == SHAPE_RECTANGLE)
-        enclose(to, add(opposite, s->edge_v), 0);
+        enclose(to, along(right, 1, s->edge_v), 0);
 }
 
 /* ---- building ---- */
@@ -89,7 +82,7 @@ enum { LEAF_MAX = 3, MIDDLES_DEPTH = 60 /* deeper nodes are halved, which bounds
 
 static vec3 middle_of(const shape *s)
 {
-    return along(s->corner, 0.5, add(s->edge_u, s->edge_v));
+    return along(s->corner, 0.5, along(s->edge_u, 1, s->edge_v));
 }
 
 /* Moves the shapes before the middle of the longest side of all their middles to the front; how many they are. */
@@ -196,9 +189,8 @@ static inline double entry(const box *b, const slabs *s, double limit)
     return near <= far ? near : HUGE_VAL;
 }
 
-/* Meets the shapes of a node that begins at `near`, and of those below it, the nearer child first; stops at any if that
- * is enough. */
-static int visit(const geometry *g, uint32_t at, double near, const slabs *s, const ray *r, int any, hit *h)
+/* Meets the shapes of a node that begins at `near`, and of those below it, the nearer child first. */
+static int visit(const geometry *g, uint32_t at, double near, const slabs *s, const ray *r, hit *h)
 {
     const bvh_node *n = &g->nodes[at];
     int is_met = 0;
@@ -210,68 +202,51 @@ static int visit(const geometry *g, uint32_t at, double near, const slabs *s, co
         return is_met;
     const double one = entry(&n[1].box, s, h->distance), other = entry(&g->nodes[n->at].box, s, h->distance);
     const uint32_t nearer = one <= other ? at + 1 : n->at, farther = one <= other ? n->at : at + 1;
-    is_met = visit(g, nearer, fmin(one, other), s, r, any, h);
-    return (is_met && any) || visit(g, farther, fmax(one, other), s, r, any, h) || is_met;
+    is_met = visit(g, nearer, fmin(one, other), s, r, h);
+    return visit(g, farther, fmax(one, other), s, r, h) || is_met;
 }
 
-static int walk(const geometry *g, const ray *r, int any, hit *h)
+static int walk(const geometry *g, const ray *r, hit *h)
 {
     const slabs s = {{r->origin.x, r->origin.y, r->origin.z},
                      {1 / r->direction.x, 1 / r->direction.y, 1 / r->direction.z}};
     h->distance = r->to;
-    return g->nodes && visit(g, 0, 0, &s, r, any, h);
+    return g->nodes && visit(g, 0, 0, &s, r, h);
 }
 
 int geometry_blocked(const geometry *g, const ray *r)
 {
     hit h;
-    return walk(g, r, 1, &h);
+    return walk(g, r, &h);
 }
 
 /* ---- what was met ---- */
 
-/* With texture coordinates (u, v) at its corners, edge_u = du1 dp/du + dv1 dp/dv, and edge_v likewise; hence dp/du
- * ~ dv2 edge_u - dv1 edge_v, with the sign of the determinant. */
-static void describe_mesh(const shape *s, hit *h)
-{
-    const double weight[3] = {1 - h->u - h->v, h->u, h->v};
-    vec3 n = {0, 0, 0};
-    h->u = h->v = 0;
-    for (int i = 0; i < 3; i++) {
-        n = along(n, weight[i], widen(s->normal[i]));
-        h->u += weight[i] * (double)s->u[i];
-        h->v += weight[i] * (double)s->v[i];
-    }
-    const double dv1 = (double)(s->v[1] - s->v[0]), dv2 = (double)(s->v[2] - s->v[0]);
-    const double determinant = (double)(s->u[1] - s->u[0]) * dv2 - (double)(s->u[2] - s->u[0]) * dv1;
-    const vec3 to = along(scale(s->edge_u, dv2), -dv1, s->edge_v);
-    /* an interpolated normal can turn below the surface */
-    h->shading = frame_about(dot(n, h->normal) > 0 ? unit(n) : h->normal, scale(to, copysign(1, determinant)));
-}
-
 int geometry_hit(const geometry *g, const ray *r, hit *h)
 {
-    if (!walk(g, r, 0, h))
+    if (!walk(g, r, h))
         return 0;
     const shape *s = h->shape;
+    vec3 n = h->normal = unit(cross(s->edge_u, s->edge_v)), to = s->edge_u;
+    h->place = along(along(s->corner, h->u, s->edge_u), h->v, s->edge_v);
     if (s->kind == SHAPE_SPHERE) {
-        const vec3 n = h->normal = unit(subtract(along(r->origin, h->distance, r->direction), s->corner));
+        n = h->normal = unit(subtract(along(r->origin, h->distance, r->direction), s->corner));
         const double longitude = atan2(n.x, n.z) / (2 * PI);
         h->place = along(s->corner, s->radius, n);
-        h->shading = frame_about(n, vec(n.z, 0, -n.x));
         h->u = longitude < 0 ? longitude + 1 : longitude;
         h->v = atan2(hypot(n.x, n.z), n.y) / PI;
-        return 1;
+        to = vec(n.z, 0, -n.x);
+    } else if (s->kind == SHAPE_RECTANGLE) { /* at 1 the image would begin again */
+        h->u = fmin(h->u, 1 - DBL_EPSILON);
+        h->v = fmin(1 - h->v, 1 - DBL_EPSILON);
+    } else { /* an interpolated normal can turn below the surface */
+        const vec3 first = scale(widen(s->normal[0]), 1 - h->u - h->v);
+        const vec3 mean = along(along(first, h->u, widen(s->normal[1])), h->v, widen(s->normal[2]));
+        n = dot(mean, h->normal) > 0 ? unit(mean) : h->normal;
+        to = vec(0, 0, 0);
+        h->u = h->v = 0;
     }
-    h->normal = unit(cross(s->edge_u, s->edge_v));
-    h->place = along(along(s->corner, h->u, s->edge_u), h->v, s->edge_v);
-    if (s->kind == SHAPE_TRIANGLE) {
-        describe_mesh(s, h);
-        return 1;
-    }
-    h->shading = frame_about(h->normal, s->edge_u);
-    h->u = fmin(h->u, 1 - DBL_EPSILON); /* at 1 the image would begin again */
-    h->v = fmin(1 - h->v, 1 - DBL_EPSILON);
+    h->shading = frame_about(n, to);
     return 1;
 }
 

@@ -13,9 +13,9 @@ typedef struct ray {
 typedef enum shape_kind { SHAPE_SPHERE, SHAPE_RECTANGLE, SHAPE_TRIANGLE } shape_kind;
 
 /* A sphere has a radius about `corner`: u is the longitude over 2 pi, from +z by way of +x; v the angle from +y
- * over pi. A rectangle is corner + u edge_u + (1 - v) edge_v, its edges at right angles: an image stands upright
+ * over pi. A rectangle is corner + u edge_u + (1 - v) edge_v, or another parallelogram: an image stands upright
  * where edge_v goes up. A triangle has the corners corner, corner + edge_u, corner + edge_v, which go
- * counter-clockwise seen from outside, and there the normals (all 0: its own) and texture coordinates of a mesh.
+ * counter-clockwise seen from outside, and there the normals of a mesh (all 0: its own).
  * Normals point outwards: edge_u x edge_v. */
 typedef struct shape {
     shape_kind kind;
@@ -23,7 +23,6 @@ typedef struct shape {
     vec3 corner, edge_u, edge_v;
     double radius;
     vndf_vec3 normal[3];
-    float u[3], v[3];
 } shape;
 
 typedef struct bvh_node bvh_node;
@@ -43,10 +42,10 @@ void geometry_free(geometry *g);
 
 /* ---- meshes ---- */
 
-/* Adds the triangles of `length` bytes of an OBJ file with a 0 behind them, which it changes and errors call `name`.
- * 0 and "NAME:LINE: what is wrong", and then none is added. Files that are not trusted are safe. */
+/* Adds the triangles of `length` bytes of an OBJ file with a 0 behind them, which it changes and complaints call
+ * `name`. 0 after a complaint, and then none is added. Files that are not trusted are safe. */
 enum { OBJ_BYTES_MAX = 1 << 29 };
-int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material, vndf_error *error);
+int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material);
 
 /* Scales the shapes from `first` on, turns them about y (z towards x), then moves them. */
 void geometry_place(geometry *g, size_t first, double size, double radians, vec3 move);
@@ -54,10 +53,10 @@ void geometry_place(geometry *g, size_t first, double size, double radians, vec3
 /* ---- rays ---- */
 
 /* Where a ray meets a shape. The z of `shading` is the normal, or the interpolated normal of a mesh; its x is the
- * direction in which u grows. */
+ * direction in which u grows, on a mesh any. */
 typedef struct hit {
     const shape *shape;
-    double distance, u, v; /* u and v: for textures, from the left and the top */
+    double distance, u, v; /* u and v: for textures, from the left and the top; 0 on a mesh */
     vec3 place, normal;    /* the geometric normal, outwards */
     frame shading;
 } hit;

@@ -8,13 +8,28 @@
  * not matter. */
 #include "render/image.h"
 
+#include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/files.h"
 #include "draw/png.h"
-#include "render/lines.h"
+
+int refuse_at(vndf_error *error, const char *name, const char *format, ...)
+{
+    char *text = error->message;
+    const size_t size = sizeof error->message, used = (size_t)snprintf(text, size, "%.360s: ", name);
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text + used, size - used, format, list);
+    va_end(list);
+    for (; *text; text++)
+        *text = (unsigned char)*text < ' ' || *text == 127 ? '?' : *text;
+    error->status = VNDF_ERROR_SYNTAX;
+    return 0;
+}
 
 int image_make(image *made, int width, int height)
 {
@@ -59,50 +74,42 @@ void image_bilinear(const image *of, double u, double v, float rgb[3])
 /* ---- reading ---- */
 
 typedef struct image_head {
-    char word[4][32];
-    int is_float, channels, width, height, is_little;
-    unsigned each; /* bytes a number */
-    double most;   /* of whole numbers */
+    int is_float, channels, is_little;
+    double width, height, most; /* most: of whole numbers */
+    unsigned each;              /* bytes a number */
     size_t size;
 } image_head;
 
-/* A whole number from 1 to `most`, or 0. */
-static int read_side(const char *word, int most)
+static int is_whole(double x, double most)
 {
-    char *end;
-    const long value = strtol(word, &end, 10);
-    return *end == '\0' && value > 0 && value <= most ? (int)value : 0;
+    return x >= 1 && x <= most && x == floor(x);
 }
 
 /* Four words and the blank behind them. */
 static int read_head(const char *bytes, size_t size, image_head *head, const char *name, vndf_error *error)
 {
-    char text[HEAD_MAX + 1] = "", *behind;
-    const char *kind = head->word[0], *number = head->word[3];
+    char text[HEAD_MAX + 1] = "", kind = '0';
     int end = 0;
     memcpy(text, bytes, size < HEAD_MAX ? size : HEAD_MAX);
     for (char *at = text; (at = strchr(at, '#')) != NULL;)
         memset(at, ' ', strcspn(at, "\n"));
-    sscanf(text, " %31s %31s %31s %31s%n", head->word[0], head->word[1], head->word[2], head->word[3], &end);
-    if (strlen(kind) != 2 || kind[0] != 'P' || !strchr("Ff56", kind[1]))
-        return refuse_at(error, name, 0, "this is no PFM, PGM or PPM image, which begins with PF, Pf, P5 or P6");
-    head->is_float = kind[1] == 'F' || kind[1] == 'f';
-    if (!end || !text[end])
-        return refuse_at(error, name, 0, "the head is not whole: after %s come width, height, %s and a blank",
-                         kind, head->is_float ? "a scale" : "the largest value");
-    const double order = strtod(number, &behind);
-    head->channels = kind[1] == 'F' || kind[1] == '6' ? 3 : 1;
-    head->width = read_side(head->word[1], IMAGE_SIDE_MAX);
-    head->height = read_side(head->word[2], IMAGE_SIDE_MAX);
-    head->most = read_side(number, 65535);
-    head->is_little = head->is_float && order < 0.0;
+    sscanf(text, " P%c %lf %lf %lf%n", &kind, &head->width, &head->height, &head->most, &end);
+    if (!kind || !strchr("Ff56", kind))
+        return refuse_at(error, name, "this is no PFM, PGM or PPM image, which begins with PF, Pf, P5 or P6");
+    head->is_float = kind == 'F' || kind == 'f';
+    head->channels = kind == 'F' || kind == '6' ? 3 : 1;
+    if (!end || !isspace((unsigned char)text[end]))
+        return refuse_at(error, name, "the head is not whole: after P%c come width, height, %s and a blank", kind,
+                         head->is_float ? "a scale" : "the largest value");
+    if (!is_whole(head->width, IMAGE_SIDE_MAX) || !is_whole(head->height, IMAGE_SIDE_MAX) ||
+        head->width * head->height > IMAGE_PIXELS_MAX)
+        return refuse_at(error, name, "%g x %g pixels: sides are from 1 to %d, and there are %d pixels at most",
+                         head->width, head->height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+    head->is_little = head->is_float && head->most < 0;
     head->each = head->is_float ? 4 : head->most > 255 ? 2 : 1;
     head->size = (size_t)end + (text[end] == '\r' && text[end + 1] == '\n' ? 2 : 1);
-    if (!head->width || !head->height || (int64_t)head->width * head->height > IMAGE_PIXELS_MAX)
-        return refuse_at(error, name, 0, "%s x %s pixels: sides are from 1 to %d, and there are %d pixels at most",
-                         head->word[1], head->word[2], IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
-    return (head->is_float ? !*behind && fabs(order) > 0.0 : head->most > 0) ||
-           refuse_at(error, name, 0, "'%s' must be %s", number,
+    return (head->is_float ? fabs(head->most) > 0 : is_whole(head->most, 65535)) ||
+           refuse_at(error, name, "%g must be %s", head->most,
                      head->is_float ? "a number other than 0; negative: the least byte comes first"
                                     : "the largest value, from 1 to 65535");
 }
@@ -123,13 +130,13 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
     *made = (image){0};
     if (!read_head(bytes, size, &head, name, error))
         return 0;
-    const size_t pixel = (size_t)head.channels * head.each,
-                 want = (size_t)head.width * (size_t)head.height * pixel;
+    const size_t pixel = (size_t)head.channels * head.each;
+    const size_t want = (size_t)head.width * (size_t)head.height * pixel;
     if (size - head.size != want)
-        return refuse_at(error, name, 0, "%d x %d pixels take %zu bytes after the head, and there are %zu",
+        return refuse_at(error, name, "%g x %g pixels take %zu bytes after the head, and there are %zu",
                          head.width, head.height, want, size - head.size);
-    if (!image_make(made, head.width, head.height))
-        return refuse_at(error, name, 0, "there is no memory for %d x %d pixels", head.width, head.height);
+    if (!image_make(made, (int)head.width, (int)head.height))
+        return refuse_at(error, name, "there is no memory for %g x %g pixels", head.width, head.height);
     made->channels = head.channels;
     made->quantum = head.is_float ? 0 : 1 / head.most;
     const unsigned char *at = (const unsigned char *)bytes + head.size;
@@ -142,7 +149,7 @@ int image_read_bytes(image *made, const char *name, const void *bytes, size_t si
                 if (isfinite(value))
                     continue;
                 image_free(made);
-                return refuse_at(error, name, 0,
+                return refuse_at(error, name,
                                  "the pixel in column %d of row %d (from the top, from 0) is not finite", x, y);
             }
     return 1;
@@ -177,4 +184,83 @@ int image_write_png(FILE *file, const image *written)
     int good = png_write(file, rgb, (size_t)written->width, (size_t)written->height, NULL);
     free(rgb);
     return good && fflush(file) == 0 && !ferror(file);
+}
+
+/* ---- patterns: formulas of (u, v), from the left and the top ---- */
+
+static void blend(float rgb[3], const float other[3], float part)
+{
+    for (int i = 0; i < 3; i++)
+        rgb[i] += part * (other[i] - rgb[i]);
+}
+
+static float smooth(float from, float to, float x)
+{
+    const float t = fminf(fmaxf((x - from) / (to - from), 0.0f), 1.0f);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+static void shade_tiles(float u, float v, float rgb[3])
+{
+    rgb[0] = rgb[1] = rgb[2] = ((int)(u * 16.0f) + (int)(v * 16.0f)) % 2 ? 0.75f : 0.25f;
+}
+
+/* Distance to the nearest of `count` lines, in units of their distance. */
+static float from_line(float u, float count)
+{
+    return fabsf(u * count - floorf(u * count + 0.5f));
+}
+
+static void shade_grid(float u, float v, float rgb[3])
+{
+    static const float red[3] = {0.75f, 0.08f, 0.05f};
+    const int is_line = fminf(from_line(u, 48.0f), from_line(v, 24.0f)) < 0.1f;
+    rgb[0] = rgb[1] = rgb[2] = is_line ? 0.05f : 0.85f;
+    if (fminf(from_line(u, 16.0f), from_line(v, 8.0f)) < 0.03f)
+        memcpy(rgb, red, sizeof red);
+}
+
+/* A grey room, brighter towards the zenith, over a floor that is dark at the horizon; soft boxes. */
+static void shade_studio(float u, float v, float rgb[3])
+{
+    static const float wall[3] = {0.16f, 0.18f, 0.22f}, zenith[3] = {0.5f, 0.52f, 0.55f};
+    static const float floor_near[3] = {0.3f, 0.28f, 0.26f}, floor_far[3] = {0.07f, 0.065f, 0.06f};
+    static const struct {
+        float longitude, latitude, width, height; /* of the middle and of half the sides, degrees */
+        float rgb[3];
+    } boxes[] = {
+        {60.0f, 38.0f, 22.0f, 16.0f, {14.0f, 13.0f, 11.5f}},
+        {155.0f, 34.0f, 8.0f, 30.0f, {6.0f, 6.6f, 8.0f}},
+        {250.0f, 52.0f, 30.0f, 7.0f, {9.0f, 9.0f, 9.0f}},
+        {320.0f, 20.0f, 5.0f, 16.0f, {10.0f, 7.0f, 4.0f}},
+    };
+    const float longitude = 360.0f * u, latitude = 90.0f - 180.0f * v;
+    const int is_floor = latitude < 0.0f;
+    memcpy(rgb, is_floor ? floor_far : wall, sizeof wall);
+    blend(rgb, is_floor ? floor_near : zenith, smooth(0.0f, is_floor ? 70.0f : 90.0f, fabsf(latitude)));
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes && !is_floor; i++) {
+        const float away = fabsf(longitude - boxes[i].longitude), up = fabsf(latitude - boxes[i].latitude);
+        const float across = fminf(away, 360.0f - away);
+        blend(rgb, boxes[i].rgb,
+              smooth(1.02f, 0.96f, across / boxes[i].width) * smooth(1.02f, 0.96f, up / boxes[i].height));
+    }
+}
+
+/* A pixel is the mean of SIDE x SIDE points. */
+int image_make_pattern(image *made, image_pattern of, int width, int height)
+{
+    enum { SIDE = 3 };
+    static void (*const shade[])(float u, float v, float rgb[3]) = {shade_tiles, shade_grid, shade_studio};
+    if ((int64_t)width * height > IMAGE_PIXELS_MAX || !image_make(made, width, height))
+        return 0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            for (int i = 0; i < SIDE * SIDE; i++) {
+                float *rgb = image_pixel(made, x, y), one[3];
+                shade[of](((float)x + ((float)(i % SIDE) + 0.5f) / SIDE) / (float)width,
+                          ((float)y + ((float)(i / SIDE) + 0.5f) / SIDE) / (float)height, one);
+                for (int channel = 0; channel < 3; channel++)
+                    rgb[channel] += one[channel] / (SIDE * SIDE);
+            }
+    return 1;
 }

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "cli/arguments.h"
 #include "vndf.h"
 
 typedef struct image {
@@ -28,6 +29,9 @@ static inline float *image_pixel(const image *of, int x, int y)
 
 /* Interpolates between the centres of pixels; u, v in [0, 1) from the left and the top, repeated outside. */
 void image_bilinear(const image *of, double u, double v, float rgb[3]);
+
+/* What is wrong with a file: "NAME: ...", control characters as '?'. Returns 0. */
+int refuse_at(vndf_error *error, const char *name, const char *format, ...) PRINTF_LIKE(3, 4);
 
 /* Reads an image: PFM of either byte order, whose numbers must be finite; binary PGM and PPM of 8 or 16 bits, 0 to 1.
  * A grey pixel has three equal numbers. Returns 1, or 0 and an error; bytes that are not trusted are safe. Errors

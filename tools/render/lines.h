@@ -1,30 +1,24 @@
-/* Files that are not trusted: their lines as words, and what is said where they are wrong. */
+/* Files that are not trusted: their lines as words. */
 #pragma once
 
 #include "cli/arguments.h"
-#include "vndf.h"
+
+enum { PATH_BYTES = 4096, LINE_WORDS_MAX = 4095 };
 
 typedef struct lines {
     const char *name; /* of the file */
-    vndf_error *error;
-    char *at; /* the rest of the text */
+    char *at;         /* the rest of the text */
     unsigned long long line;
-    char *word[4096]; /* of the line at hand */
+    char place[PATH_BYTES];         /* "vndf render: NAME:LINE", which opens every complaint */
+    char *word[LINE_WORDS_MAX + 1]; /* of the line at hand */
     size_t count;
 } lines;
 
-/* What is wrong, and where: "NAME:LINE: ...", less the line where it is 0. Control characters become '?'. Returns
- * 0. */
-int refuse_at(vndf_error *error, const char *name, unsigned long long line, const char *format, ...)
-    PRINTF_LIKE(4, 5);
-#define refuse_line(in, ...) refuse_at((in)->error, (in)->name, (in)->line, __VA_ARGS__)
+#define wrong(in, ...) (complain((in)->place, __VA_ARGS__), 0)
 
-/* Text of so many bytes, with a 0 behind them, which reading changes. 0 after a refusal. */
-int lines_begin(lines *in, const char *name, char *text, size_t length, vndf_error *error);
+/* Text of so many bytes, with a 0 behind them, which reading changes. 0 after a complaint. */
+int lines_begin(lines *in, const char *name, char *text, size_t length);
 
-/* Reads the next line that has words. Blanks separate them, # begins a comment, "quotes" hold blanks. 0 at the
- * end, -1 after a refusal. */
+/* Reads the next line that has words. Blanks and quotes separate them, # begins a comment. 0 at the end, -1 after a
+ * complaint. */
 int lines_next(lines *in);
-
-/* A decimal number; 0 after a refusal. */
-int read_number(const lines *in, const char *word, double *number);

@@ -1,10 +1,9 @@
 /* Wavefront OBJ, as far as triangles go:
  *
  *   v x y z ...       a corner; numbers after z are ignored
- *   vt u [v [w]]      a texture coordinate, v from the bottom; images here begin at the top, so v is flipped
  *   vn x y z          a normal, of any length
  *   f A B C ...       a convex polygon, cut into triangles (A, B, C), (A, C, D), ...; each corner is v, v/vt,
- *                     v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line
+ *                     v//vn or v/vt/vn: numbers from 1, or from -1 backwards, of items before the line; vt is ignored
  *
  * Blanks separate words, # begins a comment; other lines and triangles without an area are ignored. Where
  * the normals of a triangle contradict the order of its corners, the normals win. */
@@ -18,11 +17,10 @@
 /* Against hostile files: with all of them a mesh takes some 1 GiB, and half of that for its hierarchy. */
 enum { ITEMS_MAX = 1 << 22 };
 
-/* What lines begin with, and how large their numbers may be: beyond 1e6 float has no digits for the place in a
- * texture. */
-enum { V, VT, VN, TABLES };
-static const char *const table_names[TABLES] = {"v", "vt", "vn"};
-static const double reach[TABLES] = {1e7, 1e6, 1e30};
+/* What lines begin with, and how large their numbers may be. */
+enum { V, VN, TABLES };
+static const char *const table_names[TABLES] = {"v", "vn"};
+static const double reach[TABLES] = {1e7, 1e30};
 
 typedef struct reader {
     lines in;
@@ -34,28 +32,25 @@ typedef struct reader {
     int material;
 } reader;
 
-/* The numbers of a line, of which the first three count, as an item of one of the tables; 0 after a complaint. */
+/* The first three numbers of a line as an item of one of the tables; 0 after a complaint. */
 static int read_item(reader *r, int which)
 {
-    double p[3] = {0, 0, 0}, beyond;
-    const size_t least = which == VT ? 1 : 3, count = r->in.count - 1;
-    for (size_t i = 0; i < count; i++)
-        if (!read_number(&r->in, r->in.word[1 + i], i < 3 ? &p[i] : &beyond))
+    double p[3] = {0, 0, 0};
+    if (r->in.count < 4)
+        return wrong(&r->in, "there are %zu numbers of 3 in this line", r->in.count - 1);
+    for (size_t i = 0; i < 3; i++)
+        if (!parse_numbers(r->in.place, table_names[which], r->in.word[1 + i], -reach[which], reach[which], 1, 1,
+                           &p[i]))
             return 0;
-    if (count < least)
-        return refuse_line(&r->in, "there are %zu numbers of %zu in this line", count, least);
-    vec3 at = which == VT ? vec(p[0], 1 - p[1], 0) : vec(p[0], p[1], p[2]);
+    vec3 at = vec(p[0], p[1], p[2]);
     const double largest = fmax(fabs(at.x), fmax(fabs(at.y), fabs(at.z)));
-    if (!(largest <= reach[which]))
-        return refuse_line(&r->in, "numbers of '%s' lie within %g of 0, and these do not", table_names[which],
-                           reach[which]);
     if (which == VN && largest > 0)
         at = unit(scale(at, 1 / largest));
     if (r->of[which].count == r->of[which].room) {
         const size_t room = 64 + 2 * r->of[which].room;
         vec3 *larger = room <= ITEMS_MAX ? realloc(r->of[which].row, room * sizeof *larger) : NULL;
         if (!larger)
-            return refuse_line(&r->in, "there is no memory for more '%s'", table_names[which]);
+            return wrong(&r->in, "there is no memory for more '%s'", table_names[which]);
         r->of[which].row = larger;
         r->of[which].room = room;
     }
@@ -70,32 +65,32 @@ typedef struct corner {
     const vec3 *of[TABLES];
 } corner;
 
+static int find_item(reader *r, int which, const char *number, const vec3 **found)
+{
+    char *behind;
+    const long long given = strtoll(number, &behind, 10); /* a number too large becomes the largest */
+    const long long count = (long long)r->of[which].count;
+    if (behind == number || (*behind && *behind != '/'))
+        return wrong(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", number);
+    if (given == 0 || given > count || given < -count)
+        return wrong(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1", given,
+                     count, table_names[which]);
+    *found = r->of[which].row + (given > 0 ? given - 1 : count + given);
+    return 1;
+}
+
 static int read_corner(reader *r, const char *word, corner *c)
 {
-    const char *at = word;
-    *c = (corner){{NULL, NULL, NULL}};
-    for (int i = 0; i < TABLES && (i == V || *at == '/'); i++) {
-        char *behind;
-        if (i > V && *++at == '/' && i == VT) /* v//vn */
-            continue;
-        const long long given = strtoll(at, &behind, 10); /* a number too large becomes the largest */
-        const long long count = (long long)r->of[i].count;
-        if (behind == at)
-            return refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, in numbers", word);
-        if (given == 0 || given > count || given < -count)
-            return refuse_line(&r->in, "%lld is none of the %lld lines '%s' before this, which are counted from 1",
-                               given, count, table_names[i]);
-        c->of[i] = r->of[i].row + (given > 0 ? given - 1 : count + given);
-        at = behind;
-    }
-    return !*at || refuse_line(&r->in, "'%.40s' should be v, v/vt, v//vn or v/vt/vn, and end there", word);
+    const char *slash = strchr(word, '/'), *normal = slash ? strchr(slash + 1, '/') : NULL;
+    c->of[VN] = NULL;
+    return find_item(r, V, word, &c->of[V]) && (!normal || find_item(r, VN, normal + 1, &c->of[VN]));
 }
 
 /* Normals of a mesh win over the order of its corners. */
 static int add_triangle(reader *r, const corner *a, const corner *b, const corner *c)
 {
     const corner *at[3] = {a, b, c};
-    const int has_normals = a->of[VN] && b->of[VN] && c->of[VN], has_places = a->of[VT] && b->of[VT] && c->of[VT];
+    const int has_normals = a->of[VN] && b->of[VN] && c->of[VN];
     shape t = {.kind = SHAPE_TRIANGLE, .material = r->material, .corner = *a->of[V]};
     t.edge_u = subtract(*b->of[V], t.corner);
     t.edge_v = subtract(*c->of[V], t.corner);
@@ -106,14 +101,12 @@ static int add_triangle(reader *r, const corner *a, const corner *b, const corne
     for (int i = 0; i < 3; i++) {
         t.normal[i] = has_normals ? narrow(*at[i]->of[VN]) : t.normal[i];
         agreement += has_normals ? dot(across, *at[i]->of[VN]) : 0;
-        t.u[i] = has_places ? (float)at[i]->of[VT]->x : 0.0f;
-        t.v[i] = has_places ? (float)at[i]->of[VT]->y : 0.0f;
     }
     if (agreement < 0)
         return add_triangle(r, a, c, b);
     if (r->g->count == ITEMS_MAX)
-        return refuse_line(&r->in, "there are more than %d triangles", ITEMS_MAX);
-    return geometry_add(r->g, &t) || refuse_line(&r->in, "no memory for its triangles");
+        return wrong(&r->in, "there are more than %d triangles", ITEMS_MAX);
+    return geometry_add(r->g, &t) || wrong(&r->in, "no memory for its triangles");
 }
 
 static int read_face(reader *r)
@@ -125,8 +118,7 @@ static int read_face(reader *r)
             return 0;
         c[1] = c[i < 3 ? 1 : 2];
     }
-    return r->in.count > 3 ||
-           refuse_line(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
+    return r->in.count > 3 || wrong(&r->in, "a face has 3 corners or more, this one has %zu", r->in.count - 1);
 }
 
 /* ---- files ---- */
@@ -142,15 +134,15 @@ static int read_line(reader *r)
     return 1;
 }
 
-int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material, vndf_error *error)
+int obj_read_text(geometry *g, const char *name, char *text, size_t length, int material)
 {
     const size_t before = g->count;
     reader r = {.g = g, .material = material};
-    int more, good = lines_begin(&r.in, name, text, length, error);
+    int more, good = lines_begin(&r.in, name, text, length);
     while (good && (more = lines_next(&r.in)))
         good = more > 0 && read_line(&r);
     if (good && g->count == before)
-        good = refuse_line(&r.in, "the file ends here without a triangle that has an area");
+        good = wrong(&r.in, "the file ends here without a triangle that has an area");
     if (!good)
         g->count = before;
     for (int i = 0; i < TABLES; i++)

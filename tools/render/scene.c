@@ -1,7 +1,9 @@
-/* Reads a scene: a line is written as a command with options, and is read as those of the program are. Everything
- * that reads returns 1, or 0 after a complaint that names the line. */
+/* Reads a scene: a line is written as a command with options, and is read as those of the program are. One table has
+ * the options of all lines, what they take and where that is put. What reads returns 1, or 0 after a complaint that
+ * names the line. */
 #include "render/scene.h"
 
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,117 +12,129 @@
 #include "render/lines.h"
 
 /* Against hostile files. */
-enum { BYTES_MAX = 1 << 22, PATH_BYTES = 4096, PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */ };
+enum { PIXELS_MAX = 2 * IMAGE_PIXELS_MAX /* of all images together */ };
 
-static const double far_away = 1e6, least_size = 1e-6, brightest = 1e6;
+#define FAR_AWAY 1e6
+#define LEAST_SIZE 1e-6
+#define BRIGHTEST 1e6
 
 enum { CAMERA, ENVIRONMENT, MATERIAL, SPHERE, RECTANGLE, MESH, STATEMENTS };
 static const char *const statements[] = {"camera", "environment", "material", "sphere", "rectangle", "mesh", NULL};
 
 static const char preface[] =
-    "A scene is text. A line is written as a command with options, whose values have no blanks or are\n"
-    "\"between quotes\"; # begins a comment. Materials are defined before they are used. Colours are\n"
-    "linear, +y is the zenith, paths are relative to the file. Places and sizes are up to 1e6.\n"
-    "A camera and some light are needed. Shapes of dielectrics are to be closed; of others, lights too, the\n"
-    "back is black. An image is FILE.pfm, or one of these, with :WIDTH,HEIGHT behind it or of 512,512 pixels:\n"
-    "tiles, checks; grid, lines; studio, soft boxes in a grey room, an environment. It stands upright on\n"
-    "rectangles, along edge-u and edge-v; goes around spheres from +z by way of +x, its top at +y; lies on\n"
-    "meshes as vt say.\n"
+    "A scene is text. A line is written as a command with options, whose values have no blanks; # begins a\n"
+    "comment. Materials are defined before they are used. Colours are linear, +y is the zenith, paths are\n"
+    "relative to the file. Places and sizes are up to 1e6. A camera and some light are needed. Shapes of\n"
+    "dielectrics are to be closed; of others, lights too, the back is black. A distribution is ggx, beckmann,\n"
+    "FILE.vndf, or slope=EXPR, which is built here as by `vndf build --slope`. An image is FILE.pfm, or one of\n"
+    "these, with :WIDTH,HEIGHT behind it or of 512,512 pixels: tiles, checks; grid, lines; studio, soft boxes in\n"
+    "a grey room, an environment. An environment has the zenith in its top row, -z in its middle column, +x at\n"
+    "its right; an image stands upright on rectangles, along edge-u and edge-v, and goes around spheres from +z\n"
+    "by way of +x, its top at +y. From the front of a rectangle edge-v is left of edge-u.\n"
     "\n"
     "camera --from 0,1,5 --to 0,0.5,0 --field 35\n"
     "environment --constant 1,1,1\n"
     "material red-gold --conductor gold --distribution ggx --alpha 0.2\n"
     "sphere --centre 0,0.5,0 --radius 0.5 --material red-gold\n";
 
-static const char *const manual[STATEMENTS] = {
-    "camera                             once at most, as environment\n"
-    "  --from X,Y,Z, --to X,Y,Z, --up X,Y,Z  (up: 0,1,0)\n"
-    "  --field DEGREES                  of view, across the height, 1 to 170 (40)\n"
-    "  --width PIXELS, --height PIXELS  of the film, 1 to 16384 (640, 360)\n"
-    "  --depth N                        surfaces on a path at most, 1 to 10000 (12)\n"
-    "  --samples N                      a pixel (64)\n"
-    "  --exposure F                     brightness of a PNG (1)\n",
-    "environment                        light from far away, 0 to 1e6\n"
-    "  --constant R,G,B\n"
-    "  --image IMAGE                    longitude over latitude as seen from inside: its top row the\n"
-    "                                   zenith, its middle column -z, +x at its right\n"
-    "    --scale F, --turn DEGREES      times F, turned about y (1, 0)\n",
-    "material NAME\n"
-    "  --conductor gold|silver|copper|aluminium\n"
-    "  --eta R,G,B                      another conductor, 0 to 1000\n"
-    "    --k R,G,B                      the imaginary part (0,0,0)\n"
-    "  --dielectric N                   index of refraction inside over outside, 0.01 to 100\n"
-    "  --shape                          the microsurface alone: all is reflected\n"
-    "  --matte R,G,B                    0 to 1\n"
-    "  --light R,G,B                    radiance from the front of a sphere or a rectangle, 0 to 1e6\n"
-    "  --distribution D                 of the first four: ggx, beckmann, FILE.vndf, or built here as by\n"
-    "                                   `vndf build`: family=NAME:PARAMETERS, slope=EXPR, ndf=EXPR\n"
-    "    --alpha A[,AY]                 stretches its slopes, 1e-6 to 1e3; ggx and beckmann need it (1)\n"
-    "    --alpha-map IMAGE              alpha times the image's red, which is above 0\n"
-    "    --scattering single|multiple   multiple: light goes on between microfacets (single)\n"
-    "    --colour R,G,B                 multiplies, 0 to 1 (1,1,1)\n"
-    "  --colour-map IMAGE               multiplies, 0 to 1; not of lights\n",
-    "sphere\n"
-    "  --centre X,Y,Z, --radius R, --material NAME\n",
-    "rectangle\n"
-    "  --corner X,Y,Z, --edge-u X,Y,Z, --edge-v X,Y,Z, --material NAME\n"
-    "                                   edges at right angles; from the front, edge-v is left of edge-u\n",
-    "mesh\n"
-    "  --file FILE.obj, --material NAME\n"
-    "  --scale F, --turn DEGREES, --move X,Y,Z  scaled, then turned about y, then moved (1, 0, 0,0,0)\n"};
+/* What a line says, until it is part of the scene. */
+typedef struct content {
+    material material;
+    shape shape;
+    double size, turn;
+    vec3 move;
+} content;
+
+/* What an option takes: so many numbers, the second of two may be left out; an image, so many of whose channels are
+ * in the range; of count 0 something else. */
+typedef enum option_kind { DOUBLES, FLOATS, WHOLE, IMAGE } option_kind;
+
+static const struct scene_option {
+    int of, is_needed;
+    const char *form, *help; /* form: as the help of a command has it */
+    option_kind kind;
+    size_t count;
+    double low, high;
+    size_t at; /* of camera and environment in the scene, of others in the content of the line */
+} options[] = {
+#define SCENE(member) offsetof(scene, member)
+#define LINE(member) offsetof(content, member)
+    {CAMERA, 1, "  --from X,Y,Z", "the eye", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, SCENE(from)},
+    {CAMERA, 1, "  --to X,Y,Z", "what it looks at", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, SCENE(to)},
+    {CAMERA, 0, "  --up X,Y,Z", "(0,1,0)", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, SCENE(up)},
+    {CAMERA, 0, "  --field DEGREES", "of view, across the height (40)", DOUBLES, 1, 1, 170, SCENE(field)},
+    {CAMERA, 0, "  --width PIXELS", "across (640)", WHOLE, 1, 1, IMAGE_SIDE_MAX, SCENE(width)},
+    {CAMERA, 0, "  --height PIXELS", "down (360)", WHOLE, 1, 1, IMAGE_SIDE_MAX, SCENE(height)},
+    {CAMERA, 0, "  --depth N", "surfaces on a path at most (12)", WHOLE, 1, 1, 10000, SCENE(depth)},
+    {CAMERA, 0, "  --samples N", "a pixel (64)", WHOLE, 1, 1, 1e9, SCENE(samples)},
+    {CAMERA, 0, "  --exposure F", "brightness of a PNG (1)", DOUBLES, 1, 1e-6, 1e6, SCENE(exposure)},
+    {ENVIRONMENT, 0, "  --constant R,G,B", "the same everywhere", FLOATS, 3, 0, BRIGHTEST,
+     SCENE(environment.constant)},
+    {ENVIRONMENT, 0, "  --image IMAGE", "longitude over latitude", IMAGE, 3, 0, BRIGHTEST, SCENE(environment.map)},
+    {ENVIRONMENT, 0, "    --scale F", "times F (1)", DOUBLES, 1, 0, 1e6, SCENE(environment.scale)},
+    {ENVIRONMENT, 0, "    --turn DEGREES", "about y (0)", DOUBLES, 1, -360, 360, SCENE(environment.turn)},
+    {MATERIAL, 0, "  --conductor gold|silver|copper|aluminium", "a metal", DOUBLES, 0, 0, 0, 0},
+    {MATERIAL, 0, "  --eta R,G,B", "another conductor", FLOATS, 3, 0, 1000, LINE(material.is.conductor_eta)},
+    {MATERIAL, 0, "    --k R,G,B", "the imaginary part (0,0,0)", FLOATS, 3, 0, 1000,
+     LINE(material.is.conductor_k)},
+    {MATERIAL, 0, "  --dielectric N", "index inside over outside", FLOATS, 1, 0.01, 100, LINE(material.is.eta)},
+    {MATERIAL, 0, "  --shape", "the microsurface alone: all is reflected", DOUBLES, 0, 0, 0, 0},
+    {MATERIAL, 0, "  --matte R,G,B", "Lambert's", FLOATS, 3, 0, 1, LINE(material.colour)},
+    {MATERIAL, 0, "  --light R,G,B", "of a sphere or rectangle", FLOATS, 3, 0, BRIGHTEST, LINE(material.colour)},
+    {MATERIAL, 0, "  --distribution D", "of the first four", DOUBLES, 0, 0, 0, 0},
+    {MATERIAL, 0, "    --alpha A[,AY]", "stretches its slopes (1)", DOUBLES, 0, 0, 0, 0},
+    {MATERIAL, 0, "    --alpha-map IMAGE", "alpha times its red", IMAGE, 1, 1e-6, 1e3, LINE(material.alpha_map)},
+    {MATERIAL, 0, "    --scattering single|multiple", "(single)", DOUBLES, 0, 0, 0, 0},
+    {MATERIAL, 0, "    --colour R,G,B", "multiplies (1,1,1)", FLOATS, 3, 0, 1, LINE(material.colour)},
+    {MATERIAL, 0, "  --colour-map IMAGE", "multiplies", IMAGE, 3, 0, 1, LINE(material.colour_map)},
+    {SPHERE, 1, "  --centre X,Y,Z", "its middle", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, LINE(shape.corner)},
+    {SPHERE, 1, "  --radius R", "its size", DOUBLES, 1, LEAST_SIZE, FAR_AWAY, LINE(shape.radius)},
+    {SPHERE, 1, "  --material NAME", "defined before", DOUBLES, 0, 0, 0, 0},
+    {RECTANGLE, 1, "  --corner X,Y,Z", "of it", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, LINE(shape.corner)},
+    {RECTANGLE, 1, "  --edge-u X,Y,Z", "from there", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, LINE(shape.edge_u)},
+    {RECTANGLE, 1, "  --edge-v X,Y,Z", "from there", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, LINE(shape.edge_v)},
+    {RECTANGLE, 1, "  --material NAME", "defined before", DOUBLES, 0, 0, 0, 0},
+    {MESH, 1, "  --file FILE.obj", "triangles", DOUBLES, 0, 0, 0, 0},
+    {MESH, 1, "  --material NAME", "defined before", DOUBLES, 0, 0, 0, 0},
+    {MESH, 0, "  --scale F", "its size, (1)", DOUBLES, 1, LEAST_SIZE, 1e6, LINE(size)},
+    {MESH, 0, "  --turn DEGREES", "then about y (0)", DOUBLES, 1, -360, 360, LINE(turn)},
+    {MESH, 0, "  --move X,Y,Z", "then (0,0,0)", DOUBLES, 3, -FAR_AWAY, FAR_AWAY, LINE(move)},
+};
+enum { OPTIONS = sizeof options / sizeof *options };
+
+/* The options of a statement, as the help of a command has them. Until the next call. */
+static const char *describe(int of)
+{
+    static char text[4096];
+    size_t at = 0;
+    for (const struct scene_option *o = options; o < options + OPTIONS; o++) {
+        const int has_range = o->count > 0 && o->low > -FAR_AWAY;
+        if (o->of == of)
+            at +=
+                (size_t)snprintf(text + at, sizeof text - at, has_range ? "%-40s  %s, %g to %g\n" : "%-40s  %s\n",
+                                 o->form, o->help, o->low, o->high);
+    }
+    return text;
+}
 
 void scene_print_manual(void)
 {
     fputs(preface, stdout);
-    for (size_t i = 0; i < STATEMENTS; i++)
-        printf("\n%s", manual[i]);
+    for (int i = 0; i < STATEMENTS; i++)
+        printf("\n%s%s\n%s", statements[i], i == MATERIAL ? " NAME" : "", describe(i));
 }
 
 typedef struct reader {
-    const char *name; /* of the file */
+    lines in;
     scene *made;
-    char command[PATH_BYTES]; /* "vndf render: NAME:LINE", which opens every complaint */
-    arguments given;          /* what the line says */
-    unsigned seen;            /* a bit for each statement */
-    size_t pixels;            /* of all images so far */
+    arguments given; /* what the line says */
+    content line;
+    unsigned seen;             /* a bit for each statement */
+    size_t pixels;             /* of all images so far */
+    char path[2 * PATH_BYTES]; /* longer than a system allows: it is no other when it is cut */
     /* names of materials, what tables and images are made from, NULL at the end */
-    const char *materials[SCENE_MATERIALS_MAX + 1], *tables[SCENE_TABLES_MAX + 1], *images[SCENE_IMAGES_MAX + 1];
+    const char *materials[SCENE_MATERIALS_MAX + 1], *tables[SCENE_FILES_MAX + 1], *images[SCENE_FILES_MAX + 1];
 } reader;
-
-#define wrong(r, ...) (complain((r)->command, __VA_ARGS__), 0)
-
-/* ---- what options hold ---- */
-
-/* Three numbers; what is not given stays. */
-static int read_three(reader *r, const char *option, double low, double high, double *three)
-{
-    const char *text = option_value(&r->given, option);
-    return !text || parse_numbers(r->command, option, text, low, high, 3, 3, three);
-}
-
-static int read_colour(reader *r, const char *option, double high, float rgb[3])
-{
-    double three[3] = {(double)rgb[0], (double)rgb[1], (double)rgb[2]};
-    const int good = read_three(r, option, 0, high, three);
-    for (int i = 0; i < 3; i++)
-        rgb[i] = (float)three[i];
-    return good;
-}
-
-/* A place or an edge, which has to be there. */
-static int read_place(reader *r, const char *option, vec3 *place)
-{
-    return option_value(&r->given, option) ? read_three(r, option, -far_away, far_away, &place->x)
-                                           : wrong(r, "%s X,Y,Z is missing", option);
-}
-
-static int read_whole(reader *r, const char *option, double high, int *number)
-{
-    unsigned long long whole = (unsigned long long)*number;
-    const int good = option_count(&r->given, option, 1, high, &whole);
-    *number = (int)whole;
-    return good;
-}
 
 static size_t find(const char *const *list, const char *word)
 {
@@ -130,162 +144,133 @@ static size_t find(const char *const *list, const char *word)
     return i;
 }
 
-/* The path relative to the working folder. */
-static int path_of(reader *r, const char *file, char path[PATH_BYTES])
+/* The path of a file of the scene, relative to the working folder. Until the next call. */
+static const char *path_of(reader *r, const char *file)
 {
-    const char *slash = strrchr(r->name, '/');
-    const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->name) + 1;
-    return snprintf(path, PATH_BYTES, "%.*s%s", folder, r->name, file) < PATH_BYTES ||
-           wrong(r, "a path has at most %d letters, with the folder of the scene", PATH_BYTES - 1);
+    const char *slash = strrchr(r->in.name, '/');
+    const int folder = file[0] == '/' || !slash ? 0 : (int)(slash - r->in.name) + 1;
+    snprintf(r->path, sizeof r->path, "%.*s%s", folder, r->in.name, file);
+    return r->path;
 }
 
-/* All of a file of the scene, and its path, to be freed; NULL after a complaint. */
-static char *read_file(reader *r, const char *file, size_t most, char path[PATH_BYTES], size_t *size)
-{
-    return path_of(r, file, path) ? input_read(r->command, path, most, size) : NULL;
-}
+/* ---- images ---- */
 
-/* ---- images -------------------------------------------------------------------------------------- */
-
-/* From a file, whose numbers have to be floats: whole ones are no linear light. */
-static int read_pfm(reader *r, const char *file, image *made)
-{
-    vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
-    size_t size;
-    char *bytes = read_file(r, file, IMAGE_BYTES_MAX, path, &size);
-    const int good = bytes && image_read_bytes(made, path, bytes, size, &error);
-    free(bytes);
-    if (error.message[0])
-        return wrong(r, "%s", error.message);
-    return good && (made->quantum == 0 || wrong(r, "%s holds whole numbers; a PFM is needed", path));
-}
-
-/* "studio", "grid:4096,2048" or a file. */
+/* "studio", "grid:4096,2048", or a file whose numbers are floats: whole ones are no linear light. */
 static int make_image(reader *r, const char *option, const char *text, image *made)
 {
     static const char *const patterns[] = {"tiles", "grid", "studio", NULL};
-    char name[16];
+    const char *sides = strchr(text, ':');
+    vndf_error error = {VNDF_OK, ""};
     double side[2] = {512, 512};
-    const size_t length = strcspn(text, ":");
-    snprintf(name, sizeof name, "%.*s", (int)(length < sizeof name ? length : 0), text);
-    const size_t of = find(patterns, name);
-    if (!patterns[of])
-        return read_pfm(r, text, made);
-    if (text[length] && parse_numbers(r->command, option, text + length + 1, 1, IMAGE_SIDE_MAX, 2, 2, side) != 2)
-        return 0;
-    return image_make_pattern(made, (image_pattern)of, (int)side[0], (int)side[1]) ||
-           wrong(r, "there is no memory for %.0f x %.0f pixels", side[0], side[1]);
+    char name[8] = "";
+    size_t size, of = sscanf(text, "%7[^:]", name) == 1 ? find(patterns, name) : 3;
+    if (patterns[of])
+        return (!sides || parse_numbers(r->in.place, option, sides + 1, 1, IMAGE_SIDE_MAX, 2, 2, side)) &&
+               (image_make_pattern(made, (image_pattern)of, (int)side[0], (int)side[1]) ||
+                wrong(&r->in, "there is no memory for %.0f x %.0f pixels", side[0], side[1]));
+    char *bytes = input_read(r->in.place, path_of(r, text), IMAGE_BYTES_MAX, &size);
+    const int good =
+        bytes && (image_read_bytes(made, r->path, bytes, size, &error) || wrong(&r->in, "%s", error.message));
+    free(bytes);
+    return good && (made->quantum == 0 || wrong(&r->in, "%s holds whole numbers; a PFM is needed", r->path));
 }
 
-/* The image that an option names, if it is there: its first channels have to be within a range. The same text is one
- * image. */
-static int find_image(reader *r, const char *option, int channels, double low, double high, const image **found)
+/* The same text is one image. */
+static int find_image(reader *r, const struct scene_option *o, const char *name, const char *text,
+                      const image **found)
 {
-    const char *text = option_value(&r->given, option);
-    const size_t i = text ? find(r->images, text) : 0;
+    const size_t i = find(r->images, text);
     image *map = &r->made->images[i];
-    if (!text)
-        return 1;
-    if (i == SCENE_IMAGES_MAX)
-        return wrong(r, "these are more than %d images", SCENE_IMAGES_MAX);
-    if (!map->rgb && !make_image(r, option, text, map))
+    if (i == SCENE_FILES_MAX)
+        return wrong(&r->in, "these are more than %d images", SCENE_FILES_MAX);
+    if (!map->rgb && !make_image(r, name, text, map))
         return 0;
     r->pixels += r->images[i] ? 0 : (size_t)map->width * (size_t)map->height;
     r->images[i] = text;
     *found = map;
     for (int k = 0; k < map->width * map->height * 3; k++) {
         const double value = (double)map->rgb[k];
-        if (k % 3 < channels && !(value >= low && value <= high))
-            return wrong(r, "as %s the image must be from %g to %g; it is %g in column %d of row %d", option, low,
-                         high, value, k / 3 % map->width, k / 3 / map->width);
+        if ((size_t)k % 3 < o->count && !(value >= o->low && value <= o->high))
+            return wrong(&r->in, "as %s the image must be from %g to %g; it is %g in column %d of row %d", name,
+                         o->low, o->high, value, k / 3 % map->width, k / 3 / map->width);
     }
-    return r->pixels <= PIXELS_MAX || wrong(r, "all images together have more than %d pixels", PIXELS_MAX);
+    return r->pixels <= PIXELS_MAX || wrong(&r->in, "all images together have more than %d pixels", PIXELS_MAX);
 }
 
-/* ---- once in a scene ---- */
+/* ---- options ---- */
+
+/* Puts what was given for an option to its place. */
+static int put_option(reader *r, const struct scene_option *o, const char *name, const char *text, void *at)
+{
+    double x[3];
+    if (o->kind == IMAGE)
+        return find_image(r, o, name, text, at);
+    if (!parse_numbers(r->in.place, name, text, o->low, o->high, o->count, o->count, x))
+        return 0;
+    for (size_t i = 0; i < o->count; i++)
+        if (o->kind == WHOLE)
+            *(int *)at = (int)x[i];
+        else if (o->kind == DOUBLES)
+            ((double *)at)[i] = x[i];
+        else
+            ((float *)at)[i] = (float)x[i];
+    return o->kind != WHOLE || *x == floor(*x) || wrong(&r->in, "%s '%s' is not a whole number", name, text);
+}
+
+static int put_options(reader *r, int of)
+{
+    char *base = of <= ENVIRONMENT ? (char *)r->made : (char *)&r->line;
+    for (const struct scene_option *o = options; o < options + OPTIONS; o++) {
+        char name[24];
+        const char *text = o->of == of && sscanf(o->form, "%23s", name) ? option_value(&r->given, name) : NULL;
+        if (o->of == of && o->is_needed && !text)
+            return wrong(&r->in, "%s is missing", o->form + 2);
+        if (text && o->count && !put_option(r, o, name, text, base + o->at))
+            return 0;
+    }
+    return 1;
+}
 
 static int read_camera(reader *r)
 {
     scene *s = r->made;
-    if (!read_place(r, "--from", &s->from) || !read_place(r, "--to", &s->to) ||
-        !read_three(r, "--up", -far_away, far_away, &s->up.x) ||
-        !option_number(&r->given, "--field", 1, 170, &s->field) ||
-        !read_whole(r, "--width", IMAGE_SIDE_MAX, &s->width) ||
-        !read_whole(r, "--height", IMAGE_SIDE_MAX, &s->height) || !read_whole(r, "--depth", 10000, &s->depth) ||
-        !read_whole(r, "--samples", 1e9, &s->samples) ||
-        !option_number(&r->given, "--exposure", 1e-6, 1e6, &s->exposure))
-        return 0;
     const vec3 forward = subtract(s->to, s->from);
-    s->field *= PI / 180;
-    if ((int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
-        return wrong(r, "%d x %d pixels are more than %d", s->width, s->height, IMAGE_PIXELS_MAX);
-    if (!(length(forward) >= least_size))
-        return wrong(r, "--from and --to are the same place");
+    if (!(length(forward) >= LEAST_SIZE))
+        return wrong(&r->in, "--from and --to are the same place");
     return length(cross(forward, s->up)) >= 1e-6 * length(forward) * length(s->up) ||
-           wrong(r, "--up is the direction of the view");
-}
-
-static int read_environment(reader *r)
-{
-    static const char *const ways[] = {"--constant", "--image", NULL};
-    environment *e = &r->made->environment;
-    const int good = option_alone(&r->given, ways) && read_colour(r, "--constant", brightest, e->constant) &&
-                     option_number(&r->given, "--scale", 0, 1e6, &e->scale) &&
-                     option_number(&r->given, "--turn", -360, 360, &e->turn) &&
-                     find_image(r, "--image", 3, 0, brightest, &e->map);
-    e->turn /= 360;
-    return good;
-}
-
-/* ---- distributions ---- */
-
-/* From the text of --distribution, which is no closed form. */
-static vndf_distribution *make_table(reader *r, const char *text)
-{
-    static const char *const forms[] = {"family=", "slope=", "ndf="};
-    chosen_distribution chosen;
-    vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
-    size_t form = 0;
-    while (form < 3 && strncmp(text, forms[form], strlen(forms[form])) != 0)
-        form++;
-    if (form == 3)
-        return path_of(r, text, path) && distribution_open(&chosen, r->command, path, 0) ? chosen.owned : NULL;
-    text += strlen(forms[form]);
-    vndf_source *source = form == 0   ? vndf_source_family(text, &error)
-                          : form == 1 ? vndf_source_slope_expression(text, NULL, 0, &error)
-                                      : vndf_source_ndf_expression(text, NULL, 0, &error);
-    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
-    vndf_source_free(source);
-    return built ? built : (complain(r->command, "%s", error.message), NULL);
-}
-
-/* Materials with the same text share a table. */
-static int read_distribution(reader *r, vndf_description *is)
-{
-    const char *text = option_value(&r->given, "--distribution"), *alpha = option_value(&r->given, "--alpha");
-    const int is_ggx = strcmp(text, "ggx") == 0, is_closed = is_ggx || strcmp(text, "beckmann") == 0;
-    double both[2] = {1, 1};
-    const size_t count = alpha ? parse_numbers(r->command, "--alpha", alpha, 1e-6, 1e3, 1, 2, both) : 1;
-    is->surface = vndf_rough(is_ggx ? vndf_ggx() : vndf_beckmann(), (float)both[0], (float)both[count == 2]);
-    if (!count)
-        return 0;
-    if (is_closed)
-        return alpha || wrong(r, "%s needs --alpha A or --alpha AX,AY", text);
-    const size_t i = find(r->tables, text);
-    if (i == SCENE_TABLES_MAX)
-        return wrong(r, "these are more than %d tables", SCENE_TABLES_MAX);
-    if (!r->tables[i]) {
-        if (!(r->made->tables[i] = make_table(r, text)))
-            return 0;
-        r->tables[i] = text;
-    }
-    is->surface.distribution = r->made->tables[i];
-    return 1;
+           wrong(&r->in, "--up is the direction of the view");
 }
 
 /* ---- materials ---- */
+
+/* A file, or a formula over slopes. */
+static vndf_distribution *make_table(reader *r, const char *text)
+{
+    chosen_distribution chosen;
+    vndf_error error = {VNDF_OK, ""};
+    if (strncmp(text, "slope=", 6) != 0)
+        return distribution_open(&chosen, r->in.place, path_of(r, text), 0) ? chosen.owned : NULL;
+    vndf_source *source = vndf_source_slope_expression(text + 6, NULL, 0, &error);
+    vndf_distribution *built = source ? vndf_build(source, NULL, NULL, &error) : NULL;
+    vndf_source_free(source);
+    return built ? built : (complain(r->in.place, "%s", error.message), NULL);
+}
+
+/* The same text is one table. NULL after a complaint. */
+static const vndf_distribution *find_distribution(reader *r, const char *text)
+{
+    const size_t i = find(r->tables, text);
+    if (strcmp(text, "ggx") == 0)
+        return vndf_ggx();
+    if (strcmp(text, "beckmann") == 0)
+        return vndf_beckmann();
+    if (i == SCENE_FILES_MAX)
+        return complain(r->in.place, "these are more than %d tables", SCENE_FILES_MAX), NULL;
+    if (!r->tables[i])
+        r->made->tables[i] = make_table(r, text);
+    r->tables[i] = text;
+    return r->made->tables[i];
+}
 
 /* Indices of refraction of the metals of --conductor for red, green and blue: measured spectra weighed by the
  * sensitivities of the three colours. They agree to three digits with the lists of the renderers Tungsten and
@@ -301,221 +286,163 @@ static const float metals[][2][3] = {
 enum { METAL, ETA, DIELECTRIC, SHAPE, MATTE, LIGHT };
 static const char *const kinds[] = {"--conductor", "--eta", "--dielectric", "--shape", "--matte", "--light", NULL};
 
-static int read_rough(reader *r, size_t kind, material *m)
+static int make_rough(reader *r, size_t kind, vndf_description *is)
 {
-    vndf_description *is = &m->is;
+    static const vndf_fresnel fresnel[] = {VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_CONDUCTOR, VNDF_FRESNEL_DIELECTRIC,
+                                           VNDF_FRESNEL_NONE};
+    const int metal = option_choice(&r->given, "--conductor", 0);
     vndf_material resolved;
     vndf_error error = {VNDF_OK, ""};
-    const int metal = option_choice(&r->given, "--conductor", 0);
-    double index = 0;
-    memcpy(is->conductor_eta, metals[metal][0], sizeof metals[metal][0]);
-    if (kind == METAL)
-        memcpy(is->conductor_k, metals[metal][1], sizeof metals[metal][1]);
-    if (!read_colour(r, "--eta", 1000, is->conductor_eta) || !read_colour(r, "--k", 1000, is->conductor_k) ||
-        !option_number(&r->given, "--dielectric", 0.01, 100, &index) || !read_distribution(r, is))
+    if (!roughness_from(r->in.place, option_value(&r->given, "--alpha"), &is->surface) ||
+        !(is->surface.distribution = find_distribution(r, option_value(&r->given, "--distribution"))))
         return 0;
-    is->eta = (float)index;
-    is->effects.fresnel = kind <= ETA          ? VNDF_FRESNEL_CONDUCTOR
-                          : kind == DIELECTRIC ? VNDF_FRESNEL_DIELECTRIC
-                                               : VNDF_FRESNEL_NONE;
+    if (kind == METAL) {
+        memcpy(is->conductor_eta, metals[metal][0], sizeof is->conductor_eta);
+        memcpy(is->conductor_k, metals[metal][1], sizeof is->conductor_k);
+    }
+    is->effects.fresnel = fresnel[kind];
     is->effects.lobes = kind == DIELECTRIC ? VNDF_LOBES_BOTH : VNDF_LOBES_REFLECTION;
     is->effects.scattering =
         option_choice(&r->given, "--scattering", 0) ? VNDF_SCATTERING_MULTIPLE : VNDF_SCATTERING_SINGLE;
-    const double least = 1e-6 / fmin((double)is->surface.xx, (double)is->surface.yy);
-    const double most = 1e3 / fmax((double)is->surface.xx, (double)is->surface.yy);
-    return find_image(r, "--alpha-map", 1, least, most, &m->alpha_map) &&
-           (vndf_material_resolve(is, &resolved, &error) == VNDF_OK || wrong(r, "%s", error.message));
+    return vndf_material_resolve(is, &resolved, &error) == VNDF_OK || wrong(&r->in, "%s", error.message);
 }
 
 static int read_material(reader *r)
 {
     const char *name = r->given.positional.count == 1 ? r->given.positional.item[0] : NULL;
+    material *made = &r->line.material;
     if (!name)
-        return wrong(r, "'material' needs one name");
+        return wrong(&r->in, "'material' needs one name");
     if (r->materials[find(r->materials, name)])
-        return wrong(r, "there is another material '%s' already", name);
+        return wrong(&r->in, "there is another material '%s' already", name);
     if (r->made->material_count == SCENE_MATERIALS_MAX)
-        return wrong(r, "these are more than %d materials", SCENE_MATERIALS_MAX);
-    if (!option_alone(&r->given, kinds))
+        return wrong(&r->in, "these are more than %d materials", SCENE_MATERIALS_MAX);
+    const char *is = option_alone(&r->given, kinds);
+    const size_t kind = is ? find(kinds, is) : 0;
+    if (!is)
         return 0;
-    const size_t kind = find(kinds, option_among(&r->given, kinds));
-    r->materials[r->made->material_count] = name;
-    material *made = &r->made->materials[r->made->material_count++];
-    *made = (material){.name = name, .colour = {1.0f, 1.0f, 1.0f}};
-    made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
     if (!option_value(&r->given, "--distribution") != (kind > SHAPE))
-        return wrong(r, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
-    if (kind == LIGHT && option_value(&r->given, "--colour-map"))
-        return wrong(r, "--light has no --colour-map");
-    return read_colour(r, "--matte", 1, made->colour) && read_colour(r, "--light", brightest, made->colour) &&
-           read_colour(r, "--colour", 1, made->colour) &&
-           find_image(r, "--colour-map", 3, 0, 1, &made->colour_map) &&
-           (kind > SHAPE || read_rough(r, kind, made));
+        return wrong(&r->in, "%s %s --distribution D", kinds[kind], kind > SHAPE ? "has no" : "needs");
+    if (kind == LIGHT && made->colour_map)
+        return wrong(&r->in, "--light has no --colour-map");
+    made->name = name;
+    made->kind = kind <= SHAPE ? MATERIAL_ROUGH : kind == MATTE ? MATERIAL_MATTE : MATERIAL_LIGHT;
+    if (kind <= SHAPE && !make_rough(r, kind, &made->is))
+        return 0;
+    r->materials[r->made->material_count] = name;
+    r->made->materials[r->made->material_count++] = *made;
+    return 1;
 }
 
 /* ---- shapes ---- */
 
-/* 0 after a complaint. */
-static int read_its_material(reader *r, int *index)
-{
-    const char *name = option_value(&r->given, "--material");
-    if (!name)
-        return wrong(r, "--material NAME is missing");
-    const size_t of = find(r->materials, name);
-    *index = (int)of;
-    return r->materials[of] || wrong(r, "--material '%s' is no material that is defined before this%s", name,
-                                     did_you_mean(name, r->materials, of));
-}
-
-static int add_shape(reader *r, shape made)
-{
-    return read_its_material(r, &made.material) &&
-           (geometry_add(&r->made->geometry, &made) || wrong(r, "there is no memory for this shape"));
-}
-
-static int read_sphere(reader *r)
-{
-    shape made = {.kind = SHAPE_SPHERE};
-    if (!read_place(r, "--centre", &made.corner) ||
-        !option_number(&r->given, "--radius", least_size, far_away, &made.radius))
-        return 0;
-    return made.radius > 0 ? add_shape(r, made) : wrong(r, "--radius R is missing");
-}
-
-/* The text has few digits, so that edges that are meant to be at right angles may be a little off: the second one
- * is corrected. */
-static int read_rectangle(reader *r)
-{
-    shape made = {.kind = SHAPE_RECTANGLE};
-    vec3 *u = &made.edge_u, *v = &made.edge_v;
-    if (!read_place(r, "--corner", &made.corner) || !read_place(r, "--edge-u", u) || !read_place(r, "--edge-v", v))
-        return 0;
-    const double cosine = dot(*u, *v) / (length(*u) * length(*v));
-    if (!(length(*u) >= least_size && length(*v) >= least_size))
-        return wrong(r, "an edge has no length");
-    if (!(fabs(cosine) < 2e-3))
-        return wrong(r, "the edges of a rectangle must be at right angles; these are at %.4g degrees",
-                     acos(fmin(fmax(cosine, -1), 1)) * (180 / PI));
-    *v = along(*v, -dot(*u, *v) / dot(*u, *u), *u);
-    return add_shape(r, made);
-}
-
-static int read_mesh(reader *r)
+static int add_mesh(reader *r, int of)
 {
     geometry *g = &r->made->geometry;
     const size_t first = g->count;
-    const char *file = option_value(&r->given, "--file");
-    double by = 1, turn = 0;
-    vec3 move = {0, 0, 0};
-    vndf_error error = {VNDF_OK, ""};
-    char path[PATH_BYTES];
+    const material *m = &r->made->materials[of];
     size_t size;
-    int of;
-    if (!read_its_material(r, &of) || !option_number(&r->given, "--scale", least_size, 1e6, &by) ||
-        !option_number(&r->given, "--turn", -360, 360, &turn) ||
-        !read_three(r, "--move", -far_away, far_away, &move.x))
-        return 0;
-    if (!file || r->made->materials[of].kind == MATERIAL_LIGHT)
-        return wrong(r, file ? "a light is a sphere or a rectangle, not a mesh" : "--file FILE.obj is missing");
-    char *text = read_file(r, file, OBJ_BYTES_MAX, path, &size);
-    const int good = text && obj_read_text(g, path, text, size, of, &error);
+    if (m->kind == MATERIAL_LIGHT || m->colour_map || m->alpha_map)
+        return wrong(&r->in, "'%s' is a light or has an image, and those are for spheres and rectangles", m->name);
+    char *text = input_read(r->in.place, path_of(r, option_value(&r->given, "--file")), OBJ_BYTES_MAX, &size);
+    const int good = text && obj_read_text(g, r->path, text, size, of);
     free(text);
-    if (error.message[0])
-        return wrong(r, "%s", error.message);
-    geometry_place(g, first, by, turn * (PI / 180), move);
+    geometry_place(g, first, r->line.size, r->line.turn * (PI / 180), r->line.move);
     return good;
+}
+
+static int read_shape(reader *r, int statement)
+{
+    shape *made = &r->line.shape;
+    const vec3 u = made->edge_u, v = made->edge_v;
+    const double area = length(cross(u, v));
+    const char *name = option_value(&r->given, "--material");
+    const size_t of = find(r->materials, name);
+    if (!r->materials[of])
+        return wrong(&r->in, "--material '%s' is no material that is defined before this%s", name,
+                     did_you_mean(name, r->materials, of));
+    made->material = (int)of;
+    made->kind = statement == SPHERE ? SHAPE_SPHERE : SHAPE_RECTANGLE;
+    if (statement == MESH)
+        return add_mesh(r, (int)of);
+    if (statement == RECTANGLE && !(area >= LEAST_SIZE * LEAST_SIZE && area >= 1e-6 * length(u) * length(v)))
+        return wrong(&r->in, "--edge-u and --edge-v have no area");
+    return geometry_add(&r->made->geometry, made) || wrong(&r->in, "there is no memory for this shape");
 }
 
 /* ---- all of it ---- */
 
-static int (*const readers[STATEMENTS])(reader *r) = {read_camera, read_environment, read_material,
-                                                      read_sphere, read_rectangle,   read_mesh};
-
-static int read_statement(reader *r, lines *in)
+static int read_statement(reader *r)
 {
-    const size_t of = find(statements, in->word[0]);
-    snprintf(r->command, sizeof r->command, "vndf render: %.3000s:%llu", r->name, in->line);
+    static const char *const lights[] = {"--constant", "--image", NULL};
+    const char *word = r->in.word[0];
+    const int of = (int)find(statements, word);
     if (of == STATEMENTS)
-        return wrong(r, "'%s' is no statement, as are %s%s", in->word[0], list_words(statements, ""),
-                     did_you_mean(in->word[0], statements, STATEMENTS));
+        return wrong(&r->in, "'%s' is no statement, as are %s%s", word, list_words(statements, ""),
+                     did_you_mean(word, statements, STATEMENTS));
     if (of <= ENVIRONMENT && r->seen >> of & 1u)
-        return wrong(r, "'%s' stands in this scene twice", in->word[0]);
+        return wrong(&r->in, "'%s' stands in this scene twice", word);
     r->seen |= 1u << of;
-    if (!arguments_read(&r->given, r->command, manual[of], (int)in->count - 1, in->word + 1))
+    r->line = (content){.material.colour = {1.0f, 1.0f, 1.0f}, .size = 1};
+    if (!arguments_read(&r->given, r->in.place, describe(of), (int)r->in.count - 1, r->in.word + 1))
         return 0;
     if (r->given.positional.count && of != MATERIAL)
-        return wrong(r, "'%s' is not expected", r->given.positional.item[0]);
-    return readers[of](r);
+        return wrong(&r->in, "'%s' is not expected", r->given.positional.item[0]);
+    return put_options(r, of) && (of == CAMERA        ? read_camera(r)
+                                  : of == ENVIRONMENT ? option_alone(&r->given, lights) != NULL
+                                  : of == MATERIAL    ? read_material(r)
+                                                      : read_shape(r, of));
 }
 
 /* Without light a scene is black, which nobody means. */
-static int finish(reader *r)
+static int finish(reader *r, int width)
 {
     scene *s = r->made;
-    if (!(r->seen >> CAMERA & 1u))
-        return wrong(r, "the scene ends without a camera, as in 'camera --from 0,1,5 --to 0,0,0'");
-    if (!geometry_build(&s->geometry))
-        return wrong(r, "there is no memory for a hierarchy of its shapes");
-    if (!lights_make(s))
-        return wrong(r, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     const float *constant = s->environment.constant;
+    const double height = width ? floor((double)width * s->height / s->width + 0.5) : s->height;
+    s->width = width ? width : s->width;
+    s->height = (int)fmin(height, IMAGE_SIDE_MAX + 1);
+    if (!(r->seen >> CAMERA & 1u))
+        return wrong(&r->in, "the scene ends without a camera, as in 'camera --from 0,1,5 --to 0,0,0'");
+    if (s->height < 1 || s->height > IMAGE_SIDE_MAX || (int64_t)s->width * s->height > IMAGE_PIXELS_MAX)
+        return wrong(&r->in, "%d x %.0f pixels: a film has 1 to %d rows and at most %d pixels", s->width, height,
+                     IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX);
+    if (!geometry_build(&s->geometry))
+        return wrong(&r->in, "there is no memory for a hierarchy of its shapes");
+    if (!lights_make(s))
+        return wrong(&r->in, "these are more than %d lights, or there is no memory", SCENE_LIGHTS_MAX);
     return s->light_count > 0 || s->environment.map || constant[0] + constant[1] + constant[2] > 0.0f ||
-           wrong(r, "the scene ends without light: an environment, or a shape of a light");
+           wrong(&r->in, "the scene ends without light: an environment, or a shape of a light");
 }
 
-scene *scene_read_text(const char *name, char *text, size_t length)
+scene *scene_read(const char *path, char *text, size_t length, int width)
 {
     scene *s = calloc(1, sizeof *s);
-    reader r = {.name = name, .made = s};
-    vndf_error error = {VNDF_OK, ""};
-    lines in;
-    int more, good = lines_begin(&in, name, text, length, &error);
-    snprintf(r.command, sizeof r.command, "vndf render: %.3000s", name);
+    reader r = {.made = s};
+    int more, good = lines_begin(&r.in, path, text, length);
     if (!s)
-        return free(text), complain(r.command, "there is no memory"), NULL;
+        return free(text), complain(r.in.place, "there is no memory"), NULL;
     *s = (scene){
         .up = {0, 1, 0}, .field = 40, .exposure = 1, .width = 640, .height = 360, .depth = 12, .samples = 64};
     s->environment.scale = 1;
     s->text = text;
-    while (good && (more = lines_next(&in)))
-        good = more > 0 && read_statement(&r, &in);
-    if (error.message[0])
-        complain("vndf render", "%s", error.message);
-    else if (good && finish(&r))
+    while (good && (more = lines_next(&r.in)))
+        good = more > 0 && read_statement(&r);
+    if (good && finish(&r, width))
         return s;
-    scene_free(s);
-    return NULL;
-}
-
-scene *scene_read(const char *path)
-{
-    size_t length;
-    char *text = input_read("vndf render", path, BYTES_MAX, &length);
-    return text ? scene_read_text(path, text, length) : NULL;
+    return scene_free(s), NULL;
 }
 
 void scene_free(scene *s)
 {
     if (!s)
         return;
-    for (size_t i = 0; i < SCENE_IMAGES_MAX; i++)
+    for (size_t i = 0; i < SCENE_FILES_MAX; i++) {
         image_free(&s->images[i]);
-    for (size_t i = 0; i < SCENE_TABLES_MAX; i++)
         vndf_free(s->tables[i]);
+    }
     free(s->environment.sums);
     free(s->text);
     geometry_free(&s->geometry);
     free(s);
-}
-
-int scene_resize(scene *s, int width)
-{
-    const double height = floor((double)width * s->height / s->width + 0.5);
-    if (!(height >= 1 && height <= IMAGE_SIDE_MAX && height * width <= IMAGE_PIXELS_MAX))
-        return complain("vndf render", "--width: %d x %.0f pixels: a film has 1 to %d rows and at most %d pixels",
-                        width, height, IMAGE_SIDE_MAX, IMAGE_PIXELS_MAX),
-               0;
-    s->width = width;
-    s->height = (int)height;
-    return 1;
 }

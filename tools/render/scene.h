@@ -5,7 +5,7 @@
 #include "render/image.h"
 #include "vndf_bsdf.h"
 
-enum { SCENE_MATERIALS_MAX = 1024, SCENE_LIGHTS_MAX = 64, SCENE_IMAGES_MAX = 64, SCENE_TABLES_MAX = 64 };
+enum { SCENE_MATERIALS_MAX = 1024, SCENE_LIGHTS_MAX = 64, SCENE_FILES_MAX = 64 /* images; tables */ };
 
 typedef enum material_kind {
     MATERIAL_ROUGH, /* vndf_bsdf.h */
@@ -26,14 +26,14 @@ typedef struct material {
 typedef struct environment {
     float constant[3];
     const image *map;   /* NULL: the constant */
-    double scale, turn; /* turn: a part of a full turn */
+    double scale, turn; /* turn: degrees */
     double *sums;       /* owned */
-    int is_drawn;       /* not if every direction finds its light */
+    double drawn;       /* the part of all draws that is of the image: 0 if every direction finds its light */
 } environment;
 
 typedef struct scene {
     vec3 from, to, up;      /* of the camera */
-    double field, exposure; /* of view, radians, across the height of the film; of the PNG */
+    double field, exposure; /* of view, degrees, across the height of the film; of the PNG */
     int width, height;
     int depth, samples; /* the most surfaces on a path; a pixel */
     environment environment;
@@ -42,47 +42,20 @@ typedef struct scene {
     size_t light_count;
     material materials[SCENE_MATERIALS_MAX];
     size_t material_count;
-    image images[SCENE_IMAGES_MAX];
-    vndf_distribution *tables[SCENE_TABLES_MAX];
+    image images[SCENE_FILES_MAX];
+    vndf_distribution *tables[SCENE_FILES_MAX];
     char *text; /* of the file, where the names are */
 } scene;
 
-/* Reads a scene file; paths in it are relative to its folder. NULL after a complaint. Files that are not trusted
- * are safe. */
-scene *scene_read(const char *path);
+/* Reads `length` bytes of a scene file with a 0 behind them, which it takes over and frees; paths in it are relative
+ * to the folder of `path`. `width`, unless it is 0, takes the place of the pixels across, and the height follows.
+ * NULL after a complaint. Files that are not trusted are safe. */
+enum { SCENE_BYTES_MAX = 1 << 22 };
+scene *scene_read(const char *path, char *text, size_t length, int width);
 void scene_free(scene *s);
-
-/* The same from `length` bytes with a 0 behind them, which it takes over and frees; complaints call them `name`.
- */
-scene *scene_read_text(const char *name, char *text, size_t length);
-
-/* Sets the pixels across; the height follows. 0 after a complaint if no row is left, or they are too many. */
-int scene_resize(scene *s, int width);
 
 /* How scenes are written, to stdout. */
 void scene_print_manual(void);
 
-/* ---- light that is drawn ---- */
-
-/* Lists the lights of a scene. 0 if there are more than SCENE_LIGHTS_MAX, or there is no memory. */
+/* Lists the lights of a scene (path.c). 0 if there are more than SCENE_LIGHTS_MAX, or there is no memory. */
 int lights_make(scene *s);
-
-typedef struct light_sample {
-    vec3 direction; /* towards the light, unit */
-    double distance;
-    double density; /* per steradian */
-    float radiance[3];
-} light_sample;
-
-/* Whether there is light to draw. */
-int lights_any(const scene *s);
-
-/* Draws light, which is there, from a place, by three uniform numbers in [0, 1). 0: the place does not see what was
- * drawn. */
-int lights_draw(const scene *s, vec3 place, const double u[3], light_sample *sample);
-
-/* The density with which lights_draw finds, from a place, what a ray has met: a light, or (NULL) the environment. */
-double lights_density(const scene *s, vec3 place, vec3 direction, const hit *h);
-
-/* The light that comes from far away. */
-void environment_radiance(const environment *e, vec3 direction, float rgb[3]);

@@ -17,11 +17,6 @@ static inline vec3 vec(double x, double y, double z)
     return (vec3){x, y, z};
 }
 
-static inline vec3 add(vec3 a, vec3 b)
-{
-    return vec(a.x + b.x, a.y + b.y, a.z + b.z);
-}
-
 static inline vec3 subtract(vec3 a, vec3 b)
 {
     return vec(a.x - b.x, a.y - b.y, a.z - b.z);

@@ -274,7 +274,7 @@ static void look_from(laws *l, double rho)
     take(l, LAWS_AREA_ERROR,
          fmax(fabs((double)vndf_projected_area(&l->surface, wi) * l->mass[0] / area - 1) - slack, 0), rho);
     /* points miss some of what is drawn at knots */
-    take(l, LAWS_CONSISTENCY, fmax(fabs(drawn - 1) - both - unsure - tv / 20, 0), rho);
+    take(l, LAWS_CONSISTENCY, fmax(fabs(drawn - 1) - both - unsure - tv / 10, 0), rho);
 }
 
 static void look_both_ways(laws *l, double rho)

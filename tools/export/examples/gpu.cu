@@ -92,10 +92,8 @@ struct two_tables {
     static __device__ answer draw(const float *numbers, asked q)
     {
         normals_mixture m = {2};
-        m.lobe[0] = normals_rough(NORMALS_STUDENT_T_2_5, q.alpha_x, q.alpha_y);
-        m.lobe[1] = normals_rough(NORMALS_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y);
-        m.weight[0] = 0.6f;
-        m.weight[1] = 0.4f;
+        m.lobe[0] = {normals_rough(NORMALS_STUDENT_T_2_5, q.alpha_x, q.alpha_y), 0.6f};
+        m.lobe[1] = {normals_rough(NORMALS_STUDENT_T_2_5, 0.3f * q.alpha_x, 0.3f * q.alpha_y), 0.4f};
         const normals_mixed s = normals_mixture_sample(numbers, normals_mixture_view_from(numbers, m, q.wi), q.u.x, q.u.y);
         return judged(q.wi, s.wm, s.pdf);
     }

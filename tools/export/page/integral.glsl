@@ -8,7 +8,7 @@ void main() {
     float r = odds * odds * odds; // so that the last cell is far out in any tail
     float phi = 2.0 * PI * gl_FragCoord.y / size.y;
     vndf_view view = vndf_view_from(surface_here(), incident);
-    vndf_affine_map m = view.at.m; // in units of the distribution's slopes
+    vndf_affine_map m = view.f.m; // in units of the distribution's slopes
     vec2 unit = r * vec2(cos(phi), sin(phi));
     vec3 long_normal = vec3(m.xx * unit.x + m.xy * unit.y, m.yx * unit.x + m.yy * unit.y, 1.0);
     float per = 1.0 / length(long_normal);

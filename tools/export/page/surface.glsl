@@ -37,6 +37,6 @@ vec3 normal_from_disc(vec2 p) {
 // G2/G1: what the surface does not shadow of the light from wo. It is vndf_g2 over vndf_g1, but the view knows the
 // area seen from wi, hence 1 + Lambda(wi).
 float light_kept(vndf_view view, vec3 wo) {
-    float own = vndf_projected_area(view) / view.wi.z;
+    float own = vndf_area(view) / view.wi.z;
     return wo.z > 0.0 ? own / (own + vndf_lambda(surface_here(), wo)) : 0.0;
 }
