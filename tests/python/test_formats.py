@@ -1,9 +1,12 @@
 """What the program writes is what its format says, by the readers that Python has: JSON has the figures of the text, pages
-close their tags and ask for nothing from elsewhere, a PNG has the numbers of the PFM, and the rows of `vndf bench` are
-those that are asked for, with every number. Times themselves are not judged. It notices a figure without a unit, a tag
-that stays open, a checksum that is wrong, a row too many, a column that is lost, a batch that is not timed."""
+close their tags and ask for nothing from elsewhere, a PNG has the numbers of the PFM, a baked table has the same ones in
+all its forms, and the rows of `vndf bench` are those that are asked for, with every number. Times themselves are not
+judged. It notices a figure without a unit, a tag that stays open, a checksum that is wrong, a number that is
+another in another form, a row too many, a column that is lost, a batch that is not timed."""
 import array
+import ast
 import csv
+import filecmp
 import html.parser
 import json
 import os
@@ -100,9 +103,45 @@ class Pages(unittest.TestCase):
                 open("page/note.txt", "w").close()
         self.assertEqual(len(os.listdir("page")), 5)
 
+
+class Tables(unittest.TestCase):
     def test_baked(self):
-        run(*"bake ggx --what dfg --size 4 -q -o baked".split())
-        self.well_formed("baked/index.html")
+        """The numbers of a .npy stand in every other form, as the nearest halves in a .dds; the same bytes twice; a page
+        and a verdict, which doubts what is far off: no transformed cosine resembles a ring of light."""
+        words = "bake ggx --what dfg,prefilter --size 8".split()
+        self.assertIn("largest error", run(*words, "-o", "one"))
+        self.assertEqual([t["name"] for t in json.loads(run(*words, "--json", "-o", "two"))["table"]], ["dfg", "prefilter"])
+        self.assertEqual(filecmp.cmpfiles("one", "two", sorted(os.listdir("one")), False)[0], sorted(os.listdir("two")))
+        self.assertEqual(len(os.listdir("two")), 13)
+        for name, shape in (("dfg", (8, 8, 3)), ("prefilter", (8, 32, 4))):
+            with open(f"one/{name}.npy", "rb") as npy, open(f"one/{name}.dds", "rb") as dds:
+                data, pixels = npy.read(), dds.read()
+            size = struct.unpack("<H", data[8:10])[0]
+            self.assertEqual(data[:8], b"\x93NUMPY\1\0")
+            self.assertEqual(ast.literal_eval(data[10 : 10 + size].decode()), dict(descr="<f4", fortran_order=False, shape=shape))
+            values, halves = array.array("f", data[10 + size :]), pixels[148:]
+            self.assertEqual((pixels[:4], len(halves)), (b"DDS ", 8 * shape[0] * shape[1]))
+            for i, value in enumerate(values):
+                at = i // shape[2] * 8 + i % shape[2] * 2
+                self.assertEqual(halves[at : at + 2], struct.pack("<e", value))
+            self.assertEqual(halves[6:8] == b"\0\x3c", shape[2] == 3)  # where there is no fourth, it is 1
+            for ending, head in (("h", "static const float %s[%d] = {"), ("glsl", "const float %s[%d] = float[%d](")):
+                with open(f"one/{name}.{ending}") as file:
+                    text = file.read()
+                self.assertIn("// made by: vndf bake ggx --what dfg,prefilter --size 8", text)
+                numbers = text.split(head % (name, len(values), len(values))[: head.count("%")])[1]
+                self.assertEqual(array.array("f", map(float, re.findall(r"-?[0-9][-+.e0-9]*", numbers))), values)
+        self.assertIn("dfg.png", Pages.well_formed(self, "one/index.html"))
+        if shutil.which("glslangValidator"):
+            frag = os.path.join(os.environ["VNDF_SOURCE"], "tools", "bake", "examples", "haze.frag")
+            subprocess.run(["glslangValidator", frag], check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(run(*"bake ggx --what ltc --size 4 --format js -o one -q".split()), "")
+        hazy = os.path.join(os.environ["VNDF_SOURCE"], "tables", "hazy.vndf")
+        self.assertIn("\nverdict good to ship\n", run("bake", hazy, *"--what ltc --size 8 --format npy -o haze".split()))
+        self.assertEqual(len(os.listdir("haze")), 5)
+        run("build", "--slope", "exp(-3*r)*(1+0.8*cos(6*r))", "-q", "-o", "rings.vndf")
+        doubt = run(*"bake rings.vndf --what ltc --size 8 --format npy -o rings".split()).splitlines()[-1]
+        self.assertRegex(doubt, "^verdict doubtful: ltc_inverse is 0.3[0-9]* off in the mean, ")
 
 
 class Images(unittest.TestCase):
