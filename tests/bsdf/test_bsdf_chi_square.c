@@ -1,9 +1,9 @@
-/* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for
- * every choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned,
- * steep and grazing, from both sides and for all index ratios, and of sheared surfaces, mean slopes, mixtures and
- * retroreflection; level 1e-3 for all together. With the mean weight it makes the estimator: the weight
- * is f cos/pdf (test_bsdf_values), and that pdf is the one of the samples. Of walks, whose density is another, the total
- * variation over the bins is below 0.42, and below 0.05 where alpha is at most 0.1. */
+/* Sampled directions follow vndf_bsdf_pdf, and its integral is what is not lost: chi-square over the sphere for every
+ * choice of lobes and of normals, GGX, Beckmann and a table, smooth and rough, anisotropic and turned, steep and
+ * grazing, from both sides and for all index ratios, and of sheared surfaces, mean slopes, mixtures and
+ * retroreflection; level 1e-3 for all together. With the mean weight it makes the estimator: the weight is f cos/pdf
+ * (test_bsdf_values), and that pdf is the one of the samples. Of walks, whose density is another, the total variation
+ * over the bins is below 0.42, and below 0.05 where alpha is at most 0.1. */
 #include "bsdf/bsdf_case.h"
 #include "evidence/measure/bins.h"
 

@@ -1,6 +1,6 @@
-/* The Fresnel functions have a relative error below 1e-6: against complex arithmetic for random indices, absorptions and
- * cosines, right angles, grazing and Brewster's angle, total reflection and equal indices among them, where the results
- * that are 0 or 1 are exact. All are in [0, 1], take |cos|, and make no NaN. */
+/* The Fresnel functions have a relative error below 1e-6: against complex arithmetic for random indices, absorptions
+ * and cosines, right angles, grazing and Brewster's angle, total reflection and equal indices among them, where the
+ * results that are 0 or 1 are exact. All are in [0, 1], take |cos|, and make no NaN. */
 #include "harness/test.h"
 #include "oracle/oracle_bsdf.h"
 

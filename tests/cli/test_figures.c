@@ -1,6 +1,6 @@
-/* Figures are the same whoever prints them: build and info, of a file and of stdin; the verdict is the last of them, and
- * a table that is worth little is told of on stderr too; check fails a table whose certificate says less than is true.
- * It notices a figure without a unit, a verdict that praises a poor table, and a check that forgives. (JSON:
+/* Figures are the same whoever prints them: build and info, of a file and of stdin; the verdict is the last of them,
+ * and a table that is worth little is told of on stderr too; check fails a table whose certificate says less than is
+ * true. It notices a figure without a unit, a verdict that praises a poor table, and a check that forgives. (JSON:
  * python_formats.) */
 #include "harness/run_program.h"
 

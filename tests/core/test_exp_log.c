@@ -16,7 +16,7 @@ int main(void)
     unsigned long long state = 1;
     double worst[4] = {0}, cosine, sine; /* of exp, log, log1p, and a turn */
     for (int i = 0; i < POINTS; i++) {
-        /* arguments of exp of every size, and of the logarithm near 1 too, where it is small and must keep its digits */
+        /* exp of every size; the logarithm near 1 too, where it is small and must keep its digits */
         const double u = test_uniform_double(&state), v = 2 * u - 1, y = exp(60 * v), turns = 3 * u - 1;
         const double e = v * (i % 3 == 0 ? 700 : i % 3 == 1 ? 1 : 1e-6);
         const double x = i % 2 ? exp(700 * v) : 1 + v * ldexp(1, -i % 50);

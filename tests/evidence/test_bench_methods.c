@@ -35,7 +35,8 @@ static void test_unbiased(method m, vndf_instructions set, const method_referenc
 /* ---- verification ------------------------------------------------------------------------------ */
 
 /* One number of the sixth result of a run is off, of normals of ours or of a material. */
-static enum { LENGTH, AWAY, OTHER_BITS, WO, LOBE, NOT_A_NUMBER, BATCH, DEFECTS } defect;
+enum { LENGTH, AWAY, OTHER_BITS, WO, LOBE, NOT_A_NUMBER, BATCH, DEFECTS };
+static int defect;
 static method_run *right;
 
 static void off(const method *m, block *b)
