@@ -53,7 +53,8 @@ class Surfaces(unittest.TestCase):
             off = abs(surface.visible(w, wm) - seen) / (seen + 1e-3)
             self.assertLess(np.quantile(off, 0.99), 1e-4)
             np.testing.assert_allclose(surface.pdf(w, wm), surface.visible(w, wm), rtol=1e-3, atol=1e-3)
-            drawn, weighed = surface.sample(w, u := rng.random((2, COUNT), dtype=np.float32)), surface.sample_weight(w, u)
+            u = rng.random((2, COUNT), dtype=np.float32)
+            drawn, weighed = surface.sample(w, u), surface.sample_weight(w, u)
             again = surface.sample(w, surface.invert(w, drawn.wm)).wm
             self.assertLess(np.quantile(abs(again - drawn.wm), 0.98), 1e-3)
             self.assertLess(np.quantile(abs(surface.pdf(w, drawn.wm) / weighed.pdf - 1), 0.98), 1e-3)
