@@ -13,8 +13,6 @@ static const subcommand *const subcommands[] = {
     &command_render, &command_judge, NULL,
 };
 
-/* ---- all commands -------------------------------------------------------------------------------- */
-
 static const char purpose[] = "sampling of visible normals for any isotropic distribution of microfacet normals";
 
 static const char usage[] =
@@ -82,8 +80,6 @@ static const subcommand *find_command(const char *word)
     return NULL;
 }
 
-/* ---- the manual page ----------------------------------------------------------------------------- */
-
 /* In the macros that man and mandoc share: the text as it stands, with what troff reads otherwise escaped. */
 static void put_man(FILE *to, const char *text)
 {
@@ -114,14 +110,11 @@ static void write_man(FILE *to)
     }
 }
 
-/* ---- the program --------------------------------------------------------------------------------- */
-
 static int asks(const char *word, const char *long_name, const char *short_name)
 {
     return strcmp(word, long_name) == 0 || strcmp(word, short_name) == 0;
 }
 
-/* Runs the command, or refuses the words. */
 static int run(const subcommand *c, const char *help, int argc, char **argv)
 {
     static arguments given;

@@ -114,14 +114,14 @@ static double miss_of(survey *s, const double right[2], const double is[2], doub
     return fabs(right[0] - is[0]) + fabs(right[1] - is[1]);
 }
 
-/* The largest ratio beyond which no more than LEFT_OUT lies; `least` is that of a larger part. */
-static double largest_weight(const survey *s, double least)
+/* The largest ratio beyond which no more than LEFT_OUT lies, 0 if that is all. */
+static double largest_ratio(const survey *s)
 {
     double sum = 0;
     for (int i = RATIOS - 1; i >= 0; i--)
         if ((sum += s->rarely[i]) > LEFT_OUT)
-            return fmax(exp2((i + 0.5) / PER_OCTAVE), least);
-    return least;
+            return exp2((i + 0.5) / PER_OCTAVE);
+    return 0;
 }
 
 /* Compares what is drawn with what is seen, half a strip after the other. What is lost lies beyond all slopes. */
@@ -155,7 +155,7 @@ static void compare(survey *s, radial_law v, int below, size_t edge, double area
         lost = (cell.mass - before) / area_drawn;
     }
     figure[TV] = fmin((miss + lost) / 2, 1);
-    figure[WEIGHT] = largest_weight(s, weight) - 1;
+    figure[WEIGHT] = fmax(largest_ratio(s), weight) - 1;
     figure[CONSISTENCY] += lost;
 }
 
@@ -380,41 +380,43 @@ static double area_error(const survey *s)
 
 /* ---- D, and its ends ---- */
 
-/* Largest relative error of D over the strips that hold all but LEFT_OUT of the mass on either side, but for little
- * that is one slope to floats: of a strip, which is all in the last cell, which draws R f; at its ends and points; and
- * in its middle, by the cubic through those. */
-static double ndf_error(const survey *s)
+/* Error of D in a strip, of which `drawn` is drawn in the cell: of all of it; at its ends and points; and in its
+ * middle, by the cubic through those. In the last cell, which draws R f, it is that of all alone. */
+static double strip_error(const vndf_drawn *cell, const vndf_strip *strip, const halves *in, double end,
+                          int is_tail, double drawn)
 {
     static const double places[4] = {0, 0.21132486540518712, 0.78867513459481288, 1};
+    const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]}, wide = end - in->xi;
+    double worst = fabs(drawn / (is_tail ? strip->along : strip->f) - 1), off[4];
+    if (!(in->middle > 0) || is_tail)
+        return worst;
+    for (int k = 0; k < 4; k++) {
+        off[k] = wide / 2 * vndf_drawn_density(cell, in->xi + wide * places[k]) / right[k] - 1;
+        worst = fmax(worst, fabs(off[k]));
+    }
+    return fmax(worst, fabs(3 * (off[1] + off[2]) - off[0] - off[3]) / 4);
+}
+
+/* Largest relative error of D, but for LEFT_OUT of all normals. */
+static double ndf_error(survey *s)
+{
+    const double least = 0x1p-24; /* of errors that are told apart */
     const size_t *first = s->strips.first;
-    double sum = 0, worst = 0;
+    memset(s->rarely, 0, sizeof s->rarely);
     for (int i = 0; i <= s->table.cells; i++) {
-        int tail = i == s->table.cells;
         cell_density all = law_cell_all(s->table, i);
         vndf_drawn cell = {all.mass, all.e0 * all.mass, all.e1 * all.mass};
         double before = 0, next;
         for (size_t n = first[i]; n < first[i + 1]; n++, before = next) {
-            const vndf_strip *strip = &s->strips.at[n];
-            const halves *in = &s->in[n];
-            next = vndf_drawn_before(&cell, n + 1 < first[i + 1] ? in[1].xi : 1);
-            const double apart = log(strip[1].edge / strip->edge);
-            sum += strip->f;
-            if (!(sum > LEFT_OUT / 2 && sum < 1 - LEFT_OUT / 2 &&
-                  strip->f > LEFT_OUT * (apart > VNDF_GRAIN ? apart : 0.1)))
-                continue;
-            worst = fmax(worst, fabs((next - before) / (tail ? strip->along : strip->f) - 1));
-            if (!(in->middle > 0) || tail)
-                continue;
-            double wide = (n + 1 < first[i + 1] ? in[1].xi : 1) - in->xi, off[4];
-            const double right[4] = {in->end[0], strip->mass[0], strip->mass[1], in->end[1]};
-            for (int k = 0; k < 4; k++) {
-                off[k] = wide / 2 * vndf_drawn_density(&cell, in->xi + wide * places[k]) / right[k] - 1;
-                worst = fmax(worst, fabs(off[k]));
-            }
-            worst = fmax(worst, fabs(3 * (off[1] + off[2]) - off[0] - off[3]) / 4);
+            double end = n + 1 < first[i + 1] ? s->in[n + 1].xi : 1;
+            next = vndf_drawn_before(&cell, end);
+            double error =
+                strip_error(&cell, &s->strips.at[n], &s->in[n], end, i == s->table.cells, next - before) / least;
+            if (error >= 1)
+                s->rarely[error < 0x1p31 ? (int)(PER_OCTAVE * log2(error)) : RATIOS - 1] += s->strips.at[n].f;
         }
     }
-    return worst;
+    return largest_ratio(s) * least;
 }
 
 /* D = P22/cos^4 ~ cos^p towards the horizon; it may be unbounded there or at the pole, and no cell is. */

@@ -5,7 +5,7 @@
  * (test_bsdf_values), and that pdf is the one of the samples. Of walks, whose density is another, the total variation
  * over the bins is below 0.42, and below 0.05 where alpha is at most 0.1. */
 #include "bsdf/bsdf_case.h"
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 
 /* ---- bins of the sphere, even in the cosine and the azimuth, and one for what is in none of them ---- */
 

@@ -3,7 +3,7 @@
  * what it says it may err; in a ring of width 1e-4 floats hardly tell slopes apart. (A bin that is in another's place
  * fails chi_square.) */
 
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "oracle/oracle.h"
 #include "harness/test.h"
 

@@ -1,6 +1,6 @@
 /* The p-values that decide tests are right: chi-square and Sidak against values computed with 30 digits, and against a
  * closed form that holds for every statistic. */
-#include "evidence/measure/statistics.h"
+#include "evidence/measure/measure.h"
 #include "harness/test.h"
 
 /* Statistic, degrees of freedom, p; the first three are the 5% points that tables print. */

@@ -1,11 +1,11 @@
-/* No input is too hard: every property of tools/evidence/measure/stress.h holds over its product of directions,
+/* No input is too hard: every property of tools/evidence/measure/stress.c holds over its product of directions,
  * roughnesses and uniform numbers, for every shipped table, the closed forms, and distributions that are pathological:
  * jumps, a hole at the pole, a narrow ring, an unbounded peak, a tail at the edge of integrability, two scales a
  * hundred apart, and a scale of 1e-9. more_stress takes every other view, as `vndf check --hard` takes all, but of
  * pathological ones every tenth; stress takes every 19th and every 37th. With the name of a shipped table it looks at
  * that one alone. (Matrices and mean slopes: edges.) */
 #include "harness/test.h"
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 #include "oracle/oracle.h"
 
 static const char *const pathological[] = {

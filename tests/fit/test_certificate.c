@@ -1,7 +1,7 @@
-/* The certificate is true, and not by much too large: nothing that an independent quadrature finds (measure/laws.h,
+/* The certificate is true, and not by much too large: nothing that an independent quadrature finds (measure/laws.c,
  * from directions of its own) is more than a tenth worse than stored, for smooth D, rings, jumps with gaps, waves,
  * lobes 1000 apart, heavy tails, and rows with plateaus, saws and noise. An argument: one of the subjects. */
-#include "evidence/measure/laws.h"
+#include "evidence/measure/measure.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 

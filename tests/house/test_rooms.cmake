@@ -16,7 +16,7 @@ set(order_src
     "fit: core math table table/family kernel sampler source fit/profile")
 set(order_tools
     "cli:" "draw: cli" "bake: cli draw" "render: cli draw" "export: draw" "measured: cli render"
-    "evidence/measure: cli" "evidence/methods: evidence" "evidence: cli draw evidence/measure"
+    "evidence/measure: cli" "evidence/methods: evidence" "evidence: cli evidence/measure"
     "judge: cli evidence/measure" "judge/examples:"
     "commands/parts: cli draw export"
     "commands: cli draw bake evidence evidence/measure render export measured judge commands/parts")

@@ -199,15 +199,16 @@ class Bench(unittest.TestCase):
     def test_normals(self):
         rows = self.rows(*"--seconds 0.1 --only ggx".split())
         self.assertEqual([row["method"] for row in rows],
-                         ["spherical caps (2023)", "all normals (2007)", "closed form", "closed form: affine",
-                          "closed form: mixture", "closed form, exported C"])
+                         ["spherical caps (2023)", "all normals (2007)", "closed form", "closed form: 16 a view",
+                          "closed form: affine", "closed form: mixture", "closed form: 8 lobes",
+                          "closed form, exported C"])
         caps = rows[0]
         self.assertTrue(caps["ratio"] == 1 and caps["tv"] < 1e-6 and caps["portable_ns"] > 0 and caps["memory"] == 0)
         table, words = "table 8 KiB, 4 moments", ["--slope", "exp(-a*r)", "--set", "a=3"]
         rows = self.rows("--seconds", "0.1", *words, "--only", table)
         self.assertEqual([row["method"][len(table) :] for row in rows],
-                         ["", ": weight", ": pdf", ": invert", ": ndf", ": lambda", ": affine", ": mixture",
-                          ", exported C"])
+                         ["", ": weight", ": pdf", ": invert", ": ndf", ": lambda", ": 16 a view", ": affine",
+                          ": mixture", ": 8 lobes", ", exported C"])
         row = rows[0]
         self.assertEqual((row["distribution"], row["moments"]), ("--slope 'exp(-a*r)' --set a=3", 4))
         self.assertTrue(row["memory"] > row["file_bytes"] > 7900 and row["portable_ns"] > 0 and row["max_weight"] > 1)
@@ -221,8 +222,10 @@ class Bench(unittest.TestCase):
                           for m in ("separable", "V-cavity", "no")])
         self.assertTrue((rows[0]["alpha_x"], rows[0]["alpha_y"]) == (0.3, 0.2) and rows[0]["portable_ns"] > 0)
         rows = self.rows(*"--effects --seconds 0.01".split())
-        self.assertEqual((len(rows), "walk, both lobes" in [row["method"] for row in rows]), (3 * 24, True))
-        for row in rows:
+        self.assertEqual((len(rows), "walk, both lobes" in [row["method"] for row in rows]), (3 * 24 + 1, True))
+        for before, row in zip([None, *rows], rows):
+            if row["method"] == "bare reflection, by hand":
+                self.assertAlmostEqual(row["mean"] / before["mean"], 1, 5)
             is_table, is_bounded = row["distribution"] == "student-t:2.5", row["method"].startswith("bounded")
             most_lost = 1 if not is_bounded else 0 if is_table else 0.06
             self.assertTrue(0 < row["mean"] < 2.25 and row["lost"] <= most_lost, row)

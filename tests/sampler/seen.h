@@ -2,7 +2,7 @@
 #ifndef TESTS_SAMPLER_SEEN_H
 #define TESTS_SAMPLER_SEEN_H
 
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"
 #include "vndf.h"

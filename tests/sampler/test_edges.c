@@ -6,7 +6,7 @@
  * zero and read them as zero, as renderers do (batches: test_batch). */
 #include <float.h>
 
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 #include "sampler/seen.h"
 #include "vndf_build.h"
 

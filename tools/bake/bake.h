@@ -22,7 +22,6 @@ typedef enum bake_shape { BAKE_GRID, BAKE_CYCLES, BAKE_OSPRAY } bake_shape;
 
 float bake_alpha(bake_mapping mapping, double roughness);
 
-/* What all tables are made with. */
 typedef struct bake_settings {
     const vndf_distribution *distribution;
     bake_mapping mapping;

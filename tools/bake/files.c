@@ -8,9 +8,7 @@
 
 #include "cli/files.h"
 #include "draw/png.h"
-#include "draw/svg.h"
-
-/* ---- numbers ------------------------------------------------------------------------------------- */
+#include "draw/draw.h"
 
 /* Format 1.0 of numpy's files: a dictionary in text, filled up to 64 bytes. */
 static void write_npy(FILE *file, const baked *b)
@@ -68,9 +66,6 @@ static void write_dds(FILE *file, const baked *b)
             put_little(file, bake_half(k < b->channels ? b->value[i * (size_t)b->channels + (size_t)k] : 1), 2);
 }
 
-/* ---- arrays -------------------------------------------------------------------------------------- */
-
-/* What the table is, as lines of a comment. */
 static void write_about(FILE *file, const baked *b, const char *made_by)
 {
     fprintf(file, "// %s: %s.\n", b->name, b->holds);
@@ -106,8 +101,6 @@ static void write_array(FILE *file, const baked *b, bake_form form, const char *
     fputs(form == BAKE_C ? "};\n" : form == BAKE_GLSL ? ");\n" : "])};\n", file);
 }
 
-/* ---- pictures ------------------------------------------------------------------------------------ */
-
 /* Up to three channels as red, green and blue, each between its least and its largest number; layers of a volume side
  * by side, and the last axis to the right. */
 static int write_png(FILE *file, const baked *b)
@@ -141,8 +134,6 @@ static int write_png(FILE *file, const baked *b)
     return good;
 }
 
-/* ---- the page ------------------------------------------------------------------------------------ */
-
 static int write_table(html_page *page, const baked *b, bake_form form, const char *made_by)
 {
     static const char *const ends[] = {"npy", "dds", "h", "glsl", "js", "png"};
@@ -158,9 +149,11 @@ static int write_table(html_page *page, const baked *b, bake_form form, const ch
     else if (form < BAKE_PICTURE)
         write_array(file, b, form, made_by);
     else if (!write_png(file, b))
-        return complain(page->command, "no memory"), 0;
+        return denied(page->command, "no memory");
     return 1;
 }
+
+_Static_assert(BAKE_TABLES *(BAKE_PICTURE + 1) < PAGE_FILES_MAX, "a page has all files of all tables");
 
 int bake_page(html_page *page, const baked_list *list, unsigned forms, const char *made_by, const char *subject)
 {

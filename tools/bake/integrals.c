@@ -11,17 +11,14 @@ float bake_alpha(bake_mapping mapping, double roughness)
     return (float)fmax(alpha, 1e-3); /* below that reflection is a mirror's for all that a table shows */
 }
 
-/* ---- one direction ------------------------------------------------------------------------------- */
-
 vndf_bsdf_batch bake_batch(const vndf_material *material, const float wi[3], size_t count)
 {
-    const vndf_bsdf_batch batch = {.material = material,
-                                   .count = count,
-                                   .shared = VNDF_SHARED_SURFACE | VNDF_SHARED_WI,
-                                   .wi_x = &wi[0],
-                                   .wi_y = &wi[1],
-                                   .wi_z = &wi[2]};
-    return batch;
+    return (vndf_bsdf_batch){.material = material,
+                             .count = count,
+                             .shared = VNDF_SHARED_SURFACE | VNDF_SHARED_WI,
+                             .wi_x = &wi[0],
+                             .wi_y = &wi[1],
+                             .wi_z = &wi[2]};
 }
 
 void bake_sample(const vndf_material *material, const double wi[3], size_t count, bake_points *p)
@@ -39,11 +36,10 @@ void bake_sample(const vndf_material *material, const double wi[3], size_t count
 
 vndf_description bake_mirror(const bake_settings *s, float alpha)
 {
-    const vndf_description of = {.surface = vndf_rough(s->distribution, alpha, alpha),
-                                 .effects = {.fresnel = VNDF_FRESNEL_SCHLICK, .masking = s->masking},
-                                 .wavelengths = 2,
-                                 .f0 = {1, 0}};
-    return of;
+    return (vndf_description){.surface = vndf_rough(s->distribution, alpha, alpha),
+                              .effects = {.fresnel = VNDF_FRESNEL_SCHLICK, .masking = s->masking},
+                              .wavelengths = 2,
+                              .f0 = {1, 0}};
 }
 
 /* Samples are a continuous function of their numbers: midpoints t of [0, 1] in each, u = t^2 (3 - 2 t), are dense at
@@ -115,8 +111,6 @@ double bake_average(const bake_settings *s, float alpha, double eta)
     }
     return fmin(sum, 1);
 }
-
-/* ---- the same without samples -------------------------------------------------------------------- */
 
 /* wi on a surface. eta 0: a mirror. */
 typedef struct hit {

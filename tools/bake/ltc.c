@@ -1,4 +1,4 @@
-/* Linearly transformed cosines. A texel is fitted by the simplex method of Nelder & Mead (1965) to the numbers of M,
+/* Linearly transformed cosines. A texel is fitted, by a search, to the numbers of M,
  *
  *     M = (X Y Z) (a d c; 0 b e; 0 0 1),
  *
@@ -11,7 +11,9 @@
 
 #include "bake/bake.h"
 
-enum { SIDE = 20, SAMPLES = SIDE * SIDE, NUMBERS = 5 };
+enum { SIDE = 20, SAMPLES = SIDE * SIDE, NUMBERS = 5, TURNS = 60 };
+
+static const double FINEST = 1e-3; /* step of a search */
 
 /* What a texel is fitted to: samples of the BSDF with the f cos that they were drawn with, and room for those of the
  * cosine. */
@@ -164,69 +166,27 @@ static int target_of(target *t, const bake_settings *s, const float alpha[2], co
     return t->sum.all > 0 && mean[2] > 0;
 }
 
-/* ---- the simplex method ---- */
-
-typedef struct corner {
-    double at[NUMBERS], error;
-} corner;
-
-/* The corner at `mean` + `by` (mean - the last one). */
-static corner beyond(target *t, const corner *all, double by)
-{
-    corner c = all[0];
-    for (int k = 0; k < t->numbers; k++) {
-        double mean = 0;
-        for (int i = 0; i < t->numbers; i++)
-            mean += all[i].at[k] / t->numbers;
-        c.at[k] = mean + by * (mean - all[t->numbers].at[k]);
-    }
-    c.error = error_of(t, c.at);
-    return c;
-}
-
-static void put_in_order(corner *c, int count)
-{
-    for (int i = 1; i < count; i++)
-        for (int k = i; k > 0 && c[k].error < c[k - 1].error; k--) {
-            corner swap = c[k];
-            c[k] = c[k - 1];
-            c[k - 1] = swap;
-        }
-}
-
-/* Moves p to where the error is least nearby. `step`: how far to look at first. */
+/* Moves p to where the error is least nearby, by the pattern search of Hooke & Jeeves (1961): steps of each number,
+ * then as far again as all of them went; the step is halved where none helps. c, d and e are slopes, and looked at in
+ * parts of the width of the lobe. */
 static void minimise(target *t, double p[NUMBERS], double step)
 {
-    const int last = t->numbers;
-    corner c[NUMBERS + 1];
-    for (int i = 0; i <= last; i++) {
-        memcpy(c[i].at, p, sizeof c[i].at);
-        if (i < last) /* c, d and e are slopes, and looked at in parts of the width of the lobe */
-            c[i].at[i] += i < 2 ? step : step * 2 * exp(p[0]);
-        c[i].error = error_of(t, c[i].at);
-    }
-    for (int n = 0; n < 30 * last; n++) {
-        put_in_order(c, last + 1);
-        if (c[last].error - c[0].error <= 1e-4 * c[0].error)
-            break;
-        corner other = beyond(t, c, 1);
-        if (other.error < c[0].error) {
-            corner farther = beyond(t, c, 2);
-            other = farther.error < other.error ? farther : other;
-        } else if (other.error >= c[last - 1].error)
-            other = beyond(t, c, other.error < c[last].error ? 0.5 : -0.5);
-        if (other.error < c[last].error) {
-            c[last] = other;
-            continue;
+    double least = error_of(t, p), before[NUMBERS], next[NUMBERS];
+    for (int turn = 0; turn < TURNS && step > FINEST; turn++) {
+        const double from = least;
+        memcpy(before, p, sizeof before);
+        for (int i = 0; i <= 2 * t->numbers; i++) {
+            const double wide = (i % 2 ? -step : step) * (i / 2 < 2 ? 1 : 2 * exp(p[0]));
+            for (int k = 0; k < NUMBERS; k++)
+                next[k] = i == 2 * t->numbers ? 2 * p[k] - before[k] : p[k] + (k == i / 2 ? wide : 0);
+            const double error = error_of(t, next);
+            if (error < least) {
+                least = error;
+                memcpy(p, next, sizeof next);
+            }
         }
-        for (int i = 1; i <= last; i++) {
-            for (int k = 0; k < last; k++)
-                c[i].at[k] = (c[i].at[k] + c[0].at[k]) / 2;
-            c[i].error = error_of(t, c[i].at);
-        }
+        step = least < from * (1 - 1e-4) ? step : step / 2;
     }
-    put_in_order(c, last + 1);
-    memcpy(p, c[0].at, sizeof c[0].at);
 }
 
 /* ---- the tables ---- */
@@ -237,13 +197,6 @@ typedef struct part {
     const char *name, *holds;
     int channels, number[4];
 } part;
-
-/* Place i of n on the axis of cosines, which is dense at grazing incidence. */
-static double cosine_at(size_t i, size_t n)
-{
-    double v = (double)i / (double)(n - 1);
-    return fmax(1 - v * v, 2e-3);
-}
 
 /* Tables of n roughnesses, `ratios` of alpha_y over alpha_x, n cosines and as many azimuths as ratios. Rougher first,
  * from straight above to grazing: what is smooth is the easiest, and begins what follows. The first direction of a
@@ -262,7 +215,8 @@ static int fit_all(const bake_settings *s, baked_list *list, const part *parts, 
         const size_t phi = done % ratios, theta = done / ratios % n, surface = surfaces - 1 - done / (ratios * n);
         const float alpha = bake_alpha(s->mapping, (double)(surface / ratios) / (double)(n - 1));
         const float alphas[2] = {alpha, fmaxf(alpha * (float)(surface % ratios + 1) / (float)ratios, 1e-3f)};
-        const double c = cosine_at(theta, n), r = sqrt(1 - c * c);
+        const double v = (double)theta / (double)(n - 1); /* cosines are dense at grazing incidence */
+        const double c = fmax(1 - v * v, 2e-3), r = sqrt(1 - c * c);
         const double turn = phi ? 1.5707963267949 * (double)phi / (double)(ratios - 1) : 0;
         const double wi[3] = {r * cos(turn), r * sin(turn), c};
         if (!target_of(&t, s, alphas, wi) || progress_show((double)done / (double)all, parts->name, s->progress))

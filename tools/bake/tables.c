@@ -34,8 +34,6 @@ void baked_free(baked_list *list)
     list->count = 0;
 }
 
-/* ---- tables over roughness, cosine and index ------------------------------------------------------- */
-
 /* What a host keeps: sizes of the mirror's and of glass's axes; the order of eta, cosine and roughness from the slowest
  * to the fastest; whether places are in the middle of texels; what the places of the index stand for. Hosts mask what
  * passes as what is reflected. */
@@ -56,11 +54,6 @@ static const shape shapes[] = {
     [BAKE_OSPRAY] = {32, 16, "rec", 0, 1, BY_RATIO, "1/eta: 1/3 + 2/3 i/(n - 1)", "eta: 1 + 2 i/(n - 1)"},
 };
 
-static double place_of(const shape *h, size_t i, size_t n)
-{
-    return h->centred ? ((double)i + 0.5) / (double)n : (double)i / (double)(n - 1);
-}
-
 /* The index for place t; it is held away from where it ends. */
 static double eta_of(const shape *h, double t, int inside)
 {
@@ -72,7 +65,6 @@ static double eta_of(const shape *h, double t, int inside)
     return fmax(eta, 1.002);
 }
 
-/* Where a texel is. */
 typedef struct texel {
     float alpha;
     double cosine, eta;
@@ -84,7 +76,7 @@ static texel texel_at(const bake_settings *s, const shape *h, size_t k, size_t n
 {
     texel t = {0, 0, 0, 0};
     for (size_t i = strlen(axes); i-- > 0; k /= n) {
-        const double place = place_of(h, k % n, n);
+        const double at = (double)(k % n), place = h->centred ? (at + 0.5) / (double)n : at / (double)(n - 1);
         if (axes[i] == 'r')
             t.alpha = bake_alpha(s->mapping, place);
         else if (axes[i] == 'c')

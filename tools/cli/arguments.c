@@ -104,11 +104,10 @@ static int read_choices(const arguments *given, struct option *o, const char *va
             k++;
         for (size_t i = 0; i < o->chosen; i++)
             if (o->which[i] == (int)k)
-                return complain(given->command, "%s '%s' has '%s' twice", o->name, value, word), 0;
+                return denied(given->command, "%s '%s' has '%s' twice", o->name, value, word);
         if (k == choices)
-            return complain(given->command, "%s '%s' is not %s%s", o->name, word, list_words(choice, ""),
-                            did_you_mean(word, choice, choices)),
-                   0;
+            return denied(given->command, "%s '%s' is not %s%s", o->name, word, list_words(choice, ""),
+                          did_you_mean(word, choice, choices));
         o->which[o->chosen++] = (int)k;
         if (!at[letters])
             return 1;
@@ -138,13 +137,10 @@ static int refuse_option(const arguments *given, const char *word, size_t length
     hint = hint ? hint : short_one;
     if (letters == 1 && isalpha((unsigned char)*bare) && value && isdigit((unsigned char)*value) &&
         find_option(given, "--set", 5))
-        complain(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", (int)length, word,
-                 *bare, value);
-    else if (hint)
-        complain(given->command, "there is no option '%.*s'; did you mean '%s'?", (int)length, word, hint);
-    else
-        complain(given->command, "there is no option '%.*s'; --help lists them", (int)length, word);
-    return 0;
+        return denied(given->command, "there is no option '%.*s'; did you mean '--set %c=%s'?", (int)length, word,
+                      *bare, value);
+    return denied(given->command, "there is no option '%.*s'; %s%s%s", (int)length, word,
+                  hint ? "did you mean '" : "--help lists them", hint ? hint : "", hint ? "'?" : "");
 }
 
 /* argv[*at] begins with '-'; moves *at on to the value if that is a word of its own. 1, or 0 after a complaint. */
@@ -164,7 +160,7 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     else if (*o->value && next && !find_option(given, next, strlen(next)))
         value = argv[++*at];
     else if (*o->value)
-        return complain(given->command, "%s needs a value, as in %s %s", o->name, o->name, o->value), 0;
+        return denied(given->command, "%s needs a value, as in %s %s", o->name, o->name, o->value);
     if (!*o->value && attached)
         wrong = "takes no value";
     else if (!o->repeats && o->given.count)
@@ -172,7 +168,7 @@ static int take_option(arguments *given, int argc, char **argv, int *at)
     else if (o->given.count == WORDS_MAX)
         wrong = "is given more often than this program reads";
     if (wrong)
-        return complain(given->command, "%s %s", o->name, wrong), 0;
+        return denied(given->command, "%s %s", o->name, wrong);
     o->given.item[o->given.count++] = value;
     return !*o->value || strpbrk(o->value, "ABCDEFGHIJKLMNOPQRSTUVWXYZ") || read_choices(given, o, value);
 }
@@ -185,9 +181,9 @@ int arguments_read(arguments *given, const char *command, const char *help, int 
     for (int i = 0; i < argc; i++) {
         if (options_end || argv[i][0] != '-' || !argv[i][1]) {
             if (given->positional.count == WORDS_MAX)
-                return complain(command, "these are more than %d words", WORDS_MAX), 0;
+                return denied(command, "these are more than %d words", WORDS_MAX);
             if (strchr(argv[i], '=') && !strchr(argv[i], '/') && find_option(given, "--set", 5))
-                return complain(command, "'%s' is not expected; did you mean '--set %s'?", argv[i], argv[i]), 0;
+                return denied(command, "'%s' is not expected; did you mean '--set %s'?", argv[i], argv[i]);
             given->positional.item[given->positional.count++] = argv[i];
         } else if (strcmp(argv[i], "--") == 0)
             options_end = 1;
@@ -196,8 +192,7 @@ int arguments_read(arguments *given, const char *command, const char *help, int 
     }
     for (const struct option *o = given->option; o < given->option + given->options; o++)
         if (o->given.count && o->part_of >= 0 && !given->option[o->part_of].given.count)
-            return complain(command, "%s is for %s, which is not given", o->name, given->option[o->part_of].name),
-                   0;
+            return denied(command, "%s is for %s, which is not given", o->name, given->option[o->part_of].name);
     return 1;
 }
 
@@ -306,7 +301,7 @@ size_t parse_numbers(const char *command, const char *what, const char *text, do
                 return count;
         }
     }
-    return complain(command, "%s '%s' %s", what, text, why), 0;
+    return denied(command, "%s '%s' %s", what, text, why);
 }
 
 int option_number(const arguments *given, const char *name, double low, double high, double *number)
@@ -321,7 +316,7 @@ int option_count(const arguments *given, const char *name, double low, double hi
     if (!option_number(given, name, low, high, &number))
         return 0;
     if (number != floor(number))
-        return complain(given->command, "%s '%s' is not a whole number", name, option_value(given, name)), 0;
+        return denied(given->command, "%s '%s' is not a whole number", name, option_value(given, name));
     *count = (unsigned long long)number;
     return 1;
 }

@@ -81,5 +81,6 @@ const char *nearest_word(const char *word, const char *const *candidates, size_t
 /* The same as the end of a message, "; did you mean 'cos'?", or "". Until the next call. */
 const char *did_you_mean(const char *word, const char *const *candidates, size_t count);
 
-/* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it. */
+/* Prints "COMMAND: message" on stderr; returns STATUS_USE, so that a caller can end with it; or 0. */
 int complain(const char *command, const char *format, ...) PRINTF_LIKE(2, 3);
+#define denied(...) (complain(__VA_ARGS__), 0)

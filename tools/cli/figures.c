@@ -142,7 +142,6 @@ size_t text_glyphs(const char *text)
     return length;
 }
 
-/* With spaces before or behind it. */
 static void put_padded(FILE *file, const char *text, size_t width, int is_right)
 {
     const int spaces = (int)(width - text_glyphs(text));
@@ -182,7 +181,6 @@ static void print_text(FILE *file, const figures *f)
 
 /* ---- files ------------------------------------------------------------------------------------- */
 
-/* A heading and the rows, as CSV or as Markdown. */
 static void print_grid(FILE *file, const figures *f, int is_csv)
 {
     const size_t columns = figures_columns(f);
@@ -282,8 +280,6 @@ static void print_json(FILE *file, const figures *f)
     }
     fputs("}\n}\n", file);
 }
-
-/* ---- what is printed ----------------------------------------------------------------------------- */
 
 int figures_end(figures *f)
 {

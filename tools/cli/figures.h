@@ -41,11 +41,8 @@ typedef struct figures {
     int failed; /* there was no memory */
 } figures;
 
-/* Text, JSON or nothing. */
 figures figures_begin(const arguments *given);
 void figures_free(figures *f);
-
-/* ---- filling ---- */
 
 /* Of any kind, without a unit. */
 void figures_add(figures *f, figure_kind kind, const char *name, const char *text);
@@ -61,15 +58,12 @@ void figures_time(figures *f, const char *name, double ns);
 /* "yes" or "no", in JSON true or false. */
 void figures_truth(figures *f, const char *name, int is);
 
-/* The class in a page of the last cell: "no", say. */
 void figures_mark(figures *f, const char *mark);
 
 /* Begins a list of a document, and a record of it or of a table. */
 void figures_list(figures *f, const char *name);
 void figures_record(figures *f);
 void figures_list_end(figures *f);
-
-/* ---- printing ---- */
 
 /* The document on stdout, and frees it: a record is a line that begins with the name of its list, and goes on below
  * after 100 columns. An exit status, after a complaint if there was no memory. */

@@ -9,8 +9,6 @@
 #include "cli/arguments.h"
 #include "core/cursor.h"
 
-/* ---- the list ------------------------------------------------------------------------------------ */
-
 enum { NOTED_MAX = 4096 };
 
 static struct {
@@ -53,8 +51,6 @@ int files_same(const char *a, const char *b)
     return same_inode(a, b) || (strcmp(last_a, last_b) == 0 && same_inode(in_a, in_b));
 }
 
-/* ---- whole files --------------------------------------------------------------------------------- */
-
 const char *input_name(const char *path)
 {
     return strcmp(path, "-") == 0 ? "stdin" : path;
@@ -77,8 +73,6 @@ char *input_read(const char *command, const char *path, size_t most, size_t *siz
     free(bytes);
     return complain(command, "cannot read %s: it has more than %zu bytes", input_name(path), most), NULL;
 }
-
-/* ---- numbers ------------------------------------------------------------------------------------- */
 
 uint64_t little_whole(const unsigned char *at, size_t bytes)
 {

@@ -18,10 +18,7 @@ int files_same(const char *a, const char *b);
  * NULL after a complaint if it cannot be read, has more than `most` bytes, or there is no memory. */
 char *input_read(const char *command, const char *path, size_t most, size_t *size);
 
-/* "stdin" for "-". */
 const char *input_name(const char *path);
-
-/* ---- numbers with the least byte first ---- */
 
 /* Whole ones, and floats of 4 or 8 bytes. */
 uint64_t little_whole(const unsigned char *at, size_t bytes);

@@ -11,8 +11,6 @@
 #include "command.h"
 #include "cli/files.h"
 
-/* ---- signals ------------------------------------------------------------------------------------- */
-
 /* The wrong way round, so that reading from a stdin that was closed fails, as writing to a stdout does. */
 int output_begin(void)
 {
@@ -67,8 +65,6 @@ int output_stopping(void)
     return stops;
 }
 
-/* ---- opening ------------------------------------------------------------------------------------- */
-
 int output_is_stdout(const char *path)
 {
     return strcmp(path, "-") == 0;
@@ -82,14 +78,13 @@ int output_open(output_file *output, const char *command, const char *path)
     if (!opened.path)
         return *output = opened, 1;
     if (path[0] == '\0')
-        return complain(command, "the name of the output file is empty"), 0;
+        return denied(command, "the name of the output file is empty");
     if (stat(path, &is) == 0 && !S_ISREG(is.st_mode))
-        return complain(command, "'%s' is a %s; the output has to be a file", path,
-                        S_ISDIR(is.st_mode) ? "folder" : "device or a pipe (- is stdout)"),
-               0;
+        return denied(command, "'%s' is a %s; the output has to be a file", path,
+                      S_ISDIR(is.st_mode) ? "folder" : "device or a pipe (- is stdout)");
     const char *role = files_note(path, 1);
     if (role)
-        return complain(command, "'%s' is not replaced: it is %s", path, role), 0;
+        return denied(command, "'%s' is not replaced: it is %s", path, role);
     output_hold_signals();
     if (vndf_replace_begin(&output->replaces, path)) {
         *output = (output_file){command, path, output->replaces.file, output->replaces};
@@ -99,8 +94,6 @@ int output_open(output_file *output, const char *command, const char *path)
     output_release_signals();
     return 0;
 }
-
-/* ---- closing ------------------------------------------------------------------------------------- */
 
 /* The error is cleared once it is told, so that it is told once. */
 int output_finish_stdout(const char *command)
@@ -120,26 +113,24 @@ static int written(const output_file *output, int good)
                            errno ? strerror(errno) : "write failed");
 }
 
-int output_commit(output_file *output)
-{
-    if (!output->path)
-        return output_finish_stdout(output->command);
-    const int status = written(output, vndf_replace_commit(&output->replaces));
-    output_release_signals();
-    return status;
-}
-
 int output_commit_all(output_file *output, size_t count, int status)
 {
     for (output_file *o = output; o < output + count && status == STATUS_GOOD; o++)
         if (o->command)
             status = o->path ? written(o, vndf_replace_flush(o->file)) : output_finish_stdout(o->command);
-    while (count-- > 0)
-        if (output[count].command && status == STATUS_GOOD)
-            status = output_commit(&output[count]);
-        else if (output[count].command)
-            output_give_up(&output[count], NULL);
+    for (output_file *o = output + count; o-- > output;)
+        if (o->command && status != STATUS_GOOD)
+            output_give_up(o, NULL);
+        else if (o->path) {
+            status = written(o, vndf_replace_commit(&o->replaces));
+            output_release_signals();
+        }
     return status;
+}
+
+int output_commit(output_file *output)
+{
+    return output_commit_all(output, 1, STATUS_GOOD);
 }
 
 /* First the temporary goes, there may be nobody to complain to and a signal for trying; the signals that waited

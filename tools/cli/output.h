@@ -30,7 +30,6 @@ int output_commit_all(output_file *output, size_t count, int status);
 /* Closes, leaves nothing behind, and complains, unless `why` is NULL: another file failed. An exit status. */
 int output_give_up(output_file *output, const char *why);
 
-/* "-" */
 int output_is_stdout(const char *path);
 
 /* Before anything is opened: descriptors 0 to 2 are open, so that no file becomes one of them. And a file that outgrows

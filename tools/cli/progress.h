@@ -19,7 +19,6 @@ void progress_step(progress *p, double to);
 /* `done` of the step, 0 to 1, is done; what is under way, or NULL. Not 0: stop. A vndf_progress of a progress. */
 int progress_show(double done, const char *what, void *user);
 
-/* Clears the line. */
 void progress_end(const progress *p);
 
 /* Seconds that pass, on a clock that only goes forward; and seconds that all threads of this process worked. */

@@ -6,8 +6,6 @@
 
 #include "cli/files.h"
 
-/* ---- distributions ------------------------------------------------------------------------------- */
-
 enum { BYTES_MAX = 1 << 29 };
 
 int is_family_file(const char *name)
@@ -27,10 +25,9 @@ int distribution_open(chosen_distribution *chosen, const char *command, const ch
     if (chosen->distribution)
         return 1;
     if (!families && (is_family_file(name) || strstr(name, ".vndfs@")))
-        return complain(command,
-                        "'%s' is a family; a single table is needed (sample takes FILE.vndfs@P, info FILE.vndfs)",
-                        name),
-               0;
+        return denied(command,
+                      "'%s' is a family; a single table is needed (sample takes FILE.vndfs@P, info FILE.vndfs)",
+                      name);
     char *bytes = input_read(command, name, BYTES_MAX, &size);
     const char *hint = bytes ? NULL : nearest_word(name, closed_forms, 2);
     if (hint)
@@ -51,8 +48,6 @@ void distribution_close(chosen_distribution *chosen)
     vndf_free(chosen->owned);
     vndf_family_free(chosen->family);
 }
-
-/* ---- sources -------------------------------------------------------------------------------------- */
 
 enum { NDF, SLOPE, CSV, FAMILY };
 
@@ -128,8 +123,6 @@ const char *source_name(const vndf_source *source)
     const char *name = vndf_source_description(source);
     return strncmp(name, family, sizeof family - 1) == 0 ? name + sizeof family - 1 : name;
 }
-
-/* ---- directions and roughness -------------------------------------------------------------------- */
 
 /* By an angle of at most 45 degrees, so that cos(90 degrees) is 0 and not 6e-17: a direction on the horizon is meant to
  * be on it. */

@@ -5,9 +5,6 @@
 #include "cli/arguments.h"
 #include "vndf_build.h"
 
-/* ---- distributions ---- */
-
-/* A closed form, a table that was loaded, or a family of tables. */
 typedef struct chosen_distribution {
     const vndf_distribution *distribution; /* NULL for a family */
     vndf_distribution *owned;              /* the table, to be freed */
@@ -22,8 +19,6 @@ void distribution_close(chosen_distribution *chosen);
 /* A file with the tables of a family is known by its name, FILE.vndfs. */
 int is_family_file(const char *name);
 
-/* ---- sources ---- */
-
 /* --ndf, --slope, --csv, --family; NULL ends them. */
 extern const char *const source_kinds[];
 
@@ -36,8 +31,6 @@ vndf_source *source_from_csv(const char *command, const char *path);
 
 /* For people: its description; of a family its name. */
 const char *source_name(const vndf_source *source);
-
-/* ---- directions and roughness ---- */
 
 /* The unit direction at theta and phi in degrees; exact where either is a multiple of 90. */
 vndf_vec3 direction_from(double theta, double phi);

@@ -1,5 +1,4 @@
 /* vndf bake: tables that engines look up in the place of samples. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "bake/bake.h"
@@ -42,18 +41,6 @@ static unsigned listed(const arguments *given, const char *option, unsigned othe
     return bits ? bits : otherwise;
 }
 
-static int make(const bake_settings *s, unsigned what, baked_list *list)
-{
-    static int (*const parts[])(const bake_settings *, baked_list *) = {bake_dfg, bake_energy, bake_ltc,
-                                                                        bake_prefilter, bake_anisotropic};
-    for (int k = 0; k < 5; k++) {
-        progress_step(s->progress, (k + 1) / 5.0);
-        if (what >> k & 1 && !parts[k](s, list))
-            return 0;
-    }
-    return 1;
-}
-
 /* By transformed cosines the light of a square is within a tenth where the mean is that of Beckmann (0.13) or of a haze
  * (0.15), and 26% off for a ring (0.30); GGX, which they were made for, has 0.42 at grazing incidence. */
 static const double mean_most = 0.2, worst_most = 0.6;
@@ -90,6 +77,8 @@ static figures tell(const arguments *given, const baked_list *list, const char *
 static int bake(const arguments *given, bake_settings *s, unsigned what)
 {
     static const char *const options[] = {"--what", "--mapping", "--masking", "--size", "--shape", NULL};
+    static int (*const parts[])(const bake_settings *, baked_list *) = {bake_dfg, bake_energy, bake_ltc,
+                                                                        bake_prefilter, bake_anisotropic};
     const char *folder = option_value(given, "-o");
     char made_by[1024];
     baked_list list = {.count = 0};
@@ -106,9 +95,14 @@ static int bake(const arguments *given, bake_settings *s, unsigned what)
     snprintf(made_by + length, sizeof made_by - length, "; %s; Smith's masking, %s%s%s", alphas[s->mapping],
              s->masking == VNDF_MASKING_SEPARABLE ? "separable" : "correlated", *info.source ? "; D: " : "",
              info.source);
-    int status = make(s, what, &list) ? STATUS_GOOD
-                 : output_stopping()  ? complain(name, "interrupted; '%s' was not touched", folder)
-                                      : complain(name, "no memory, or nothing is reflected");
+    int good = 1;
+    for (int k = 0; k < 5 && good; k++) {
+        progress_step(&p, (k + 1) / 5.0);
+        good = !(what >> k & 1) || parts[k](s, &list);
+    }
+    int status = good                ? STATUS_GOOD
+                 : output_stopping() ? complain(name, "interrupted; '%s' was not touched", folder)
+                                     : complain(name, "no memory, or nothing is reflected");
     progress_end(&p);
     if (status == STATUS_GOOD &&
         !bake_page(&page, &list, listed(given, "--format", ~0u), made_by, input_name(given->positional.item[0])))

@@ -67,15 +67,6 @@ static const char *const sources[] = {"--ndf",  "--slope",  "--csv",        "--f
                                       "--merl", "--height", "--normal-map", NULL};
 static const char *const *const measured = sources + 4;
 
-static int print_list(void)
-{
-    const char *material;
-    printf("families:\n%s\nmaterials:\n", vndf_family_help());
-    for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
-        puts(material);
-    return STATUS_GOOD;
-}
-
 /* ---- files of measurements ----------------------------------------------------------------------- */
 
 enum { MEASURED_BYTES = 1 << 28 };
@@ -132,13 +123,12 @@ static int finish_measured(const arguments *given, const data_file *file, const 
              (unsigned long)vndf_crc32(0, file->bytes, file->size));
     if (vndf_source_describe(source, text, &error) != VNDF_OK ||
         vndf_source_note(source, file->notes, &error) != VNDF_OK)
-        return complain(name, "%.100s: %s", file->name, error.message), 0;
+        return denied(name, "%.100s: %s", file->name, error.message);
     return !profile_path || (output_open(to, name, profile_path) &&
                              (profile_write(to->file, rows, vndf_source_description(source)) ||
-                              (complain(name, "cannot write '%s'", profile_path), 0)));
+                              denied(name, "cannot write '%s'", profile_path)));
 }
 
-/* NULL after a complaint. */
 static vndf_source *measured_source(const arguments *given, output_file *to)
 {
     data_file file = {.notes = ""};
@@ -168,7 +158,7 @@ static int read_range(const char *text, double range[2])
     char low[64];
     const char *dots = strstr(text, "..");
     if (!dots || dots - text >= (ptrdiff_t)sizeof low)
-        return complain(name, "--parameter '%.64s' is not LOW..HIGH, as in 1.6..6", text), 0;
+        return denied(name, "--parameter '%.64s' is not LOW..HIGH, as in 1.6..6", text);
     snprintf(low, sizeof low, "%.*s", (int)(dots - text), text);
     return parse_numbers(name, "--parameter", low, -1e30, 1e30, 1, 1, &range[0]) &&
            parse_numbers(name, "--parameter", dots + 2, -1e30, 1e30, 1, 1, &range[1]);
@@ -180,10 +170,8 @@ static int build(const arguments *given, const vndf_source *source, chosen_distr
     double range[2];
     unsigned long long bytes = 0, knots = 0;
     progress bar = progress_begin("building", option_value(given, "-q") != NULL);
-    vndf_build_options one = {.moments =
-                                  option_value(given, "--moments") ? 2 + option_choice(given, "--moments", 0) : 0,
-                              .progress = progress_show,
-                              .progress_user = &bar};
+    vndf_build_options one = {.progress = progress_show, .progress_user = &bar};
+    one.moments = 2 + option_choice(given, "--moments", -2);
     vndf_error error = {VNDF_OK, ""};
     if (!option_count(given, "--max-bytes", 2048, 1048576, &bytes) ||
         !option_number(given, "--max-tv", 1e-12, 1, &one.max_tv) ||
@@ -215,7 +203,7 @@ static int write_table(const chosen_distribution *of, FILE *file)
     if (good)
         fwrite(bytes, 1, size, file);
     free(bytes);
-    return good || (complain(name, "%s", error.message), 0);
+    return good || denied(name, "%s", error.message);
 }
 
 /* Says what was built and what it is worth. Where the file itself is on stdout there is no place for figures. */
@@ -231,9 +219,6 @@ static int tell(const arguments *given, const chosen_distribution *of, figures *
     return f->failed ? complain(name, "no memory for figures") : STATUS_GOOD;
 }
 
-/* ---- the command --------------------------------------------------------------------------------- */
-
-/* Whether the words go together; 0 after a complaint. */
 static int check_words(const arguments *given)
 {
     const char *path = option_value(given, "-o");
@@ -270,8 +255,13 @@ static int run(const arguments *given)
     output_file output[2] = {{.command = NULL}}; /* the table, the profile */
     figures f = figures_begin(given);
     int status = STATUS_USE;
-    if (option_value(given, "--list"))
-        return print_list();
+    if (option_value(given, "--list")) {
+        const char *material;
+        printf("families:\n%s\nmaterials:\n", vndf_family_help());
+        for (size_t i = 0; (material = vndf_family_material(i)) != NULL; i++)
+            puts(material);
+        return STATUS_GOOD;
+    }
     if (!check_words(given))
         return STATUS_USE;
     if (!is_family)

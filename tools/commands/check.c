@@ -1,8 +1,8 @@
 /* vndf check: is a distribution what it claims to be? Four lists of findings:
- *   certificate  what the table says, measured again beside its source, not by the library (laws.h);
+ *   certificate  what the table says, measured again beside its source, not by the library (laws.c);
  *   consistency  sample, pdf and invert agree with each other;
- *   chi-square   samples follow the density that they claim, over bins (bins.h), at some views;
- *   hard         the calls keep their promises for the hardest input that is valid (stress.h). */
+ *   chi-square   samples follow the density that they claim, over bins (bins.c), at some views;
+ *   hard         the calls keep their promises for the hardest input that is valid (stress.c). */
 #include <math.h>
 #include <string.h>
 
@@ -11,9 +11,7 @@
 #include "cli/sort.h"
 #include "command.h"
 #include "commands/parts/describe.h"
-#include "evidence/measure/bins.h"
-#include "evidence/measure/laws.h"
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 
 static const char name[] = "vndf check";
 
@@ -53,7 +51,6 @@ static const char *const help[] = {
     "example: vndf check wavy.vndf --hard --samples 4000000\n",
     NULL};
 
-/* What is being checked, where findings go, and whether all were good. */
 typedef struct checking {
     const vndf_distribution *distribution;
     figures to;
@@ -62,21 +59,18 @@ typedef struct checking {
     int good;
 } checking;
 
-/* The next part of the work, up to `until` of all of it. */
 static void part(checking *c, const char *what, double until)
 {
     progress_step(&c->bar, until);
     progress_show(0, what, &c->bar);
 }
 
-/* Ends a finding. */
 static void judge(checking *c, int is_good)
 {
     figures_truth(&c->to, "good", is_good);
     c->good &= is_good;
 }
 
-/* A number of a finding. */
 static void tell(checking *c, const char *key, const char *format, double x)
 {
     figures_number(&c->to, key, format, x, "");
@@ -87,8 +81,6 @@ static void begin(checking *c, const char *what)
     figures_record(&c->to);
     figures_text(&c->to, "of", what);
 }
-
-/* ---- certificate --------------------------------------------------------------------------------- */
 
 static int check_certificate(checking *c, const char *csv)
 {
@@ -121,8 +113,6 @@ static int check_certificate(checking *c, const char *csv)
     figures_list_end(&c->to);
     return STATUS_GOOD;
 }
-
-/* ---- consistency --------------------------------------------------------------------------------- */
 
 /* The density of the normal whose slopes are those of wm by a factor. */
 static double pdf_beside(const vndf_view *view, vndf_vec3 wm, float factor)
@@ -214,8 +204,6 @@ static int check_consistency(checking *c)
     return STATUS_GOOD;
 }
 
-/* ---- chi-square ---------------------------------------------------------------------------------- */
-
 /* Samples of some views against the density over bins: the library against itself, without another reference. */
 static void check_chi_square(checking *c)
 {
@@ -260,8 +248,6 @@ static void check_chi_square(checking *c)
     figures_list_end(&c->to);
 }
 
-/* ---- hard ---------------------------------------------------------------------------------------- */
-
 static void check_hard(checking *c, int is_whole)
 {
     part(c, "hard cases", 1);
@@ -286,41 +272,34 @@ static void check_hard(checking *c, int is_whole)
     figures_list_end(&c->to);
 }
 
-/* ---- the command --------------------------------------------------------------------------------- */
-
-static int check_all(const chosen_distribution *chosen, const arguments *given)
+static int run(const arguments *given)
 {
-    checking c = {.distribution = chosen->distribution, .samples = 1000000, .seed = 1, .good = 1};
+    checking c = {.samples = 1000000, .seed = 1, .good = 1};
     const char *csv = option_value(given, "--csv");
+    chosen_distribution chosen;
     if (!option_count(given, "--samples", 1000, 1e10, &c.samples) ||
-        !option_count(given, "--seed", 0, 0x1p53, &c.seed))
+        !option_count(given, "--seed", 0, 0x1p53, &c.seed) ||
+        !distribution_open(&chosen, name, given->positional.item[0], 0))
         return STATUS_USE;
-    if (!chosen->owned && csv)
+    if (!chosen.owned && csv)
         return complain(name, "--csv is for tables; a closed form was not made of a CSV");
+    c.distribution = chosen.distribution;
     c.to = figures_begin(given);
     c.bar = progress_begin(name, option_value(given, "-q") != NULL);
-    const int is_done =
-        (!chosen->owned || check_certificate(&c, csv) == STATUS_GOOD) && check_consistency(&c) == STATUS_GOOD;
-    if (is_done) {
+    int status = chosen.owned ? check_certificate(&c, csv) : STATUS_GOOD;
+    if (status == STATUS_GOOD)
+        status = check_consistency(&c);
+    if (status == STATUS_GOOD) {
         check_chi_square(&c);
         check_hard(&c, option_value(given, "--hard") != NULL);
-        if (chosen->owned)
-            describe_end(&c.to, chosen);
+        if (chosen.owned)
+            describe_end(&c.to, &chosen);
         figures_text(&c.to, "result", c.good ? "good" : "FAILED");
     }
     progress_end(&c.bar);
-    if (!is_done)
-        return figures_free(&c.to), STATUS_USE;
-    const int status = figures_end(&c.to);
-    return status == STATUS_GOOD && !c.good ? STATUS_NO : status;
-}
-
-static int run(const arguments *given)
-{
-    chosen_distribution chosen;
-    if (!distribution_open(&chosen, name, given->positional.item[0], 0))
-        return STATUS_USE;
-    int status = check_all(&chosen, given);
+    if (status == STATUS_GOOD && (status = figures_end(&c.to)) == STATUS_GOOD && !c.good)
+        status = STATUS_NO;
+    figures_free(&c.to);
     distribution_close(&chosen);
     return status;
 }

@@ -8,9 +8,8 @@
 #include "command.h"
 #include "commands/parts/named_tables.h"
 #include "draw/png.h"
-#include "draw/svg.h"
+#include "draw/draw.h"
 
-/* What the page is made of. */
 typedef struct contents {
     export_document document;
     size_t size;  /* of the tables of `vndf bake` for each table, GGX and Beckmann; 0: none are wanted */
@@ -44,8 +43,6 @@ static const char *const help[] = {
     "\n"
     "example: vndf explore tables/student-t-2.5.vndf tables/hazy.vndf -o normals.html\n",
     NULL};
-
-/* ---- the page ------------------------------------------------------------------------------------ */
 
 static void put_choices(FILE *to, const export_document *document)
 {
@@ -130,8 +127,6 @@ static int put_file(FILE *to, const contents *of, const char *file, const char *
     return good;
 }
 
-/* ---- the command --------------------------------------------------------------------------------- */
-
 /* Bakes tables of each table, GGX and Beckmann; 0 if there is no memory or a signal waits. */
 static int bake_all(const arguments *given, contents *of)
 {
@@ -163,34 +158,35 @@ static int bake_all(const arguments *given, contents *of)
     return good;
 }
 
-static int write_page(const arguments *given, contents *of)
+/* 0 after a complaint. */
+static int open_tables(const arguments *given, contents *of)
 {
     unsigned long long size = 0;
-    char digits[24];
-    output_file page;
     if (!option_value(given, "-o"))
-        return complain(name, "-o PAGE.html is missing");
+        return denied(name, "-o PAGE.html is missing");
     if (!option_count(given, "--engines", 4, 64, &size) ||
         !named_tables_open(name, &given->positional, 0, &of->document))
-        return STATUS_USE;
-    if (of->document.count > NUMBERS_MAX)
-        return complain(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", of->document.count,
-                        NUMBERS_MAX);
-    if (!output_open(&page, name, option_value(given, "-o")))
-        return STATUS_USE;
+        return 0;
     of->size = (size_t)size;
-    snprintf(digits, sizeof digits, "%llu", size);
-    if ((!size || bake_all(given, of)) && put_file(page.file, of, "explorer.html", digits))
-        return output_commit(&page);
-    return output_give_up(&page,
-                          output_stopping() ? "interrupted" : "no memory, or no place for a temporary file");
+    return of->document.count <= NUMBERS_MAX ||
+           denied(name, "the tables have %zu numbers, and a texture of WebGL2 holds %d", of->document.count,
+                  NUMBERS_MAX);
 }
 
 static int run(const arguments *given)
 {
     contents of = {.document = {.to = language_named("glsl"), .lobes = 1}};
+    char digits[24];
+    output_file page;
+    int status = STATUS_USE;
     document_prefix(&of.document, "vndf");
-    const int status = write_page(given, &of);
+    if (open_tables(given, &of) && output_open(&page, name, option_value(given, "-o"))) {
+        snprintf(digits, sizeof digits, "%zu", of.size);
+        const int good = (!of.size || bake_all(given, &of)) && put_file(page.file, &of, "explorer.html", digits);
+        status =
+            good ? output_commit(&page)
+                 : output_give_up(&page, output_stopping() ? "interrupted" : "no memory, or no temporary file");
+    }
     named_tables_close(&of.document);
     free(of.baked);
     return status;

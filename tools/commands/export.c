@@ -1,5 +1,4 @@
 /* vndf export: the sampler and tables as one file for another language or processor. */
-#include <stdlib.h>
 #include <string.h>
 
 #include "cli/output.h"
@@ -55,8 +54,6 @@ static const char *const help[] = {
     "example: vndf export tables/student-t-2.5.vndf --rgl --alpha 0.3 --f0 1,0.78,0.34 -o gold.bsdf\n",
     NULL};
 
-/* ---- kernels ------------------------------------------------------------------------------------- */
-
 /* What makes no sense is what the library says makes none. */
 static int read_effects(const arguments *given, export_document *document)
 {
@@ -73,7 +70,7 @@ static int read_effects(const arguments *given, export_document *document)
     document->scatters = option_value(given, "--bsdf") != NULL;
     document->effects = effects;
     if (document->scatters && vndf_material_resolve(&is, &material, &refusal) != VNDF_OK)
-        return complain(name, "--bsdf: %s", refusal.message), 0;
+        return denied(name, "--bsdf: %s", refusal.message);
     return 1;
 }
 
@@ -83,8 +80,7 @@ static int fits(const export_document *document)
     const language *as = document->to;
     for (size_t i = 0; i < document->tables; i++)
         if (document->table[i].family && document->lobes < 2)
-            return complain(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file),
-                   0;
+            return denied(name, "'%s': a family is a mixture of two tables; --lobes 2", document->table[i].file);
     if (!document->embeds || as->most_embedded == 0 || document->count <= as->most_embedded)
         return 1;
     complain(name,
@@ -112,8 +108,6 @@ static int write_all(const arguments *given, const export_document *document)
         output, 2, written ? STATUS_GOOD : complain(name, "no memory, or no place for a temporary file"));
 }
 
-/* ---- reflectances -------------------------------------------------------------------------------- */
-
 /* Roughness, wavelengths, and F0: one number for all channels, or one for each. */
 static int read_form(const arguments *given, rgl_form *form)
 {
@@ -127,7 +121,7 @@ static int read_form(const arguments *given, rgl_form *form)
     for (size_t i = 0; i < channels && wavelengths; i++) {
         form->wavelength[i] = (float)nanometres[i];
         if (i > 0 && !(form->wavelength[i] > form->wavelength[i - 1]))
-            return complain(name, "--wavelengths '%s': they must ascend", wavelengths), 0;
+            return denied(name, "--wavelengths '%s': they must ascend", wavelengths);
     }
     form->alpha = (float)alpha;
     form->channels = (int)channels;
@@ -136,13 +130,12 @@ static int read_form(const arguments *given, rgl_form *form)
     if (channels > 0 && f0)
         count = parse_numbers(name, "--f0", f0, 0, 1, 1, channels, form->f0);
     if (count > 1 && count < channels)
-        return complain(name, "--f0 has %zu numbers; 1 or %zu are needed", count, channels), 0;
+        return denied(name, "--f0 has %zu numbers; 1 or %zu are needed", count, channels);
     for (size_t i = count; i < channels; i++)
         form->f0[i] = form->f0[0];
     return channels > 0 && count > 0;
 }
 
-/* Single scattering of one distribution as a file of reflectances. */
 static int export_rgl(const arguments *given)
 {
     rgl_form form = {0};
@@ -164,8 +157,6 @@ static int export_rgl(const arguments *given)
     distribution_close(&chosen);
     return status;
 }
-
-/* ---- the command --------------------------------------------------------------------------------- */
 
 static int export_kernel(const arguments *given, export_document *document)
 {

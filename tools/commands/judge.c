@@ -132,7 +132,7 @@ static void print_shown(figures *f, const judge_fault *fault)
 {
     const answer *a = &fault->shown.got;
     char text[JUDGE_LINE];
-    process_line(text, &fault->shown.asked);
+    process_line(text, &fault->shown.asked, NULL);
     figures_text(f, "query", text);
     if (fault->shown.asked.kind == 's')
         snprintf(text, sizeof text, "%.9g %.9g %.9g %.9g", a->x, a->y, a->z, a->pdf);
@@ -141,12 +141,6 @@ static void print_shown(figures *f, const judge_fault *fault)
     figures_text(f, "answer", text);
     if (fault->beside > 0)
         figures_number(f, "beside", "%.6g", fault->beside, "");
-}
-
-static void list(char text[LISTED_LENGTH], const char *word)
-{
-    const size_t length = strlen(text);
-    snprintf(text + length, LISTED_LENGTH - length, "%s%s", length ? ", " : "", word);
 }
 
 static void print_result(figures *f, const judgement *j, const char *failed, const char *unsure, int has_truth)
@@ -199,8 +193,9 @@ static int print_verdict(const arguments *given, const judge_task *task, const j
             figures_text(&f, "why", why);
         if (fails)
             print_shown(&f, fault);
+        char *list = fails ? failed : unsure;
         if (fails || !is_told)
-            list(fails ? failed : unsure, names[id]);
+            snprintf(list + strlen(list), LISTED_LENGTH - strlen(list), "%s%s", *list ? ", " : "", names[id]);
     }
     figures_list_end(&f);
     print_result(&f, j, failed, unsure, has_truth);
@@ -225,7 +220,7 @@ static int run(const arguments *given)
     const judge_task task = {name, given->positional.item[0], timeout, (size_t)samples, seed, surface};
     judgement *j = calloc(1, sizeof *j);
     progress bar = progress_begin(name, option_value(given, "-q") != NULL);
-    const int is_judged = j ? judge_sampler(&task, &bar, j) : !complain(name, "no memory");
+    const int is_judged = j ? judge_sampler(&task, &bar, j) : denied(name, "no memory");
     progress_end(&bar);
     const int status = is_judged ? print_verdict(given, &task, j) : STATUS_USE;
     free(j);

@@ -5,7 +5,7 @@
 #include "command.h"
 #include "cli/subject.h"
 #include "cli/output.h"
-#include "draw/panels.h"
+#include "draw/draw.h"
 
 static const char name[] = "vndf plot";
 

@@ -33,8 +33,6 @@ static const char *const help[] = {
     "         vndf sample ggx --theta 60 --matrix 0.5,0.2,-0.1,0.4 --mean 0.05,0 -n 1000 -o -\n",
     NULL};
 
-/* ---- the surface --------------------------------------------------------------------------------- */
-
 /* --alpha or --matrix, and --mean, of ggx. 1, or 0 after a complaint. */
 static int read_map(const arguments *given, vndf_surface *map)
 {
@@ -42,7 +40,7 @@ static int read_map(const arguments *given, vndf_surface *map)
     const char *mean = option_value(given, "--mean");
     double m[4] = {1, 0, 0, 1}, shift[2] = {0, 0};
     if (alpha && matrix)
-        return complain(name, "--alpha and --matrix are given; one of them is possible"), 0;
+        return denied(name, "--alpha and --matrix are given; one of them is possible");
     if (!roughness_from(name, alpha, map) ||
         (matrix && !parse_numbers(name, "--matrix", matrix, -1e18, 1e18, 4, 4, m)) ||
         (mean && !parse_numbers(name, "--mean", mean, -1e6, 1e6, 2, 2, shift)))
@@ -54,11 +52,8 @@ static int read_map(const arguments *given, vndf_surface *map)
     map->mean_y = (float)shift[1];
     const vndf_mixture alone = {1, {{*map, 1}}}; /* which has no view if it is singular */
     if (vndf_mixture_view_from(&alone, (vndf_vec3){0, 0, 1}).count != 1)
-        return complain(
-                   name,
-                   "--matrix '%s' is singular, or maps slopes by less than 1e-18 or more than 1e18 times their length",
-                   matrix ? matrix : ""),
-               0;
+        return denied(name, "--matrix '%s' is singular, or its scale is not from 1e-18 to 1e18",
+                      matrix ? matrix : "");
     return 1;
 }
 
@@ -70,7 +65,7 @@ static int read_surface(const arguments *given, vndf_mixture *surface, chosen_di
     double p;
     vndf_surface map;
     if (is_family_file(word))
-        return complain(name, "'%s' is a family; say at which parameter, as in %s@2.5", word, word), 0;
+        return denied(name, "'%s' is a family; say at which parameter, as in %s@2.5", word, word);
     snprintf(path, sizeof path, "%.*s", at ? (int)(at - word) + 6 : (int)strlen(word), word);
     if (!read_map(given, &map) || !distribution_open(of, name, path, at != NULL))
         return 0;
@@ -82,14 +77,11 @@ static int read_surface(const arguments *given, vndf_mixture *surface, chosen_di
         return 0;
     vndf_family_facts facts = vndf_family_info(of->family);
     if (!((float)p >= facts.low && (float)p <= facts.high))
-        return complain(name, "the parameter '%s' is not in the range of the family, from %.7g to %.7g", at + 7,
-                        (double)facts.low, (double)facts.high),
-               0;
+        return denied(name, "the parameter '%s' is not in the range of the family, from %.7g to %.7g", at + 7,
+                      (double)facts.low, (double)facts.high);
     vndf_family_at(of->family, (float)p, &map, surface);
     return 1;
 }
-
-/* ---- samples ------------------------------------------------------------------------------------- */
 
 /* Stops early where going on is useless: the user interrupted, or the disk is full. */
 static int write_samples(const vndf_mixture_view *view, unsigned long long count, uint64_t seed, int is_csv,

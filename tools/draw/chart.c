@@ -1,8 +1,7 @@
 #include "cli/figures.h"
-#include "draw/chart.h"
+#include "draw/draw.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 static const double text_height = 12, glyph_width = 6.5;
 
@@ -21,8 +20,6 @@ typedef struct picture {
     box taken[BOXES_MAX];
     size_t count;
 } picture;
-
-/* ---- axes ---------------------------------------------------------------------------------------- */
 
 static void fit(picture *p, int is_y)
 {
@@ -78,8 +75,6 @@ static int tick_at(const picture *p, int is_y, int index, double *at, int *is_na
     return place_of(p, is_y, *at) < 1 + 1e-9;
 }
 
-/* ---- the frame ----------------------------------------------------------------------------------- */
-
 /* Lines across the frame, those without a name finer, and names. */
 static void draw_ticks(const picture *p, int is_y)
 {
@@ -125,8 +120,6 @@ static void draw_frame(const picture *p)
     }
     svg_text(p->file, "title ink", SVG_START, p->left, 18, p->c->title);
 }
-
-/* ---- series -------------------------------------------------------------------------------------- */
 
 static void take(picture *p, double x, double y, double around)
 {
@@ -198,8 +191,6 @@ static void draw_key(const picture *p)
     }
 }
 
-/* ---- labels -------------------------------------------------------------------------------------- */
-
 /* Tries places around the point, near ones first, and takes the first where the text covers nothing; where there is
  * none it is left out. */
 static void label_point(picture *p, double x, double y, unsigned colour, const char *text)
@@ -226,8 +217,6 @@ static void label_point(picture *p, double x, double y, unsigned colour, const c
         return;
     }
 }
-
-/* ---- the whole ----------------------------------------------------------------------------------- */
 
 void chart_draw(FILE *file, const chart *c, int is_alone)
 {

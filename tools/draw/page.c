@@ -9,13 +9,10 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "draw/svg.h"
+#include "draw/draw.h"
 #include "vndf.h"
 
-/* Names the command near the beginning of a page. */
 #define MARK "<meta name=\"generator\" content=\"%s\">"
-
-/* ---- the folder ---------------------------------------------------------------------------------- */
 
 static int has_our_page(const html_page *page)
 {
@@ -30,25 +27,20 @@ static int has_our_page(const html_page *page)
     return strstr(head, mark) != NULL;
 }
 
-/* Whether a folder that was there may be written to. */
 static int may_fill(html_page *page)
 {
     const char *command = page->command, *path = page->folder;
     DIR *directory = opendir(path);
     if (!directory)
-        return complain(command, "'%s' is no folder that can be read: %s", path, strerror(errno)), 0;
+        return denied(command, "'%s' is no folder that can be read: %s", path, strerror(errno));
     for (const struct dirent *entry; !page->is_replaced && (entry = readdir(directory)) != NULL;)
         page->is_replaced = strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
     closedir(directory);
     if (access(path, W_OK | X_OK) != 0)
-        return complain(command, "cannot write into '%s': %s", path, strerror(errno)), 0;
+        return denied(command, "cannot write into '%s': %s", path, strerror(errno));
     return !page->is_replaced || has_our_page(page) ||
-           (complain(
-                command,
-                "'%s' has files in it, and no page of `%s`: name a new folder, an empty one, or one with such a "
-                "page, which is replaced",
-                path, command),
-            0);
+           denied(command, "'%s' has files in it, and no page of `%s`: name a new or an empty folder", path,
+                  command);
 }
 
 int page_open(html_page *page, const char *command, const char *folder)
@@ -80,8 +72,6 @@ int page_close(html_page *page, int status)
     return status;
 }
 
-/* ---- files --------------------------------------------------------------------------------------- */
-
 FILE *page_file(html_page *page, const char *name)
 {
     const size_t n = page->count, size = strlen(page->folder) + strlen(name) + 2;
@@ -103,8 +93,6 @@ void page_link(html_page *page, const char *what)
     fprintf(page->html, "<p class=\"note\">Data: <a href=\"%s\" download=\"%s\">%s</a>, %s.</p>\n", name, name,
             name, what);
 }
-
-/* ---- the page ------------------------------------------------------------------------------------ */
 
 static const char style[] =
     ":root{color-scheme:light dark;--back:#fff;--ink:#212529;--quiet:#495057;--rule:#dee2e6;"
@@ -177,7 +165,7 @@ int page_table(html_page *page, const figures *f)
     FILE *html = page->html;
     const size_t columns = figures_columns(f);
     if (f->failed)
-        return complain(page->command, "no memory"), 0;
+        return denied(page->command, "no memory");
     fputs("<div class=\"scroll\"><table><thead><tr>", html);
     for (size_t k = 1; k < columns; k++)
         put_cell(html, "th", f->at[k].kind == FIGURE_NUMBER ? NULL : "text", f->at[k].name);

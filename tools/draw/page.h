@@ -6,7 +6,7 @@
 #include "cli/figures.h"
 #include "cli/output.h"
 
-enum { PAGE_FILES_MAX = 64, PAGE_NAME_MAX = 64 };
+enum { PAGE_FILES_MAX = 128, PAGE_NAME_MAX = 64 };
 
 typedef struct html_page {
     const char *command, *folder;             /* what makes the page, and where */

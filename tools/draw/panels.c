@@ -1,11 +1,10 @@
-#include "draw/panels.h"
+#include "draw/draw.h"
 
 #include <math.h>
 
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
-#include "draw/chart.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -25,8 +24,6 @@ static double round_angle(double degrees)
     }
     return best;
 }
-
-/* ---- D ------------------------------------------------------------------------------------------- */
 
 void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
 {
@@ -57,8 +54,6 @@ void panel_ndf(FILE *file, svg_box box, const vndf_surface *surface)
                      .count = is_round && !has_ggx ? 1 : 2};
     chart_draw(file, &c, 0);
 }
-
-/* ---- discs --------------------------------------------------------------------------------------- */
 
 /* A disc in the making: its centre and radius, what is seen, and the rim, sin(theta/2) of its angle. */
 typedef struct disc {
@@ -128,7 +123,8 @@ static int draw_density(disc *d)
     d->maximum = sorted[inside - 1 - inside / 500];
     d->maximum = d->maximum > 0 ? d->maximum : sorted[inside - 1];
     for (size_t i = 0; i < SIDE * SIDE; i++)
-        index[i] = density[i] < 0 ? 0 : svg_shade(d->maximum > 0 ? sqrt(density[i] / d->maximum) : 0);
+        index[i] =
+            density[i] < 0 ? 0 : (unsigned char)(1.5 + 254 * sqrt(fmin(density[i] / fmax(d->maximum, 1e-300), 1)));
     free(density);
     const svg_box box = {d->x - d->radius, d->y - d->radius, 2 * d->radius, 2 * d->radius};
     return svg_raster(d->file, box, index, SIDE, SIDE);

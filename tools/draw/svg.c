@@ -1,4 +1,4 @@
-#include "draw/svg.h"
+#include "draw/draw.h"
 
 #include "draw/png.h"
 
@@ -74,29 +74,19 @@ void svg_circle(FILE *file, const char *kind, double x, double y, double radius,
             x, y, radius, width);
 }
 
-/* From nearly white to dark blue through green: lightness falls steadily, so it also reads in grey. */
-static png_colour ramp_colour(double place)
+/* The palette goes from nearly white to dark blue through green: lightness falls steadily, so it also reads in grey. */
+int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows)
 {
     static const double stops[][3] = {{250, 251, 247}, {205, 232, 206}, {120, 198, 186},
                                       {44, 140, 180},  {26, 79, 142},   {10, 26, 74}};
-    double at = place * 5, rounding = 0.5, rgb[3];
-    int low = at < 4 ? (int)at : 4;
-    for (int i = 0; i < 3; i++)
-        rgb[i] = stops[low][i] + (at - low) * (stops[low + 1][i] - stops[low][i]) + rounding;
-    return (png_colour){(unsigned char)rgb[0], (unsigned char)rgb[1], (unsigned char)rgb[2]};
-}
-
-unsigned char svg_shade(double density)
-{
-    double clipped = density > 0 ? (density < 1 ? density : 1) : 0;
-    return (unsigned char)(1 + (int)(254 * clipped + 0.5));
-}
-
-int svg_raster(FILE *file, svg_box box, const unsigned char *index, size_t columns, size_t rows)
-{
     png_colour palette[256] = {{255, 255, 255}};
-    for (int i = 1; i < 256; i++)
-        palette[i] = ramp_colour((i - 1) / 254.0);
+    for (int i = 1; i < 256; i++) {
+        const int low = i < 205 ? (i - 1) * 5 / 254 : 4;
+        const double part = (i - 1) / 254.0 * 5 - low, *a = stops[low], *b = stops[low + 1];
+        palette[i] = (png_colour){(unsigned char)(a[0] + part * (b[0] - a[0]) + 0.5),
+                                  (unsigned char)(a[1] + part * (b[1] - a[1]) + 0.5),
+                                  (unsigned char)(a[2] + part * (b[2] - a[2]) + 0.5)};
+    }
     fprintf(file,
             "<image x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" preserveAspectRatio=\"none\" "
             "xlink:href=\"data:image/png;base64,",

@@ -4,9 +4,7 @@
 #include <math.h>
 
 #include "cli/sort.h"
-#include "evidence/measure/stratified.h"
-
-/* ---- worth --------------------------------------------------------------------------------------- */
+#include "evidence/measure/measure.h"
 
 enum { ANGLES = 6, ALBEDO_ANGLES = 2, LONG = 64, SHORT = 16 };
 
@@ -58,8 +56,6 @@ static int measure(evidence *all, block *b)
     }
     return 1;
 }
-
-/* ---- time ---------------------------------------------------------------------------------------- */
 
 enum { TURNS_LEAST = 7 };
 
@@ -131,14 +127,11 @@ static int take_times(evidence *all, block *b)
     return goes_on;
 }
 
-/* ---- rows ---------------------------------------------------------------------------------------- */
-
 static double efficiency(double variance, double ns, double other_variance, double other_ns)
 {
     return variance > 0 ? other_variance * other_ns / (variance * ns) : NAN;
 }
 
-/* To the yardsticks. */
 static void relate(evidence_row *r)
 {
     double *to = r->number, ns = to[COL_NS];

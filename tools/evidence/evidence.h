@@ -7,14 +7,13 @@
  *     worth.c      error and variance of a method from one direction
  *     evidence.c   all of these in order, and time in turns, into the numbers of the rows
  *     row.c        the one list of columns, the printer
- *     report.c     the page of `vndf report`
  *     measure/     what `vndf check` asks: certificates, chi-square, hard cases, agreement of calls; points of Sobol'
  *
  * All methods run in one process and take turns; each is verified before its time counts. */
 #pragma once
 
+#include "cli/figures.h"
 #include "cli/progress.h"
-#include "draw/page.h"
 #include "evidence/method.h"
 #include "vndf_build.h"
 
@@ -82,7 +81,7 @@ typedef enum evidence_column {
     COL_TV,       /* largest total variation to the true visible normals from above the horizon */
     COL_TV_BELOW, /* of tables of ours: from all directions */
     COL_WEIGHT,   /* largest true/drawn density that was met; of materials the largest weight */
-    COL_SOBOL,  /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of caps (measure/stratified.h) */
+    COL_SOBOL,  /* of ours: RMSE under 64 Owen-scrambled Sobol' points over that of caps (measure/stratified.c) */
     COL_EFF_60, /* 1/(variance time) over that of all normals: albedo of gold at 60 and 85 degrees, a small light */
     COL_EFF_85,
     COL_EFF_LIGHT,
@@ -127,20 +126,9 @@ void evidence_free(evidence *of);
  * row. 0 if there was no memory. */
 int evidence_print(FILE *file, const evidence *all, figures_form form);
 
-/* ---- the page of `vndf report` ------------------------------------------------------------------- */
-
-enum { REPORT_SUBJECTS = 4 };
-
-typedef struct report {
-    subject subject[REPORT_SUBJECTS]; /* the first is the one at hand */
-    size_t count;
-    evidence *found;       /* for the one at hand */
-    evidence_column batch; /* by the best instructions of this machine, and their name */
-    const char *instructions;
-} report;
-
-/* The page with its data; 0 after a complaint. */
-int report_write(html_page *page, const report *r);
+/* The same without the legend, to be freed; and that of normals. */
+figures evidence_table(const evidence *all, figures_form form);
+extern const char evidence_legend[];
 
 /* ---- parts of it --------------------------------------------------------------------------------- */
 

@@ -1,7 +1,6 @@
 /* Which methods of which distributions: the rows of a plan. All of them are made, tables too, which takes less than a
  * second; what nobody asked for is neither measured nor timed. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "evidence/evidence.h"
@@ -12,14 +11,10 @@ const table_size table_sizes[SIZES] = {
     {4096, 4, "table 4 KiB, 4 moments"}, {8192, 2, "table 8 KiB, 2 moments"},  {8192, 3, "table 8 KiB, 3 moments"},
     {8192, 4, "table 8 KiB, 4 moments"}, {32768, 4, "table 32 KiB, 4 moments"}};
 
-/* ---- subjects ------------------------------------------------------------------------------------ */
-
 void subject_begin(subject *s, vndf_source *source, const char *name)
 {
     *s = (subject){.source = source};
-    snprintf(s->name, sizeof s->name, "%s", name);
-    if (strlen(name) >= sizeof s->name)
-        memcpy(s->name + sizeof s->name - 4, "...", 4);
+    snprintf(s->name, sizeof s->name, strlen(name) < sizeof s->name ? "%s" : "%.60s...", name);
 }
 
 void subject_free(subject *s)
@@ -30,25 +25,16 @@ void subject_free(subject *s)
     *s = (subject){.source = NULL};
 }
 
-static int build_progress(double done, const char *what, void *user)
-{
-    (void)done;
-    return !evidence_go_on(user, what);
-}
-
 const vndf_distribution *subject_table(subject *s, size_t i, const evidence_plan *plan, vndf_error *error)
 {
-    evidence_plan asked = *plan;
     const vndf_build_options options = {.max_bytes = table_sizes[i].bytes,
                                         .moments = table_sizes[i].moments,
-                                        .progress = build_progress,
-                                        .progress_user = &asked};
+                                        .progress = progress_show,
+                                        .progress_user = plan->progress};
     if (!s->table[i])
         s->table[i] = vndf_build(s->source, &options, NULL, error);
     return s->table[i];
 }
-
-/* ---- rows ---------------------------------------------------------------------------------------- */
 
 /* Adds a row for the method, which it owns then. */
 static evidence_row *add(evidence *to, const method_reference *of, method m)
@@ -72,7 +58,6 @@ static evidence_row *add(evidence *to, const method_reference *of, method m)
     return r;
 }
 
-/* The first row of that name and distribution. */
 static evidence_row *find(evidence *in, const char *name, const method_reference *of)
 {
     for (evidence_row *r = in->row; name && r < in->row + in->count; r++)
@@ -97,7 +82,7 @@ static void list_normals(evidence *to)
         const vndf_distribution *d = of->canonical.distribution;
         add(to, of, method_all_normals(of));
         add_calls(to, of, d, "closed form", METHOD_SAMPLE, METHOD_SAMPLE);
-        add_calls(to, of, d, "closed form", METHOD_AFFINE, of == ggx ? METHOD_EXPORTED : METHOD_TWO_LOBES);
+        add_calls(to, of, d, "closed form", METHOD_SIXTEEN, of == ggx ? METHOD_EXPORTED : METHOD_EIGHT_LOBES);
     }
     for (size_t i = 0; i < SIZES; i++)
         add_calls(to, at_hand, to->plan->at_hand->table[i], table_sizes[i].name, METHOD_SAMPLE,
@@ -114,6 +99,8 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
 {
     const vndf_surface surface = vndf_rough(of->canonical.distribution, to->plan->alpha_x, to->plan->alpha_y);
     for (const effect_set *set = effect_sets; set < effect_sets + effect_set_count; set++) {
+        if (set->by_hand && of->canonical.distribution != vndf_ggx())
+            continue;
         evidence_row *r = add(to, of, method_effect(set, &surface, to->error));
         if (!r)
             return to->error->status;
@@ -126,26 +113,22 @@ static vndf_status list_materials(evidence *to, const method_reference *of)
     return VNDF_OK;
 }
 
-/* ---- which are wanted ---------------------------------------------------------------------------- */
-
-/* A name, or a word of one, that --only nearly is; near[] is empty if there is none. */
-static void find_near(const evidence *all, char near[64])
+/* Behind a refusal the name, or the word of one, that --only nearly is. */
+static const char *near_name(const evidence *all)
 {
-    for (size_t i = 0; i < 2 * all->count; i++) {
-        snprintf(near, 64, "%s", i % 2 ? all->row[i / 2].m.name : all->row[i / 2].of->name);
-        for (const char *word = strtok(near, " ,:()"); word; word = strtok(NULL, " ,:()"))
-            if (nearest_word(all->plan->only, &word, 1)) {
-                memmove(near, word, strlen(word) + 1);
-                return;
-            }
+    char name[64];
+    const char *hint = "";
+    for (size_t i = 0; i < 2 * all->count && !*hint; i++) {
+        snprintf(name, sizeof name, "%s", i % 2 ? all->row[i / 2].m.name : all->row[i / 2].of->name);
+        for (const char *word = strtok(name, " ,:()"); word && !*hint; word = strtok(NULL, " ,:()"))
+            hint = did_you_mean(all->plan->only, &word, 1);
     }
-    *near = '\0';
+    return hint;
 }
 
 static vndf_status choose(evidence *all)
 {
     const char *only = all->plan->only;
-    char near[64];
     size_t shown = 0;
     for (evidence_row *r = all->row; r < all->row + all->count; r++)
         if (!only || strstr(r->m.name, only) || strstr(r->of->name, only)) {
@@ -158,12 +141,9 @@ static vndf_status choose(evidence *all)
         }
     if (shown)
         return VNDF_OK;
-    find_near(all, near);
     all->error->status = VNDF_ERROR_ARGUMENT;
-    snprintf(all->error->message, sizeof all->error->message,
-             "no %s or distribution has '%.64s' in its name%s%s%s",
-             all->plan->is_of_materials ? "set of effects" : "method", only, *near ? "; did you mean '" : "", near,
-             *near ? "'?" : "");
+    snprintf(all->error->message, sizeof all->error->message, "no %s or distribution has '%.64s' in its name%s",
+             all->plan->is_of_materials ? "set of effects" : "method", only, near_name(all));
     return VNDF_ERROR_ARGUMENT;
 }
 

@@ -41,7 +41,6 @@ typedef struct block {
     vndf_scattered out[BLOCK]; /* of single calls of materials; eval fills weight, pdf density */
 } block;
 
-/* How a block is filled. */
 typedef struct block_law {
     const vndf_distribution *seen; /* whose visible normals are given; NULL: directions wo are */
     float low, high;               /* of alpha */
@@ -52,10 +51,8 @@ typedef struct block_law {
 /* Everything is a function of the seed, so that all methods of a turn have the same inputs. */
 void block_fill(block *b, const block_law *law, uint64_t seed);
 
-/* One direction and roughness for all. */
 void block_aim(block *b, vndf_vec3 wi, float alpha);
 
-/* Copies the arrays into in[]. */
 void block_pack(block *b);
 
 /* ---- methods ------------------------------------------------------------------------------------- */
@@ -72,8 +69,10 @@ typedef enum method_call {
     METHOD_INVERT,
     METHOD_NDF,
     METHOD_LAMBDA,
+    METHOD_SIXTEEN, /* samples of each direction */
     METHOD_AFFINE,
     METHOD_TWO_LOBES,
+    METHOD_EIGHT_LOBES,
     METHOD_EXPORTED,
     METHOD_CALLS
 } method_call;
@@ -139,6 +138,7 @@ typedef struct effect_set {
     int is_rough;        /* a roughness for each hit, by vndf_bsdf_on in the place of vndf_bsdf_at */
     int stretched;       /* alpha_y is a quarter of alpha_x */
     int turned;          /* and their axes are, by half a radian */
+    int by_hand;         /* GGX alone: a loop over view and sample that knows its area, single calls alone */
     const char *visible; /* the set with visible normals that efficiency is compared with; NULL: none */
 } effect_set;
 
@@ -159,7 +159,6 @@ typedef struct effect_case {
 /* A method without `each` and an error if the set cannot be made. */
 method method_effect(const effect_set *set, const vndf_surface *surface, vndf_error *error);
 
-/* How blocks of a set are filled. */
 block_law effect_law(const effect_set *set);
 
 /* The cosine of w that goes with values: to the normal of the mean plane. */

@@ -42,7 +42,7 @@ static const struct {
     [COL_EFF_VISIBLE] = {"efficiency", "eff", "%.3g", 1, NUMBER},
 };
 
-static const char legend_normals[] =
+const char evidence_legend[] =
     "ns: view, sample and density, a direction each (median of turns; spread: half of what lies between\n"
     "quartiles); batch, avx2, avx512: the same by batches, compiled for every machine and for these;\n"
     "shared: 256 samples of one direction; ratio: to spherical caps. memory: bytes of its tables when\n"
@@ -81,7 +81,7 @@ static int is_told(const evidence *all, evidence_column c, int is_wide)
     return 0;
 }
 
-int evidence_print(FILE *file, const evidence *all, figures_form form)
+figures evidence_table(const evidence *all, figures_form form)
 {
     static const char *const kinds[] = {"published", "closed", "table", "exported", "call", "effects"};
     const int is_whole = form == FIGURES_CSV || form == FIGURES_JSON, is_of_materials = all->plan->is_of_materials;
@@ -100,9 +100,15 @@ int evidence_print(FILE *file, const evidence *all, figures_form form)
             else if (is_told(all, c, form != FIGURES_TEXT))
                 put_cell(&t, r, c);
     }
+    return t;
+}
+
+int evidence_print(FILE *file, const evidence *all, figures_form form)
+{
+    figures t = evidence_table(all, form);
     int good = figures_print(file, &t, form);
     figures_free(&t);
-    if (good && !is_whole)
-        good = fprintf(file, "\n%s", is_of_materials ? legend_materials : legend_normals) > 0;
+    if (good && (form == FIGURES_TEXT || form == FIGURES_MARKDOWN))
+        good = fprintf(file, "\n%s", all->plan->is_of_materials ? legend_materials : evidence_legend) > 0;
     return good;
 }

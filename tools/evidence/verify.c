@@ -4,8 +4,6 @@
 
 #include "evidence/evidence.h"
 
-/* ---- normals ------------------------------------------------------------------------------------- */
-
 /* 4e-6 in the square of the length: what vectors with approximate roots leave. A normal at a right angle to wi may
  * be rounded to the far side. */
 static int sample_good(const method *m, const block *b, size_t i)
@@ -21,19 +19,6 @@ static int sample_good(const method *m, const block *b, size_t i)
     return dot >= -1e-6f && pdf > 0.0f && pdf < INFINITY;
 }
 
-static int normals_good(const method *m, method_run *run, block *b)
-{
-    int good = 1;
-    for (size_t i = 0; i < BLOCK; i++)
-        b->x[i] = b->y[i] = b->z[i] = b->pdf[i] = 0;
-    run(m, b);
-    for (size_t i = 0; i < BLOCK; i++)
-        good &= sample_good(m, b, i);
-    return good;
-}
-
-/* ---- materials ----------------------------------------------------------------------------------- */
-
 /* Directions are unit and on the side of their lobe, weights and densities finite and not negative. */
 static int is_sane(const effect_case *of, const vndf_scattered *s)
 {
@@ -46,16 +31,16 @@ static int is_sane(const effect_case *of, const vndf_scattered *s)
 }
 
 /* Whether samples agree with values and densities is what tests/bsdf ask. */
-static int materials_good(const method *m, method_run *run, block *b)
+static int is_right(const method *m, method_run *run, block *b)
 {
     int good = 1;
+    for (size_t i = 0; i < BLOCK; i++)
+        b->x[i] = b->y[i] = b->z[i] = b->pdf[i] = 0;
     run(m, b);
     for (size_t i = 0; i < BLOCK; i++)
-        good &= is_sane(m->state, &b->out[i]);
+        good &= m->kind == ROW_EFFECT ? is_sane(m->state, &b->out[i]) : sample_good(m, b, i);
     return good;
 }
-
-/* ---- batches ------------------------------------------------------------------------------------- */
 
 /* Whether a batch left in b what single calls leave in `single`, which are looked at themselves. */
 static int same_bits(const method *m, const block *b, const block *single)
@@ -82,18 +67,16 @@ int evidence_verify(const method *m, vndf_instructions set, const block_law *law
         b->limit = set;
         block_fill(b, law, seed + round);
         memcpy(single, b, sizeof *b);
-        if (m->kind != ROW_EFFECT)
-            good = normals_good(m, set ? m->batch : m->each, b);
-        else if (set)
+        if (set && m->kind == ROW_EFFECT) /* whose batches leave nothing in `out` */
             m->batch(m, b);
         else
-            good = materials_good(m, m->each, b) && materials_good(m, m->shared, b);
+            good = is_right(m, set ? m->batch : m->each, b);
         if (set && m->same_bits) {
             m->each(m, single);
             good = good && same_bits(m, b, single);
-        } else if (!set && m->shared && m->kind != ROW_EFFECT) {
+        } else if (!set && m->shared) {
             block_aim(b, b->in[0].wi, b->alpha[0]);
-            good = good && normals_good(m, m->shared, b);
+            good = good && is_right(m, m->shared, b);
         }
     }
     return good;

@@ -18,12 +18,10 @@
 
 #include "cli/subject.h"
 #include "evidence/evidence.h"
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 
 static const float gold_n = 0.43f, gold_k = 2.455f;
 static const double alpha_measured = 0.5;
-
-/* ---- normals ----------------------------------------------------------------------------------- */
 
 static double dot(vndf_vec3 a, vndf_vec3 b)
 {
@@ -74,8 +72,6 @@ findings worth_of_normals(const method *m, const method_reference *reference, do
                       .tv = excess / count,
                       .max_weight = most};
 }
-
-/* ---- materials ----------------------------------------------------------------------------------- */
 
 void worth_of_material(const method *m, const block_law *law, double theta, block *b, size_t blocks,
                        double found[COLUMNS])

@@ -27,8 +27,6 @@ static void scale(judge_view *v, size_t samples, counts *c)
     }
 }
 
-/* ---- blocks -------------------------------------------------------------------------------------- */
-
 enum { SUMS_MAX = JUDGE_BINS + 2 * JUDGE_SIDE };
 
 static void sums_of(const judge_view *v, const double *bins, double *sum)
@@ -96,8 +94,6 @@ static exchange show(const judge_view *v, const counts *c)
         }
     return too_many ? v->sample[most] : v->density[most];
 }
-
-/* ---- chi-square ---------------------------------------------------------------------------------- */
 
 /* Of so many rings and sectors, in which bins are put together. */
 static pearson pearson_over(const judge_view *v, const counts *c, size_t rings, size_t sectors)

@@ -4,20 +4,20 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/arguments.h"
 #include "cli/random.h"
 #include "cli/sort.h"
 #include "cli/subject.h"
 
 static const double pi = 3.14159265358979323846;
 
-void judge_note(judge_fault *f, double amount, double beside, const exchange *shown)
+/* Keeps the worst; what is no number is the worst of all. */
+static void note(judge_fault *f, double amount, double beside, const exchange *shown)
 {
     amount = isnan(amount) ? HUGE_VAL : amount;
     if (amount > f->worst)
         *f = (judge_fault){amount, beside, *shown};
 }
-
-/* ---- directions ---------------------------------------------------------------------------------- */
 
 /* Angles in degrees, and rings. The eight in the middle are inclined enough for a fault of one octant to matter. */
 static const struct {
@@ -44,8 +44,6 @@ static void place_views(judgement *j, size_t samples, random_stream *stream)
         v->turn = atan2((double)v->wi.y, (double)v->wi.x);
     }
 }
-
-/* ---- samples ------------------------------------------------------------------------------------- */
 
 /* Of each direction, in this order: those that place the bins, those that are counted, stratified ones, those at the
  * ends of [0, 1), 27 kinds, each number at 0, at 1 - 2^-24 or random, and pairs that are close to an end. */
@@ -79,10 +77,10 @@ static size_t take_sample(judgement *j, const judge_view *v, const exchange *e)
     const double length = sqrt(a->x * a->x + a->y * a->y + a->z * a->z);
     const double facing = a->x * (double)q->wi.x + a->y * (double)q->wi.y + a->z * (double)q->wi.z;
     double theta, phi;
-    judge_note(&j->fault[JUDGE_UNIT], fabs(length - 1), NAN, e);
-    judge_note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
+    note(&j->fault[JUDGE_UNIT], fabs(length - 1), NAN, e);
+    note(&j->fault[JUDGE_FACING], -fmin(facing, a->z), NAN, e);
     if (!(a->pdf > 0 && isfinite(a->pdf)))
-        judge_note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
+        note(&j->fault[JUDGE_VALID], j->fault[JUDGE_VALID].worst + 1, NAN, e);
     locate(v, a, &theta, &phi);
     if (!(theta <= pi / 2 + 1e-6))
         return JUDGE_BINS;
@@ -138,7 +136,7 @@ static void compare_pairs(judgement *j, const query *asked, const answer *got)
         const exchange its = {asked[i], *a};
         const size_t end = i / 2 % 4;
         same[end] += a->x == b->x && a->y == b->y && a->z == b->z ? 1.0 / PAIRS : 0;
-        judge_note(&j->fault[JUDGE_MOVES], same[end], NAN, &its);
+        note(&j->fault[JUDGE_MOVES], same[end], NAN, &its);
     }
 }
 
@@ -190,7 +188,7 @@ static int agree(const judge_task *task, judgement *j)
             const exchange *e = &j->view[i].first[k];
             const double beside = got[i * JUDGE_ASKED + k].pdf, differ = fabs(e->got.pdf / beside - 1);
             differs[k] = isnan(differ) ? HUGE_VAL : differ;
-            judge_note(&most, differ, beside, e);
+            note(&most, differ, beside, e);
         }
         sort_numbers(differs, JUDGE_ASKED);
         most.worst = differs[JUDGE_ASKED * 99 / 100];
@@ -201,7 +199,106 @@ static int agree(const judge_task *task, judgement *j)
     return got != NULL;
 }
 
-/* ---- roughness ----------------------------------------------------------------------------------- */
+/* The integral of the density over bins (evidence/measure/measure.h), of theta and the azimuth, and what is seen on
+ * the way: densities that are none, and how far they are from the true visible normals. */
+
+/* What a cell may err, of all mass. Each round runs the command. */
+static const double CLOSE = 4e-6;
+enum { ROUNDS = 8, CELLS_MAX = 40000 * JUDGE_VIEWS };
+
+typedef struct integrating {
+    const judge_task *task;
+    judgement *j;
+    progress *bar;
+    int round;
+    vndf_view truth[JUDGE_VIEWS]; /* without a distribution all is 0 */
+} integrating;
+
+/* Both densities per theta and azimuth, and what they show. */
+static void take(integrating *of, quadrature_point *at, const exchange *its)
+{
+    const size_t view = at->bin / JUDGE_EACH;
+    exchange *most = &of->j->view[view].density[at->bin % JUDGE_EACH];
+    judge_fault *fault = of->j->fault;
+    const double sine = sin(at->x), p = its->got.pdf;
+    const double truth = (double)vndf_visible(&of->truth[view], its->asked.x);
+    const int is_valid = p >= 0 && isfinite(p);
+    at->value[0] = is_valid ? p * sine : 0;
+    at->value[1] = truth * sine;
+    if (!is_valid)
+        note(&fault[JUDGE_VALID], fault[JUDGE_VALID].worst + 1, NAN, its);
+    note(&fault[JUDGE_NORMALS], at->part * fabs(at->value[0] - at->value[1]), truth, its);
+    note(&fault[JUDGE_COVERS], at->value[0] > 0 ? 0 : at->part * at->value[1], truth, its);
+    if (at->value[0] >= most->got.pdf * sine)
+        *most = *its;
+}
+
+static int ask(void *user, quadrature_point *at, size_t count)
+{
+    integrating *of = user;
+    query *asked = malloc(count * sizeof *asked);
+    progress_show((double)of->round++ / ROUNDS, "densities", of->bar);
+    for (size_t i = 0; i < count && asked; i++) {
+        const judge_view *v = &of->j->view[at[i].bin / JUDGE_EACH];
+        const double sine = sin(at[i].x), phi = at[i].y + v->turn;
+        asked[i] = (query){'p', v->wi, {(float)(sine * cos(phi)), (float)(sine * sin(phi)), (float)cos(at[i].x)}};
+    }
+    answer *got = process_ask(of->task, at ? asked : NULL, count);
+    for (size_t i = 0; i < count && got; i++)
+        take(of, &at[i], &(exchange){asked[i], got[i]});
+    free(asked);
+    free(got);
+    return got != NULL;
+}
+
+/* Of the bins of each direction, and the worst of them. */
+static void sum_up(judgement *j)
+{
+    judge_fault *fault = j->fault;
+    fault[JUDGE_NORMALS].worst = fault[JUDGE_COVERS].worst = 0;
+    for (judge_view *v = j->view; v < j->view + JUDGE_VIEWS; v++) {
+        for (const quadrature_sum *sum = v->sum; sum < v->sum + JUDGE_BINS; sum++) {
+            v->total += sum->value;
+            v->error += sum->variance;
+            v->tv += sum->distance;
+            v->efficiency += sum->square;
+            v->uncovered += sum->uncovered;
+        }
+        v->error = 4 * sqrt(v->error);
+        v->efficiency = v->efficiency > 0 ? 1 / (v->efficiency * v->total) : 0;
+        fault[JUDGE_NORMALS].worst = fmax(fault[JUDGE_NORMALS].worst, v->tv);
+        fault[JUDGE_COVERS].worst = fmax(fault[JUDGE_COVERS].worst, v->uncovered);
+        if (v->is_first)
+            note(&fault[JUDGE_MASS], fabs(v->total - 1) - v->error, NAN, &v->first[0]);
+    }
+}
+
+static int integrate(const judge_task *task, progress *bar, judgement *j)
+{
+    integrating of = {.task = task, .j = j, .bar = bar};
+    const quadrature q = {.answer = ask,
+                          .of = &of,
+                          .bins = JUDGE_VIEWS * JUDGE_EACH,
+                          .most = CELLS_MAX,
+                          .close = CLOSE,
+                          .rounds = ROUNDS,
+                          .seed = task->seed ^ 0x5851F42D4C957F2Du,
+                          .observed = j->observed,
+                          .samples = (double)task->samples};
+    quadrature_cell *cells = malloc(CELLS_MAX * sizeof *cells);
+    size_t count = 0;
+    for (size_t i = 0; i < JUDGE_VIEWS; i++) {
+        const judge_view *v = &j->view[i];
+        of.truth[i] = vndf_view_from(&task->surface, v->wi);
+        if (cells)
+            count += bins_cells(v->ring, v->rings, v->sector, v->sectors, i * JUDGE_EACH, cells + count);
+    }
+    const int good = cells ? quadrature_run(&q, cells, count, j->sum) : denied(task->who, "no memory");
+    if (good)
+        sum_up(j);
+    free(cells);
+    return good;
+}
 
 /* The total variation to the visible normals of a roughness is the mean over samples of (1 - Dv/p)+, which is bounded:
  * samples whose density was asked for will do. */
@@ -241,8 +338,6 @@ static void fit_roughness(const judge_task *task, judgement *j)
     j->fits[1] = exp2(at[1]);
 }
 
-/* ---- the whole ----------------------------------------------------------------------------------- */
-
 int judge_sampler(const judge_task *task, progress *bar, judgement *j)
 {
     progress_step(bar, 0.5);
@@ -250,7 +345,7 @@ int judge_sampler(const judge_task *task, progress *bar, judgement *j)
     if (!draw(task, j) || !agree(task, j))
         return 0;
     progress_step(bar, 1);
-    if (!judge_integrate(task, bar, j))
+    if (!integrate(task, bar, j))
         return 0;
     judge_counts(j, task->samples);
     if (task->surface.distribution)

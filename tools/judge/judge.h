@@ -6,13 +6,12 @@
  * bins of a direction are intervals of theta, 0 to 90 degrees, times intervals of the azimuth from wi: 64 x 64, and
  * from above 1024 x 4 and 4 x 1024 as well, which see thin rings and wedges. Their borders are quantiles of samples
  * drawn before, of which a fifth is even, so that a region without samples has bins too. */
-#ifndef TOOLS_JUDGE_JUDGE_H
-#define TOOLS_JUDGE_JUDGE_H
+#pragma once
 
 #include <stdint.h>
 
 #include "cli/progress.h"
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 #include "vndf.h"
 
 /* Behind the bins of a direction comes one for samples that are in none. */
@@ -50,9 +49,10 @@ typedef struct exchange {
  * there are too few lines or too many, or queries is NULL, for want of memory. */
 answer *process_ask(const judge_task *task, const query *queries, size_t count);
 
-/* The line that asks, without its end. */
+/* The line that asks, without its end. `text` may hold the line `before`, whose wi is not printed again: printing
+ * numbers is what takes time. */
 enum { JUDGE_LINE = 512 };
-void process_line(char text[JUDGE_LINE], const query *q);
+void process_line(char text[JUDGE_LINE], const query *q, const query *before);
 
 /* ---- answers ------------------------------------------------------------------------------------- */
 
@@ -111,14 +111,7 @@ typedef struct judgement {
     double fits_tv;
 } judgement;
 
-/* Returns 1, or 0 after a complaint. */
 int judge_sampler(const judge_task *task, progress *bar, judgement *j);
 
-/* Its parts: the integrals over bins, 0 after a complaint; and what the counts say of them by JUDGE_TESTS tests. */
-int judge_integrate(const judge_task *task, progress *bar, judgement *j);
+/* What the counts say of the integrals over bins, by JUDGE_TESTS tests. */
 void judge_counts(judgement *j, size_t samples);
-
-/* Keeps the worst; what is no number is the worst of all. */
-void judge_note(judge_fault *f, double amount, double beside, const exchange *shown);
-
-#endif

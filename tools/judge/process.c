@@ -22,19 +22,13 @@ static int digits(float x)
     return x > 0.99f ? 17 : 9;
 }
 
-/* Prints wi if it is another one than in the line before, since printing numbers is what takes time. */
-static void print_query(char text[JUDGE_LINE], const query *q, const query *before)
+void process_line(char text[JUDGE_LINE], const query *q, const query *before)
 {
     static int start;
     if (!before || before->kind != q->kind || memcmp(&before->wi, &q->wi, sizeof q->wi) != 0)
         start = sprintf(text, "%c %.9g %.9g %.9g", q->kind, (double)q->wi.x, (double)q->wi.y, (double)q->wi.z);
     sprintf(text + start, " %.*g %.*g %.*g", digits(q->x.x), (double)q->x.x, digits(q->x.y), (double)q->x.y,
             digits(q->x.z), (double)q->x.z);
-}
-
-void process_line(char text[JUDGE_LINE], const query *q)
-{
-    print_query(text, q, NULL);
 }
 
 static pid_t begin(const char *command, rlim_t bytes, FILE *in, FILE *out)
@@ -86,21 +80,18 @@ static int run(const judge_task *task, size_t queries, FILE *in, FILE *out)
     const int reason = errno, status = child > 0 ? wait_for(child, task->timeout, out) : -1;
     output_release_signals();
     if (child < 0)
-        return complain(who, "'%s' cannot be run: %s", command, strerror(reason)), 0;
+        return denied(who, "'%s' cannot be run: %s", command, strerror(reason));
     if (fstat(fileno(out), &written) == 0 && (rlim_t)written.st_size >= bytes)
-        return complain(who, "'%s' writes without an end: more than %d bytes for each of %zu queries", command,
-                        JUDGE_LINE, queries),
-               0;
+        return denied(who, "'%s' writes without an end: more than %d bytes for each of %zu queries", command,
+                      JUDGE_LINE, queries);
     if (status == -1)
-        return complain(who, "'%s' wrote nothing for %g s and was ended; --timeout allows it longer", command,
-                        task->timeout),
-               0;
+        return denied(who, "'%s' wrote nothing for %g s and was ended; --timeout allows it longer", command,
+                      task->timeout);
     if (WIFSIGNALED(status))
-        return complain(who, "'%s' was ended by signal %d", command, WTERMSIG(status)), 0;
+        return denied(who, "'%s' was ended by signal %d", command, WTERMSIG(status));
     if (WEXITSTATUS(status) != 0)
-        return complain(who, "'%s' ended with status %d%s", command, WEXITSTATUS(status),
-                        WEXITSTATUS(status) == 127 ? ": there is no such command" : ", which has to be 0"),
-               0;
+        return denied(who, "'%s' ended with status %d%s", command, WEXITSTATUS(status),
+                      WEXITSTATUS(status) == 127 ? ": there is no such command" : ", which has to be 0");
     return 1;
 }
 
@@ -125,17 +116,16 @@ static int read_answers(const char *who, FILE *out, const query *queries, size_t
         double number[4] = {0, 0, 0, 0};
         const int is_there = fgets(line, sizeof line, out) != NULL;
         if (!is_there || !read_numbers(line, is_sample ? 4 : 1, is_sample ? number : number + 3)) {
-            process_line(asked, &queries[i]);
+            process_line(asked, &queries[i], NULL);
             if (!is_there)
-                return complain(who, "%zu of %zu queries were answered; the next is: %s", i, count, asked), 0;
-            return complain(who, "line %zu, '%.*s', is not %s; it answers: %s", i + 1, (int)strcspn(line, "\r\n"),
-                            line, is_sample ? "wm.x wm.y wm.z pdf" : "a number, pdf", asked),
-                   0;
+                return denied(who, "%zu of %zu queries were answered; the next is: %s", i, count, asked);
+            return denied(who, "line %zu, '%.*s', is not %s; it answers: %s", i + 1, (int)strcspn(line, "\r\n"),
+                          line, is_sample ? "wm.x wm.y wm.z pdf" : "a number, pdf", asked);
         }
         answers[i] = (answer){number[0], number[1], number[2], number[3]};
     }
     if (fgets(line, sizeof line, out))
-        return complain(who, "there are more answers than the %zu queries", count), 0;
+        return denied(who, "there are more answers than the %zu queries", count);
     return 1;
 }
 
@@ -146,13 +136,13 @@ answer *process_ask(const judge_task *task, const query *queries, size_t count)
     answer *answers = queries ? malloc(count * sizeof *answers) : NULL;
     int good = answers && in && out;
     for (size_t i = 0; i < count && good; i++) {
-        print_query(text, &queries[i], i ? &queries[i - 1] : NULL);
+        process_line(text, &queries[i], i ? &queries[i - 1] : NULL);
         good = fputs(text, in) >= 0 && putc('\n', in) >= 0;
     }
     if (!answers)
         complain(task->who, "no memory");
     else if (!good || fflush(in) != 0 || fseek(in, 0, SEEK_SET) != 0)
-        good = !complain(task->who, "a temporary file cannot be written: %s", strerror(errno));
+        good = denied(task->who, "a temporary file cannot be written: %s", strerror(errno));
     else
         good = run(task, count, in, out) && fseek(out, 0, SEEK_SET) == 0 &&
                read_answers(task->who, out, queries, count, answers);

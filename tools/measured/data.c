@@ -15,8 +15,6 @@ void note(data_file *file, const char *format, ...)
     memcpy(file->notes + used + (fits ? (size_t)length : 0), fits ? "\n" : "", fits ? 2 : 1);
 }
 
-/* ---- rows ---------------------------------------------------------------------------------------- */
-
 int profile_make(profile *made, vndf_rows_over over, vndf_rows_of of, size_t count, data_file *file)
 {
     double *x = calloc(2 * count, sizeof *x);

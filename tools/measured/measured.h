@@ -60,7 +60,6 @@ typedef struct tensor {
 int tensor_find(data_file *file, const char *name, int dimensions, tensor *found);
 double tensor_at(const tensor *of, size_t i);
 
-/* Writes to an open file; 0 if that fails. */
 int tensor_write(FILE *file, const tensor *fields, size_t count);
 
 enum { RGL_CHANNELS = 16 };

@@ -43,12 +43,6 @@ typedef struct law {
     double both_sides[AREAS][HALVES]; /* what a bin with D = 1 adds to the integral of |w.m| D(m) dm */
 } law;
 
-/* The integral over phi of |a + b cos(phi)|, b >= 0. */
-static double around(double a, double b)
-{
-    return fabs(a) >= b ? 2 * pi * fabs(a) : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
-}
-
 static void make_bins(law *l)
 {
     for (int i = 0; i < HALVES; i++) {
@@ -56,8 +50,9 @@ static void make_bins(law *l)
         const double bin = l->theta[i] = pi / 2 * at * at;
         l->share[i] = cos(pi / 2 * from * from) - cos(pi / 2 * to * to);
         for (int k = 0; k < AREAS; k++) {
-            const double theta = pi / 2 * k / (AREAS - 1);
-            l->both_sides[k][i] = l->share[i] * around(cos(theta) * cos(bin), sin(theta) * sin(bin));
+            const double theta = pi / 2 * k / (AREAS - 1), a = cos(theta) * cos(bin), b = sin(theta) * sin(bin);
+            const double around = a >= b ? 2 * pi * a : 4 * (a * asin(a / b) + sqrt(b * b - a * a));
+            l->both_sides[k][i] = l->share[i] * around; /* the integral over phi of |a + b cos(phi)| */
         }
     }
 }

@@ -37,7 +37,6 @@ static size_t tensor_count(const tensor *of)
     return count;
 }
 
-/* Where u = part/whole lies. */
 static double angle_at(double part, double whole)
 {
     const double u = part / whole;
@@ -107,10 +106,9 @@ static int read_ndf(data_file *file, const tensor *ndf, profile *rows)
     }
     off = whole > 0 ? off / 2 / whole : 0;
     note(file, "ndf %zu x %zu\nresidual_isotropy %.3g", azimuths, angles, off);
-    return off <= anisotropy_most || refuse(file,
-                                            "D is anisotropic: %.3g of all normals would have to turn about z to "
-                                            "make it isotropic, %.3g is the most",
-                                            off, anisotropy_most);
+    return off <= anisotropy_most ||
+           refuse(file, "D is anisotropic: %.3g of all normals would have to turn about z, %.3g is the most", off,
+                  anisotropy_most);
 }
 
 int rgl_read(data_file *file, profile *rows)

@@ -40,7 +40,6 @@ void slopes_add(slope_set *to, double x, double y, int part)
     to->at[to->count++] = (slope){(float)x, (float)y, part};
 }
 
-/* Takes the mean off. */
 static int centre(slope_set *slopes, data_file *file)
 {
     double x = 0, y = 0, square = 0, n = (double)slopes->count;
@@ -80,7 +79,6 @@ static double ratio_of(shape v)
     return middle > away ? sqrt((middle + away) / (middle - away)) : INFINITY;
 }
 
-/* Tyler's V, by its own map. */
 static int find_shape(const slope_set *slopes, data_file *file, shape *found)
 {
     shape v = {1, 0, 1};
@@ -97,8 +95,7 @@ static int find_shape(const slope_set *slopes, data_file *file, shape *found)
         if (!(scale > 0) || !(ratio_of(sum) < RATIO_MOST))
             return refuse(
                 file,
-                "the slopes lie on a line, %.0f times as wide one way as the other or more: grooves that are "
-                "all parallel have no D of two dimensions",
+                "the slopes lie on a line, %.0f times as wide one way as the other or more: parallel grooves have no D",
                 RATIO_MOST);
         change = fabs(sum.xx - v.xx) + fabs(sum.xy - v.xy) + fabs(sum.yy - v.yy);
         v = sum;
@@ -229,10 +226,10 @@ static int find_rows(slope_set *slopes, data_file *file, profile *rows)
     qsort(slopes->at, slopes->count, sizeof *slopes->at, by_length);
     const size_t bins = find_bins(slopes, begin), n = slopes->count;
     if (bins < BINS_LEAST)
-        return refuse(file,
-                      "%zu lengths of slopes can be told apart, and %d are needed: the steps of the data are too "
-                      "coarse, or it is flat",
-                      bins, BINS_LEAST);
+        return refuse(
+            file,
+            "%zu lengths of slopes can be told apart, and %d are needed: its steps are too coarse, or it is flat",
+            bins, BINS_LEAST);
     if (!profile_make(rows, VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, bins + 1, file))
         return 0;
     for (size_t i = 0; i < n; i++)

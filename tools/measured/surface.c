@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- heights ------------------------------------------------------------------------------------- */
-
 /* Numbers between blanks, a line for each row; # begins a comment. */
 static int read_rows(data_file *file, image *made)
 {
@@ -21,8 +19,7 @@ static int read_rows(data_file *file, image *made)
             if (behind == at || (*behind && !strchr(" \t\r\v\f\n#", *behind)) || fabs(z) > 1e30)
                 return refuse(
                     file,
-                    "line %zu: '%.*s' is no height; numbers between blanks are needed, nan where there is "
-                    "none",
+                    "line %zu: '%.*s' is no height; numbers between blanks are needed, nan where there is none",
                     line, (int)fmin((double)strcspn(at, " \t\r\v\f\n#"), 40), at);
             if (count == room) {
                 room = 2 * room + 4096;
@@ -59,8 +56,6 @@ int heights_read(data_file *file, image *made)
         image_free(made);
     return good;
 }
-
-/* ---- normals ------------------------------------------------------------------------------------- */
 
 /* One of 8 x 8 equal parts of a grid. */
 static int part_of(int width, int height, int x, int y)
@@ -110,8 +105,6 @@ int normals_slopes(data_file *file, slope_set *made)
     image_free(&map);
     return good;
 }
-
-/* ---- cut-off and slopes -------------------------------------------------------------------------- */
 
 /* `count` numbers `stride` apart: each becomes the mean of those around it that are there, weighed by distance. */
 static void smooth_line(float *line, size_t stride, int count, const double *kernel, int reach, float *room)

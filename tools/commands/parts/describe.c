@@ -36,7 +36,6 @@ static void put_table(figures *f, const vndf_info *info)
     figures_number(f, "floor", "%.4g", (double)c->floor, mass);
 }
 
-/* The largest total variation of the tables of a family. */
 static double largest_tv(const vndf_family *family)
 {
     double most = 0;
@@ -71,8 +70,6 @@ static void put_family(figures *f, const vndf_family *family)
     }
     figures_list_end(f);
 }
-
-/* ---- what it is worth ---------------------------------------------------------------------------- */
 
 /* The value of the first note with this key, up to the end of its line; "" if there is none. */
 static const char *note_of(const char *notes, const char *key)

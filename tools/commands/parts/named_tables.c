@@ -16,21 +16,19 @@ int named_tables_open(const char *command, const words *files, int families, exp
             continue; /* a closed form, which every kernel has */
         const int added = document_add(document, input_name(file), chosen.owned, chosen.family);
         if (added < 0)
-            return complain(command, "no memory"), 0;
+            return denied(command, "no memory");
         if (!added)
-            return complain(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
-                            document->upper, document->table[i].name),
-                   0;
+            return denied(command, "'%s': its constant would be %s%s, which is taken; rename the file", file,
+                          document->upper, document->table[i].name);
         if (document->count > (size_t)1 << 24)
-            return complain(command, "'%s': the tables have more than 2^24 numbers, which a float cannot count",
-                            file),
-                   0;
+            return denied(command, "'%s': the tables have more than 2^24 numbers, which a float cannot count",
+                          file);
     }
     if (!document->count) { /* no language has an array of no numbers */
         document->numbers = calloc(1, sizeof *document->numbers);
         document->count = 1;
     }
-    return document->numbers || (complain(command, "no memory"), 0);
+    return document->numbers || denied(command, "no memory");
 }
 
 void named_tables_close(export_document *document)

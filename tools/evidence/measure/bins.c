@@ -3,7 +3,7 @@
  *
  * Nothing in it is singular; but the lobe may have parts of very different width, and tails that fall by a power so low
  * that slopes of 1e20 count. */
-#include "evidence/measure/bins.h"
+#include "evidence/measure/measure.h"
 
 #include <float.h>
 #include <math.h>
@@ -181,14 +181,10 @@ enum { PARTS = 4, ALL = BINS_PILOTS + BINS_EVEN, BORDERS = BINS_RINGS * PARTS + 
 
 /* Where cells begin along log R: at quarters of rings by what was drawn, since a narrow lobe may be in one ring with
  * much that is wide; and what is nearer or farther than all that was drawn is apart. */
-static double first_border(const double at[ALL], const double slope[BINS_RINGS + 1], size_t i)
+static double first_border(const double at[ALL], size_t i)
 {
-    const size_t last = BORDERS - 1, of = i > 0 ? (i - 1) * ALL / (BINS_RINGS * PARTS) : 0;
-    const int is_inside = i > 1 && i < last - 1;
-    const double to = i == 0                              ? LEAST
-                      : i == last                         ? LARGEST
-                      : is_inside && (i - 1) % PARTS == 0 ? slope[(i - 1) / PARTS]
-                                                          : tan(at[of < ALL ? of : ALL - 1]);
+    const size_t of = i > 0 ? (i - 1) * ALL / (BINS_RINGS * PARTS) : 0;
+    const double to = i == 0 ? LEAST : i == BORDERS - 1 ? LARGEST : tan(at[of < ALL ? of : ALL - 1]);
     return log(fmin(fmax(to, LEAST), LARGEST));
 }
 
@@ -202,7 +198,7 @@ static void integrate(const bins_sampler *judged, const double at[ALL], bins_res
     for (int i = 0; i <= BINS_SECTORS; i++)
         sector[i] = 2 * (double)i / BINS_SECTORS - 1;
     for (size_t i = 0; cells && i + 1 < BORDERS; i++) {
-        const double ends[2] = {first_border(at, to->slope, i), first_border(at, to->slope, i + 1)};
+        const double ends[2] = {first_border(at, i), first_border(at, i + 1)};
         const size_t part = i > 0 ? i - 1 : 0, ring = part / PARTS < BINS_RINGS ? part / PARTS : BINS_RINGS - 1;
         count += bins_cells(ends, 1, sector, BINS_SECTORS, ring * BINS_SECTORS, cells + count);
     }
@@ -215,6 +211,60 @@ static void integrate(const bins_sampler *judged, const double at[ALL], bins_res
     }
     to->error += 4 * sqrt(variance);
     free(cells);
+}
+
+/* Q(a, x) of the incomplete gamma function, a = dof/2, by Q(a + 1, x) = Q(a, x) + x^a e^-x/Gamma(a + 1) (DLMF 8.8.6)
+ * from Q(1/2, x) = erfc(sqrt(x)) or Q(0, x) = 0. All terms are positive. */
+double statistics_chi_square_p(double statistic, size_t dof)
+{
+    const double x = statistic / 2, first = dof % 2 ? 0.5 : 0;
+    double sum = dof % 2 ? erfc(sqrt(x)) : 0;
+    if (dof == 0 || statistic <= 0)
+        return 1;
+    if (isinf(x))
+        return 0;
+    for (double a = first; a < (double)dof / 2; a++)
+        sum += exp(a * log(x) - x - lgamma(a + 1));
+    return sum > 1 ? 1 : sum;
+}
+
+double statistics_sidak(double level, size_t n)
+{
+    return n == 0 ? level : -expm1(log1p(-level) / (double)n);
+}
+
+typedef struct class_sum {
+    double expected, observed;
+} class_sum;
+
+static double deviation(double expected, double observed)
+{
+    return (observed - expected) * (observed - expected) / expected;
+}
+
+/* Bins that expect little go together with their neighbours, so that a deviation in a tail is not drowned by the
+ * rest of it. The newest class is kept open, since what is left at the end joins it. */
+pearson pearson_of(const double *expected, const double *observed, size_t bins)
+{
+    const double few = 5;
+    class_sum open = {0, 0}, last = {0, 0};
+    pearson found = {0, 0, 0};
+    for (size_t i = 0; i < bins; i++) {
+        const int is_alone = expected[i] >= few;
+        const class_sum bin = {expected[i] + (is_alone ? 0 : open.expected),
+                               observed[i] + (is_alone ? 0 : open.observed)};
+        open = is_alone ? open : bin;
+        if (!(bin.expected >= few))
+            continue;
+        open = is_alone ? open : (class_sum){0, 0};
+        found.statistic += found.classes++ ? deviation(last.expected, last.observed) : 0;
+        last = bin;
+    }
+    if (!found.classes)
+        return found;
+    found.statistic += deviation(last.expected + open.expected, last.observed + open.observed);
+    found.p = statistics_chi_square_p(found.statistic, found.classes - 1);
+    return found;
 }
 
 bins_result bins_chi_square(const bins_sampler *judged, size_t samples, uint64_t seed)

@@ -1,4 +1,4 @@
-#include "evidence/measure/laws.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 #include <string.h>

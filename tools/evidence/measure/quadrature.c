@@ -3,7 +3,7 @@
  * polynomial: without bias whatever the function is, and exactly for one of degree 3. Its error is how much the pairs
  * differ, or two more points say if that is more. Where those are off the polynomial, the cell is divided, the worst
  * first: lines along which the function jumps, and peaks, show themselves there. */
-#include "evidence/measure/quadrature.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,8 +15,6 @@ enum { CORNERS = 4, SIDES = 6, PAIRS = 10, POINTS = 12 }; /* where they end */
 
 /* In the first rounds counts are heeded, unless one bin of so many is off: then it is the sampler. */
 enum { HEEDING = 5, OFTEN = 50 };
-
-/* ---- points -------------------------------------------------------------------------------------- */
 
 /* From -1 to 1 in the cell. Corners and sides are drawn in a little: a jump on the border is seen from this side. */
 static void place(const quadrature_cell *c, random_stream *stream, quadrature_point to[POINTS])
@@ -49,7 +47,6 @@ static double part_of(const double of[2], double x)
     return (2 * x - of[0] - of[1]) / (of[1] - of[0]);
 }
 
-/* How much a value is off the polynomial. */
 static double off(const polynomial *p, const quadrature_cell *c, const quadrature_point *at, int which)
 {
     const double x = part_of(c->x, at->x), y = part_of(c->y, at->y);
@@ -71,8 +68,6 @@ static polynomial fit(const quadrature_cell *c, const quadrature_point at[POINTS
     p.yy = along_y / (1 - y * y);
     return p;
 }
-
-/* ---- cells --------------------------------------------------------------------------------------- */
 
 static void measure(quadrature_cell *c, const quadrature_point at[POINTS])
 {
@@ -121,8 +116,6 @@ static int ask(const quadrature *q, quadrature_cell *cells, size_t count, random
     free(at);
     return good;
 }
-
-/* ---- rounds -------------------------------------------------------------------------------------- */
 
 static void add_up(const quadrature *q, const quadrature_cell *cells, size_t count, quadrature_sum *sum)
 {

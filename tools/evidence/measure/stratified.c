@@ -1,10 +1,8 @@
-#include "evidence/measure/stratified.h"
+#include "evidence/measure/measure.h"
 
 #include <math.h>
 
 #include "cli/subject.h"
-
-/* ---- points ---- */
 
 static uint32_t reverse(uint32_t x)
 {
@@ -52,19 +50,21 @@ void stratified_point(uint32_t index, uint32_t scramble, float *u1, float *u2)
     *u2 = (float)(scrambled(second_dimension(index), hash(scramble ^ 0x5bd1e995u)) >> 8) * 0x1p-24f;
 }
 
-/* ---- light ---- */
+/* Lights: a sky that brightens upwards, and a disc that a glossy surface mirrors, with a soft edge. */
+enum { BROAD, SMALL, LIGHTS };
 
-/* The lobe of what is mirrored is twice the median slope wide, at most a quarter turn. The small light stands where a
- * mirror would see it, a little aside; its radius is that of the lobe. */
-void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points, size_t scrambles, uint64_t seed,
-                       double error[STRATIFIED_LIGHTS])
+/* The root mean square error of each light over so many scrambled sequences of so many points, relative to the mean; 0
+ * where next to nothing is reflected there. The lobe of what is mirrored is twice the median slope wide, at most a
+ * quarter turn. The small light stands where a mirror would see it, a little aside; its radius is that of the lobe. */
+static void errors_of(const vndf_surface *surface, vndf_vec3 wi, size_t points, size_t scrambles, uint64_t seed,
+                      double error[LIGHTS])
 {
     const double scale = vndf_distribution_info(surface->distribution).scale, n = (double)scrambles;
     const double width = fmin(1, (scale > 0 ? scale : 1) * (double)surface->xx);
     const vndf_view view = vndf_view_from(surface, wi);
-    double sum[STRATIFIED_LIGHTS] = {0}, squares[STRATIFIED_LIGHTS] = {0};
+    double sum[LIGHTS] = {0}, squares[LIGHTS] = {0};
     for (size_t i = 0; i < scrambles; i++) {
-        double value[STRATIFIED_LIGHTS] = {0};
+        double value[LIGHTS] = {0};
         for (size_t j = 0; j < points; j++) {
             float u1, u2, weight;
             stratified_point((uint32_t)j, hash((uint32_t)seed + (uint32_t)i * 0x9e3779b9u), &u1, &u2);
@@ -73,15 +73,15 @@ void stratified_errors(const vndf_surface *surface, vndf_vec3 wi, size_t points,
             const vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
             const double x = wo.x + wi.x - 0.3 * width, y = wo.y + wi.y - 0.2 * width, z = wo.z - wi.z;
             const double share = wo.z > 0 ? (double)weight / (double)points : 0;
-            value[STRATIFIED_BROAD] += share * (0.3 + 0.7 * wo.z * wo.z + 0.2 * wo.x);
-            value[STRATIFIED_SMALL] += share / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
+            value[BROAD] += share * (0.3 + 0.7 * wo.z * wo.z + 0.2 * wo.x);
+            value[SMALL] += share / (1 + exp(8 * (sqrt(x * x + y * y + z * z) / width - 1)));
         }
-        for (int k = 0; k < STRATIFIED_LIGHTS; k++) {
+        for (int k = 0; k < LIGHTS; k++) {
             sum[k] += value[k];
             squares[k] += value[k] * value[k];
         }
     }
-    for (int k = 0; k < STRATIFIED_LIGHTS; k++) {
+    for (int k = 0; k < LIGHTS; k++) {
         const double mean = sum[k] / n;
         error[k] = mean > 1e-4 ? sqrt(fmax(0, squares[k] / n - mean * mean)) / mean : 0;
     }
@@ -97,11 +97,11 @@ double stratified_beside_caps(const vndf_distribution *distribution, float alpha
     double sum = 0;
     for (int i = 0; i < VIEWS; i++) {
         const vndf_vec3 wi = direction_from(thetas[i], 36.87);
-        double a[STRATIFIED_LIGHTS], b[STRATIFIED_LIGHTS];
-        stratified_errors(&ours, wi, 64, scrambles, seed, a);
-        stratified_errors(&caps, wi, 64, scrambles, seed + 1, b);
-        for (int k = 0; k < STRATIFIED_LIGHTS; k++)
+        double a[LIGHTS], b[LIGHTS];
+        errors_of(&ours, wi, 64, scrambles, seed, a);
+        errors_of(&caps, wi, 64, scrambles, seed + 1, b);
+        for (int k = 0; k < LIGHTS; k++)
             sum += a[k] > 0 && b[k] > 0 ? log(a[k] / b[k]) : 0;
     }
-    return exp(sum / (VIEWS * STRATIFIED_LIGHTS));
+    return exp(sum / (VIEWS * LIGHTS));
 }

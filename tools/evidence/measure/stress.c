@@ -1,4 +1,4 @@
-#include "evidence/measure/stress.h"
+#include "evidence/measure/measure.h"
 
 #include <float.h>
 #include <math.h>
@@ -35,14 +35,11 @@ int stress_note(stress_result *result, stress_id id, double value, const float a
     return good;
 }
 
-/* ---- samples ------------------------------------------------------------------------------------- */
-
 static double dot_of(vndf_vec3 a, vndf_vec3 b)
 {
     return (double)a.x * (double)b.x + (double)a.y * (double)b.y + (double)a.z * (double)b.z;
 }
 
-/* How far a normal is turned away from wi, in 2^-24. */
 static double turned_away(vndf_vec3 wi, vndf_vec3 wm)
 {
     const vndf_vec3 a = {fabsf(wi.x), fabsf(wi.y), fabsf(wi.z)}, b = {fabsf(wm.x), fabsf(wm.y), fabsf(wm.z)};
@@ -72,8 +69,6 @@ static void measure_sample(const vndf_view *view, vndf_vec3 wi, const float at[S
     stress_note(result, STRESS_POSITIVE, !dense, at);
     stress_note(result, STRESS_RETURNED, !(v1 >= 0 && v1 <= 1 && v2 >= 0 && v2 <= 1), at);
 }
-
-/* ---- directions ---------------------------------------------------------------------------------- */
 
 /* On the horizon itself Lambda is the largest float of either sign. */
 static double lambda_error(vndf_vec3 wi, float lambda, float back)
@@ -116,8 +111,6 @@ static void measure_direction(const vndf_surface *m, vndf_vec3 wi, vndf_vec3 wo,
     stress_note(result, STRESS_G1, g1_error(wi, vndf_g1(m, wi), lambda), at);
     stress_note(result, STRESS_G2, g2_error(m, wi, wo), at);
 }
-
-/* ---- the product --------------------------------------------------------------------------------- */
 
 /* From the pole down: an angle in degrees or, at 90 degrees, the cosine. */
 static const struct {

@@ -45,8 +45,6 @@ INLINED void caps_each(block *b)
         caps_draw(b, i);
 }
 
-/* ---- the instruction sets ------------------------------------------------------------------------ */
-
 #if (defined(__x86_64__) || defined(__i386__)) && defined(__clang__)
 #  define FOR_AVX2 __attribute__((target("avx2,fma")))
 #  define FOR_AVX512 __attribute__((target("avx512f,avx512dq,avx512vl,fma"), min_vector_width(512)))

@@ -11,6 +11,7 @@ static const char bare[] = "bare reflection";
 
 const effect_set effect_sets[] = {
     {.name = bare},
+    {.name = "bare reflection, by hand", .by_hand = 1},
     {.name = "separable masking", .effects = {.masking = VNDF_MASKING_SEPARABLE}},
     {.name = "V-cavity masking", .effects = {.masking = VNDF_MASKING_V_CAVITIES}},
     {.name = "no masking", .effects = {.masking = VNDF_MASKING_NONE}},
@@ -51,8 +52,6 @@ block_law effect_law(const effect_set *set)
 {
     return (block_law){.low = 0.5f, .high = 1.5f, .theta = NAN, .lobes = set->effects.lobes};
 }
-
-/* ---- hits and batches ----------------------------------------------------------------------------- */
 
 static inline void hit(const effect_case *of, const method_input *in, vndf_bsdf *bsdf)
 {
@@ -103,6 +102,36 @@ static void density(const method *m, block *b)
     run(m, b, SHARE, DENSITIES);
 }
 
+/* The projected area of GGX, (cos + |stretched w|)/2. */
+static inline float ggx_area(const vndf_surface *s, vndf_vec3 w)
+{
+    const float x = s->xx * w.x, y = s->yy * w.y;
+    return 0.5f * (w.z + sqrtf(x * x + y * y + w.z * w.z));
+}
+
+/* What a user writes for bare reflection: the weight is G2/G1(wi), heights correlated. */
+static void by_hand(const method *m, block *b)
+{
+    const effect_case *e = m->state;
+    const vndf_surface surface = e->material.is.surface;
+    for (size_t i = 0; i < b->count; i++) {
+        const vndf_vec3 wi = b->in[i].wi;
+        const vndf_view view = vndf_view_from(&surface, wi);
+        float pdf;
+        const vndf_vec3 wm = vndf_sample(&view, b->in[i].u[0], b->in[i].u[1], &pdf);
+        const float facing = wi.x * wm.x + wi.y * wm.y + wi.z * wm.z, twice = 2.0f * facing;
+        const vndf_vec3 wo = {twice * wm.x - wi.x, twice * wm.y - wi.y, twice * wm.z - wi.z};
+        vndf_scattered *to = &b->out[i];
+        *to = (vndf_scattered){.lobe = VNDF_LOBE_NONE};
+        if (!(wo.z > 0.0f))
+            continue;
+        const float seen = ggx_area(&surface, wi) * wo.z,
+                    weight = seen / (seen + wi.z * (ggx_area(&surface, wo) - wo.z));
+        *to = (vndf_scattered){.wo = wo, .wm = wm, .density = pdf / (4.0f * facing), .lobe = VNDF_LOBE_REFLECTION};
+        to->weight[0] = to->weight[1] = to->weight[2] = weight;
+    }
+}
+
 static void batch(const method *m, block *b)
 {
     const effect_case *e = m->state;
@@ -116,8 +145,6 @@ static void batch(const method *m, block *b)
                                  {b->half[0], b->half[1], b->half[2]}};
     vndf_bsdf_sample_n(&of, u, to);
 }
-
-/* ---- materials ----------------------------------------------------------------------------------- */
 
 /* The roughness of the surface at an angle, with a mean slope, and a second lobe three times as wide. */
 static void lobes_of(vndf_mixture *mixture, const vndf_surface *surface, int leans)
@@ -172,7 +199,10 @@ method method_effect(const effect_set *set, const vndf_surface *surface, vndf_er
         method_release(&m);
         return m;
     }
-    m.each = each, m.shared = shared, m.eval = eval, m.density = density;
+    m.each = set->by_hand ? by_hand : each;
+    if (set->by_hand)
+        return m;
+    m.shared = shared, m.eval = eval, m.density = density;
     m.batch = set->is_rough ? NULL : batch; /* roughness of hits are arrays to it */
     m.same_bits = 1;
     return m;

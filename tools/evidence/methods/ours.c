@@ -8,36 +8,47 @@
 
 #include "exported_kernel.h"
 
-/* ---- one by one ---------------------------------------------------------------------------------- */
+/* Weights of two lobes and of eight, which are up to three times as rough as the first. */
+enum { LOBES = VNDF_MIXTURE_LOBES };
+static const float weights[2][LOBES] = {{0.7f, 0.3f}, {0.3f, 0.2f, 0.15f, 0.1f, 0.1f, 0.05f, 0.05f, 0.05f}};
 
-static const float core = 0.7f, haze = 0.3f; /* of two lobes */
-
-static inline vndf_view view_of(const method *m, const method_input *in)
+static inline int lobes_of(const method *m)
 {
-    const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
-    return vndf_view_from(&surface, in->wi);
+    return m->call == METHOD_TWO_LOBES ? 2 : LOBES;
 }
 
-static inline vndf_vec3 one(const method *m, const method_input *in, float *pdf)
+static inline float lobe_alpha(const method *m, int lobe, float alpha)
 {
-    vndf_view view = view_of(m, in);
-    return vndf_sample(&view, in->u[0], in->u[1], pdf);
+    return (1 + 2 * (float)lobe / (float)(lobes_of(m) - 1)) * alpha;
 }
 
-static void each(const method *m, block *b)
+/* Views that so many samples share; a constant where it is inlined. */
+static inline void run(const method *m, block *b, size_t share)
 {
-    method_loop(one, m, b);
-}
-
-static void shared(const method *m, block *b)
-{
-    for (size_t first = 0; first < b->count; first += SHARE) {
-        vndf_view view = view_of(m, &b->in[first]);
-        for (size_t i = first; i < first + SHARE; i++) {
+    for (size_t first = 0; first < b->count; first += share) {
+        const vndf_surface surface = vndf_rough(m->d, b->in[first].alpha, b->in[first].alpha);
+        const vndf_view view = vndf_view_from(&surface, b->in[first].wi);
+        for (size_t i = first; i < first + share; i++) {
             const vndf_vec3 wm = vndf_sample(&view, b->in[i].u[0], b->in[i].u[1], &b->pdf[i]);
             b->x[i] = wm.x, b->y[i] = wm.y, b->z[i] = wm.z;
         }
     }
+}
+
+static void each(const method *m, block *b)
+{
+    run(m, b, 1);
+}
+
+static void shared(const method *m, block *b)
+{
+    run(m, b, SHARE);
+}
+
+/* As many samples of a hit as renderers draw where they are cheap beside the hit. */
+static void sixteen(const method *m, block *b)
+{
+    run(m, b, 16);
 }
 
 /* Turned, sheared, and with a mean slope. */
@@ -46,23 +57,27 @@ static inline vndf_surface oblique(const method *m, float alpha)
     return (vndf_surface){m->d, 0.9f * alpha, -0.5f * alpha, 0.3f * alpha, 0.8f * alpha, 0.1f, -0.05f};
 }
 
-/* The other calls, and the surfaces: a core and a haze three times as rough are the two lobes. */
 static inline vndf_vec3 one_call(const method *m, const method_input *in, float *pdf)
 {
     const vndf_surface surface = vndf_rough(m->d, in->alpha, in->alpha);
-    const float a = in->alpha, b = 3 * a;
     vndf_vec3 wm = {0, 0, 0};
     if (m->call == METHOD_NDF || m->call == METHOD_LAMBDA) {
         *pdf = m->call == METHOD_NDF ? vndf_ndf(&surface, in->given) : vndf_lambda(&surface, in->wi);
         return wm;
     }
-    if (m->call == METHOD_TWO_LOBES) {
-        vndf_mixture mixture = {2, {{vndf_rough(m->d, a, a), core}, {vndf_rough(m->d, b, b), haze}}};
+    if (m->call >= METHOD_TWO_LOBES) {
+        vndf_mixture mixture;
+        mixture.count = lobes_of(m);
+        for (int k = 0; k < mixture.count; k++) {
+            const float alpha = lobe_alpha(m, k, in->alpha);
+            mixture.lobe[k].surface = vndf_rough(m->d, alpha, alpha);
+            mixture.lobe[k].weight = weights[mixture.count > 2][k];
+        }
         vndf_mixture_view lobes = vndf_mixture_view_from(&mixture, in->wi);
         return vndf_mixture_sample(&lobes, in->u[0], in->u[1], pdf, NULL);
     }
     if (m->call == METHOD_AFFINE) {
-        vndf_surface sheared = oblique(m, a);
+        vndf_surface sheared = oblique(m, in->alpha);
         const vndf_view leaning = vndf_view_from(&sheared, in->wi);
         return vndf_sample(&leaning, in->u[0], in->u[1], pdf);
     }
@@ -100,8 +115,6 @@ static void each_exported(const method *m, block *b)
     method_loop(one_exported, m, b);
 }
 
-/* ---- batches of them ----------------------------------------------------------------------------- */
-
 static vndf_batch batch_of(const method *m, const block *b)
 {
     vndf_batch of = {
@@ -113,12 +126,6 @@ static vndf_batch batch_of(const method *m, const block *b)
 static vndf_normals drawn(block *b)
 {
     return (vndf_normals){b->x, b->y, b->z};
-}
-
-static void batch_each(const method *m, block *b)
-{
-    vndf_batch batch = batch_of(m, b);
-    vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
 /* Matrices are formed as the calls of one form theirs. */
@@ -138,14 +145,16 @@ static void batch_affine(const method *m, block *b)
 
 static void batch_lobes(const method *m, block *b)
 {
-    float rough[BLOCK];
-    for (size_t i = 0; i < b->count; i++)
-        rough[i] = 3 * b->alpha[i];
+    float rough[LOBES][BLOCK];
     vndf_batch batch = batch_of(m, b);
     batch.shared = VNDF_SHARED_WEIGHT;
-    batch.lobes = 2;
-    batch.lobe[0] = (vndf_lobe_batch){{.distribution = m->d, .xx = b->alpha, .yy = b->alpha}, &core};
-    batch.lobe[1] = (vndf_lobe_batch){{.distribution = m->d, .xx = rough, .yy = rough}, &haze};
+    batch.lobes = lobes_of(m);
+    for (int k = 0; k < batch.lobes; k++) {
+        const vndf_surface_batch surface = {.distribution = m->d, .xx = rough[k], .yy = rough[k]};
+        batch.lobe[k] = (vndf_lobe_batch){surface, &weights[batch.lobes > 2][k]};
+        for (size_t i = 0; i < b->count; i++)
+            rough[k][i] = lobe_alpha(m, k, b->alpha[i]);
+    }
     vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf);
 }
 
@@ -154,12 +163,14 @@ static void batch_call(const method *m, block *b)
     const vndf_batch batch = batch_of(m, b);
     const vndf_normals normals = {b->given[0], b->given[1], b->given[2]};
     switch (m->call) {
+    case METHOD_SAMPLE: vndf_sample_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf); break;
     case METHOD_PDF: vndf_pdf_n(&batch, normals, b->pdf); break;
     case METHOD_INVERT: vndf_invert_n(&batch, normals, b->x, b->y); break;
     case METHOD_NDF: vndf_ndf_n(&batch, normals, b->pdf); break;
     case METHOD_LAMBDA: vndf_lambda_n(&batch, b->pdf); break;
     case METHOD_AFFINE: batch_affine(m, b); break;
-    case METHOD_TWO_LOBES: batch_lobes(m, b); break;
+    case METHOD_TWO_LOBES:
+    case METHOD_EIGHT_LOBES: batch_lobes(m, b); break;
     default:
         vndf_sample_weight_n(&batch, b->u[0], b->u[1], drawn(b), b->pdf, b->value[0]);
         for (size_t i = 0; i < b->count; i++)
@@ -167,17 +178,16 @@ static void batch_call(const method *m, block *b)
     }
 }
 
-/* ---- methods ------------------------------------------------------------------------------------- */
-
 method method_ours(const vndf_distribution *d, const char *name, method_call call)
 {
-    static const char *const calls[METHOD_CALLS] = {"",         ": weight", ": pdf",     ": invert",    ": ndf",
-                                                    ": lambda", ": affine", ": mixture", ", exported C"};
+    static const char *const calls[METHOD_CALLS] = {"",          ": weight",  ": pdf",       ": invert",
+                                                    ": ndf",     ": lambda",  ": 16 a view", ": affine",
+                                                    ": mixture", ": 8 lobes", ", exported C"};
     const vndf_info info = vndf_distribution_info(d);
     method m = {.kind = info.memory ? ROW_TABLE : ROW_CLOSED, .memory = info.memory, .d = d, .call = call};
     snprintf(m.name, sizeof m.name, "%s%s", name, calls[call]);
     if (call == METHOD_SAMPLE) {
-        m.each = each, m.shared = shared, m.batch = batch_each;
+        m.each = each, m.shared = shared, m.batch = batch_call;
     } else if (call == METHOD_EXPORTED) {
         const size_t count = vndf_numbers(d, NULL, 0);
         float *numbers = count ? malloc(count * sizeof *numbers) : NULL;
@@ -189,7 +199,8 @@ method method_ours(const vndf_distribution *d, const char *name, method_call cal
         vndf_numbers(d, numbers, numbers ? count : 0);
     } else {
         m.kind = ROW_CALL;
-        m.each = each_call, m.batch = batch_call;
+        m.each = call == METHOD_SIXTEEN ? sixteen : each_call;
+        m.batch = call == METHOD_SIXTEEN ? NULL : batch_call;
     }
     m.same_bits = m.batch != NULL;
     return m;

@@ -93,10 +93,6 @@ class Batch:
         self._kept.append(array)
         return addresses_of(array)
 
-    def result(self, count: int) -> Floats:
-        """An array for `count` results."""
-        return np.empty((count, *self.shape), np.float32)
-
 
 def addresses_of(array: Any) -> list[int]:
     """Where the components of a contiguous array lie. array.ctypes.data takes five times as long."""

@@ -114,7 +114,7 @@ class Material:
         w, groups = components(wi, 3, "wi"), self._made["surface"]._groups
         numbers = uniform(u, 3, lambda: Batch(**groups, wi=w).shape)
         batch, hits = self._open(wi=w, u=numbers)
-        result, lobe = batch.result(7 + self.wavelengths), np.empty(batch.shape, np.uint8)
+        result, lobe = np.empty((7 + self.wavelengths, *batch.shape), np.float32), np.empty(batch.shape, np.uint8)
         at = addresses_of(result)
         wo, wm = struct("vndf_normals")(*at[:3]), struct("vndf_normals")(*at[3:6])
         results = struct("vndf_scattered_n")(wo, _pointers(at[7:]), at[6], addresses_of(lobe[None])[0], wm)
@@ -140,7 +140,7 @@ class Material:
         if seed is not None:
             given["seed"] = np.asarray(seed, np.uint64)[None]
         batch, hits = self._open(**given)
-        result = batch.result(wavelengths + pdf)
+        result = np.empty((wavelengths + pdf, *batch.shape), np.float32)
         at: list[Any] = addresses_of(result)
         seeds = batch.addresses("seed")[0] if seed is not None else None
         values, density = _pointers(at) if wavelengths else None, at[wavelengths] if pdf else None

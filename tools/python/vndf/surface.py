@@ -46,7 +46,7 @@ class Rough:
         """What C answers: `rows` numbers for each element; of drawn lobes the bits of their index are the last."""
         batch = Batch(**self._groups, **given)
         filled = self._struct(batch, batch.addresses("wi", share=True) if "wi" in given else [None] * 3)
-        result = batch.result(rows)
+        result = np.empty((rows, *batch.shape), np.float32)
         to: list[Any] = addresses_of(result)
         if "u" in given:
             to = [*batch.addresses("u"), struct("vndf_normals")(*to[:3]), *to[3:]]
