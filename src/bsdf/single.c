@@ -1,9 +1,45 @@
-/* One scattering event: what a material picks of Fresnel's terms, masking and normals, and the lobes that call them
- * (kernel/lobes.h). With q = A(wi) (visible density)/(density), what a normal's draw leaves of D (wi.wm)/(density), the
- * weight of a reflection is F G wo' q and that of a transmission (1 - F) G |wo'| q, over r^2 for radiance. */
+/* One scattering event: what a material picks of Fresnel's terms, masking and normals, for kernel/event.h. */
 #include "bsdf/bsdf.h"
 
+/* ---- what kernel/event.h asks for ---- */
+
+typedef const vndf_material *material;
+typedef const vndf_bsdf *bsdf;
+
+/* Optics of one wavelength. */
+typedef struct optics {
+    double f0, n, k;
+} optics;
+
+typedef struct hit {
+    direction wi;
+    double eta, rise, area, tilt, carried;
+} hit;
+
+#define reflects_of(m) ((m)->is.effects.lobes != VNDF_LOBES_TRANSMISSION)
+#define transmits_of(m) ((m)->is.effects.lobes != VNDF_LOBES_REFLECTION)
+#define fresnel_of(m) ((m)->is.effects.fresnel)
+#define masking_of(m) ((m)->is.effects.masking)
+#define material_of(b) ((b)->material)
+#define cosine_at(b, w) ((double)vndf_hit_cosine(&(b)->own.view, vndf_rounded(w)))
+#define area_at(b, w) ((double)vndf_hit_area(&(b)->own.view, vndf_rounded(w)))
+
+KERNEL hit hit_of(bsdf b)
+{
+    const hit h = {vndf_direction(b->own.wi), b->own.eta,          (double)b->own.rise,
+                   (double)b->own.area,       (double)b->own.tilt, b->own.carried};
+    return h;
+}
+
+#include "kernel/event.h"
+
 /* ---- Fresnel ---- */
+
+/* F is one number for all wavelengths. */
+VNDF_INLINE int is_alike(material m)
+{
+    return m->is.effects.fresnel == VNDF_FRESNEL_NONE || m->is.effects.fresnel == VNDF_FRESNEL_DIELECTRIC;
+}
 
 static void set_all(double f[VNDF_WAVELENGTHS], double value)
 {
@@ -11,25 +47,18 @@ static void set_all(double f[VNDF_WAVELENGTHS], double value)
         f[i] = value;
 }
 
-/* Where light may pass Schlick's term takes the cosine in the thinner medium, so that reflection is total where that
- * has none, and the bare shape reflects what total reflection does. A conductor is seen from outside alone. */
+/* A conductor is seen from outside alone. */
 void vndf_reflectances(const vndf_material *m, seen_cosine c, double eta, double f[VNDF_WAVELENGTHS])
 {
-    const vndf_description *is = &m->is;
-    int transmits = is->effects.lobes != VNDF_LOBES_REFLECTION;
-    switch (is->effects.fresnel) {
-    case VNDF_FRESNEL_DIELECTRIC: set_all(f, dielectric(c.facing, eta)); return;
-    case VNDF_FRESNEL_CONDUCTOR:
-        for (int i = 0; i < is->wavelengths; i++)
-            f[i] = conductor(c.facing, is->conductor_eta[i], is->conductor_k[i]);
-        return;
-    case VNDF_FRESNEL_SCHLICK:
-        c.rest = transmits && eta < 1.0 ? refracted_rest(c.rest, eta) : c.rest;
-        for (int i = 0; i < is->wavelengths; i++)
-            f[i] = schlick(c.rest, is->f0[i]);
-        return;
-    case VNDF_FRESNEL_NONE: set_all(f, transmits && refracted_square(c.facing, eta) > 0.0 ? 0.0 : 1.0);
+    optics o = {0.0, 0.0, 0.0};
+    for (int i = 0; !is_alike(m) && i < m->is.wavelengths; i++) {
+        o.f0 = (double)m->is.f0[i];
+        o.n = (double)m->is.conductor_eta[i];
+        o.k = (double)m->is.conductor_k[i];
+        f[i] = reflectance(m, o, c, eta);
     }
+    if (is_alike(m))
+        set_all(f, reflectance(m, o, c, eta));
 }
 
 static double cosine_of(float cosine)
@@ -54,48 +83,25 @@ float vndf_fresnel_schlick(float cosine, float f0)
 }
 
 /* A shape alone, which reflects all light: F is not asked for. */
-static int is_white(const vndf_material *m)
+static int is_white(material m)
 {
-    return m->is.effects.lobes == VNDF_LOBES_REFLECTION && m->is.effects.fresnel == VNDF_FRESNEL_NONE;
+    return !transmits_of(m) && m->is.effects.fresnel == VNDF_FRESNEL_NONE;
 }
 
-/* The part of the samples that a lobe takes. */
-VNDF_INLINE double share_of(const vndf_material *m, const double *f, int reflects)
+/* The mean over the wavelengths, where lobes share by it. */
+VNDF_INLINE double mean_of(material m, const double *f)
 {
-    if (m->is.effects.lobes != VNDF_LOBES_BOTH)
-        return 1.0;
-    double mean = vndf_mean_of(m, f);
-    return reflects ? mean : 1.0 - mean;
+    return m->is.effects.lobes == VNDF_LOBES_BOTH ? vndf_mean_of(m, f) : 1.0;
 }
 
-/* What a lobe has of `whole` in each wavelength, over its share; all are as the first where F is one number. */
-VNDF_INLINE void colour(const vndf_material *m, const double *f, int reflects, double whole, double share,
-                        float *to)
+/* What a lobe has of `whole` in each wavelength, over its part of the samples. */
+VNDF_INLINE void colour(material m, const double *f, int reflects, double whole, double part, float *to)
 {
-    const vndf_fresnel fresnel = m->is.effects.fresnel;
-    const int alike = fresnel == VNDF_FRESNEL_NONE || fresnel == VNDF_FRESNEL_DIELECTRIC;
     for (int i = 0; i < m->is.wavelengths; i++)
-        to[i] = i && alike ? to[0] : vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / share));
+        to[i] = i && is_alike(m) ? to[0] : vndf_density_from(whole * ((reflects ? f[i] : 1.0 - f[i]) / part));
 }
 
-/* ---- masking and normals ---- */
-
-/* G of an event; of transmission for radiance over r^2. */
-VNDF_INLINE double masked(const vndf_bsdf *b, const event *e, int reflects)
-{
-    vndf_masking masking = b->material->is.effects.masking;
-    double rise = (double)b->own.rise, area = (double)b->own.area, carried = reflects ? 1.0 : b->own.carried;
-    if (masking == VNDF_MASKING_V_CAVITIES)
-        return reflects ? masked_in_cavities(rise, e->rise, e->facing, e->wm.z)
-                        : passed_in_cavities(rise, e->rise, e->facing, e->beyond, e->wm.z) * carried;
-    if (masking == VNDF_MASKING_NONE)
-        return 1.0 / (rise * e->rise) * carried;
-    double area_o = (double)vndf_hit_area(&b->own.view, vndf_rounded(e->up));
-    if (masking == VNDF_MASKING_SEPARABLE)
-        return masked_apart(area, area_o) * carried;
-    return reflects ? masked_by_height(rise, e->rise, area, area_o)
-                    : passed_by_height(rise, e->rise, area, area_o) * carried;
-}
+/* ---- normals ---- */
 
 VNDF_INLINE vndf_drawn_normal draw(const vndf_bsdf *b, float u1, float u2)
 {
@@ -122,40 +128,34 @@ VNDF_INLINE float pdf_of(const vndf_bsdf *b, vndf_vec3 wm)
 /* ---- samples ---- */
 
 /* By one lobe at a normal. */
-VNDF_INLINE int leave(const vndf_bsdf *b, const vndf_drawn_normal *n, seen_cosine c, const double *f,
+VNDF_INLINE int leave(bsdf b, const vndf_drawn_normal *n, seen_cosine c, const double *f, double mean,
                       const int reflects, vndf_scattered *s)
 {
-    direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
-    event e = reflects ? reflected_at(wi, wm, c) : refracted_at(wi, wm, c, b->own.eta);
-    vndf_vec3 up = vndf_rounded(e.up);
-    e.rise = (double)vndf_hit_cosine(&b->own.view, up);
-    if (!e.met || !(e.rise > 0.0))
+    event e = event_at(b, vndf_direction(n->wm), c, reflects);
+    if (!e.met)
         return 0;
-    double whole = masked(b, &e, reflects) * e.rise * ((double)b->own.area * (double)n->weight);
-    double share = share_of(b->material, f, reflects);
+    double whole = event_weight(b, e, (double)n->weight, reflects), part = part_of(b->material, mean, reflects);
     int straight = !reflects && b->own.eta == 1.0;
-    colour(b->material, f, reflects, whole, share, s->weight);
-    s->wo = vndf_turned(up, reflects ? b->own.side : -b->own.side);
+    colour(b->material, f, reflects, whole, part, s->weight);
+    s->wo = vndf_turned(vndf_rounded(e.up), reflects ? b->own.side : -b->own.side);
     s->wm = vndf_turned(n->wm, b->own.side);
-    s->density = straight ? 1.0f : vndf_positive(vndf_density_from((double)n->density * e.jacobian * share));
+    s->density = straight ? 1.0f : vndf_positive(vndf_density_from((double)n->density * e.jacobian * part));
     s->lobe = reflects ? VNDF_LOBE_REFLECTION : straight ? VNDF_LOBE_STRAIGHT : VNDF_LOBE_TRANSMISSION;
     return 1;
 }
 
-/* Numbers outside [0, 1] do not choose what never happens. */
 int vndf_scatter(const vndf_bsdf *b, const vndf_drawn_normal *n, float u3, vndf_scattered *s)
 {
-    const vndf_material *m = b->material;
     const direction wi = vndf_direction(b->own.wi), wm = vndf_direction(n->wm);
     seen_cosine c = {dot_of(wi, wm), 0.0};
     double f[VNDF_WAVELENGTHS] = {1.0};
-    if (!is_white(m)) {
+    if (!is_white(b->material)) {
         c = seen_cosine_of(wi, wm);
-        vndf_reflectances(m, c, b->own.eta, f);
+        vndf_reflectances(b->material, c, b->own.eta, f);
     }
-    double mean = share_of(m, f, 1);
-    int reflects = m->is.effects.lobes != VNDF_LOBES_TRANSMISSION && ((mean > 0.0 && u3 < mean) || !(mean < 1.0));
-    return reflects ? leave(b, n, c, f, 1, s) : leave(b, n, c, f, 0, s);
+    const double mean = mean_of(b->material, f);
+    return chooses_reflection(b->material, mean, (double)u3) ? leave(b, n, c, f, mean, 1, s)
+                                                             : leave(b, n, c, f, mean, 0, s);
 }
 
 static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
@@ -166,39 +166,34 @@ static int sample(const vndf_bsdf *b, const float u[3], vndf_scattered *s)
 
 /* ---- values and densities ---- */
 
-VNDF_INLINE int load_row(const vndf_bsdf *b, vndf_vec3 wo, double rise, const int reflects, float *value,
-                         float *pdf)
+VNDF_INLINE int evaluate(bsdf b, direction wo, double rise, const int reflects, float *value, float *pdf)
 {
     const vndf_material *m = b->material;
-    direction from = vndf_direction(b->own.wi), to = vndf_direction(reflects ? wo : vndf_turned(wo, -1.0f));
-    event e = reflects ? reflecting(from, to) : refracting(from, to, b->own.eta);
+    event e = event_of(b, wo, rise, reflects);
     if (!e.met)
         return 0;
     double f[VNDF_WAVELENGTHS] = {1.0};
     vndf_vec3 wm = vndf_rounded(e.wm);
-    e.rise = rise;
-    if (reflects && m->is.effects.fresnel == VNDF_FRESNEL_SCHLICK)
-        e.rest = reflecting_rest(e, from, to);
     if (!is_white(m) && (value || m->is.effects.lobes == VNDF_LOBES_BOTH))
         vndf_reflectances(m, (seen_cosine){e.facing, e.rest}, b->own.eta, f);
     if (value) {
-        double g = masked(b, &e, reflects), ndf = (double)vndf_hit_ndf(&b->own.view, wm);
-        colour(m, f, reflects, (double)b->own.tilt * ndf * e.facing * e.jacobian * g, 1.0, value);
+        const double g = masked(b, e, reflects), ndf = (double)vndf_hit_ndf(&b->own.view, wm);
+        colour(m, f, reflects, event_value(b, e, g, ndf), 1.0, value);
     }
     if (pdf)
-        *pdf = vndf_density_from(share_of(m, f, reflects) * ((double)pdf_of(b, wm) * e.jacobian));
+        *pdf = vndf_density_from(part_of(m, mean_of(m, f), reflects) * ((double)pdf_of(b, wm) * e.jacobian));
     return 1;
 }
 
 static int eval(const vndf_bsdf *b, vndf_vec3 given, uint64_t seed, float *value, float *pdf)
 {
-    const vndf_lobes lobes = b->material->is.effects.lobes;
-    vndf_vec3 wo = vndf_turned(given, b->own.side);
-    double rise = (double)vndf_hit_cosine(&b->own.view, wo);
+    const vndf_vec3 turned = vndf_turned(given, b->own.side);
+    const direction wo = vndf_direction(turned);
+    const double rise = (double)vndf_hit_cosine(&b->own.view, turned);
     (void)seed;
     if (rise > 0.0)
-        return lobes != VNDF_LOBES_TRANSMISSION && load_row(b, wo, rise, 1, value, pdf);
-    return rise < 0.0 && lobes != VNDF_LOBES_REFLECTION && load_row(b, wo, -rise, 0, value, pdf);
+        return reflects_of(b->material) && evaluate(b, wo, rise, 1, value, pdf);
+    return rise < 0.0 && transmits_of(b->material) && evaluate(b, wo, rise, 0, value, pdf);
 }
 
 const vndf_routines vndf_routines_single = {sample, eval};

@@ -4,10 +4,12 @@
  * Who includes this says before what a `surface` and a `view` are (sampler/state.h, tools/export/views.h):
  *
  *     place(surface, w)                        the direction w on the surface, a `placed`
+ *     frame_below(f)                           whether it is below the horizon
  *     s.kind, view_table(s), view_frame(s)     the same of a view s
  *     s.below                                  whether it is that of a table from below the horizon
  *     view_law, view_ggx, view_beckmann        what its distribution makes of the direction
- *     view_weighs                              whether samples want a weight */
+ *     view_weighs                              whether samples want a weight
+ *     sides_apart                              whether each side of the horizon has code of its own */
 #ifndef VNDF_KERNEL_VIEW_H
 #define VNDF_KERNEL_VIEW_H
 
@@ -25,11 +27,6 @@ KERNEL real unit_p22(int kind, table t, unit_normal n)
     if (kind == VNDF_BECKMANN)
         return beckmann_p22(n.x, n.y, n.z);
     return table_p22(t, table_given(t, n.x, n.y, n.z));
-}
-
-KERNEL int frame_below(frame f)
-{
-    return select_int(lt(f.uz, 0.0f), 1, 0);
 }
 
 /* The projected area in the unit problem. Above the horizon a table wants the knot of rho alone, not the law. */
@@ -55,32 +52,34 @@ KERNEL real unit_area(int kind, table t, frame f)
 /* D(wm) per steradian; wm is unit, here and below. */
 KERNEL real placed_ndf(int kind, table t, frame f, vec3 wm)
 {
-    if (!(wm.z >= 0.0f))
+    const mask is_up = le(0.0f, wm.z);
+    if (!any(is_up))
         return 0.0f;
-    return min(unit_p22(kind, t, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant, 3.4028234e38f);
+    const real density = unit_p22(kind, t, frame_normal(f, wm.x, wm.y, wm.z)) / f.determinant;
+    return select(is_up, min(density, 3.4028234e38f), 0.0f);
 }
 
-KERNEL real ndf(surface m, vec3 wm)
+CALL real vndf_ndf(surface m, vec3 wm)
 {
     const placed p = place(m, vec3(0.0f, 0.0f, 1.0f));
     return placed_ndf(p.kind, p.t, p.f, wm);
 }
 
 /* A(w). */
-KERNEL real projected_area(surface m, vec3 w)
+CALL real vndf_projected_area(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return unit_area(p.kind, p.t, p.f) * p.f.size;
 }
 
 /* Lambda(w) = A(w)/cos - 1, where cos is w.z less what the mean slope takes of it. */
-KERNEL real lambda(surface m, vec3 w)
+CALL real vndf_lambda(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return lambda_of(unit_area(p.kind, p.t, p.f) * p.f.size, p.f.uz * p.f.size);
 }
 
-KERNEL real g1(surface m, vec3 w)
+CALL real vndf_g1(surface m, vec3 w)
 {
     const placed p = place(m, w);
     return g1_of(unit_area(p.kind, p.t, p.f) * p.f.size, p.f.uz * p.f.size);
@@ -98,7 +97,7 @@ KERNEL real g2_of(real gi, real go)
 
 KERNEL real g2(surface m, vec3 wi, vec3 wo)
 {
-    return g2_of(g1(m, wi), g1(m, wo));
+    return g2_of(vndf_g1(m, wi), vndf_g1(m, wo));
 }
 
 /* ---- views ---- */
@@ -124,11 +123,12 @@ KERNEL real area(view s)
 KERNEL real drawn_area(view s)
 {
     const frame f = view_frame(s);
-    if (!(f.max_pdf > 0.0f))
-        return 0.0f;
+    real all = f.size;
     if (s.kind == VNDF_GGX || s.kind == VNDF_BECKMANN)
-        return area(s);
-    return law_drawn_area(view_law(s).v, s.below) * frame_reach(f) * f.size;
+        all = area(s);
+    else
+        all = law_drawn_area(view_law(s).v, s.below) * frame_reach(f) * f.size;
+    return select(lt(0.0f, f.max_pdf), all, 0.0f);
 }
 
 /* A(w) of another direction, and its projection on the mean plane: w.z without a mean slope. */
@@ -158,9 +158,15 @@ KERNEL real unit_density(view s, unit_normal n)
         return beckmann_density(view_beckmann(s), n.x, n.y, n.z, n.facing);
     const table_view v = view_law(s);
     const int below = s.below;
+    const real reach = frame_reach(view_frame(s));
+    unit_normal turned = n;
     if (below)
-        return table_pdf(view_table(s), v, table_unturned(v.ex, v.ey, n), frame_reach(view_frame(s)), 1);
-    return table_pdf(view_table(s), v, n, frame_reach(view_frame(s)), 0);
+        turned = table_unturned(v.ex, v.ey, n);
+    if (sides_apart && below)
+        return table_pdf(view_table(s), v, turned, reach, 1);
+    if (sides_apart)
+        return table_pdf(view_table(s), v, turned, reach, 0);
+    return table_pdf(view_table(s), v, turned, reach, below);
 }
 
 /* The density with which `sample` draws wm. */
@@ -168,9 +174,10 @@ KERNEL real pdf(view s, vec3 wm)
 {
     const frame f = view_frame(s);
     const unit_normal n = frame_normal(f, wm.x, wm.y, wm.z);
-    if (!(n.facing > 0.0f) || !(wm.z >= 0.0f))
+    const mask is_seen = both(lt(0.0f, n.facing), le(0.0f, wm.z));
+    if (!any(is_seen))
         return 0.0f;
-    return frame_density(f, unit_density(s, n) / f.determinant);
+    return select(is_seen, frame_density(f, unit_density(s, n) / f.determinant), 0.0f);
 }
 
 /* The visible normals D(wm) (wi . wm)/A(wi), from which a table differs by what it states. */

@@ -17,20 +17,12 @@ typedef struct sampled {
     float pdf;
 } sampled;
 
-KERNEL int its_count(mixture_view m)
-{
-    return m.of->count;
-}
-
-KERNEL view its_view(mixture_view m, int i)
-{
-    return &m.of->part[i].view;
-}
-
-KERNEL float its_share(mixture_view m, int i)
-{
-    return m.of->part[i].share;
-}
+#define its_count(m) ((m).of->count)
+#define its_view(m, i) (&(m).of->part[i].view)
+#define its_share(m, i) ((m).of->part[i].share)
+#define unit_number(u) vndf_clamp_unit(u)
+#define pdf(v, wm) vndf_pdf(v, vndf_packed(wm))
+#define visible(v, wm) vndf_visible(v, vndf_packed(wm))
 
 KERNEL lobe_numbers its_weights(mixture_view m)
 {
@@ -46,26 +38,11 @@ KERNEL lobe_numbers its_areas(mixture_view m)
     return (lobe_numbers){m.areas};
 }
 
-KERNEL float unit_number(float u)
-{
-    return vndf_clamp_unit(u);
-}
-
 KERNEL sampled sample(view v, float u1, float u2)
 {
     sampled n;
     n.wm = vndf_sample(v, u1, u2, &n.pdf);
     return n;
-}
-
-KERNEL float pdf(view v, vec3 wm)
-{
-    return vndf_pdf(v, vndf_packed(wm));
-}
-
-KERNEL float visible(view v, vec3 wm)
-{
-    return vndf_visible(v, vndf_packed(wm));
 }
 
 #include "kernel/mixture.h"

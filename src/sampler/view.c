@@ -6,6 +6,8 @@
 
 /* ---- what kernel/view.h asks for ---- */
 
+#define CALL /* a function of the text is a public call */
+
 enum { VNDF_GGX = VNDF_KIND_GGX, VNDF_BECKMANN = VNDF_KIND_BECKMANN };
 
 typedef const vndf_surface *surface;
@@ -28,41 +30,20 @@ VNDF_INLINE view vndf_seen(const vndf_view *of, const int below, const int weigh
     return s;
 }
 
-KERNEL int view_weighs(view s)
-{
-    return s.weighs;
-}
+#define sides_apart 1
+#define frame_below(f) ((f).uz < 0.0f)
+#define view_weighs(s) ((s).weighs)
+#define view_frame(s) (vndf_state_of((s).of)->f)
+#define view_law(s) (vndf_state_of((s).of)->of.table)
+#define view_ggx(s) (vndf_state_of((s).of)->of.ggx)
+#define view_beckmann(s) (vndf_state_of((s).of)->of.beckmann)
+#define view_table(s) table_if((s).of->distribution, (s).kind)
 
 /* Closed forms have none. */
 VNDF_INLINE table table_if(const vndf_distribution *d, int kind)
 {
     const table none = {0};
     return kind == VNDF_GGX || kind == VNDF_BECKMANN ? none : table_of(d);
-}
-
-KERNEL table view_table(view s)
-{
-    return table_if(s.of->distribution, s.kind);
-}
-
-KERNEL frame view_frame(view s)
-{
-    return vndf_state_of(s.of)->f;
-}
-
-KERNEL table_view view_law(view s)
-{
-    return vndf_state_of(s.of)->of.table;
-}
-
-KERNEL ggx_view view_ggx(view s)
-{
-    return vndf_state_of(s.of)->of.ggx;
-}
-
-KERNEL beckmann_view view_beckmann(view s)
-{
-    return vndf_state_of(s.of)->of.beckmann;
 }
 
 /* ---- surfaces ---- */
@@ -284,31 +265,11 @@ float vndf_view_cosine(const vndf_view *v, vndf_vec3 w)
 
 /* ---- surfaces ---- */
 
-float vndf_ndf(const vndf_surface *m, vndf_vec3 wm)
-{
-    return ndf(m, wm);
-}
-
 /* The normal (-x, -y, 1) has the slope (x, y), and P22 over z^4 is P22. */
 float vndf_p22(const vndf_surface *m, float x, float y)
 {
     vndf_vec3 normal = {-x, -y, 1.0f};
     return abs(x) <= FLT_MAX && abs(y) <= FLT_MAX ? vndf_ndf(m, normal) : 0.0f;
-}
-
-float vndf_projected_area(const vndf_surface *m, vndf_vec3 w)
-{
-    return projected_area(m, w);
-}
-
-float vndf_lambda(const vndf_surface *m, vndf_vec3 w)
-{
-    return lambda(m, w);
-}
-
-float vndf_g1(const vndf_surface *m, vndf_vec3 w)
-{
-    return g1(m, w);
 }
 
 float vndf_g2_of(float gi, float go, vndf_g2_model model)

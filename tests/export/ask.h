@@ -16,7 +16,8 @@ KERNEL vndf_surface surface_asked(question q)
     return s;
 }
 
-/* only normals */
+/* ---- normals ---- */
+
 /* The normal that is drawn, the density that comes with it, and what calls say of that normal and of wi: G2 is of wi
  * and the normal. Then a normal of the family tails.vndfs with the shape of the surface, and of GGX with alpha 0.3. */
 KERNEL answer ask(question q)
@@ -50,17 +51,22 @@ KERNEL answer ask(question q)
                       vndf_mixture_pdf(lobes, of_all)};
     return a;
 }
-/* end */
-/* only bsdf */
+
+/* ---- BSDFs: instead ---- */
+
 /* A sample: wo, weight, density, lobe; f and density of the given wo; both of that of the sample. */
 KERNEL answer ask(question q)
 {
     vndf_material material;
     material.surface = surface_asked(q);
-    material.eta = 1.5f;                             /* only indexed */
-    material.f0 = vec3(0.0f, 0.04f, 0.9f);           /* only fresnel=schlick */
-    material.conductor_eta = vec3(0.2f, 0.9f, 1.5f); /* only fresnel=conductor */
-    material.conductor_k = vec3(3.9f, 2.4f, 1.9f);   /* only fresnel=conductor */
+    if (is_indexed)
+        material.eta = 1.5f;
+    if (fresnel_of == VNDF_FRESNEL_SCHLICK)
+        material.f0 = vec3(0.0f, 0.04f, 0.9f);
+    if (fresnel_of == VNDF_FRESNEL_CONDUCTOR) {
+        material.conductor_eta = vec3(0.2f, 0.9f, 1.5f);
+        material.conductor_k = vec3(3.9f, 2.4f, 1.9f);
+    }
     const vndf_bsdf bsdf = vndf_bsdf_at(material, vec3(q.wi_x, q.wi_y, q.wi_z));
     const vndf_scattered s = vndf_bsdf_sample(bsdf, vec3(q.u1, q.u2, q.u3));
     const vec3 wo = vec3(q.wo_x, q.wo_y, q.wo_z), f = vndf_bsdf_eval(bsdf, wo), own = vndf_bsdf_eval(bsdf, s.wo);
@@ -70,4 +76,3 @@ KERNEL answer ask(question q)
                       own.x,      own.y,      own.z,  vndf_bsdf_pdf(bsdf, s.wo)};
     return a;
 }
-/* end */

@@ -352,6 +352,7 @@ static FILE *file_of(const vndf_effects *effects, const char *what, const char *
 static int prepare(const struct run *r, const vndf_effects *effects, record *asked)
 {
     static char ask[1 << 14];
+    memset(ask, 0, sizeof ask);
     FILE *text = fopen(HERE "ask.h", "r"), *kernel = file_of(effects, "kernel", "w"),
          *questions = file_of(effects, "asked", "wb");
     export_document d = tables;
@@ -362,10 +363,18 @@ static int prepare(const struct run *r, const vndf_effects *effects, record *ask
     d.only = "ask";
     for (size_t i = 0; i < QUESTIONS; i++)
         asked[i] = question_of(i, effects);
-    return TEST(text && kernel && questions && fread(ask, 1, sizeof ask - 1, text) > 0 &&
-                document_prefix(&d, effects ? "bsdf" : "normals") && document_write(&d, kernel, ask) &&
-                fwrite(asked, sizeof *asked, QUESTIONS, questions) == QUESTIONS && fclose(text) == 0 &&
-                fclose(kernel) == 0 && fclose(questions) == 0);
+    if (!TEST(text && fread(ask, 1, sizeof ask - 1, text) > 0 && fclose(text) == 0))
+        return 0;
+    static const char normals[] = "/* ---- normals ---- */", hits[] = "/* ---- BSDFs: instead ---- */";
+    char *first = strstr(ask, normals), *second = strstr(ask, hits);
+    if (effects)
+        memmove(first, second, strlen(second) + 1);
+    else
+        *second = '\0';
+    return TEST(kernel && questions && document_prefix(&d, effects ? "bsdf" : "normals") &&
+                document_write(&d, kernel, ask) &&
+                fwrite(asked, sizeof *asked, QUESTIONS, questions) == QUESTIONS && fclose(kernel) == 0 &&
+                fclose(questions) == 0);
 }
 
 /* Whether there is what runs it. */

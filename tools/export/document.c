@@ -98,36 +98,34 @@ int document_add(export_document *document, const char *file, vndf_distribution 
 
 /* ---- effects ------------------------------------------------------------------------------------- */
 
-enum { PARTS_MAX = 300 };
-
-/* The parts that a file has, between blanks; of a BSDF its choices, "lobes=both fresnel=dielectric ...", whose length
- * is returned, and
- *
- *     reflects, transmits    a lobe is on this side, on the other
- *     indexed                there is an index ratio, and both sides are seen
- *     coloured               there are reflectances
- *     smith                  masking takes the area that wo sees */
-static int name_parts(const export_document *document, char parts[PARTS_MAX])
+/* The effects as constants, for the ifs of kernel/event.h and hits.h; and what a material has for them. */
+static void put_effects(FILE *to, const vndf_effects *is)
 {
-    static const char *const lobes[] = {"reflection", "transmission", "both"},
-                             *const fresnel[] = {"none", "schlick", "dielectric", "conductor"},
-                             *const masking[] = {"correlated", "separable", "v-cavities", "none"},
-                             *const transport[] = {"radiance", "importance"},
-                             *const reflection[] = {"specular", "retro"};
-    const vndf_effects *is = &document->effects;
-    const int transmits = is->lobes != VNDF_LOBES_REFLECTION;
-    const int n =
-        snprintf(parts, PARTS_MAX, " lobes=%s fresnel=%s masking=%s transport=%s reflection=%s ", lobes[is->lobes],
-                 fresnel[is->fresnel], masking[is->masking], transport[is->transport], reflection[is->reflection]);
-    int has_family = 0;
-    for (size_t i = 0; i < document->tables; i++)
-        has_family |= document->table[i].family != NULL;
-    snprintf(parts + n, (size_t)(PARTS_MAX - n), "%s %s%s%s%s%s%s", document->scatters ? "bsdf" : "normals",
-             has_family ? "family " : "", is->lobes != VNDF_LOBES_TRANSMISSION ? "reflects " : "",
-             transmits ? "transmits " : "", transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC ? "indexed " : "",
-             transmits || is->fresnel != VNDF_FRESNEL_NONE ? "coloured " : "",
-             is->masking < VNDF_MASKING_V_CAVITIES ? "smith " : "");
-    return n;
+    const int transmits = is->lobes != VNDF_LOBES_REFLECTION, reflects = is->lobes != VNDF_LOBES_TRANSMISSION;
+    const int is_indexed = transmits || is->fresnel == VNDF_FRESNEL_DIELECTRIC;
+    fprintf(to, "enum { reflects_of = %d, transmits_of = %d, fresnel_of = %d, masking_of = %d, ", reflects,
+            transmits, (int)is->fresnel, (int)is->masking);
+    fprintf(to, "carries_radiance = %d, is_retro = %d, is_indexed = %d, is_alike = %d, ",
+            transmits && is->transport == VNDF_TRANSPORT_RADIANCE, is->reflection == VNDF_REFLECTION_RETRO,
+            is_indexed, is->fresnel == VNDF_FRESNEL_NONE || is->fresnel == VNDF_FRESNEL_DIELECTRIC);
+    fprintf(to, "VNDF_FRESNEL_SCHLICK = %d, VNDF_FRESNEL_DIELECTRIC = %d, VNDF_FRESNEL_CONDUCTOR = %d, ",
+            VNDF_FRESNEL_SCHLICK, VNDF_FRESNEL_DIELECTRIC, VNDF_FRESNEL_CONDUCTOR);
+    fprintf(to, "VNDF_MASKING_SEPARABLE = %d, VNDF_MASKING_V_CAVITIES = %d, VNDF_MASKING_NONE = %d };\n",
+            VNDF_MASKING_SEPARABLE, VNDF_MASKING_V_CAVITIES, VNDF_MASKING_NONE);
+}
+
+static void put_material(FILE *to, const vndf_effects *is)
+{
+    fputs("\n/* A surface and its optics; indices are those beyond over that on the side of z. */\n"
+          "typedef struct vndf_material {\n    vndf_surface surface;\n",
+          to);
+    if (is->lobes != VNDF_LOBES_REFLECTION || is->fresnel == VNDF_FRESNEL_DIELECTRIC)
+        fputs("    float eta;\n", to);
+    if (is->fresnel == VNDF_FRESNEL_SCHLICK)
+        fputs("    vec3 f0; /* reflectance at normal incidence */\n", to);
+    if (is->fresnel == VNDF_FRESNEL_CONDUCTOR)
+        fputs("    vec3 conductor_eta, conductor_k; /* real and imaginary part */\n", to);
+    fputs("} vndf_material;\n", to);
 }
 
 /* ---- comments ------------------------------------------------------------------------------------ */
@@ -169,15 +167,20 @@ static void put_all(const export_document *document, FILE *to, const char *text)
 
 static void put_head(const export_document *document, FILE *to)
 {
-    char parts[PARTS_MAX];
-    const int effects = name_parts(document, parts);
+    static const char *const lobes[] = {"reflection", "transmission", "both"},
+                             *const fresnel[] = {"none", "schlick", "dielectric", "conductor"},
+                             *const masking[] = {"correlated", "separable", "v-cavities", "none"},
+                             *const transport[] = {"radiance", "importance"},
+                             *const reflection[] = {"specular", "retro"};
+    const vndf_effects *is = &document->effects;
     fprintf(to, "// Visible normals of any isotropic distribution, in %s: written by vndf %s.\n",
             document->to->title, VNDF_VERSION);
     put_all(document, to, head);
     for (size_t i = 0; i < document->tables; i++)
         put_table(to, document, &document->table[i]);
     if (document->scatters) {
-        fprintf(to, "//\n// BSDF:%.*s.\n", effects - 1, parts);
+        fprintf(to, "//\n// BSDF: lobes=%s fresnel=%s masking=%s transport=%s reflection=%s.\n", lobes[is->lobes],
+                fresnel[is->fresnel], masking[is->masking], transport[is->transport], reflection[is->reflection]);
         put_all(document, to, bsdf_head);
     }
     fputs("\n", to);
@@ -185,50 +188,15 @@ static void put_head(const export_document *document, FILE *to)
 
 /* ---- the kernel ---------------------------------------------------------------------------------- */
 
-/* Whether there is all that a mark names, up to its end. */
-static int has_parts(const char *parts, const char *mark)
-{
-    char part[40];
-    for (int n; *mark != '*'; mark += n) {
-        n = snprintf(part, sizeof part, " %.*s ", (int)strcspn(mark, " "), mark) - 1;
-        if (!strstr(parts, part))
-            return 0;
-    }
-    return 1;
-}
-
-/* Directives are left out, and a line that ends in a mark where the file has not what that names; so are the lines
- * between a mark that stands alone and the next one, "end". *in: whether lines are written. */
-static void put_line(FILE *to, const char *parts, const char *line, int *in)
-{
-    static const char only[] = "/* only ";
-    int length = (int)strcspn(line, "\n");
-    const char *mark = strstr(line, only), *end = strstr(line, "/* end */");
-    int has = mark && mark < line + length ? has_parts(parts, mark + sizeof only - 1) : -1;
-    if (*line == '#')
-        return;
-    if (end && end < line + length) {
-        *in = 1;
-    } else if (has >= 0 && (int)strspn(line, " ") == (int)(mark - line)) {
-        *in = has;
-    } else if (*in && has != 0) {
-        for (length = has > 0 ? (int)(mark - line) : length; length > 0 && line[length - 1] == ' ';)
-            length--;
-        fprintf(to, "%.*s\n", length, line);
-    }
-}
-
 /* In C, what the translator reads: constants, numbers, kernel, and `more`; NULL if there is no memory. By a temporary
  * file: open_memstream loses a part of its text without a word where memory ends. */
 static char *whole_text(const export_document *document, const char *more)
 {
-    char *whole = NULL, parts[PARTS_MAX];
+    char *whole = NULL;
     size_t size;
-    int in = 1;
     FILE *to = tmpfile();
     if (!to)
         return NULL;
-    name_parts(document, parts);
     fprintf(to, "enum { VNDF_GGX = -1, VNDF_BECKMANN = -2, VNDF_LOBES = %ld", document->lobes);
     for (size_t i = 0; i < document->tables; i++)
         fprintf(to, ", VNDF_%s = %zu", document->table[i].name, document->table[i].base);
@@ -240,12 +208,19 @@ static char *whole_text(const export_document *document, const char *more)
                 i + 1 == document->count ? "};\n"
                 : i % 8 == 7             ? ",\n    "
                                          : ", ");
-    for (const embedded_text *file = kernel_text; file->name; file++)
+    fputs("enum { sides_apart = 0 };\n", to);
+    if (document->scatters)
+        put_effects(to, &document->effects);
+    for (const embedded_text *file = kernel_text; file->name; file++) {
+        if (strcmp(file->name, "hits.h") == 0 && !document->scatters)
+            break; /* it is the first of those of BSDFs */
+        if (strcmp(file->name, "hits.h") == 0)
+            put_material(to, &document->effects);
         for (const char *const *line = file->lines; *line; line++)
-            if (document->scatters || strcmp(file->name, "scatter.h") != 0)
-                put_line(to, parts, *line, &in);
-    for (const char *line = more; line && *line; line += strcspn(line, "\n") + 1)
-        put_line(to, parts, line, &in);
+            if (**line != '#') /* directives are left out */
+                fprintf(to, "%s\n", *line);
+    }
+    fputs(more ? more : "", to);
     if (fseek(to, 0, SEEK_SET) == 0 && !ferror(to))
         whole = (char *)vndf_read_all(to, SIZE_MAX / 2, &size);
     fclose(to);
@@ -259,8 +234,12 @@ int document_write(const export_document *document, FILE *to, const char *more)
     const char *calls = document->scatters ? "vndf_rough vndf_bsdf"
                                            : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible "
                                              "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area vndf_area "
-                                             "vndf_mixture vndf_family_at";
-    char *whole = whole_text(document, more);
+                                             "vndf_mixture";
+    char *whole = whole_text(document, more), all[300];
+    int has_family = 0;
+    for (size_t i = 0; i < document->tables; i++)
+        has_family |= document->table[i].family != NULL;
+    snprintf(all, sizeof all, "%s%s", calls, has_family && !document->scatters ? " vndf_family_at" : "");
     if (in->is & LANGUAGE_INDENTS)
         fprintf(to, "# The kernel for Dr.Jit, written by vndf %s.\n", VNDF_VERSION);
     else
@@ -269,7 +248,7 @@ int document_write(const export_document *document, FILE *to, const char *more)
     put_all(document, to, in->begin);
     fputs(*in->begin ? "\n" : "", to);
     put_all(document, to, !document->embeds && in->bound ? in->bound : "");
-    const int good = whole && translate(document, whole, document->only ? document->only : calls, to);
+    const int good = whole && translate(document, whole, document->only ? document->only : all, to);
     fputs(guarded ? "#endif\n" : "", to);
     free(whole);
     return good;

@@ -14,7 +14,8 @@ static const char common[] =
     "either = ($1 || $2); select = ($1 ? $2 : $3); select_int = ($1 ? $2 : $3); sqrt = sqrt($1); abs = abs($1); "
     "to_real = float($1); to_int = int($1); vec3 = float3($1, $2, $3); fetch = numbers[$1]; "
     "view_frame = $1.f; view_table = $1.t; view_weighs = 1; lobe_end = VNDF_LOBES; its_count = $1.count; "
-    "its_view = $1.lobe[$2]; its_share = $1.share.lobe[$2]; its_weights = $1.weight; ";
+    "its_view = $1.lobe[$2]; its_share = $1.share.lobe[$2]; its_weights = $1.weight; "
+    "material_of = $1.material; hit_of = $1.h; ";
 
 #define BOUND(how, declared)                                                     \
   "// Define VNDF_FETCH(i) before this to fetch number i from anywhere else" how \
@@ -64,13 +65,14 @@ static const char python_begin[] =
 
 static const language languages[] = {
     {"c", "C99", 0, 0, NULL, NULL, "#include <math.h>\n#include <stdbool.h>\n#include <string.h>\n" C_BEGIN,
-     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; STRUCT: typedef struct $D {$M} $D;; "
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; UNUSED: (void)$V;; STRUCT: typedef struct $D {$M} $D;; "
      "ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {0}; POINTER: const float *; "
      "vec3: vndf_vec3; direction: vndf_vec3; "
      "sqrt = sqrtf($1); abs = fabsf($1); with_sign = copysignf($1, $2); to_real = (float)($1); to_int = (int)($1); "
      "bits = vndf_bits($1); of_bits = vndf_of_bits($1); vec3 = vndf_vec3_of($1, $2, $3); "},
     {"cpp", "C++11", 0, 0, NULL, NULL, "#include <cmath>\n#include <cstring>\n" C_BEGIN,
-     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {}; "
+     "FUNCTION: VNDF_FUNCTION $T $D($P) {$S}; UNUSED: (void)$V;; "
+     "ARRAY: static const float $D[$N] = {\n    $I\n};; ZERO:  = {}; "
      "POINTER: const float *; vec3: vndf_vec3; direction: vndf_vec3; sqrt = std::sqrt($1); abs = std::fabs($1); "
      "with_sign = std::copysign($1, $2); bits = vndf_bits($1); of_bits = vndf_of_bits($1); "
      "vec3 = vndf_vec3_of($1, $2, $3); "},
@@ -113,14 +115,15 @@ static const language languages[] = {
      "POINTER: device const float *; "
      "bits = as_type<int>($1); of_bits = as_type<float>($1); with_sign = copysign($1, $2); "},
     {"python", "Python, for Dr.Jit", LANGUAGE_APART | LANGUAGE_INDENTS, 0, NULL, NULL, python_begin,
-     "VARIABLE: $V; MEMBER: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
+     "VARIABLE: $V; MEMBER: $V; SEVERAL: $V; END: ; MEMBER_END: ; FUNCTION: def $D($P):$S; "
      "STRUCT: class $D(_Struct):\n    __slots__ = \"\"\"$M\"\"\".split(); CONSTANT: $D = $N; ARRAY: $D = ($I); "
      "MAKE: $T($I); ZERO:  = $T(); UNSET:  = 0; FOR: for $V in range($A, $B); OPEN: :; CLOSE: ; "
      "any = True; both = ($1 & $2); either = ($1 | $2); select = dr.select($1, $2, $3); "
      "select_int = dr.select($1, $2, $3); min = _min($1, $2); max = _max($1, $2); "
      "min_int = _min($1, $2); max_int = _max($1, $2); sqrt = _sqrt($1); with_sign = dr.copysign($1, $2); "
      "bits = _bits($1); of_bits = _of_bits($1); to_real = mi.Float($1); to_int = mi.Int32($1); "
-     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); load_row = $1.load_row($2, $3); fetch = ; "},
+     "exp_of = dr.exp($1); exp_near = dr.exp($1); log_of = dr.log($1); load_row = $1.load_row($2, $3); fetch = ; "
+     "vec3 = mi.Vector3f($1, $2, $3); place = $1.place($2); frame_below = 0; lobe_end = $1; view_weighs = 0; "},
 };
 
 const language *language_named(const char *name)

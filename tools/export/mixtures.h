@@ -65,7 +65,6 @@ KERNEL float vndf_mixture_ndf(vndf_mixture given, vec3 wm)
     return min(density, 3.4028234e38f);
 }
 
-/* only family */
 /* A family at a parameter, with the matrix and the mean slope of a surface, whose distribution is not read: a mixture
  * of the tables at both neighbours of the parameter. Its numbers: how many tables, whether shares are linear in 1/p,
  * then p and the place of each. */
@@ -96,4 +95,3 @@ KERNEL vndf_mixture vndf_family_at(int family, float parameter, vndf_surface sha
     }
     return mixture;
 }
-/* end */

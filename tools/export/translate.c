@@ -11,8 +11,11 @@ typedef struct word {
     word_kind kind;
     const char *text; /* not terminated */
     int length;
-    int gap;   /* characters between the last word and this one: blanks and comments */
-    int other; /* of a bracket: the word that closes or opens it */
+    const char *before; /* what stands between the last word and this one: blanks and comments */
+    int gap;            /* their number */
+    int other;          /* of a bracket: the word that closes or opens it */
+    int outdent;        /* blanks that its line begins with for an if that was folded */
+    int is_dead;        /* it was folded away */
 } word;
 
 typedef enum declaration_kind { FUNCTION, STRUCT, CONSTANT, ARRAY } declaration_kind;
@@ -61,7 +64,7 @@ static word word_at(const char *from)
         at = *at == '/' ? strstr(at, "*/") + 2 : at + 1;
     const char *exponent = at[0] == '0' && at[1] == 'x' ? "p" : "e";
     int n = *at != '\0';
-    word w = {n ? WORD_SIGN : WORD_END, at, 0, (int)(at - from), 0};
+    word w = {n ? WORD_SIGN : WORD_END, at, 0, from, (int)(at - from), 0, 0, 0};
     if (isdigit((unsigned char)*at)) {
         w.kind = WORD_NUMBER;
         while (isalnum((unsigned char)at[n]) || at[n] == '.' ||
@@ -91,6 +94,137 @@ static int word_find(const printer *t, int at, int end, const char *sign)
     return at < end ? at : end;
 }
 
+/* Brackets know each other. */
+static void pair_words(printer *t)
+{
+    int open[32], depth = 0;
+    for (word *w = t->word; w < t->word + t->words; w++)
+        if (w->kind == WORD_SIGN && strchr("([{", *w->text)) {
+            open[depth++] = (int)(w - t->word);
+        } else if (w->kind == WORD_SIGN && strchr(")]}", *w->text)) {
+            w->other = open[--depth];
+            t->word[w->other].other = (int)(w - t->word);
+        }
+}
+
+/* ---- ifs of constants ----------------------------------------------------------------------------
+ *
+ * Where a condition, or the first part of one with &&, is made of numbers and constants the if goes before anything is
+ * read: what it does not govern then is not there. A constant may have brackets, which are those of a call in C. */
+
+enum { UNKNOWN = -1000 };
+
+static int constant_at(const printer *t, const word *name)
+{
+    for (const word *w = t->word + 1; w->kind != WORD_END; w++)
+        if (w->kind == WORD_NAME && w->length == name->length && !memcmp(w->text, name->text, (size_t)w->length) &&
+            word_is(w + 1, "=") && w[2].kind == WORD_NUMBER && strchr("{,", *w[-1].text))
+            return atoi(w[2].text);
+    return UNKNOWN;
+}
+
+/* A number, or a constant with its brackets; *at goes behind. */
+static int operand(const printer *t, int *at)
+{
+    const word *w = &t->word[*at];
+    *at = word_is(w + 1, "(") ? w[1].other + 1 : *at + 1;
+    return w->kind == WORD_NUMBER ? atoi(w->text) : w->kind == WORD_NAME ? constant_at(t, w) : UNKNOWN;
+}
+
+/* Whether a part of a condition, up to && or its end, is true; UNKNOWN if that is not known. */
+static int part_value(const printer *t, int at, int *next, int close)
+{
+    const int is_not = word_is(&t->word[at], "!");
+    int part = at + is_not, a = operand(t, &part);
+    const word *sign = &t->word[part];
+    *next = word_find(t, at, close, "&&");
+    if (word_is(sign, "==") || word_is(sign, "!=")) {
+        part++;
+        const int b = operand(t, &part), is_other = word_is(sign, "!=");
+        a = a == UNKNOWN || b == UNKNOWN ? UNKNOWN : (a == b) != is_other;
+    }
+    return a == UNKNOWN || part != *next ? UNKNOWN : (a != 0) != is_not;
+}
+
+static int statement_end(const printer *t, int at)
+{
+    if (word_is(&t->word[at], "{"))
+        return t->word[at].other + 1;
+    if (!word_is(&t->word[at], "if") && !word_is(&t->word[at], "for"))
+        return word_find(t, at, t->words, ";") + 1;
+    at = statement_end(t, t->word[at + 1].other + 1);
+    return word_is(&t->word[at], "else") ? statement_end(t, at + 1) : at;
+}
+
+static void kill(printer *t, int at, int end)
+{
+    for (; at < end; at++)
+        t->word[at].is_dead = 1;
+}
+
+static int is_else(const word *w)
+{
+    return word_is(w, "else") && !w->is_dead;
+}
+
+/* What stays of an if begins where that did, without braces unless it is what an else governs; after a return nothing
+ * follows, up to `block`. */
+static void keep(printer *t, int head, int at, int end, int block)
+{
+    word *first = &t->word[at];
+    int last = at;
+    if (word_is(first, "{") && !is_else(&t->word[head - 1])) {
+        for (int i = at; i < end; i++)
+            t->word[i].outdent += 4;
+        first->is_dead = t->word[end - 1].is_dead = 1;
+        for (int i = ++at; i < end - 1; i = statement_end(t, i))
+            last = i;
+        first++;
+    }
+    first->before = t->word[head].before;
+    first->gap = t->word[head].gap + first->outdent - t->word[head].outdent;
+    if (word_is(&t->word[last], "return"))
+        kill(t, end, block);
+}
+
+static void fold_if(printer *t, int at, int block)
+{
+    const int close = t->word[at + 1].other, body = close + 1, end = statement_end(t, body);
+    const int other = word_is(&t->word[end], "else") ? end + 1 : end, whole = statement_end(t, at);
+    int part = at + 2, next, value = part_value(t, part, &next, close);
+    for (; value == 1 && next < close; value = part_value(t, part = next + 1, &next, close))
+        kill(t, part, next + 1);
+    if (value == 1) {
+        kill(t, at, body);
+        kill(t, end, whole);
+        keep(t, at, body, end, block);
+    } else if (value == 0) {
+        kill(t, at, other);
+        if (other < whole)
+            keep(t, at, other, whole, block);
+        else if (is_else(&t->word[at - 1]))
+            kill(t, at - 1, at);
+    }
+}
+
+static void fold_all(printer *t)
+{
+    int kept = 0, block[32], depth = 0;
+    for (int i = 0; i < t->words; i++) {
+        while (depth > 0 && i >= block[depth - 1])
+            depth--;
+        if (word_is(&t->word[i], "{"))
+            block[depth++] = t->word[i].other;
+        if (word_is(&t->word[i], "if") && !t->word[i].is_dead)
+            fold_if(t, i, block[depth - 1]);
+    }
+    for (int i = 0; i < t->words; i++)
+        if (!t->word[i].is_dead)
+            t->word[kept++] = t->word[i];
+    t->words = kept;
+    pair_words(t);
+}
+
 /* Adds the declaration that begins there; of an enum each name is one. Returns what follows. */
 static int read_declaration(printer *t, int at)
 {
@@ -99,6 +233,7 @@ static int read_declaration(printer *t, int at)
         declaration_kind kind;
         int name, inner, after; /* words from the first one; behind the bracket that closes */
     } shapes[] = {{"KERNEL", FUNCTION, 2, 3, 0},
+                  {"CALL", FUNCTION, 2, 3, 0},
                   {"typedef", STRUCT, 2, 3, 3},
                   {"static", ARRAY, 3, 8, 2},
                   {"enum", CONSTANT, 2, 1, 2}};
@@ -121,7 +256,7 @@ static int read_declaration(printer *t, int at)
 
 static int read_text(printer *t, const char *source)
 {
-    int open[32], depth = 0, room = 0, at = 0;
+    int room = 0, at = 0;
     do {
         if (t->words == room) {
             word *more = realloc(t->word, (size_t)(room = 2 * room + 4096) * sizeof *more);
@@ -132,13 +267,9 @@ static int read_text(printer *t, const char *source)
         word *w = &t->word[t->words];
         *w = word_at(source);
         source = w->text + w->length;
-        if (w->kind == WORD_SIGN && strchr("([{", *w->text)) {
-            open[depth++] = t->words;
-        } else if (w->kind == WORD_SIGN && strchr(")]}", *w->text)) {
-            w->other = open[--depth];
-            t->word[w->other].other = t->words;
-        }
     } while (t->word[t->words++].kind != WORD_END);
+    pair_words(t);
+    fold_all(t);
     while (t->word[at].kind != WORD_END && t->count < DECLARATIONS_MAX - 64)
         at = read_declaration(t, at);
     return t->word[at].kind == WORD_END;
@@ -201,7 +332,7 @@ static void put_line(const printer *t, int at)
     const char *line = t->word[at].text;
     while (line[-1] != '\n')
         line--;
-    fprintf(t->file, "\n%*s", (int)strspn(line, " "), "");
+    fprintf(t->file, "\n%*s", (int)strspn(line, " ") - t->word[at].outdent, "");
 }
 
 /* Blanks and comments before a word; in Python, where a line ends a statement, a blank. */
@@ -211,7 +342,8 @@ static void put_gap(const printer *t, int at)
     if (t->indents)
         put(t, w->gap > 0 && *w->text != '}' ? " " : "");
     else
-        put_prefixed(t->as, t->file, w->text - w->gap, (size_t)w->gap);
+        put_prefixed(t->as, t->file, w->before,
+                     (size_t)(w->gap - (memchr(w->before, '\n', (size_t)w->gap) ? w->outdent : 0)));
 }
 
 /* Declarations, of these kinds, begin with the prefix; a variable or a member must not be a word of the language. */
@@ -333,8 +465,8 @@ static void put_words(printer *t, int at, int end)
         else if (t->indents && word_is(w, "/") && w[1].kind == WORD_NUMBER &&
                  !memchr(w[1].text, '.', (size_t)w[1].length))
             put(t, "//"); /* of whole numbers */
-        else if (t->indents && word_is(w, "&&"))
-            put(t, "and");
+        else if (t->indents && w->kind == WORD_SIGN && (word_is(w, "&&") || word_is(w, "||") || word_is(w, "!")))
+            put(t, *w->text == '&' ? "and" : *w->text == '|' ? "or" : "not ");
         else
             put_name(t, at, is_member ? 0 : 1 << CONSTANT | 1 << ARRAY);
     }
@@ -430,8 +562,9 @@ static int put_if(printer *t, int at)
         return next;
     if (t->indents)
         put_line(t, next);
-    put(t, t->indents ? "else" : " else");
-    return put_governed(t, next, next + 1);
+    const int is_if = word_is(&t->word[next + 1], "if");
+    put(t, t->indents ? is_if ? "el" : "else" : is_if ? " else " : " else");
+    return is_if ? put_if(t, next + 1) : put_governed(t, next, next + 1);
 }
 
 /* for (int i = A; i < B; i++) */
@@ -493,8 +626,24 @@ static void put_members(printer *t, const declaration *d)
     put_gap(t, close);
 }
 
+/* Folding leaves parameters that nothing reads, of which C warns. */
+static void put_unused(printer *t, const declaration *d)
+{
+    const int close = t->word[d->inner].other;
+    for (int name = d->inner + 2, at; name < close; name = word_find(t, name, close, ",") + 2) {
+        name += word_is(&t->word[name - 1], "const");
+        for (at = close; at < d->end && !(is_same(t, at, name) && !word_is(&t->word[at - 1], ".")); at++)
+            ;
+        if (at == d->end && language_word(t->as->to, "UNUSED", 6, ": ")) {
+            put(t, "\n    ");
+            put_form(t, "UNUSED", NULL, 0, name);
+        }
+    }
+}
+
 static void put_statements(printer *t, const declaration *d)
 {
+    put_unused(t, d);
     for (int at = t->word[d->inner].other + 2; at < d->end - 1;)
         at = put_statement(t, at);
     put_gap(t, d->end - 1);

@@ -50,6 +50,11 @@ typedef struct vndf_view {
     radial_law v;
 } vndf_view;
 
+KERNEL int frame_below(frame f)
+{
+    return select_int(lt(f.uz, 0.0f), 1, 0);
+}
+
 /* wi is unit, and may be below the surface. */
 KERNEL vndf_view vndf_view_from(vndf_surface m, vec3 wi)
 {
@@ -58,7 +63,7 @@ KERNEL vndf_view vndf_view_from(vndf_surface m, vec3 wi)
     view.wi = wi;
     view.kind = p.kind;
     view.f = p.f;
-    view.below = select_int(lt(p.f.uz, 0.0f), 1, 0);
+    view.below = frame_below(p.f);
     if (p.kind >= 0) {
         const table_view law = table_view_of(p.t, p.f, view.below);
         view.t = p.t;

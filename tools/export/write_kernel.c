@@ -12,9 +12,8 @@ int main(int argc, char **argv)
     FILE *to = n ? fopen(argv[1], "w") : NULL;
     if (is_python)
         document.only =
-            "frame ggx_see ggx_draw ggx_density ggx_area ggx_p22 beckmann_see beckmann_draw beckmann_area "
-            "beckmann_density beckmann_p22 table_view_of table_draw table_pdf table_given table_p22 law_area "
-            "VNDF_HEAD VNDF_STRIDE";
+            "frame placed view_from sample pdf ndf area drawn_area lobe_numbers lobe_shares mixture_pdf VNDF_HEAD "
+            "VNDF_STRIDE";
     return !to || !document_prefix(&document, is_python ? "vndf" : "exported") ||
            !document_write(&document, to, NULL) || fclose(to) != 0;
 }

@@ -3,7 +3,7 @@ for directions above the horizon. It runs wherever Mitsuba's variants run, one v
 CUDA, and is differentiable: samples and densities are piecewise smooth functions of direction and roughness."""
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import drjit as dr
 import mitsuba as mi
@@ -12,13 +12,22 @@ from . import _kernel as kernel
 from .distribution import Distribution, load
 
 
-class Part(NamedTuple):
-    """A lobe seen from a direction above the horizon."""
+class Lobe:
+    """A surface of the kernel: a law with a matrix. `turn`: sine and cosine of the angle of its axes, None for 0."""
 
-    law: Any
-    frame: Any  # the kernel's
-    seen: Any  # what the law makes of it
-    share: Any  # of all that is drawn
+    def __init__(self, law: Any, x: Any, y: Any, turn: Any) -> None:
+        x, y = x * law.scale, y * law.scale
+        s, c = turn or (0.0, 1.0)
+        matrix = (x, 0.0, 0.0, y) if turn is None else (c * x, -s * y, s * x, c * y)
+        self._law, self._map = law, kernel.vndf_affine_map(*matrix, 0.0, 0.0, int(turn is None), x * y)
+
+    def place(self, w: Any) -> Any:
+        """The kernel asks this of a surface."""
+        return kernel.vndf_placed(self._law.kind, self._law, kernel.vndf_frame_of(self._map, w.x, w.y, mi.Float(w.z)))
+
+
+def _raised(w: Any) -> Any:
+    return mi.Vector3f(w.x, w.y, dr.maximum(w.z, 0.0))
 
 
 class Microfacets:
@@ -26,55 +35,36 @@ class Microfacets:
     angle, whose sine and cosine are `turn` (None: 0), and a weight; weights sum to 1."""
 
     def __init__(self, lobes: list[tuple[Any, Any, Any, Any]], turn: Any = None) -> None:
-        self._lobes = []
-        for law, x, y, weight in lobes:
-            x, y = x * law.scale, y * law.scale
-            s, c = turn or (0.0, 1.0)
-            matrix = (x, 0.0, 0.0, y) if turn is None else (c * x, -s * y, s * x, c * y)
-            self._lobes.append((law, kernel.vndf_affine_map(*matrix, 0.0, 0.0, int(turn is None), x * y), weight))
+        self._lobes = [(Lobe(law, x, y, turn), weight) for law, x, y, weight in lobes]
 
-    def view(self, wi: Any) -> tuple[list[Part], Any]:
-        """The lobes as wi, wi.z >= 0, sees them, and the projected area of all."""
-        parts, area, drawn = [], 0.0, 0.0
-        for law, shape, weight in self._lobes:
-            frame = kernel.vndf_frame_of(shape, wi.x, wi.y, dr.maximum(wi.z, 0.0))
-            seen, one, share = law.see(frame)
-            parts.append(Part(law, frame, seen, weight * frame.size * share))
-            area += weight * frame.size * one
-            drawn += parts[-1].share
-        return [p._replace(share=dr.select(drawn > 0.0, p.share / drawn, 0.0)) for p in parts], area
+    def view(self, wi: Any) -> tuple[Any, Any]:
+        """The mixture as wi, wi.z >= 0, sees it, and its projected area."""
+        views, weights = zip(*((kernel.vndf_view_from(lobe, _raised(wi)), weight) for lobe, weight in self._lobes))
+        numbers = (kernel.vndf_lobe_numbers([*of]) for of in (weights, map(kernel.vndf_drawn_area, views)))
+        seen = kernel.vndf_mixture_view(len(views), views, None, kernel.vndf_lobe_shares(*numbers, len(views)))
+        return seen, sum(weight * kernel.vndf_area(view) for view, weight in zip(views, weights))
 
-    def sample_from(self, parts: list[Part], u1: Any, u2: Any) -> tuple[Any, Any]:
-        """A visible normal, and the density of all lobes together."""
+    def sample_from(self, seen: Any, u1: Any, u2: Any) -> tuple[Any, Any]:
+        """A visible normal, and the density of all lobes together. Every lobe draws one: lanes want any of them."""
+        if seen.count == 1:
+            drawn = kernel.vndf_sample(seen.lobe[0], u1, u2)
+            return drawn.wm, drawn.pdf
         before, wm = 0.0, mi.Vector3f(0.0, 0.0, 1.0)
-        for i, part in enumerate(parts):
-            u, here = u1, True
-            if len(parts) > 1:
-                u = dr.clip((u1 - before) / dr.maximum(part.share, 1e-20), 0.0, 1.0)
-                here = (u1 >= before) & ((u1 < before + part.share) | (i + 1 == len(parts)))
-            drawn = kernel.vndf_frame_sampled(part.frame, part.law.draw(part, u, u2))
-            wm = dr.select(here, mi.Vector3f(drawn.x, drawn.y, drawn.z), wm)
-            before = before + part.share
-        return wm, drawn.pdf if len(parts) == 1 else self.pdf_from(parts, wm)
+        for i, (view, share) in enumerate(zip(seen.lobe, seen.share.lobe)):
+            u = dr.clip((u1 - before) / dr.maximum(share, 1e-20), 0.0, 1.0)
+            here = (u1 >= before) & ((u1 < before + share) | (i + 1 == seen.count))
+            wm = dr.select(here, kernel.vndf_sample(view, u, u2).wm, wm)
+            before = before + share
+        return wm, self.pdf_from(seen, wm)
 
-    def pdf_from(self, parts: list[Part], wm: Any) -> Any:
-        density = 0.0
-        for part in parts:
-            n = kernel.vndf_frame_normal(part.frame, wm.x, wm.y, dr.maximum(wm.z, 0.0))
-            seen = (n.facing > 0.0) & (wm.z >= 0.0)
-            n.facing = dr.select(seen, n.facing, 1.0)
-            one = kernel.vndf_frame_density(part.frame, part.law.density(part, n) / part.frame.determinant)
-            density += dr.select(seen, part.share * one, 0.0)
-        return density
+    def pdf_from(self, seen: Any, wm: Any) -> Any:
+        return dr.select(wm.z >= 0.0, kernel.vndf_mixture_pdf(seen, _raised(wm)), 0.0)
 
     def eval(self, m: Any) -> Any:
         """D(m)."""
-        density = 0.0
-        for law, shape, weight in self._lobes:
-            frame = kernel.vndf_frame_of(shape, 0.0, 0.0, mi.Float(1.0))
-            n = kernel.vndf_frame_normal(frame, m.x, m.y, dr.maximum(m.z, 0.0))
-            density += weight * law.p22(n) / frame.determinant
-        return dr.select(m.z >= 0.0, density, 0.0)
+        return dr.select(
+            m.z >= 0.0, sum(weight * kernel.vndf_ndf(lobe, _raised(m)) for lobe, weight in self._lobes), 0.0
+        )
 
 
 class MicrofacetDistribution(Microfacets):
@@ -104,8 +94,7 @@ class MicrofacetDistribution(Microfacets):
         return self.smith_g1(wi, m) * self.smith_g1(wo, m)
 
 
-# Laws of normals for the variant of Mitsuba that is set, in the unit problem: `see` makes what they need of a
-# direction, and both its areas; `draw` a normal; `density` is that of the draw, `p22` that of slopes over z^4.
+# Laws of normals for the variant of Mitsuba that is set: what the kernel asks of a distribution.
 
 
 def law_of(given: Any) -> Any:
@@ -121,16 +110,13 @@ class Closed:
     scale = 1.0  # the slope of unit roughness
 
     def __init__(self, name: str) -> None:
-        calls = ("see", "area", "draw", "density", "p22")
-        see, area, draw, density, p22 = (getattr(kernel, f"vndf_{name}_{call}") for call in calls)
-        self.see = lambda f: (see(f.ux, f.uy, f.uz), *[area(f.ux, f.uy, f.uz)] * 2)
-        self.draw = lambda part, u1, u2: draw(part.seen, u1, u2)
-        self.density = lambda part, n: density(part.seen, n.x, n.y, n.z, n.facing)
-        self.p22 = lambda n: p22(n.x, n.y, n.z)
+        self.kind = {"ggx": kernel.VNDF_GGX, "beckmann": kernel.VNDF_BECKMANN}[name]
 
 
 class Table:
-    """A table; the kernel reads its rows by `look`."""
+    """A table; the kernel reads its rows by `load_row`."""
+
+    kind = 0
 
     def __init__(self, distribution: Distribution) -> None:
         numbers = distribution.numbers()
@@ -150,16 +136,3 @@ class Table:
             return kernel.vndf_quad(*self._numbers[int(row) : int(row) + 4])
         at = mi.UInt32(row)
         return kernel.vndf_quad(*(dr.gather(mi.Float, self._numbers, at + j) for j in range(4)))
-
-    def see(self, frame: Any) -> tuple[Any, Any, Any]:
-        seen, reach = kernel.vndf_table_view_of(self, frame, 0), kernel.vndf_frame_reach(frame)
-        return seen, kernel.vndf_law_area(self, seen.v, 0) * reach, kernel.vndf_law_drawn_area(seen.v, 0) * reach
-
-    def draw(self, part: Part, u1: Any, u2: Any) -> Any:
-        return kernel.vndf_table_draw(self, part.seen, u1, u2, 0)
-
-    def density(self, part: Part, n: Any) -> Any:
-        return kernel.vndf_table_pdf(self, part.seen, n, kernel.vndf_frame_reach(part.frame), 0)
-
-    def p22(self, n: Any) -> Any:
-        return kernel.vndf_table_p22(self, kernel.vndf_table_given(self, n.x, n.y, n.z))
