@@ -2,7 +2,7 @@
  * 3e-4, of glass to 5e-4 from the thinner side and 3e-3 from the denser one; of GGX at alpha 1 also what is known
  * exactly. A fitted cosine lights a rectangle as the BSDF does. Notices a Fresnel term in the wrong channel, axes that
  * are swapped, a matrix that is not the inverse, weights that do not sum to 1, and half floats that are not the
- * nearest. */
+ * nearest. (Files: python_formats.) */
 #include "bake/bake.h"
 #include "harness/test.h"
 #include "oracle/oracle.h"

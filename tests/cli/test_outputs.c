@@ -1,12 +1,10 @@
 /* Whatever goes wrong around the program, a file that it writes is whole or as it was, no temporary is left, and a line
- * says why: a full disk, a step of saving that fails, a signal, a closed pipe, an output that is an input under another
- * name, a name that is no file. A file that is replaced keeps its mode, a link its place, and `-o -` gives the bytes of
- * the file. It notices a rename before the sync, and an input that is replaced. */
+ * says why: a full disk, a signal, a closed pipe, an output that is an input under another name, a name that is no file
+ * (a step of saving: test_withheld). A file that is replaced keeps its mode, a link its place, and `-o -` gives the
+ * bytes of the file. It notices an input that is replaced. */
 #include "harness/run_program.h"
 
 #include <errno.h>
-
-#include "vndf_build.h"
 
 static const char table[] = VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf";
 
@@ -20,67 +18,6 @@ static int is_alone(void)
 {
     return run_count(".", ".tmp") == 0 && run_count("folder", ".tmp") == 0;
 }
-
-/* ---- steps of saving, which the linker lets fail (--wrap) ---- */
-
-#ifdef VNDF_TEST_WRAP
-
-int __real_fsync(int file);
-int __real_fclose(FILE *file);
-int __real_rename(const char *from, const char *to);
-int __wrap_fsync(int file);
-int __wrap_fclose(FILE *file);
-int __wrap_rename(const char *from, const char *to);
-
-enum { NONE, SYNC, CLOSE, RENAME, STEPS };
-
-static int failing, steps; /* steps: digits of the first that were taken */
-
-static int fails(int step)
-{
-    steps = steps < 1000 ? 10 * steps + step : steps;
-    if (failing == step)
-        errno = EDQUOT;
-    return failing == step;
-}
-
-int __wrap_fsync(int file)
-{
-    return fails(SYNC) ? -1 : __real_fsync(file);
-}
-
-int __wrap_fclose(FILE *file)
-{
-    int closed = __real_fclose(file);
-    return fails(CLOSE) ? EOF : closed;
-}
-
-int __wrap_rename(const char *from, const char *to)
-{
-    return fails(RENAME) ? -1 : __real_rename(from, to);
-}
-
-static void test_steps(void)
-{
-    vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *loaded = vndf_load(table, &error);
-    for (int step = NONE; loaded && step < STEPS; step++) {
-        shell("echo old >old.vndf");
-        steps = 0;
-        failing = step;
-        vndf_status status = vndf_save(loaded, "old.vndf", &error);
-        int taken = steps;
-        failing = NONE;
-        TEST(step ? status == VNDF_ERROR_IO && strstr(error.message, strerror(EDQUOT)) != NULL
-                  : status == VNDF_OK && taken == 123);
-        shell(step ? "grep -q old old.vndf" : "cmp old.vndf table.csv");
-        TEST(is_alone());
-    }
-    vndf_free(loaded);
-    remove("old.vndf");
-}
-
-#endif
 
 /* ---- what every command writes, $F, and what it reads ---- */
 
@@ -153,6 +90,14 @@ static void test_signal(const char *name, int number)
     TEST(is_alone());
 }
 
+/* Of a report nothing is left behind; the page is larger than 100 KiB, most of the data is not. */
+static void test_unfinished_report(void)
+{
+    run_line(128 + SIGINT, "interrupted", "(sleep 1; kill -s INT $$) &\nexec \"$VNDF\" report --seconds 60 page");
+    run_line(2, "cannot write", "ulimit -f 200; vndf report --family ggx --seconds 1 page");
+    TEST(run_count("page", "") == -1);
+}
+
 int main(void)
 {
     char folder[] = "outputs.XXXXXX";
@@ -164,9 +109,6 @@ int main(void)
     TEST(run_put("ball.scene", run_scene) && run_put("gloss.csv", "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n"));
     TEST(run_put("mesh.png", "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n"));
     shell("sed -e 's/ggx/table.png/; s/^sphere.*/mesh --file mesh.png --material gold/' ball.scene >all.png");
-#ifdef VNDF_TEST_WRAP
-    test_steps();
-#endif
     test_writer("build --family ggx --max-bytes 2048", "a.vndf");
     test_writer("sample table.csv --theta 60 -n 5000", "a.csv");
     test_writer("sample table.csv --theta 60 -n 5000", "a.f32");
@@ -182,6 +124,7 @@ int main(void)
     test_stdout();
     test_signal("INT", SIGINT);
     test_signal("TERM", SIGTERM);
+    test_unfinished_report();
     shell("rm *.scene *.png *.csv && rmdir folder");
     return run_end(folder);
 }

@@ -1,8 +1,11 @@
-/* What is withheld from a command - a descriptor, or the memory of one allocation - makes it fail with status 2 and a
- * line that says so, or does not matter: what it writes is then what it always writes. Files that it would replace are
- * as they were where it fails, but for text that a closed stdout did not take. Every command, with small work. It
- * notices a file that becomes descriptor 1, and one that is replaced before the figures are made. */
+/* What is withheld from a command - a descriptor, the memory of one allocation, a step of saving - makes it fail with
+ * status 2 and a line that says so, or does not matter: what it writes is then what it always writes. Files that it
+ * would replace are as they were where it fails, but for text that a closed stdout did not take. Every command, with
+ * small work. It notices a file that becomes descriptor 1, one that is replaced before the figures are made, and a
+ * rename before the sync. */
 #include "harness/run_program.h"
+
+#include <errno.h>
 
 static const struct {
     const char *words; /* outputs are in out/ */
@@ -65,6 +68,17 @@ static void test_allocations(const char *words, int varies, long tries)
     TEST(count > 0);
 }
 
+/* A file that is saved is synced, closed and renamed, or it is none. */
+static void test_steps(const char *words)
+{
+    static const char *const steps[] = {"fsync", "fclose", "rename"};
+    for (int i = 0; i < 3 && strstr(words, "-o out/"); i++)
+        run_line(0, strerror(EDQUOT),
+                 "rm -rf out; cp -r old out; LD_PRELOAD=\"$FAILING\" FAIL_STEP=%s \"$VNDF\" %s >printed 2>said "
+                 "9>&1; s=$?\ncat said; [ $s = 2 ] && diff -r out old",
+                 steps[i], words);
+}
+
 int main(void)
 {
     char folder[] = "withheld.XXXXXX";
@@ -83,8 +97,10 @@ int main(void)
         if (commands[i].tries < (long)test_amount(10, 0, 0))
             continue;
         test_descriptors(commands[i].words, commands[i].varies);
-        if (*VNDF_FAILING_MALLOC)
+        if (*VNDF_FAILING_MALLOC) {
+            test_steps(commands[i].words);
             test_allocations(commands[i].words, commands[i].varies, commands[i].tries);
+        }
     }
     run_line(2, "cannot read stdin", "vndf info - <&-");
     run_line(0, "", "rm -r *");

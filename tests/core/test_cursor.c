@@ -1,24 +1,7 @@
 /* Reading bytes stops at the end: the last byte is had, the one after it is not, and a reader that
  * failed gives zeros from then on. (What is written: table_round_trip.) */
-#include <stdlib.h>
-
 #include "core/cursor.h"
 #include "harness/test.h"
-
-/* A file is read as far as one byte more than it may have, by which it is too large. */
-static void test_whole_files(void)
-{
-    FILE *file = tmpfile();
-    TEST(file && fwrite("123456", 1, 6, file) == 6);
-    for (size_t most = 4; file && most < 8; most++) {
-        size_t size = 0;
-        rewind(file);
-        free(vndf_read_all(file, most, &size));
-        TEST(size == (most < 6 ? most + 1 : 6));
-    }
-    if (file)
-        fclose(file);
-}
 
 int main(void)
 {
@@ -32,6 +15,5 @@ int main(void)
     TEST(vndf_read_f64(&none) == 0.0 && none.failed);
     none.failed = 0;
     TEST(vndf_read_bytes(&none, (size_t)-1) == NULL && none.failed);
-    test_whole_files();
     return test_done();
 }

@@ -68,21 +68,8 @@ static void test_pathological(void)
     }
 }
 
-/* What is wrong is counted, and the worst is kept: NaN is worse than any number. */
-static void test_notes(void)
-{
-    stress_result result = {0};
-    const float first[STRESS_NUMBERS] = {1}, second[STRESS_NUMBERS] = {2};
-    const stress_finding *found = &result.found[STRESS_G1];
-    TEST(stress_note(&result, STRESS_G1, 1e-7, first) && found->failed == 0);
-    TEST(!stress_note(&result, STRESS_G1, 1e-4, second) && found->failed == 1);
-    TEST(stress_note(&result, STRESS_G1, 0, first) && found->worst == 1e-4 && found->number[0] == 2);
-    TEST(!stress_note(&result, STRESS_G1, NAN, first) && found->worst == INFINITY);
-}
-
 int main(int arguments, char **argument)
 {
-    test_notes();
     if (arguments > 1) {
         test_shipped(argument[1]);
         return test_done();

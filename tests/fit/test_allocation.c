@@ -72,20 +72,15 @@ static const char saved[] = "allocation.vndf";
 
 static double laplace(double r, void *user)
 {
-    (void)user;
-    return exp(-r);
+    return exp(-r) * (user == NULL);
 }
 
-/* From a shell's words, or, where those have no option, from one of what words cannot bring. */
+/* From a shell's words, a file, or a function. */
 static vndf_source *source_of(const char *words, vndf_error *error)
 {
-    static const char csv[] = "slope,p22\n0,1\n0.5,0.8\n1,0.3\n2,0.01\n";
-    if (words[0] == '-')
-        return vndf_source_from_description(words, error);
-    if (strcmp(words, "CSV file") == 0)
-        return vndf_source_csv_file(VNDF_SOURCE_DIR "/tables/example.csv", error);
-    return strcmp(words, "CSV text") == 0 ? vndf_source_csv_text("some.csv", csv, sizeof csv - 1, error)
-                                          : vndf_source_slope_callback(laplace, NULL, words, error);
+    return words[0] == '-'   ? vndf_source_from_description(words, error)
+           : words[0] == '/' ? vndf_source_csv_file(words, error)
+                             : vndf_source_slope_callback(laplace, NULL, words, error);
 }
 
 static int build(const char *words, vndf_error *error)
@@ -150,8 +145,7 @@ static const struct trial {
     {build, "--family student-t:2.5"},
     {build, "--family 'mix:(0.7,0.1,ggx)+(0.3,0.4,beckmann)'"},
     {build, "--family sgd:alum-bronze/r"},
-    {build, "CSV text"},
-    {build, "CSV file"},
+    {build, VNDF_SOURCE_DIR "/tables/example.csv"},
     {build, "callback"},
     {use_table, VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf"},
     {use_family, "student-t"},

@@ -1,6 +1,6 @@
 /* The builder keeps its options: no table exceeds max_bytes and one that takes exactly that many is made, max_tv is met
  * by the smallest table, or refused with the size that meets it or with the floor, at which large tables end; the
- * default has 64 knots; options out of range are refused, and progress may stop a build. A search that gives up where
+ * default has 64 knots; options out of range are refused (progress: test_family_build). A search that gives up where
  * knots do not grow, or a floor that is not that of the moments, fails. */
 #include "harness/test.h"
 #include "oracle/oracle.h"
@@ -140,32 +140,6 @@ static void test_unmet(void)
     TEST_HAS(error.message, "2 moments leave 0.0163 whatever the size; 3 moments leave 0.0012");
 }
 
-/* What progress was told: `user` points to one. */
-typedef struct told {
-    double last;
-    int calls, stop_after, in_order;
-} told;
-
-static int note(double done, const char *what, void *user)
-{
-    told *t = user;
-    t->in_order &= done >= t->last && done <= 1 && what != NULL;
-    t->last = done;
-    return ++t->calls >= t->stop_after;
-}
-
-static void test_progress(void)
-{
-    told all = {0, 0, 1 << 30, 1}, some = {0, 0, 2, 1};
-    vndf_error error = {VNDF_OK, ""};
-    vndf_distribution *table =
-        build("ggx", (vndf_build_options){.progress = note, .progress_user = &all}, NULL, NULL);
-    TEST(table && all.calls > 5 && all.in_order); /* at stages, and every 2^18 operations */
-    vndf_free(table);
-    TEST(!build("ggx", (vndf_build_options){.progress = note, .progress_user = &some}, NULL, &error));
-    TEST(error.status == VNDF_ERROR_ARGUMENT && TEST_HAS(error.message, "interrupted"));
-}
-
 int main(void)
 {
     test_sizes();
@@ -178,6 +152,5 @@ int main(void)
         test_floor("ggx", moments);
         test_floor("exp(-3*r)", moments);
     }
-    test_progress();
     return test_done();
 }

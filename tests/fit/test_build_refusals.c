@@ -1,4 +1,5 @@
-/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not. */
+/* What cannot be the normals of a microsurface is refused with the true reason, and what only looks hard is not (nor
+ * what test_small_tables and test_stress build). */
 #include "harness/test.h"
 #include "oracle/oracle.h"
 
@@ -26,14 +27,9 @@ static const char *const refusals[][2] = {
 static const char *const accepted[] = {
     "r^-1.7*exp(-r)",
     "(1+r*r)^-1.65",
-    "step(1-r)",
-    "exp(-((r-1)/0.02)^2)",
-    "exp(-r*r)+1e4*exp(-1e4*r*r)",
     "1e30*exp(-r*r)",
     "exp(-((r-1)/1e-5)^2)",
     "exp(-((r-1.37)/2e-5)^2)", /* all mass in a narrow ring */
-    "abs(r-0.5)^-0.3*exp(-2*r)",
-    "max(0,-log(abs(r-0.8)))", /* poles of little mass */
     "r^11*exp(-r^2)",
     "exp(r)/(1+exp(2*r))",
     "r^100/cosh(r)", /* far out infinity times 0 and over infinity */

@@ -32,26 +32,21 @@ static void test_names(void)
     refused(vndf_source_family(name, &error), &error, VNDF_ERROR_SYNTAX, "at most 4096");
 }
 
-/* A file that begins with these bytes and ends `gigabytes` further: a hole, which takes no room on most disks. */
-static int make_long(const char *path, const unsigned char *bytes, size_t size, long gigabytes)
-{
-    FILE *file = fopen(path, "wb");
-    int good = file && fwrite(bytes, 1, size, file) == size;
-    for (long i = 0; good && i < gigabytes; i++)
-        good = fseek(file, 1L << 30, SEEK_CUR) == 0;
-    good = good && fputc(0, file) != EOF;
-    return file && fclose(file) == 0 && good;
-}
-
+/* A table with 10 GiB behind it: a hole, which takes no room on most disks. */
 static void test_long_files(void)
 {
     static unsigned char bytes[4096];
     const char *path = "limits.tmp";
     vndf_error error = {VNDF_OK, ""};
     size_t size = read_bytes(VNDF_SOURCE_DIR "/tables/student-t-2.5-small.vndf", bytes, sizeof bytes);
-    if (make_long(path, bytes, size, 10)) {
-        TEST(!vndf_load(path, &error) && error.status == VNDF_ERROR_TABLE);
-        TEST_HAS(error.message, "more follow");
+    FILE *file = fopen(path, "wb");
+    int good = file && fwrite(bytes, 1, size, file) == size;
+    for (int gigabytes = 0; good && gigabytes < 10; gigabytes++)
+        good = fseek(file, 1L << 30, SEEK_CUR) == 0;
+    good = good && fputc(0, file) != EOF;
+    if (file && fclose(file) == 0 && good) {
+        TEST(!vndf_load(path, &error) && error.status == VNDF_ERROR_TABLE &&
+             TEST_HAS(error.message, "more follow"));
         refused(vndf_source_csv_file(path, &error), &error, VNDF_ERROR_SYNTAX, "more than 16777216 bytes");
     } else
         fprintf(stderr, "no file of 10 GiB can be made here\n");
@@ -70,10 +65,6 @@ static void test_stated_size(void)
     put_u32(bytes + 12, VNDF_LIMIT_TABLE_BYTES + 1u);
     TEST(!vndf_load_memory(bytes, sizeof bytes, &error) && error.status == VNDF_ERROR_TABLE);
     TEST_HAS(error.message, "at most 8388608 are possible");
-    TEST(make_long("limits.tmp", bytes, sizeof bytes, 0));
-    TEST(!vndf_load("limits.tmp", &error) && error.status == VNDF_ERROR_TABLE);
-    TEST_HAS(error.message, "limits.tmp: the table says that it has 8388609 bytes");
-    remove("limits.tmp");
 }
 
 static void test_operations(void)

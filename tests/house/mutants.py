@@ -63,28 +63,36 @@ def build_mutant(folder, target, changed):
 passes = {}  # of a test: whether it does without a defect
 
 
+def line_of(test, folder):
+    """What runs a test, which is words: "walk 0" is the program test_walk of the folder with the argument 0,
+    "python_formats Bench" a script, which asks the program alone."""
+    name, _, rest = test.partition(" ")
+    script = f"{sys.executable} {source}/tests/python/test_{name[7:]}.py {rest}"
+    return script if name.startswith("python_") else f"{folder}/test_{test}"
+
+
 def plant(test, changed, unsound):
-    """What is wrong with the test, which is words: "walk 0" is the program test_walk with the argument 0."""
+    """What is wrong with the test."""
+    environment = {"VNDF_TEST_QUICK": "1", "VNDF_SOURCE": source, "VNDF_PROGRAM": f"{build}/vndf"}
     if test not in passes:
-        passes[test] = run(f"{build}/tests/test_{test}", out, 120, VNDF_TEST_QUICK="1")[0] == 0
+        passes[test] = run(line_of(test, f"{build}/tests"), out, 120, **environment)[0] == 0
     if not passes[test]:
         return f"'{test}' fails without it"
     copy, target = f"{out}/copy/{changed}", f"test_{test.split()[0]}"
     os.makedirs(os.path.dirname(copy))
     with open(copy, "w") as file:
         file.write(unsound)
-    built = [build_mutant(f"{build}/tests", target, changed)]
-    environment = {"VNDF_TEST_QUICK": "1", "VNDF_TEST_FIRST": "1"}
     compiled = [line for object, line in compilations.items() if object.endswith(f"/{target}.c.o")]
-    if "-DVNDF_PROGRAM=" in compiled[0]:
+    built = [build_mutant(f"{build}/tests", target, changed) if compiled else None]
+    environment["VNDF_TEST_FIRST"] = "1"
+    if not compiled or "-DVNDF_PROGRAM=" in compiled[0]:
         built.append(build_mutant(build, "vndf_program", changed))
         environment["VNDF_PROGRAM"] = f"{out}/vndf_program"
     shutil.rmtree(f"{out}/copy")
     wrong = [text for status, text in filter(None, built) if status]
     if wrong or not any(built):
         return "it cannot be built:\n" + "".join(wrong)
-    program = f"{out if built[0] else build + '/tests'}/test_{test}"
-    status, text = run(program, out, 120, **environment)
+    status, text = run(line_of(test, out if built[0] else f"{build}/tests"), out, 120, **environment)
     skipped = re.search("SKIPPED: .*", text)
     print(f"{skipped[0] if skipped else 'noticed' if status else 'SURVIVES'}: {test}", flush=True)
     return None if status or skipped else f"it survives; '{test}' passes, where it has to fail"

@@ -32,8 +32,8 @@ list(FILTER program EXCLUDE REGEX "/caps_avx[0-9]+\\.c$") # not without their in
 list(FILTER tests EXCLUDE REGEX "/export/answer\\.c$") # not without a kernel
 warn_not("the library" "${library}" ${arithmetic})
 warn_not("the program" "${program}")
-warn_not("the tests" "${tests}" -DVNDF_SOURCE_DIR="" -DVNDF_PROGRAM="" -DVNDF_JUDGED=""
-    -DVNDF_FAILING_MALLOC="" -DTABLES="")
+warn_not("the tests" "${tests}" -I${BUILD}/tests/scratch/examples -DVNDF_SOURCE_DIR="" -DVNDF_PROGRAM=""
+    -DVNDF_JUDGED="" -DVNDF_FAILING_MALLOC="" -DTABLES="")
 
 file(GLOB headers ${SOURCE}/include/*.h)
 set(languages c99 c11)

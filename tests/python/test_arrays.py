@@ -6,7 +6,7 @@ import unittest
 
 import numpy as np
 import vndf
-from vndf._arrays import Batch, components, stacked
+from vndf._arrays import Batch, components
 
 
 class Places(unittest.TestCase):
@@ -21,12 +21,6 @@ class Places(unittest.TestCase):
         self.assertTrue(batch.is_shared("wi") and not batch.is_shared("u"))
         self.assertEqual(np.diff(batch.addresses("wi", share=True)).tolist(), [4, 4])
         self.assertEqual(np.diff(batch.addresses("wi")).tolist(), [36, 36])
-
-    def test_components_of_several_shapes(self):
-        x = np.arange(4.0)
-        np.testing.assert_array_equal(components((x, 0.0, x[:1]), 3, "wi"), [x, 0 * x, 0 * x])
-        with self.assertRaises(ValueError):
-            stacked("ggx")
 
     def test_results_of_a_number_and_of_nothing(self):
         surface = vndf.Surface(vndf.ggx(), 0.5)

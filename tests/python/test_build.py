@@ -45,8 +45,6 @@ class Built(unittest.TestCase):
         np.savetxt(csv, np.stack([theta, ndf], 1), header="theta,ndf", comments="", delimiter=",", fmt="%.17g")
         rows, file = vndf.Source.rows(theta=theta, ndf=ndf), vndf.Source.csv(csv)
         self.assertEqual([rows.p22(r) for r in theta], [file.p22(r) for r in theta])
-        corpus = os.path.join(SOURCE, "tests", "corpus", "table", "notes.vndf")
-        self.assertRegex(vndf.load(corpus).info.notes, r"\nmatrix [-.0-9,e]+\n")
         slope, p22 = np.tan(theta), ndf * np.cos(theta) ** 4
         self.assertAlmostEqual(vndf.Source.rows(slope=slope, p22=p22).p22(slope[9]), p22[9], 12)
 
@@ -63,32 +61,14 @@ class Built(unittest.TestCase):
         wm = np.array([0.0, 0.6, 0.8])
         self.assertAlmostEqual(vndf.Surface(table).ndf(wm) / vndf.Surface(vndf.beckmann()).ndf(wm), 1, 3)
 
-    def test_a_family_is_a_mixture_of_neighbours(self):
-        """Linear between the knots in the parameter or in one over it, the end beyond the ends; by roughness in arrays."""
-        family = vndf.Family.build("student-t", 2, 4, knots=4, max_bytes=2048)
-        np.testing.assert_allclose(family.parameters[[0, 3]], [2, 4])
-        self.assertIn("4 distributions from 2.0 to 4.0", repr(family))
-        wi, wm, alpha = (0.6, 0.0, 0.8), np.array([0.1, 0.3, 0.9]) / 0.91**0.5, np.linspace(0.2, 0.6, 7)
-
-        def axis(p):
-            return -1 / np.float64(p) if family.info.reciprocal else p
-
-        knots = [vndf.Surface(distribution, 0.4) for distribution in family.distributions]
-        for p in (1.0, 2.0, 2.1, 2.9, 3.7, 4.0, 9.0):
-            for name, arguments in (("ndf", (wm,)), ("projected_area", (wi,))):
-                of_knots = [getattr(knot, name)(*arguments) for knot in knots]
-                expected = np.interp(axis(p), axis(family.parameters), of_knots)
-                self.assertAlmostEqual(getattr(family.at(p, alpha), name)(*arguments)[3] / expected, 1, 5)
 
 class Refused(unittest.TestCase):
     def test_errors_have_the_words_and_the_kind(self):
         for call, status, words in (
             (lambda: vndf.Source.slope("exp(-"), vndf.Status.SYNTAX, "column 6"),
-            (lambda: vndf.Source.slope("exp(-r**2)"), vndf.Status.SYNTAX, "written with \\^"),
             (lambda: vndf.Source.slope("exp(-r)", k=2), vndf.Status.ARGUMENT, "has no 'k'"),
             (lambda: vndf.Source.csv("nowhere.csv"), vndf.Status.IO, "nowhere.csv"),
             (lambda: vndf.load(os.path.join(SOURCE, "README.md")), vndf.Status.TABLE, "README.md"),
-            (lambda: vndf.from_bytes(b""), vndf.Status.TABLE, ""),
             (lambda: vndf.build(vndf.Source.slope("1")), vndf.Status.DISTRIBUTION, ""),
             (lambda: vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=5), vndf.Status.ARGUMENT, "max_bytes"),
             (lambda: vndf.Source.rows(theta=[0.0, 1.0], ndf=[1.0, math.nan]), vndf.Status.DISTRIBUTION, "row 1"),
@@ -150,6 +130,7 @@ class Refused(unittest.TestCase):
         """What comes out of a file, of bytes or of a pickle answers as what went in; what has no bytes is refused."""
         table = vndf.build(vndf.Source.slope("exp(-r)"), max_bytes=2048)
         built = vndf.Family.build("student-t", 2, 4, knots=3, max_bytes=2048)
+        self.assertEqual((*built.parameters[[0, 2]], repr(built).count("3 distributions from 2.0 to 4.0")), (2, 4, 1))
         for stored in (table, built):
             stored.save("file")
             for copied in (type(stored).load("file"), type(stored).from_bytes(bytes(stored))):
@@ -174,15 +155,9 @@ class Refused(unittest.TestCase):
 
     def test_progress_stops_a_build(self):
         seen = []
-
-        def progress(done, what):
-            seen.append((done, what))
-            return len(seen) == 3
-
         with self.assertRaisesRegex(vndf.Error, "interrupted"):
-            vndf.build(vndf.Source.slope("exp(-r)"), progress=progress)
-        self.assertEqual(len(seen), 3)
-        self.assertTrue(all(0 <= done <= 1 and what for done, what in seen))
+            vndf.build(vndf.Source.slope("exp(-r)"), progress=lambda *told: seen.append(told) or len(seen) == 3)
+        self.assertTrue(len(seen) == 3 and all(0 <= done <= 1 and what for done, what in seen))
 
     @unittest.skipUnless(hasattr(signal, "setitimer"), "no timers here")
     def test_a_signal_ends_a_build(self):

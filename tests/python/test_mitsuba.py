@@ -191,24 +191,6 @@ class AgainstTheLibrary(unittest.TestCase):
 
 
 class Mitsubas(unittest.TestCase):
-    def test_a_conductor_of_ggx_is_mitsubas(self):
-        theirs = {"type": "roughconductor", "distribution": "ggx", "alpha": 0.3, **{n: rgb(v) for n, v in GOLD.items()}}
-        ours = {**conductor(alpha=0.3, masking="separable"), "distribution": "ggx"}
-        bsdfs = [mi.load_dict(description) for description in (theirs, ours)]
-        rng = np.random.default_rng(6)
-        wi, wo, u = directions(rng, COUNT, 0.02), directions(rng, COUNT, 0.02), rng.random((2, COUNT), dtype=np.float32)
-
-        def ask(bsdf, wi, wo, u):
-            ctx, si = mi.BSDFContext(), interaction(mi.Vector3f(wi))
-            weight = bsdf.sample(ctx, si, mi.Float(0.5), mi.Point2f(u), True)[1]
-            return bsdf.eval(ctx, si, mi.Vector3f(wo), True), bsdf.pdf(ctx, si, mi.Vector3f(wo), True), weight
-
-        (value, pdf, weight), (value_2, pdf_2, weight_2) = (each(functools.partial(ask, b), wi, wo, u) for b in bsdfs)
-        np.testing.assert_allclose(value_2, value, rtol=1e-3, atol=1e-6)
-        np.testing.assert_allclose(pdf_2, pdf, rtol=1e-3, atol=1e-6)
-        noise = np.hypot(weight.std(axis=1), weight_2.std(axis=1)) / COUNT**0.5
-        np.testing.assert_array_less(abs(weight.mean(axis=1) - weight_2.mean(axis=1)), 5 * noise)
-
     def test_parameters_have_mitsubas_names(self):
         """An optimiser that sets eta.value of `roughconductor` sets it here, and the value follows."""
         optics = {name: rgb(values) for name, values in GOLD.items()}

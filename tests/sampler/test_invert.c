@@ -106,55 +106,10 @@ static void test_inverse(const subject *of, size_t count, unsigned long long *st
     TEST(missed <= count / 10000);
 }
 
-/* What u1 moves (which 0) and what u2 moves. */
-static double coordinate(const seen *s, int which, double u, double other)
-{
-    const vndf_distribution *d = s->of.lobe[0].surface.distribution;
-    const bins_frame f = bins_frame_of(&s->of.lobe[0].surface, s->wi);
-    double n[3], length = hypot(f.s, f.c), facing;
-    bins_over(&f, which ? seen_draw(s, (float)other, (float)u, NULL) : seen_draw(s, (float)u, (float)other, NULL),
-              n);
-    if (d == vndf_beckmann())
-        return n[which] / n[2];
-    if (d == vndf_ggx()) {
-        facing = (f.s * n[0] + f.c * n[2]) / length;
-        n[0] = 2 * facing * n[0] - f.s / length, n[1] = 2 * facing * n[1], n[2] = 2 * facing * n[2] - f.c / length;
-        return which ? -n[2] : atan2(n[1], n[0]);
-    }
-    return which ? hypot(n[0], n[1]) / n[2] : atan2(n[1], n[0]);
-}
-
-/* How much falls that should rise, beyond 2e-6 of it and what four roundings of the number do; of an azimuth, or a
- * slope of Beckmann's, which may be 0, beyond 2e-6 more: normals are rounded. */
-static double falls(const seen *s, int which, double u, double v, double other)
-{
-    double sign = coordinate(s, which, 0.75, other) > coordinate(s, which, 0.25, other) ? 1 : -1;
-    double a = coordinate(s, which, u, other), b = coordinate(s, which, v, other);
-    double slack = fabs(coordinate(s, which, u + 0x1p-22, other) - coordinate(s, which, u - 0x1p-22, other));
-    int may_be_0 = !which || s->of.lobe[0].surface.distribution == vndf_beckmann();
-    return sign * (a - b) - slack - 2e-6 * (fabs(a) + (may_be_0 ? 1 : 0));
-}
-
-static void test_monotone(const subject *of, size_t count, unsigned long long *state)
-{
-    static const double thetas[] = {1, 30, 60, 85, 89.99, 90, 90.01, 92, 100, 130};
-    for (size_t i = 0; i < 20 * count; i++) {
-        size_t j = i % 20;
-        seen s = seen_surface(vndf_rough(of->d, j % 2 ? 0.3f : 1, j % 4 < 2 ? 0.3f : 1),
-                              oracle_direction(thetas[j / 2], 17.0 * (double)j));
-        double other = random_between(state, 1e-3, 1 - 1e-3), step = random_decade(state, -6, -1);
-        double u = random_between(state, 1e-3, 1 - 1e-3 - step);
-        if (seen_quantity(&s, AREA, s.wi) > 1e-4f && !TEST(falls(&s, (int)(i / 20 % 2), u, u + step, other) <= 0))
-            seen_print(&s, of->name),
-                fprintf(stderr, "    u%d %.9g, step %.9g, other %.9g\n", (int)(i / 20 % 2) + 1, u, step, other);
-    }
-}
-
 static void test_subject(const subject *of, size_t index)
 {
     unsigned long long state = 9 + index;
     test_inverse(of, test_amount(3000, 20000, 1000000), &state);
-    test_monotone(of, test_amount(100, 400, 5000), &state);
 }
 
 int main(int arguments, char **argument)

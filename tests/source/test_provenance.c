@@ -2,7 +2,6 @@
  * again, and a table keeps them. Words out of files are not misread, and a program may bring its own. */
 #include "core/checksum.h"
 #include "source/sources.h"
-#include "source/words.h"
 
 static double one(double x, void *user)
 {
@@ -39,30 +38,16 @@ static void test_descriptions(void)
     TEST(vndf_crc32(vndf_crc32(0, "1234", 4), "56789", 5) == 0xCBF43926u);
     test_source(vndf_source_ndf_expression("c^x", &third, 1, NULL), "--ndf 'c^x' --set x=0.3333333333333333", 1);
     test_source(slope_of("1 /\n2"), "--slope '1 / 2'", 1);
+    test_source(slope_of(" 1\t"), "--slope ' 1 '", 1);
     test_source(family_of("sgd:alum-bronze/r"), "--family sgd:alum-bronze/r", 1);
     test_source(family_of("mix:(1,2,ggx)+(1,1,epd:3)"), "--family 'mix:(1,2,ggx)+(1,1,epd:3)'", 1);
     test_source(vndf_source_ndf_callback(one, NULL, "it's mine", NULL), "--ndf-callback 'it'\\''s mine'", 0);
     test_source(vndf_source_slope_callback(one, NULL, NULL, NULL), "--slope-callback unnamed", 0);
+    test_source(vndf_source_slope_callback(one, NULL, "", NULL), "--slope-callback ''", 0);
     sprintf(words, "--csv 'my gloss.csv' (crc32 %08lx)", (unsigned long)vndf_crc32(0, csv, strlen(csv)));
     test_source(vndf_source_csv_text("my gloss.csv", csv, strlen(csv), NULL), words, 0);
     sprintf(words, "--rows unnamed (crc32 %08lx)", (unsigned long)vndf_crc32(0, bytes, sizeof bytes));
     test_source(vndf_source_rows(VNDF_ROWS_OVER_SLOPE, VNDF_ROWS_OF_P22, x, value, 2, NULL, NULL), words, 0);
-}
-
-/* What a shell would split is what was put together. */
-static void test_words(void)
-{
-    static const char *const in[] = {"plain", "", "two words", "it's", "''", "back\\slash", "tab\there"};
-    vndf_writer text = {NULL, 0, 0, 0};
-    vndf_words words;
-    for (size_t i = 0; i < 7; i++)
-        vndf_text_add_word(&text, in[i]);
-    char *line = vndf_text_finish(&text, NULL);
-    TEST(vndf_words_split(line, &words, NULL) == VNDF_OK && words.count == 7);
-    for (size_t i = 0; i < words.count; i++)
-        TEST(strcmp(words.word[i], i == 6 ? "tab here" : in[i]) == 0);
-    vndf_words_free(&words);
-    free(line);
 }
 
 /* A program may bring words of its own. */
@@ -105,7 +90,6 @@ static void test_own_words(void)
 int main(void)
 {
     test_descriptions();
-    test_words();
     test_own_words();
     return test_done();
 }
