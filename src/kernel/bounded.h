@@ -175,13 +175,13 @@ KERNEL real bounded_pdf(view s, vec3 wm)
 {
     const vec3 wi = view_wi(s);
     const frame f = view_frame(s);
-    if (!is_bounded(s))
+    if (is_bounded(s) == 0)
         return pdf(s, wm);
     if (!(wm.z >= 0.0f) || !(2.0f * facing_of(wi, wm) * wm.z > wi.z))
         return 0.0f;
     const number_box box = view_box(s);
     real kept = box.span1 * box.span2; /* of the visible normals like this one */
-    if (is_even_table(s))
+    if (is_even_table(s) != 0)
         kept = table_bounded_inside(view_table(s), view_law(s), view_bounds(s), frame_normal(f, wm.x, wm.y, wm.z));
     return frame_density(f, pdf(s, wm) / kept);
 }
@@ -213,9 +213,9 @@ KERNEL sampled bounded_raised(view s, sampled n)
 KERNEL sampled bounded_sample(view s, real w1, real w2)
 {
     const real u1 = unit_number(w1), u2 = unit_number(w2);
-    if (!is_bounded(s))
+    if (is_bounded(s) == 0)
         return sample(s, u1, u2);
-    if (is_even_table(s)) {
+    if (is_even_table(s) != 0) {
         const normal_sample m = table_draw_bounded(view_table(s), view_law(s), view_bounds(s), u1, u2);
         const surface_sample n = frame_sampled(view_frame(s), m);
         return bounded_raised(s, bounded_at(s, vec3(n.x, n.y, n.z), n.pdf));
