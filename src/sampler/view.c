@@ -96,7 +96,7 @@ VNDF_INLINE placed place(surface m, vec3 w)
     p.f.determinant = INFINITY;
     if (!s.distribution || !is_direction(w))
         return p;
-    p.kind = s.distribution->kind;
+    p.kind = (int)s.distribution->kind;
     p.t = table_if(s.distribution, p.kind);
     p.f = frame_of(s.m, w.x, w.y, w.z);
     return p;
