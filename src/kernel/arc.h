@@ -11,8 +11,9 @@
  *     F(d) = p d + q (1 - cos d) + r (d - sin d) = u T.
  *
  * The start follows Kepler's equation where one of its terms is alone: v^2/d^2 is a sum of theirs, with coefficients
- * fitted for the least largest error, within 8%. One step of Householder's of order three follows. |F(d)/T - u| is at
- * most 2e-5, where the eccentricity is near 1 and u small, and 1e-7 in the mean (tests/sampler/test_invert.c). */
+ * fitted for the least largest relative error where v >= 0.004, within 8% (tools/evidence/fits.py). One step of
+ * Householder's of order three follows. |F(d)/T - u| is at most 2e-5, where the eccentricity is near 1 and u small, and
+ * 1e-7 in the mean (tests/sampler/test_invert.c). */
 #ifndef VNDF_KERNEL_ARC_H
 #define VNDF_KERNEL_ARC_H
 
@@ -80,7 +81,7 @@ typedef struct azimuth {
     real cosine, sine, visible;
 } azimuth;
 
-/* sqrt(2) sin(d/2)/d from d^2, 0 <= d <= pi; relative error 6e-9. */
+/* sqrt(2) sin(d/2)/d from d^2, 0 <= d <= pi; least largest relative error: 6e-9. */
 KERNEL real arc_sine(real d2)
 {
     real d4 = d2 * d2;

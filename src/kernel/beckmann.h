@@ -106,10 +106,11 @@ KERNEL real beckmann_density(beckmann_view view, real x, real y, real z, real fa
     return beckmann_slopes(v, -(along * per), across * per, facing * per / v.across) * per * per * per;
 }
 
-/* A start within 4% of u, however extreme u or K is. m^2 = whole, rho^2 = -log u. Near the end d = m rho; at K = 0 d =
- * rho exactly. K <= 0: exponents compared, d^2 - 2 K d = rho^2 - 2 K m rho/(1 + b rho). 0 < K < 5/4: d = rho m (1 + b
- * rho)/(1 + b m rho), b = 0.8. Above: Taylor's shift h = 1/(2 K) of the quantile q of u F(K)/c, x = q/(1 + h^2), damped
- * in the tail where that goes too far; except close to the end, where m rho = d exp(2 K d/3). */
+/* A start within 4% of u, however extreme u or K is: 0.4% for K <= 0, 2.3% for K >= 5/4; constants by hand. m^2 =
+ * whole, rho^2 = -log u. Near the end d = m rho; at K = 0 d = rho exactly. K <= 0: exponents compared, d^2 - 2 K d =
+ * rho^2 - 2 K m rho/(1 + b rho). 0 < K < 5/4: d = rho m (1 + b rho)/(1 + b m rho), b = 0.8. Above: Taylor's shift h =
+ * 1/(2 K) of the quantile q of u F(K)/c, x = q/(1 + h^2), damped in the tail where that goes too far; except close to
+ * the end, where m rho = d exp(2 K d/3). */
 KERNEL beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
 {
     real k = v.bound, rho2 = -log_of(u), rho = sqrt(rho2), m = sqrt(v.whole), mrho = m * rho;
@@ -135,7 +136,7 @@ KERNEL beckmann_place beckmann_first_anywhere(beckmann_law v, real u)
 /* A start above the horizon, good for one step: 3e-8 of u are left where 4 u (1 - u) > exp(-8). z(u) is within 2% of
  * the quantile of exp(-x^2)/sqrt(pi), from a logarithm that is linear between powers of 2, p = p0 + ... + p4 z^4 with
  * coefficients that are quadratic in K, or in 4/K, and d = p^2 for K < 2, x = z - p beyond; fitted for the least
- * largest error after the step. */
+ * largest error after the step (tools/evidence/fits.py). */
 KERNEL beckmann_place beckmann_first(beckmann_view v, real u)
 {
     real l = 127.0f - to_real(bits(erf_middle(u))) * 1.1920929e-7f;

@@ -6,8 +6,7 @@
 #ifndef VNDF_KERNEL_BOUNDED_H
 #define VNDF_KERNEL_BOUNDED_H
 
-#include "kernel/beckmann.h"
-#include "kernel/sample.h"
+#include "kernel/view.h"
 
 /* The numbers that are kept: begin + span u, of each. */
 typedef struct number_box {
@@ -96,36 +95,136 @@ typedef struct table_bounds {
     real alpha, slant, part;
 } table_bounds;
 
-KERNEL table_bounds table_bounds_of(table t, table_view view, real alpha)
+KERNEL table_bounds table_bounds_of(table t, table_view law, real alpha)
 {
-    table_bounds b = {alpha, min(view.v.s / (alpha * view.v.c), set(1e15f)), set(1.0f)};
+    table_bounds b = {alpha, min(law.v.s / (alpha * law.v.c), set(1e15f)), set(1.0f)};
     real steep = b.slant + sqrt(1.0f + b.slant * b.slant), per = 1.0f / (steep + alpha);
     query g = table_given(t, steep, set(0.0f), alpha);
-    pair u = table_invert(t, view.v, g, steep * per, set(0.0f), 0);
+    pair u = table_invert(t, law.v, g, steep * per, set(0.0f), 0);
     b.part = max(u.b, set(1e-6f));
     return b;
 }
 
-KERNEL normal_sample table_draw_bounded(table t, table_view view, table_bounds b, real u1, real u2)
+KERNEL normal_sample table_draw_bounded(table t, table_view law, table_bounds b, real u1, real u2)
 {
-    target a = table_aim(view.v, u2 * b.part, 0);
-    knot_hit at = table_find(t, view.v, a, 0);
-    cell_hit f = table_cell(t, view.v, a, at, 0);
-    length_sample d = table_length(t, view.v, f, law_invert(f.at, f.before), 0);
-    arc k = table_arc(view.v, d.r, 0);
+    target a = table_aim(law.v, u2 * b.part, 0);
+    knot_hit at = table_find(t, law.v, a, 0);
+    cell_hit f = table_cell(t, law.v, a, at, 0);
+    length_sample d = table_length(t, law.v, f, law_invert(f.at, f.before), 0);
+    arc k = table_arc(law.v, d.r, 0);
     real arc_part = bounded_arc(k, bounded_cosine(b.alpha, b.slant, d.r.x, d.r.z));
     normal_sample n =
-        table_turned(view.ex, view.ey, table_normal(view.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
+        table_turned(law.ex, law.ey, table_normal(law.v, d, k, arc_draw(k, 0.5f + (u1 - 0.5f) * arc_part, 0)));
     real inside = b.part * arc_part;
     n.density = n.density / inside;
     return n;
 }
 
 /* The part of the visible normals of its slope length, and of all lengths, that is kept. */
-KERNEL real table_bounded_inside(table t, table_view view, table_bounds b, unit_normal n)
+KERNEL real table_bounded_inside(table t, table_view law, table_bounds b, unit_normal n)
 {
     query g = table_given(t, n.x, n.y, n.z);
-    return b.part * bounded_arc(table_given_arc(view.v, g, 0), bounded_cosine(b.alpha, b.slant, g.x, g.z));
+    return b.part * bounded_arc(table_given_arc(law.v, g, 0), bounded_cosine(b.alpha, b.slant, g.x, g.z));
+}
+
+/* ---- any distribution ---- */
+
+/* wi . wm with all its digits: at grazing angles it is a small rest of its terms. */
+KERNEL real facing_of(vec3 wi, vec3 wm)
+{
+    real a = wi.x * wm.x, b = wi.y * wm.y, c = wi.z * wm.z, ab = a + b, abc = ab + c, t = ab - a, u = abc - ab;
+    real rest = (product_rest(wi.x, wm.x, a) + product_rest(wi.y, wm.y, b)) + product_rest(wi.z, wm.z, c);
+    return abc + ((((a - (ab - t)) + (b - t)) + ((ab - (abc - u)) + (c - u))) + rest);
+}
+
+/* Whether a view is from above, of a surface without a mean slope: all others draw visible normals as they are. */
+KERNEL int is_bounded(view s)
+{
+    const frame f = view_frame(s);
+    return select_int(both(lt(0.0f, f.uz), le(abs(f.m.mean_x) + abs(f.m.mean_y), 0.0f)), 1, 0);
+}
+
+/* Whether it is of a table that is as rough along as across, whose arcs are shortened. */
+KERNEL int is_even_table(view s)
+{
+    const ellipse e = ellipse_of(view_frame(s).m);
+    const mask even = both(le(abs(e.e12), 1e-5f * e.e11), le(abs(e.e11 - e.e22), 1e-5f * e.e11));
+    if (s.kind == VNDF_GGX || s.kind == VNDF_BECKMANN)
+        return 0;
+    return select_int(even, 1, 0);
+}
+
+/* The numbers that closed forms keep; tables of unequal roughness keep all. */
+KERNEL number_box view_box(view s)
+{
+    const number_box all = {0.0f, 1.0f, 0.0f, 1.0f};
+    if (s.kind == VNDF_GGX)
+        return ggx_box(view_frame(s));
+    if (s.kind == VNDF_BECKMANN)
+        return beckmann_box(view_beckmann(s), ellipse_of(view_frame(s).m));
+    return all;
+}
+
+KERNEL table_bounds view_bounds(view s)
+{
+    return table_bounds_of(view_table(s), view_law(s), sqrt(ellipse_of(view_frame(s).m).e11));
+}
+
+/* The density with which bounded_sample draws wm. */
+KERNEL real bounded_pdf(view s, vec3 wm)
+{
+    const vec3 wi = view_wi(s);
+    const frame f = view_frame(s);
+    if (!is_bounded(s))
+        return pdf(s, wm);
+    if (!(wm.z >= 0.0f) || !(2.0f * facing_of(wi, wm) * wm.z > wi.z))
+        return 0.0f;
+    const number_box box = view_box(s);
+    real kept = box.span1 * box.span2; /* of the visible normals like this one */
+    if (is_even_table(s))
+        kept = table_bounded_inside(view_table(s), view_law(s), view_bounds(s), frame_normal(f, wm.x, wm.y, wm.z));
+    return frame_density(f, pdf(s, wm) / kept);
+}
+
+/* With the visible density over the drawn one. */
+KERNEL sampled bounded_at(view s, vec3 wm, real density)
+{
+    real facing = max(facing_of(view_wi(s), wm), 0.0f), weight = 0.0f;
+    if (density > 0.0f)
+        weight = seen_ndf(s, wm) / density * (facing / max(area(s), 1e-37f));
+    const sampled n = {wm, density, weight};
+    return n;
+}
+
+/* If rounding sent wo to below the horizon, wm is that of a wo just above it: wi + wo is twice (wi.wm) wm. */
+KERNEL sampled bounded_raised(view s, sampled n)
+{
+    const vec3 wi = view_wi(s);
+    const real facing = facing_of(wi, n.wm);
+    if (2.0f * facing * n.wm.z > wi.z)
+        return n;
+    const real x = 2.0f * facing * n.wm.x, y = 2.0f * facing * n.wm.y, z = wi.z + 1e-6f,
+               per = 1.0f / sqrt(x * x + y * y + z * z);
+    const vec3 wm = vec3(x * per, y * per, z * per);
+    return bounded_at(s, wm, bounded_pdf(s, wm));
+}
+
+/* Draws a visible normal that reflects wi to above the horizon, or of tables of unequal roughness any visible one. */
+KERNEL sampled bounded_sample(view s, real w1, real w2)
+{
+    const real u1 = unit_number(w1), u2 = unit_number(w2);
+    if (!is_bounded(s))
+        return sample(s, u1, u2);
+    if (is_even_table(s)) {
+        const normal_sample m = table_draw_bounded(view_table(s), view_law(s), view_bounds(s), u1, u2);
+        const surface_sample n = frame_sampled(view_frame(s), m);
+        return bounded_raised(s, bounded_at(s, vec3(n.x, n.y, n.z), n.pdf));
+    }
+    const number_box b = view_box(s);
+    sampled d = sample(s, b.begin1 + b.span1 * u1, b.begin2 + b.span2 * u2);
+    d.pdf = d.pdf / (b.span1 * b.span2);
+    d.weight = d.weight * (b.span1 * b.span2);
+    return d;
 }
 
 #endif

@@ -10,9 +10,10 @@
  *     above  k~ = a_1 y + a_0 + a_-1/y + a_-4/y^4 beyond a knot near rho, pi before it,
  *     below  k~ = b_0 (y - 1) + b_1 (y - 1)^2/y, with shares that are a function of rho,
  *
- * and is exact in all else, so weights are within 6.5e-2, 4.7e-3 or 7.2e-4 of their mean above the horizon, for 2, 3
- * or 4 terms and any D (least-maximum fits: |k~ - k| <= e k for y >= 1). Cell by cell the law is the monotone rational
- * quadratic of Gregory & Delbourgo (IMA J. Numer. Anal. 2, 1982) through the mass and the densities at both ends. */
+ * and is exact in all else, so weights are within 6.5e-2, 4.7e-3 or 7.2e-4 of their mean above the horizon, for 2, 3 or
+ * 4 terms and any D (least-maximum fits: |k~ - k| <= e k for y >= 1, the terms over pi sum to 1;
+ * tools/evidence/fits.py). Cell by cell the law is the monotone rational quadratic of Gregory & Delbourgo (IMA J.
+ * Numer. Anal. 2, 1982) through the mass and the densities at both ends. */
 #ifndef VNDF_KERNEL_LAW_H
 #define VNDF_KERNEL_LAW_H
 

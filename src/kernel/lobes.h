@@ -215,9 +215,10 @@ KERNEL real passed_in_cavities(real cos_i, real cos_o, real facing, real beyond,
  *     Gamma(x) = sqrt(2 pi) x^(x - 1/2) e^-x G(x),    G(x) = P(1/x)/Q(1/x) for x >= 1,
  *     Beta = sqrt(2 pi/s) G(a) G(b)/G(s) exp(-(a - 1/2) log(s/a) - (b - 1/2) log(s/b)).
  *
- * P and Q are cubic: G meets Gamma in six Chebyshev nodes of 1/x in (0, 1]; error 3.3e-9. With a >= b nothing of
- * the size of a cancels where log(s/a) is taken as log(1 + b/a). Where a and b are at most 3, which is where most
- * light passes, 1/Gamma is a polynomial through Chebyshev's nodes: a division and no logarithm; error 3.4e-9. */
+ * P and Q are cubic: G meets Gamma in six Chebyshev nodes of 1/x in (0, 1]; error 3.3e-9. With a >= b nothing of the
+ * size of a cancels where log(s/a) is taken as log(1 + b/a). Where a and b are at most 3, which is where most light
+ * passes, 1/Gamma is a polynomial through Chebyshev's nodes: a division and no logarithm; error 3.4e-9
+ * (tools/evidence/fits.py). */
 
 /* 1/Gamma(2 + v), |v| <= 1. */
 KERNEL real per_gamma_low(real v)

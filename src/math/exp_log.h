@@ -8,8 +8,8 @@
  *   log1p  log(1 + x) times x over the rounded x, (1 + x) - 1 (Higham, "Accuracy and Stability of Numerical
  *          Algorithms", SIAM 2002, 1.14.1).
  *
- * log 2 is split so that k times the first part is exact. The polynomials interpolate at Chebyshev's nodes; they are
- * summed in pairs, for short chains. */
+ * log 2 is split so that k times the first part is exact. The polynomials interpolate at Chebyshev's nodes
+ * (tools/evidence/fits.py); they are summed in pairs, for short chains. */
 #ifndef VNDF_MATH_EXP_LOG_H
 #define VNDF_MATH_EXP_LOG_H
 

@@ -5,7 +5,7 @@
 
 #include "kernel/one.h"
 
-#include "kernel/bounded.h"
+#include "kernel/beckmann.h"
 #include "kernel/ggx.h"
 #include "kernel/sample.h"
 

@@ -33,6 +33,7 @@ VNDF_INLINE view vndf_seen(const vndf_view *of, const int below, const int weigh
 #define sides_apart 1
 #define frame_below(f) ((f).uz < 0.0f)
 #define view_weighs(s) ((s).weighs)
+#define view_wi(s) ((s).of->wi)
 #define view_frame(s) (vndf_state_of((s).of)->f)
 #define view_law(s) (vndf_state_of((s).of)->of.table)
 #define view_ggx(s) (vndf_state_of((s).of)->of.ggx)
@@ -103,6 +104,8 @@ VNDF_INLINE placed place(surface m, vec3 w)
 }
 
 #include "kernel/view.h"
+
+#include "kernel/bounded.h"
 
 /* ---- views ---- */
 
@@ -211,7 +214,19 @@ vndf_drawn_normal vndf_sample_visible(const vndf_view *v, float u1, float u2)
     return d;
 }
 
+vndf_drawn_normal vndf_bounded_sample(const vndf_view *v, float u1, float u2)
+{
+    sampled n = bounded_sample(vndf_seen(v, vndf_is_below(v), 1), u1, u2);
+    const vndf_drawn_normal d = {n.wm, n.pdf, n.weight};
+    return d;
+}
+
 /* ---- given normals ---- */
+
+float vndf_bounded_pdf(const vndf_view *v, vndf_vec3 wm)
+{
+    return bounded_pdf(vndf_seen(v, vndf_is_below(v), 0), wm);
+}
 
 float vndf_pdf(const vndf_view *v, vndf_vec3 wm)
 {

@@ -1,7 +1,8 @@
 /* What a kernel of `vndf export` is asked, in the kernel's own part of C: the same text goes to every language.
  *
  * A question is a surface (its distribution by the place of its numbers, matrix, mean slope), wi, three uniform
- * numbers, wo; of normals the parameter of a family in the place of wo_x. */
+ * numbers, wo; of normals the parameter of a family in the place of wo_x, and whether they are bounded in that of
+ * wo_y. */
 typedef struct question {
     float of, xx, xy, yx, yy, mean_x, mean_y, wi_x, wi_y, wi_z, u1, u2, u3, wo_x, wo_y, wo_z;
 } question;
@@ -25,7 +26,12 @@ KERNEL answer ask(question q)
     const vec3 wi = vec3(q.wi_x, q.wi_y, q.wi_z);
     const vndf_surface surface = surface_asked(q);
     const vndf_view view = vndf_view_from(surface, wi);
-    const vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
+    vndf_sampled drawn = vndf_sample(view, q.u1, q.u2);
+    if (q.wo_y > 0.0f)
+        drawn = vndf_bounded_sample(view, q.u1, q.u2);
+    float pdf = vndf_pdf(view, drawn.wm);
+    if (q.wo_y > 0.0f)
+        pdf = vndf_bounded_pdf(view, drawn.wm);
     vndf_mixture mixture = vndf_family_at(VNDF_TAILS, q.wo_x, surface);
     mixture.lobe[2].surface = vndf_rough(VNDF_GGX, 0.3f, 0.3f);
     mixture.lobe[2].weight = 0.6f;
@@ -37,7 +43,7 @@ KERNEL answer ask(question q)
                       wm.y,
                       wm.z,
                       drawn.pdf,
-                      vndf_pdf(view, wm),
+                      pdf,
                       vndf_visible(view, wm),
                       vndf_ndf(surface, wm),
                       vndf_lambda(surface, wi),

@@ -16,7 +16,7 @@ static const struct {
     {SMALL,
      "VNDF_STUDENT_T_2_5_SMALL, |--family student-t:2.5\n|above the horizon|VNDF_GGX|VNDF_LOBES|VNDF_NUMBERS|"
      "vndf_sample(|vndf_pdf(|vndf_visible(|vndf_ndf(|vndf_lambda(|vndf_g1(|vndf_g2(|vndf_projected_area(|"
-     "vndf_mixture_sample(",
+     "vndf_mixture_sample(|vndf_bounded_sample(|vndf_bounded_pdf(",
      "vndf_family_at("},
     {TABLE("hazy"), "VNDF_HAZY", "vndf_family_at("}, /* of the default size */
     {"tails.vndfs --buffer two.f32", "VNDF_TAILS|parameters from 2 to 4|vndf_family_at(", "vndf_bsdf_sample("},

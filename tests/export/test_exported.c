@@ -7,7 +7,8 @@
  * BSDF fetches its numbers. Questions are, in turn, about GGX, Beckmann and a table. Roughness is 0.02 to 1 on both
  * axes, of BSDFs 0.05 to 1, directions are of the whole sphere. Of eight questions one is of a matrix that turns, with
  * a mean slope, one of numbers at the edges of the unit square, one of a hard direction: exactly along z, next to it,
- * at the horizon. Parameters of the family are below its knots, at them, between and above.
+ * at the horizon. Parameters of the family are below its knots, at them, between and above; one normal of four is
+ * bounded.
  *
  * Answers in BITS, of an exported C without contracted products, are the library's, bit for bit, but for mixtures
  * between knots, whose shares it has in double; of BSDFs, which the library computes in double, they are those of the
@@ -25,6 +26,7 @@
 #include "export/event_text.h"
 #include "export/export.h"
 #include "harness/test.h"
+#include "sampler/sampler.h"
 #include "vndf_build.h"
 
 enum { QUESTIONS = 12000, NUMBERS = 16 };
@@ -183,6 +185,7 @@ static record question_of(size_t index, const vndf_effects *effects)
         q.n[WO] = vndf_family_parameter(tails, index / 8 % facts.count);
     else
         q.n[WO] = facts.low + (facts.high - facts.low) * (1.5f * random_float(&stream) - 0.25f);
+    q.n[WO + 1] = effects ? q.n[WO + 1] : (float)(index % 4 == 2);
     return q;
 }
 
@@ -255,8 +258,15 @@ static int compare_normal(const record *q, const record *a, double *off, int *ma
     const int at_edge = u1 < 1e-6f || u1 > 1 - 1e-6f || u2 < 1e-6f || u2 > 1 - 1e-6f;
     record own;
     vndf_view view = vndf_view_from(&m, wi);
-    put(own.n, vndf_sample(&view, u1, u2, &own.n[3]));
-    own.n[4] = vndf_pdf(&view, wm);
+    if (q->n[WO + 1] > 0) {
+        const vndf_drawn_normal n = vndf_bounded_sample(&view, u1, u2);
+        put(own.n, n.wm);
+        own.n[3] = n.density;
+        own.n[4] = vndf_bounded_pdf(&view, wm);
+    } else {
+        put(own.n, vndf_sample(&view, u1, u2, &own.n[3]));
+        own.n[4] = vndf_pdf(&view, wm);
+    }
     own.n[5] = vndf_visible(&view, wm);
     own.n[6] = vndf_ndf(&m, wm);
     own.n[7] = vndf_lambda(&m, wi);

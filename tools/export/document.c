@@ -149,7 +149,9 @@ static void put_table(FILE *to, const export_document *document, const exported_
 static const char head[] =
     "//\n// vndf_rough or a vndf_surface, then vndf_view_from(surface, wi), then vndf_sample(view, u1, u2): a\n"
     "// normal wm that faces wi, its density per steradian, and the true density over that. vndf_pdf, vndf_visible\n"
-    "// and vndf_ndf are of a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area of directions. A\n"
+    "// and vndf_ndf are of a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area of directions.\n"
+    "// vndf_bounded_sample draws visible normals that reflect wi to above the horizon, vndf_bounded_pdf has their\n"
+    "// density; their weight counts what is left out. A\n"
     "// vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
     "// are unit and may be below the surface; roughness is alpha. vndf_pdf of a sample is its density within 1e-4\n"
     "// for 99.99% of samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
@@ -232,9 +234,9 @@ int document_write(const export_document *document, FILE *to, const char *more)
     const language *in = document->to;
     const int guarded = !(in->is & LANGUAGE_APART);
     const char *calls = document->scatters ? "vndf_rough vndf_bsdf"
-                                           : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible "
-                                             "vndf_ndf vndf_lambda vndf_g1 vndf_g2 vndf_projected_area vndf_area "
-                                             "vndf_mixture";
+                                           : "vndf_rough vndf_view vndf_sample vndf_pdf vndf_visible vndf_ndf "
+                                             "vndf_bounded_sample vndf_bounded_pdf vndf_lambda vndf_g1 vndf_g2 "
+                                             "vndf_projected_area vndf_area vndf_mixture";
     char *whole = whole_text(document, more), all[300];
     int has_family = 0;
     for (size_t i = 0; i < document->tables; i++)

@@ -74,6 +74,11 @@ KERNEL vndf_view vndf_view_from(vndf_surface m, vec3 wi)
     return view;
 }
 
+KERNEL vec3 view_wi(vndf_view view)
+{
+    return view.wi;
+}
+
 KERNEL table_view view_law(vndf_view view)
 {
     const table_view law = {view.ex, view.ey, view.v};

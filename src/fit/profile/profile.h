@@ -99,8 +99,9 @@ void vndf_profile_p22_many(const vndf_profile *profile, const double *r, size_t 
 /* The points of the rule over [from, to], even in log r. */
 void vndf_profile_rule(const vndf_profile *profile, double from, double to, vndf_profile_point point[VNDF_GAUSS]);
 
-/* sqrt(R^2 - rho^2) - rho acos(rho/R), R >= rho: the kernel of what is seen from below the horizon, times rho. With
- * v = 1 - rho/R it is (R - rho) sqrt(v) times a series of v, interpolated at Chebyshev's points; it errs by 3e-10. */
+/* sqrt(R^2 - rho^2) - rho acos(rho/R), R >= rho: the kernel of what is seen from below the horizon, times rho. With v =
+ * 1 - rho/R it is (R - rho) sqrt(v) times a series of v, interpolated at Chebyshev's points (tools/evidence/fits.py);
+ * it errs by 3e-10. */
 static inline double vndf_profile_kernel(double r, double rho)
 {
     double way = r - rho, v = way / r;
