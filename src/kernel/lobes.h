@@ -30,9 +30,11 @@ KERNEL real log_beyond(real x)
 
 #endif
 
+#ifndef VNDF_KERNEL_DIRECTION /* where it is another type's name */
 typedef struct direction {
     real x, y, z;
 } direction;
+#endif
 
 KERNEL real dot_of(direction a, direction b)
 {

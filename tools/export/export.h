@@ -94,10 +94,12 @@ void put_prefixed(const export_document *as, FILE *to, const char *from, size_t 
  * needs; 0 if there is no memory.
  *
  * It reads the part of C in which src/kernel is written, without directives. Of files there are comments,
- * `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float n[1] = {...};` and `HERE type name(...) {...}`.
+ * `typedef struct n {...} n;`, `enum { A = 1 };`, `static const float n[1] = {...};` and `KERNEL type name(...) {...}`,
+ * or CALL.
  * Of statements there are declarations of types of one word, assignments, to no parameter, if, else,
  * `for (int i = A; i < B; i++)` and return; structs are made as `n v = {a, b};` with every member. Where an if has
- * masks they are in any(mask), and a name alone is a whole number. All else stays as it is, word by word, with the
+ * masks they are in any(mask), and a name alone is a whole number. An if whose condition, or the first part of one with
+ * &&, is made of constants is folded. All else stays as it is, word by word, with the
  * blanks and comments between them, but for names, numbers and calls. The build translates the one text there is, so
  * its shape is not judged. */
 int translate(const export_document *as, const char *source, const char *wanted, FILE *to);

@@ -45,19 +45,19 @@ KERNEL float area_at(vndf_bsdf b, vec3 w)
 }
 
 /* wi is unit, towards the viewer. */
-KERNEL vndf_bsdf vndf_bsdf_at(vndf_material material, vec3 wi)
+KERNEL vndf_bsdf vndf_bsdf_at(vndf_material given, vec3 wi)
 {
-    const vndf_surface m = material.surface;
+    const vndf_surface m = given.surface;
     vndf_bsdf b;
-    b.material = material;
+    b.material = given;
     b.side = 1.0f;
     b.h.eta = 1.0f;
     b.h.carried = 1.0f;
     if (is_indexed) {
-        b.h.eta = material.eta;
+        b.h.eta = given.eta;
         if (projected(m, wi) < 0.0f) {
             b.side = -1.0f;
-            b.h.eta = 1.0f / material.eta;
+            b.h.eta = 1.0f / given.eta;
         }
     }
     if (carries_radiance)

@@ -10,12 +10,12 @@ KERNEL vec3 reflectances(vndf_bsdf b, seen_cosine c)
         return vec3(one, one, one);
     }
     optics y, z;
-    if (fresnel_of == VNDF_FRESNEL_SCHLICK) {
+    if (fresnel_of(b) == VNDF_FRESNEL_SCHLICK) {
         x.f0 = b.material.f0.x;
         y.f0 = b.material.f0.y;
         z.f0 = b.material.f0.z;
     }
-    if (fresnel_of == VNDF_FRESNEL_CONDUCTOR) {
+    if (fresnel_of(b) == VNDF_FRESNEL_CONDUCTOR) {
         x.n = b.material.conductor_eta.x;
         y.n = b.material.conductor_eta.y;
         z.n = b.material.conductor_eta.z;
@@ -36,7 +36,7 @@ KERNEL float mean_of(vec3 f)
 /* What a lobe has of the light, for reflectances f. */
 KERNEL vec3 light_of(vec3 f, int reflects)
 {
-    if (transmits_of && reflects == 0)
+    if (transmits_of(f) && reflects == 0)
         return vec3(1.0f - f.x, 1.0f - f.y, 1.0f - f.z);
     return f;
 }
@@ -69,7 +69,7 @@ KERNEL vndf_scattered vndf_bsdf_sample(vndf_bsdf b, vec3 u)
     s.weight = scaled(event_weight(b, e, n.weight, reflects) / part, light_of(f, reflects));
     s.pdf = min(max(n.pdf * e.jacobian * part, 1.17549435e-38f), 3.4028234e38f);
     s.lobe = 2 - reflects;
-    if (transmits_of && reflects == 0 && b.h.eta == 1.0f) {
+    if (transmits_of(b) && reflects == 0 && b.h.eta == 1.0f) {
         s.pdf = 1.0f;
         s.lobe = 3;
     }
@@ -92,9 +92,9 @@ KERNEL meeting meeting_of(vndf_bsdf b, vec3 given)
         wo = vec3(-wo.x, -wo.y, wo.z);
     const float rise = projected(b.material.surface, wo);
     mask there = lt(0.0f, abs(rise));
-    if (!transmits_of)
+    if (!transmits_of(b))
         there = lt(0.0f, rise);
-    if (!reflects_of)
+    if (!reflects_of(b))
         there = lt(rise, 0.0f);
     meeting m;
     m.reflects = select_int(lt(0.0f, rise), 1, 0);
@@ -121,7 +121,7 @@ KERNEL float vndf_bsdf_pdf(vndf_bsdf b, vec3 wo)
     float part = 1.0f;
     if (!any(m.e.met))
         return 0.0f;
-    if (reflects_of && transmits_of) {
+    if (reflects_of(b) && transmits_of(b)) {
         const seen_cosine c = {m.e.facing, m.e.rest};
         part = part_of(b.material, mean_of(reflectances(b, c)), m.reflects);
     }

@@ -136,12 +136,11 @@ static int part_value(const printer *t, int at, int *next, int close)
 {
     const int is_not = word_is(&t->word[at], "!");
     int part = at + is_not, a = operand(t, &part);
-    const word *sign = &t->word[part];
     *next = word_find(t, at, close, "&&");
-    if (word_is(sign, "==") || word_is(sign, "!=")) {
+    if (word_is(&t->word[part], "==")) {
         part++;
-        const int b = operand(t, &part), is_other = word_is(sign, "!=");
-        a = a == UNKNOWN || b == UNKNOWN ? UNKNOWN : (a == b) != is_other;
+        const int b = operand(t, &part);
+        a = a == UNKNOWN || b == UNKNOWN ? UNKNOWN : a == b;
     }
     return a == UNKNOWN || part != *next ? UNKNOWN : (a != 0) != is_not;
 }
