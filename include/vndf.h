@@ -317,8 +317,8 @@ typedef struct vndf_normals {
 /* Element i equals, to the bit, the result of the call for one element; weights of mixtures are vndf_mixture_visible
  * over the density, inverses those of the lobe that draws the normal most often. An array of results may be an array of
  * inputs that is not shared; apart from that arrays must not overlap. `pdf` of samples may be NULL. vndf_ndf_n does not
- * read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as their direction. Scratch of mixtures is on the
- * stack: some 120 KiB, unoptimised up to 2.2 MiB. */
+ * read wi; vndf_lambda_n, vndf_g1_n and vndf_projected_area_n take wi as their direction. Scratch is on the stack:
+ * optimised, at most 32 KiB for any call of this header and vndf_bsdf.h but those that build albedos. */
 VNDF_API void vndf_sample_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,
                             float *pdf);
 VNDF_API void vndf_sample_weight_n(const vndf_batch *batch, const float *u1, const float *u2, vndf_normals wm,

@@ -2,7 +2,7 @@
  * (vndf_sample_weight_n), and scattered by the routine of the call of one. The rest is done one after the other. */
 #include "bsdf/bsdf.h"
 
-enum { BLOCK = 256 };
+enum { BLOCK = 64 };
 
 static vndf_vec3 wi_at(const vndf_bsdf_batch *b, size_t i)
 {

@@ -32,11 +32,19 @@ typedef struct beckmann_place {
     real x, d;
 } beckmann_place;
 
-/* The law of a direction. K is held above -1e4, where areas have long been 0. */
-KERNEL beckmann_law beckmann_law_of(real vx, real vy, real vz)
+/* Azimuth and K of a direction. K is held above -1e4, where areas have long been 0. */
+KERNEL beckmann_law beckmann_toward(real vx, real vy, real vz)
 {
     ggx_direction w = ggx_direction_of(vx, vy, vz);
-    real bound = max(vz / w.across, set(-1e4f)), z = min(abs(bound), set(1e4f)), gauss = exp_of(-(z * z));
+    const real none = set(0.0f);
+    const beckmann_law law = {w.cosine, w.sine, w.across, max(vz / w.across, set(-1e4f)), none, none, none};
+    return law;
+}
+
+/* The law of such a direction. Of exp(-K^2) next to 1 what lies below exp(-40) is rounded away. */
+KERNEL beckmann_law beckmann_law_of(beckmann_law w)
+{
+    real bound = w.bound, z = min(abs(bound), set(1e4f)), gauss = exp_near(-min(z * z, set(40.0f)));
     erfc_quotient n = erfc_rest(z);
     mask far = le(set(1.25f), bound);
     real under = n.above + z * n.below, fall = select(far, set(1.0f), max(gauss, set(0.2f))),
@@ -50,14 +58,14 @@ KERNEL beckmann_law beckmann_law_of(real vx, real vy, real vz)
 /* A(w), measured: 3e-6 where it is above 1e-10 of what it is at grazing; at least 1e-37. */
 KERNEL real beckmann_area(real vx, real vy, real vz)
 {
-    beckmann_law law = beckmann_law_of(vx, vy, vz);
+    beckmann_law law = beckmann_law_of(beckmann_toward(vx, vy, vz));
     real fall = exp_of(-(law.around * law.bound * law.bound));
     return max(0.282094792f * law.across * law.whole * fall, set(1e-37f));
 }
 
-KERNEL beckmann_view beckmann_see(real vx, real vy, real vz)
+KERNEL beckmann_view beckmann_view_of(beckmann_law toward)
 {
-    beckmann_law law = beckmann_law_of(vx, vy, vz);
+    beckmann_law law = beckmann_law_of(toward);
     real near = select(lt(law.bound, set(2.0f)), set(1.0f), set(0.0f)), bound = max(law.bound, set(0.0f));
     real k = min(bound, 4.0f / max(bound, set(1.0f)));
     beckmann_view v;
@@ -74,6 +82,11 @@ KERNEL beckmann_view beckmann_see(real vx, real vy, real vz)
     v.p4 = (7.23658072e-05f + 0.00169871453f * near) +
            k * ((-0.000398632971f + 0.0042367207f * near) + k * (0.00128372159f - 0.003633866f * near));
     return v;
+}
+
+KERNEL beckmann_view beckmann_see(real vx, real vy, real vz)
+{
+    return beckmann_view_of(beckmann_toward(vx, vy, vz));
 }
 
 /* P22 of the slope over z^4, as for GGX; 0 where it underflows. */
@@ -147,13 +160,18 @@ KERNEL beckmann_place beckmann_first(beckmann_view v, real u)
     return at;
 }
 
+KERNEL real beckmann_inside(real u1)
+{
+    return min(max(u1, set(5.42101086e-20f)), set(0.99999994f));
+}
+
 /* F''/F' = -1/d - 2 x and F'''/F' = 4 x/d + 4 x^2 - 2. No step leaves x < K or is longer than 1. */
-KERNEL beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
+KERNEL beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u1)
 {
     real x = at.x, d = at.d, z = abs(x), side = with_sign(set(1.0f), x);
     erfc_quotient n = erfc_rest(z);
     real under = n.above + z * n.below, per = 1.0f / (under * d), nearness = under * per;
-    real rest = u * v.whole - (0.5f + 0.5f * side) * v.line,
+    real rest = beckmann_inside(u1) * v.whole - (0.5f + 0.5f * side) * v.line,
          up = exp_near(min(beckmann_exponent(v, x, d), set(80.0f)));
     real h = 0.5f * ((n.above - side * d * n.below) * per - rest * nearness * up);
     real second = nearness + 2.0f * x, third = x * (nearness + x) * 0.666666667f - 0.333333333f;
@@ -163,11 +181,11 @@ KERNEL beckmann_place beckmann_step(beckmann_law v, beckmann_place at, real u)
     return p;
 }
 
-/* The slope along w for u1. Measured error of the CDF at the returned slope: 7e-7 (3e-7 above the horizon), and 2e-5 of
- * u1 where u1 is small. */
-KERNEL beckmann_place beckmann_along(beckmann_view v, real u1)
+/* The slope along w for u1 is one step from here. Measured error of the CDF at that slope: 7e-7 (3e-7 above the
+ * horizon), and 2e-5 of u1 where u1 is small. */
+KERNEL beckmann_place beckmann_start(beckmann_view v, real u1)
 {
-    real u = min(max(u1, set(5.42101086e-20f)), set(0.99999994f));
+    real u = beckmann_inside(u1);
     beckmann_place p = beckmann_first(v, u);
     mask rare = either(lt(v.law.bound, set(0.0f)), lt(erf_middle(u), set(3.4e-4f)));
     if (any(rare)) {
@@ -175,18 +193,22 @@ KERNEL beckmann_place beckmann_along(beckmann_view v, real u1)
         p.x = select(rare, q.x, p.x);
         p.d = select(rare, q.d, p.d);
     }
-    return beckmann_step(v.law, p, u);
+    return p;
 }
 
-/* u1 draws the slope along w, from far behind, u2 that across. The density is that of beckmann_density within 3e-6 for
- * 99.9 % of the samples at 0 to 110 degrees, 3e-5 at 160, measured. */
-KERNEL normal_sample beckmann_draw(beckmann_view v, real u1, real u2)
+/* The normal with these slopes along and across w. The density is that of beckmann_density within 3e-6 for 99.9 % of
+ * the samples at 0 to 110 degrees, 3e-5 at 160, measured. */
+KERNEL normal_sample beckmann_normal(beckmann_view v, beckmann_place p, real y)
 {
-    beckmann_place p = beckmann_along(v, u1);
-    real y = erf_quantile(u2);
     const normal_sample n = {v.law.sine * y - v.law.cosine * p.x, -(v.law.sine * p.x + v.law.cosine * y),
                              set(1.0f), beckmann_slopes(v.law, p.x, y, p.d)};
     return n;
+}
+
+/* u1 draws the slope along w, from far behind, u2 that across. */
+KERNEL normal_sample beckmann_draw(beckmann_view v, real u1, real u2)
+{
+    return beckmann_normal(v, beckmann_step(v.law, beckmann_start(v, u1), u1), erf_quantile(u2));
 }
 
 /* F(x)/F(K). */

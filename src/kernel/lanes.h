@@ -118,9 +118,9 @@ KERNEL mask lt_int(integer a, integer b)
     return _mm512_cmplt_epi32_mask((__m512i)a, (__m512i)b);
 }
 
-KERNEL int any(mask m)
+KERNEL unsigned mask_bits(mask m)
 {
-    return m != 0;
+    return m;
 }
 
 KERNEL real select(mask m, real yes, real no)
@@ -155,14 +155,15 @@ KERNEL mask lt_int(integer a, integer b)
     return a < b;
 }
 
-KERNEL int any(mask m)
+KERNEL unsigned mask_bits(mask m)
 {
 #  if VNDF_KERNEL_X86
-    return LANES_INSTRUCTION(movemask_ps)((lanes_register)m);
+    return (unsigned)LANES_INSTRUCTION(movemask_ps)((lanes_register)m);
 #  else
-    uint64_t half[2];
-    memcpy(half, &m, sizeof half);
-    return (half[0] | half[1]) != 0;
+    unsigned found = 0;
+    for (int l = 0; l < LANES; l++)
+        found |= (unsigned)m[l] & 1u << l;
+    return found;
 #  endif
 }
 
@@ -181,6 +182,11 @@ KERNEL real select(mask m, real yes, real no)
 }
 
 #endif
+
+KERNEL int any(mask m)
+{
+    return mask_bits(m) != 0;
+}
 
 KERNEL mask both(mask a, mask b)
 {
@@ -256,6 +262,51 @@ KERNEL integer min_int(integer a, integer b)
 KERNEL integer max_int(integer a, integer b)
 {
     return select_int(lt_int(b, a), a, b);
+}
+
+/* ---- some of 64 numbers, those whose bits are set ---- */
+
+typedef struct picks {
+    uint64_t which;
+    int count;
+    uint8_t at[64]; /* where they are, for fewer than 16 lanes */
+} picks;
+
+KERNEL picks picks_of(uint64_t which)
+{
+    picks p;
+    p.which = which;
+    p.count = __builtin_popcountll(which);
+    for (int n = 0; VNDF_LANES < 16 && which; which &= which - 1)
+        p.at[n++] = (uint8_t)__builtin_ctzll(which);
+    return p;
+}
+
+/* Puts them together; what is behind them, up to number 64, may change. */
+KERNEL void pack(const float *from, const picks *p, float *to)
+{
+#if VNDF_LANES == 16
+    for (int i = 0, n = 0; i < 64; n += __builtin_popcount(p->which >> i & 0xffff), i += LANES) {
+        const mask some = (mask)(p->which >> i);
+        store(to + n, (real)_mm512_maskz_compress_ps(some, _mm512_maskz_loadu_ps(some, from + i)));
+    }
+#else
+    for (int n = 0; n < p->count; n++)
+        to[n] = from[p->at[n]];
+#endif
+}
+
+KERNEL void unpack(const float *from, const picks *p, float *to)
+{
+#if VNDF_LANES == 16
+    for (int i = 0, n = 0; i < 64; n += __builtin_popcount(p->which >> i & 0xffff), i += LANES) {
+        const mask some = (mask)(p->which >> i);
+        _mm512_mask_storeu_ps(to + i, some, _mm512_maskz_expand_ps(some, (__m512)load(from + n)));
+    }
+#else
+    for (int n = 0; n < p->count; n++)
+        to[p->at[n]] = from[n];
+#endif
 }
 
 /* ---- tables ---- */

@@ -9,21 +9,21 @@
 KERNEL lobe_numbers lobe_weights(lobe_numbers given, int count)
 {
     lobe_numbers w = given;
-    real largest = 0.0f, sum = 0.0f;
+    real largest = set(0.0f), sum = set(0.0f);
     mask good = le(largest, sum);
     for (int i = 0; i < lobe_end(count); i++)
         if (i < count) {
-            good = both(good, both(le(0.0f, w.lobe[i]), le(w.lobe[i], 3.4028234e38f)));
+            good = both(good, both(le(set(0.0f), w.lobe[i]), le(w.lobe[i], set(3.4028234e38f))));
             largest = max(largest, w.lobe[i]);
         }
     for (int j = 0; j < lobe_end(count); j++)
         if (j < count) {
-            w.lobe[j] = select(good, w.lobe[j] / largest, 0.0f);
+            w.lobe[j] = select(good, w.lobe[j] / largest, set(0.0f));
             sum = sum + w.lobe[j];
         }
     for (int k = 0; k < lobe_end(count); k++)
         if (k < count)
-            w.lobe[k] = select(lt(0.0f, sum), w.lobe[k] / sum, 0.0f);
+            w.lobe[k] = select(lt(set(0.0f), sum), w.lobe[k] / sum, set(0.0f));
     return w;
 }
 
@@ -31,19 +31,19 @@ KERNEL lobe_numbers lobe_weights(lobe_numbers given, int count)
  * an area that a float holds. */
 KERNEL real lobe_part(real weight, real area)
 {
-    return select(lt(0.0f, weight), weight * area, 0.0f);
+    return select(lt(set(0.0f), weight), weight * area, set(0.0f));
 }
 
 KERNEL real lobe_fraction(real part, real weight, real sum, real total)
 {
-    mask is_seen = lt(1.17549435e-38f, sum);
+    mask is_seen = lt(set(1.17549435e-38f), sum);
     return select(is_seen, part, weight) / select(is_seen, sum, total);
 }
 
 KERNEL lobe_numbers lobe_shares(lobe_numbers given, lobe_numbers areas, int count)
 {
     lobe_numbers weight = given, share = areas;
-    real sum = 0.0f, total = 0.0f;
+    real sum = set(0.0f), total = set(0.0f);
     for (int i = 0; i < lobe_end(count); i++)
         if (i < count) {
             share.lobe[i] = lobe_part(weight.lobe[i], share.lobe[i]);
@@ -59,7 +59,7 @@ KERNEL lobe_numbers lobe_shares(lobe_numbers given, lobe_numbers areas, int coun
 /* A sum of densities, the largest of which this is: above 0 where something is seen. */
 KERNEL real lobe_density(real sum, real largest)
 {
-    return select(lt(0.0f, largest), min(max(sum, 1.17549435e-38f), 3.4028234e38f), 0.0f);
+    return select(lt(set(0.0f), largest), min(max(sum, set(1.17549435e-38f)), set(3.4028234e38f)), set(0.0f));
 }
 
 #endif

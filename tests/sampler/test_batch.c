@@ -194,6 +194,8 @@ static void fill(float in[INPUTS][MOST + 2], const vndf_distribution *d, int ext
         if (i % 23 == 5)
             /* but no infinite normal, which times a mean slope of 0 is NaN */
             numbers[test_random_bits(state) % (i % 5 == 3 ? NX : INPUTS)] = odd[test_random_bits(state) % 8];
+        if (i % 61 == 7) /* no knot is there */
+            numbers[WI_X] = INFINITY, numbers[WI_Z] = -INFINITY;
         for (int j = 0; j < INPUTS; j++)
             in[j][i] = numbers[j];
     }

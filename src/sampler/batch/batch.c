@@ -1,5 +1,7 @@
-/* Batches: the calls, and which instruction set they run on. Lanes (lanes_block.c) take all surfaces; single elements,
- * inverses, lobes without a distribution, and all calls where the compiler has no lanes, go one by one. */
+/* Batches: the calls, and which instruction set they run on. Lanes (lanes_block.c, mixtures.c) take all surfaces;
+ * single elements, inverses, lobes without a distribution, and all calls where the compiler has no lanes, go one by
+ * one. */
+#include <float.h>
 #include <string.h>
 
 #include "sampler/batch/call.h"
@@ -8,38 +10,80 @@
 
 /* ---- one element after the other, by the calls for one ---- */
 
-static void run_one(const vndf_call *c, size_t i)
+static void run_surface(const vndf_batch *b, vndf_task task, size_t at, vndf_vec3 wi, vndf_vec3 given, float *to)
 {
-    const vndf_surface s = vndf_call_surface(c, i);
-    const vndf_vec3 wi = vndf_call_vec3(c, VNDF_READ_WI_X, i), given = vndf_call_vec3(c, VNDF_READ_A, i);
+    const vndf_surface s = vndf_surface_at(&b->surface, at);
     const vndf_view view = vndf_view_from(&s, wi);
-    vndf_vec3 wm;
-    float to[VNDF_WRITES] = {0.0f};
-    switch (c->task) {
-    case VNDF_TASK_SAMPLE:
-        wm = c->write[4] ? vndf_sample_weight(&view, given.x, given.y, &to[3], &to[4])
-                         : vndf_sample(&view, given.x, given.y, &to[3]);
-        to[0] = wm.x, to[1] = wm.y, to[2] = wm.z;
+    switch (task) {
+    case VNDF_TASK_SAMPLE: {
+        const vndf_vec3 wm = vndf_sample_weight(&view, given.x, given.y, &to[3], &to[4]);
+        memcpy(to, &wm, sizeof wm);
         break;
+    }
     case VNDF_TASK_PDF: to[0] = vndf_pdf(&view, given); break;
     case VNDF_TASK_VISIBLE: to[0] = vndf_visible(&view, given); break;
     case VNDF_TASK_INVERT: vndf_invert(&view, given, &to[0], &to[1]); break;
     case VNDF_TASK_NDF: to[0] = vndf_ndf(&s, given); break;
     case VNDF_TASK_LAMBDA: to[0] = vndf_lambda(&s, wi); break;
     case VNDF_TASK_G1: to[0] = vndf_g1(&s, wi); break;
-    case VNDF_TASK_AREA: to[0] = vndf_projected_area(&s, wi); break;
-    case VNDF_TASK_DRAWN_AREA: to[0] = view.distribution ? vndf_view_drawn_area(&view) : 0.0f; break;
+    default: to[0] = vndf_projected_area(&s, wi);
     }
-    to[1] = c->task == VNDF_TASK_AREA || c->task == VNDF_TASK_DRAWN_AREA ? view.distribution != NULL : to[1];
-    for (int w = 0; w < VNDF_WRITES; w++)
-        if (c->write[w])
-            c->write[w][i] = to[w];
 }
 
-void vndf_one_by_one(const vndf_call *call)
+/* Returns the lobe that was drawn. */
+static int run_mixture(const vndf_batch *b, vndf_task task, size_t i, size_t at, vndf_vec3 wi, vndf_vec3 given,
+                       float *to)
 {
-    for (size_t i = 0; i < call->count; i++)
-        run_one(call, call->at ? (size_t)call->at[i] : i);
+    vndf_mixture m = {.count = b->lobes <= VNDF_MIXTURE_LOBES ? b->lobes : 0};
+    int lobe = -1;
+    for (int l = 0; l < m.count; l++)
+        m.lobe[l] = (vndf_mixture_lobe){vndf_surface_at(&b->lobe[l].surface, at),
+                                        b->lobe[l].weight[b->shared & VNDF_SHARED_WEIGHT ? 0 : i]};
+    const vndf_mixture_view view = vndf_mixture_view_from(&m, wi);
+    switch (task) {
+    case VNDF_TASK_SAMPLE: {
+        const vndf_vec3 wm = vndf_mixture_sample(&view, given.x, given.y, &to[3], &lobe);
+        const float weight = to[3] > 0.0f ? vndf_mixture_visible(&view, wm) / to[3] : 0.0f;
+        memcpy(to, &wm, sizeof wm);
+        to[4] = weight < FLT_MAX ? weight : FLT_MAX;
+        break;
+    }
+    case VNDF_TASK_PDF: to[0] = vndf_mixture_pdf(&view, given); break;
+    case VNDF_TASK_VISIBLE: to[0] = vndf_mixture_visible(&view, given); break;
+    case VNDF_TASK_INVERT: vndf_mixture_invert(&view, given, -1, &to[0], &to[1]); break;
+    case VNDF_TASK_NDF: to[0] = vndf_mixture_ndf(&m, given); break;
+    case VNDF_TASK_LAMBDA: to[0] = vndf_mixture_lambda(&m, wi); break;
+    case VNDF_TASK_G1: to[0] = vndf_mixture_g1(&m, wi); break;
+    default: to[0] = vndf_mixture_projected_area(&m, wi);
+    }
+    return lobe;
+}
+
+static vndf_vec3 vec3_at(const float *const array[3], size_t i)
+{
+    const vndf_vec3 v = {array[0] ? array[0][i] : 0.0f, array[1] ? array[1][i] : 0.0f,
+                         array[2] ? array[2][i] : 0.0f};
+    return v;
+}
+
+static void run_one_by_one(const vndf_batch *b, vndf_task task, const vndf_arrays *a)
+{
+    const float *const wi_of[3] = {b->wi_x, b->wi_y, b->wi_z};
+    for (size_t i = 0; i < b->count; i++) {
+        const vndf_vec3 wi = vec3_at(wi_of, b->shared & VNDF_SHARED_WI ? 0 : i), given = vec3_at(a->given, i);
+        const size_t at = b->shared & VNDF_SHARED_SURFACE ? 0 : i;
+        float to[VNDF_WRITES] = {0.0f};
+        int lobe = 0;
+        if (b->lobes)
+            lobe = run_mixture(b, task, i, at, wi, given, to);
+        else
+            run_surface(b, task, at, wi, given, to);
+        for (int w = 0; w < VNDF_WRITES; w++)
+            if (a->write[w])
+                a->write[w][i] = to[w];
+        if (b->lobes && task == VNDF_TASK_SAMPLE && b->drawn)
+            b->drawn[i] = lobe;
+    }
 }
 
 /* ---- instruction sets ---- */
@@ -59,48 +103,41 @@ vndf_instructions vndf_instructions_used(vndf_instructions limit)
     return VNDF_INSTRUCTIONS_PORTABLE;
 }
 
-vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit)
+/* How many lanes a batch runs in, 1 for one by one. */
+static int lanes_of(const vndf_batch *b, vndf_task task)
 {
-    (void)limit;
+    int knows_all = b->lobes || b->surface.distribution;
+    for (int l = 0; l < b->lobes && l < VNDF_MIXTURE_LOBES; l++)
+        knows_all &= b->lobe[l].surface.distribution != NULL;
+    if (!knows_all || b->count < 2 || task == VNDF_TASK_INVERT || b->lobes < 0 || b->lobes > VNDF_MIXTURE_LOBES)
+        return 1;
 #if VNDF_HAS_WIDE_LANES
-    const vndf_instructions used = vndf_instructions_used(limit);
-    if (count > 1 && used >= VNDF_INSTRUCTIONS_AVX2)
-        return used == VNDF_INSTRUCTIONS_AVX512 ? vndf_lanes_16 : vndf_lanes_8;
+    const vndf_instructions used = vndf_instructions_used(b->limit);
+    if (used >= VNDF_INSTRUCTIONS_AVX2)
+        return used == VNDF_INSTRUCTIONS_AVX512 ? 16 : 8;
 #endif
 #if defined(__GNUC__)
-    if (count > 1)
-        return vndf_lanes_4;
+    return 4;
+#else
+    return 1;
 #endif
-    return vndf_one_by_one;
 }
 
 /* ---- calls ---- */
 
-vndf_call vndf_call_of(const vndf_batch *b, const vndf_surface_batch *s)
-{
-    const unsigned surface = (1u << VNDF_READ_WI_X) - 1, direction = (1u << VNDF_READ_A) - 1 - surface;
-    const vndf_call call = {.distribution = s->distribution,
-                            .count = b->count,
-                            .shared = (b->shared & VNDF_SHARED_SURFACE ? surface : 0) |
-                                      (b->shared & VNDF_SHARED_WI ? direction : 0),
-                            .read = {s->xx, s->xy, s->yx, s->yy, s->mean_x, s->mean_y, b->wi_x, b->wi_y, b->wi_z},
-                            .is_diagonal = !s->xy && !s->yx && !s->mean_x && !s->mean_y};
-    return call;
-}
-
 static void run(const vndf_batch *b, vndf_task task, vndf_arrays a)
 {
-    vndf_call call = vndf_call_of(b, &b->surface);
-    if (b->lobes) {
-        vndf_run_mixtures(b, task, a);
-        return;
+    const vndf_call call = vndf_call_of(b, &b->surface, task, &a);
+    switch (lanes_of(b, task)) {
+#if VNDF_HAS_WIDE_LANES
+    case 16: b->lobes ? vndf_mixtures_16(b, task, &a) : vndf_lanes_16(&call); break;
+    case 8: b->lobes ? vndf_mixtures_8(b, task, &a) : vndf_lanes_8(&call); break;
+#endif
+#if defined(__GNUC__)
+    case 4: b->lobes ? vndf_mixtures_4(b, task, &a) : vndf_lanes_4(&call); break;
+#endif
+    default: run_one_by_one(b, task, &a);
     }
-    const int one_by_one = !call.distribution || task == VNDF_TASK_INVERT;
-    vndf_lanes *lanes = one_by_one ? vndf_one_by_one : vndf_lanes_for(call.count, b->limit);
-    call.task = task;
-    memcpy(call.read + VNDF_READ_A, a.given, sizeof a.given);
-    memcpy(call.write, a.write, sizeof a.write);
-    lanes(&call);
 }
 
 void vndf_sample_n(const vndf_batch *b, const float *u1, const float *u2, vndf_normals wm, float *pdf)

@@ -3,6 +3,9 @@
 #ifndef VNDF_SAMPLER_BATCH_CALL_H
 #define VNDF_SAMPLER_BATCH_CALL_H
 
+#include <stdint.h>
+#include <string.h>
+
 #include "vndf.h"
 
 typedef enum vndf_task {
@@ -12,6 +15,7 @@ typedef enum vndf_task {
     VNDF_TASK_NDF,
     VNDF_TASK_AREA,
     VNDF_TASK_DRAWN_AREA, /* of lobes, for their shares */
+    VNDF_TASK_COSINE,     /* of lobes, of the direction to the mean plane: for masking */
     VNDF_TASK_LAMBDA,
     VNDF_TASK_G1,
     VNDF_TASK_INVERT /* one by one */
@@ -26,6 +30,8 @@ enum { VNDF_READ_A = VNDF_READ_WI_Z + 1, VNDF_READ_B, VNDF_READ_C, VNDF_READS };
  * numbers of an inverse; else one. */
 enum { VNDF_WRITES = 5 };
 
+enum { VNDF_BLOCK = 64 }; /* elements go in blocks */
+
 typedef struct vndf_call {
     vndf_task task;
     const vndf_distribution *distribution;
@@ -33,23 +39,9 @@ typedef struct vndf_call {
     const float *read[VNDF_READS]; /* NULL for zeros */
     float *write[VNDF_WRITES];     /* NULL for what is not asked for */
     size_t count;
-    const int *at;   /* which elements of the arrays; NULL: the first */
+    uint64_t which;  /* of the elements of each block, bit by bit */
     int is_diagonal; /* surfaces are matrices of xx and yy alone */
 } vndf_call;
-
-/* Element i of what it writes equals, to the bit, the call for one element. No distribution is NULL in lanes; those of
- * 8 and 16 are there where the build compiles them. */
-typedef void vndf_lanes(const vndf_call *call);
-vndf_lanes vndf_lanes_4, vndf_lanes_8, vndf_lanes_16;
-
-/* The same by the calls for one: the distribution may be NULL. */
-vndf_lanes vndf_one_by_one;
-
-/* The best lanes up to `limit` for so many elements. */
-vndf_lanes *vndf_lanes_for(size_t count, vndf_instructions limit);
-
-/* These surfaces, and the directions of a batch. */
-vndf_call vndf_call_of(const vndf_batch *batch, const vndf_surface_batch *surface);
 
 /* What is read beside the surface, numbers u1 and u2 or a normal, and what is written. */
 typedef struct vndf_arrays {
@@ -57,28 +49,30 @@ typedef struct vndf_arrays {
     float *write[VNDF_WRITES];
 } vndf_arrays;
 
-/* A task on mixtures. */
-void vndf_run_mixtures(const vndf_batch *batch, vndf_task task, vndf_arrays arrays);
+/* Element i of what they write equals, to the bit, the call for one element. No distribution is NULL, and no task an
+ * inverse; those of 8 and 16 are there where the build compiles them. */
+void vndf_lanes_4(const vndf_call *call), vndf_lanes_8(const vndf_call *call),
+    vndf_lanes_16(const vndf_call *call);
+void vndf_mixtures_4(const vndf_batch *batch, vndf_task task, const vndf_arrays *arrays);
+void vndf_mixtures_8(const vndf_batch *batch, vndf_task task, const vndf_arrays *arrays);
+void vndf_mixtures_16(const vndf_batch *batch, vndf_task task, const vndf_arrays *arrays);
 
-/* Number `which` of element i, and its surface. */
-static inline float vndf_call_number(const vndf_call *call, int which, size_t i)
+/* A task on these surfaces, and the directions of a batch. */
+static inline vndf_call vndf_call_of(const vndf_batch *b, const vndf_surface_batch *s, vndf_task task,
+                                     const vndf_arrays *a)
 {
-    const float *array = call->read[which];
-    return array ? array[call->shared >> which & 1 ? 0 : i] : 0.0f;
-}
-
-static inline vndf_surface vndf_call_surface(const vndf_call *call, size_t i)
-{
-    float of[VNDF_READ_WI_X];
-    for (int r = 0; r < VNDF_READ_WI_X; r++)
-        of[r] = vndf_call_number(call, r, i);
-    return (vndf_surface){call->distribution, of[0], of[1], of[2], of[3], of[4], of[5]};
-}
-
-static inline vndf_vec3 vndf_call_vec3(const vndf_call *call, int first, size_t i)
-{
-    return (vndf_vec3){vndf_call_number(call, first, i), vndf_call_number(call, first + 1, i),
-                       vndf_call_number(call, first + 2, i)};
+    const unsigned surface = (1u << VNDF_READ_WI_X) - 1, direction = (1u << VNDF_READ_A) - 1 - surface;
+    vndf_call call = {.task = task,
+                      .distribution = s->distribution,
+                      .count = b->count,
+                      .which = ~(uint64_t)0,
+                      .shared = (b->shared & VNDF_SHARED_SURFACE ? surface : 0) |
+                                (b->shared & VNDF_SHARED_WI ? direction : 0),
+                      .read = {s->xx, s->xy, s->yx, s->yy, s->mean_x, s->mean_y, b->wi_x, b->wi_y, b->wi_z},
+                      .is_diagonal = !s->xy && !s->yx && !s->mean_x && !s->mean_y};
+    memcpy(call.read + VNDF_READ_A, a->given, sizeof a->given);
+    memcpy(call.write, a->write, sizeof a->write);
+    return call;
 }
 
 #endif

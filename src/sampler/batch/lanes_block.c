@@ -1,8 +1,9 @@
 /* Batches in lanes: compiled once for each instruction set, with VNDF_LANES numbers side by side.
  *
- * A call goes block by block. The elements of a block are valid and, where a table is seen, on one side of the horizon:
- * where some are not, those of each side are put together first. A block goes through the steps of the kernel, each a
- * short loop, since a processor overlaps few iterations of a long one. */
+ * A call goes block by block, and a block through the steps of the kernel, each a short loop, since a processor
+ * overlaps few iterations of a long one. Where a table is seen from both sides of the horizon, the elements of each
+ * side are put together. Elements that are not valid go with the others, as no lane reads another, and get their
+ * result at the end. */
 #ifndef VNDF_LANES
 #define VNDF_LANES 4
 #endif
@@ -23,21 +24,22 @@
 #  define LANES_ENTRY vndf_lanes_16
 #endif
 
-enum { BLOCK = 128, GROUPS = BLOCK / LANES };
+enum { BLOCK = VNDF_BLOCK, GROUPS = BLOCK / LANES };
 
 /* Steps are not to be inlined into one large function: each has its own part of the stack. */
 #define STEP static __attribute__((noinline))
 
 typedef float row[BLOCK] __attribute__((aligned(4 * VNDF_LANES)));
 
-/* Up to BLOCK elements of a call: where their inputs lie, readable to the last lane, and where results go; below: a
- * table is seen from below the horizon. */
+/* Up to BLOCK elements of a call: where their inputs lie, readable to the last lane, and where results go. */
 typedef struct block {
     vndf_task task;
     vndf_kind kind;
     float unit;
     table t;
-    int groups, is_diagonal, below; /* is_diagonal: all its surfaces are (kernel/surface.h) */
+    int groups, is_diagonal;        /* is_diagonal: all its surfaces are (kernel/surface.h) */
+    uint64_t below;                 /* from which elements a table is seen from below, bit by bit */
+    int varied, varies[VNDF_READS]; /* inputs of which each element has its own */
     const float *read[VNDF_READS];
     float *write[VNDF_WRITES];
 } block;
@@ -93,33 +95,36 @@ KERNEL integer knot_of(table t, integer at, int level)
     return (at + at + (1 - (2 << level))) * (t.stride << (t.levels - level - 1));
 }
 
-/* One step: entries that follow `at`. */
-KERNEL integer step_slope(table t, real square, real under, integer at, int level)
+/* A slope length by the squares of its two parts, and its cell: an entry while steps go on. */
+typedef struct slope_query {
+    real square, under;
+    integer cell;
+} slope_query;
+
+KERNEL integer step_slope(table t, slope_query q, int level)
 {
-    return follow(at, le(level_entry(t, VNDF_AT_KNOT, at, level) * under, square));
+    return follow(q.cell, le(level_entry(t, VNDF_AT_KNOT, q.cell, level) * q.under, q.square));
 }
 
-/* The cells of slopes whose squares have these two parts. */
-KERNEL void find_slopes(table t, int groups, const real *square, const real *under, integer *i)
+KERNEL void find_slopes(table t, int groups, slope_query *q)
 {
     for (int g = 0; g < groups; g++) {
-        integer at = set_int(1);
+        q[g].cell = set_int(1);
         LANES_UNROLLED
         for (int level = 0; level < FIRST_LEVELS; level++)
-            at = step_slope(t, square[g], under[g], at, level);
-        i[g] = at;
+            q[g].cell = step_slope(t, q[g], level);
     }
     LANES_UNROLLED
     for (int level = FIRST_LEVELS; level < LEVELS; level++)
         for (int g = 0; level < t.levels && g < groups; g++)
-            i[g] = step_slope(t, square[g], under[g], i[g], level);
+            q[g].cell = step_slope(t, q[g], level);
     for (int g = 0; g < groups; g++)
-        i[g] = (i[g] - set_int(1 << t.levels)) * set_int(t.stride);
+        q[g].cell = (q[g].cell - set_int(1 << t.levels)) * set_int(t.stride);
     for (int step = t.stride / 2; step > 0; step /= 2)
         for (int g = 0; g < groups; g++) {
-            integer next = min_int(i[g] + step, set_int(t.cells));
+            integer next = min_int(q[g].cell + step, set_int(t.cells));
             real r = load_knot(t, next).r;
-            i[g] = select_int(le((r * r) * under[g], square[g]), next, i[g]);
+            q[g].cell = select_int(le((r * r) * q[g].under, q[g].square), next, q[g].cell);
         }
 }
 
@@ -196,46 +201,38 @@ KERNEL void find_cells(table t, int groups, const radial_law *v, const target *a
 /* How a table sees directions. */
 KERNEL void see(table t, int groups, const table_direction *w, radial_law *v, const int below)
 {
-    integer cell[GROUPS];
-    real square[GROUPS], under[GROUPS];
-    for (int g = 0; below && g < groups; g++) {
-        square[g] = w[g].square;
-        under[g] = w[g].under;
-    }
+    slope_query q[GROUPS];
+    for (int g = 0; below && g < groups; g++) /* of elements that are not valid: not beyond the ends of searches */
+        q[g] = (slope_query){min(w[g].square, set(3.4028234e38f)), w[g].under, set_int(0)};
     if (below)
-        find_slopes(t, groups, square, under, cell);
+        find_slopes(t, groups, q);
     for (int g = 0; g < groups; g++)
-        v[g] = below ? law_see_below(t, w[g].s, w[g].c, w[g].rho, cell[g])
+        v[g] = below ? law_see_below(t, w[g].s, w[g].c, w[g].rho, q[g].cell)
                      : law_see_above(t, w[g].s, w[g].c, w[g].rho);
 }
 
 /* Areas of what is seen. */
 KERNEL void find_areas(table t, int groups, const radial_law *v, real *area, const int below)
 {
-    real square[GROUPS], under[GROUPS];
-    integer cell[GROUPS];
-    for (int g = 0; g < groups; g++) {
-        square[g] = v[g].rho * v[g].rho;
-        under[g] = set(1.0f);
-    }
-    find_slopes(t, groups, square, under, cell);
+    slope_query q[GROUPS];
     for (int g = 0; g < groups; g++)
-        area[g] = law_area_in(t, v[g], cell[g], below);
+        q[g] = (slope_query){v[g].rho * v[g].rho, set(1.0f), set_int(0)};
+    find_slopes(t, groups, q);
+    for (int g = 0; g < groups; g++)
+        area[g] = law_area_in(t, v[g], q[g].cell, below);
 }
 
 /* The given normals, with their cells. */
 KERNEL void place_given(table t, int groups, const unit_normal *n, query *at)
 {
-    real square[GROUPS], under[GROUPS];
-    integer cell[GROUPS];
+    slope_query q[GROUPS];
     for (int g = 0; g < groups; g++) {
         at[g] = table_given_slope(n[g].x, n[g].y, n[g].z);
-        square[g] = at[g].square;
-        under[g] = at[g].under;
+        q[g] = (slope_query){at[g].square, at[g].under, set_int(0)};
     }
-    find_slopes(t, groups, square, under, cell);
+    find_slopes(t, groups, q);
     for (int g = 0; g < groups; g++)
-        at[g].cell = cell[g];
+        at[g].cell = q[g].cell;
 }
 
 /* Normals in the frames of their directions, with K, and their weights. */
@@ -245,18 +242,20 @@ KERNEL void draw_side(const block *b, table_direction *w, normal_sample *n, real
     const table t = b->t;
     const int groups = b->groups;
     radial_law v[GROUPS];
-    target a[GROUPS];
     knot_hit r[GROUPS];
     cell_hit f[GROUPS];
     length_sample d[GROUPS];
     arc k[GROUPS];
-    real start[GROUPS], area[GROUPS];
+    real start[GROUPS];
     see(t, groups, w, v, below);
-    for (int g = 0; g < groups; g++)
-        a[g] = table_aim(v[g], unit_input(b, VNDF_READ_B, g), below);
-    find_cells(t, groups, v, a, r, below);
-    for (int g = 0; g < groups; g++)
-        f[g] = table_cell(t, v[g], a[g], r[g], below);
+    {
+        target a[GROUPS]; /* whose room the next steps have */
+        for (int g = 0; g < groups; g++)
+            a[g] = table_aim(v[g], unit_input(b, VNDF_READ_B, g), below);
+        find_cells(t, groups, v, a, r, below);
+        for (int g = 0; g < groups; g++)
+            f[g] = table_cell(t, v[g], a[g], r[g], below);
+    }
     for (int g = 0; g < groups; g++)
         d[g] = table_length(t, v[g], f[g], law_invert(f[g].at, f[g].before), below);
     for (int g = 0; g < groups; g++)
@@ -270,6 +269,7 @@ KERNEL void draw_side(const block *b, table_direction *w, normal_sample *n, real
     }
     if (!weigh)
         return;
+    real *const area = start;
     find_areas(t, groups, v, area, below);
     for (int g = 0; g < groups; g++) {
         cell_place in = law_invert(f[g].at, f[g].before);
@@ -288,7 +288,7 @@ STEP void draw(const block *b, table_direction *w, normal_sample *n, real *weigh
 /* The densities of given normals, whose `facing` is over the reach of the direction. */
 STEP void densities(const block *b, table_direction *w, unit_normal *n, real *density)
 {
-    const int below = b->below;
+    const int below = b->below != 0;
     radial_law v[GROUPS];
     query at[GROUPS];
     see(b->t, b->groups, w, v, below);
@@ -299,7 +299,7 @@ STEP void densities(const block *b, table_direction *w, unit_normal *n, real *de
 
 STEP void table_areas(const block *b, table_direction *w, real *area)
 {
-    const int below = b->below;
+    const int below = b->below != 0;
     radial_law v[GROUPS];
     see(b->t, b->groups, w, v, below);
     if (b->task != VNDF_TASK_DRAWN_AREA)
@@ -319,57 +319,104 @@ STEP void p22_table(const block *b, unit_normal *n, real *p22)
 
 /* ---- tasks, of which the compiler knows the kind of distribution ---- */
 
-KERNEL void sample_as(const block *b, const vndf_kind kind, const int is_diagonal)
+/* A bit for each of `count` elements, at least 1. */
+KERNEL uint64_t first_bits(int count)
 {
-    frame at[GROUPS]; /* what is needed to the end: the matrix is read again */
+    return ~(uint64_t)0 >> (BLOCK - count);
+}
+
+KERNEL uint64_t below_bits(int g, frame f)
+{
+    return (uint64_t)mask_bits(lt(f.uz, set(0.0f))) << g * LANES;
+}
+
+/* Whether a block is on one side of the horizon: else nothing of it is written. */
+KERNEL int is_one_side(const block *b)
+{
+    return b->below == 0 || b->below == first_bits(b->groups * LANES);
+}
+
+/* Which elements of a group are valid. */
+KERNEL mask valid_at(const block *b, int g, affine_map m)
+{
+    mask valid = affine_is_valid(m);
+    if (b->task != VNDF_TASK_NDF)
+        valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
+                                               input(b, VNDF_READ_WI_Z, g)));
+    return valid;
+}
+
+/* Of frames, what is needed to the end: the matrix is read again. */
+typedef struct kept_frame {
+    real wx, wy, wz, max_pdf, flip_cosine;
+    mask valid;
+} kept_frame;
+
+KERNEL void put_sample(const block *b, int g, kept_frame k, const int is_diagonal, normal_sample n, real weight)
+{
+    const real zero = set(0.0f), one = set(1.0f);
+    affine_map m = map_at(b, g, is_diagonal);
+    const frame f = {m, k.wx, k.wy, k.wz, zero, zero, one, one, one, abs(m.determinant), k.max_pdf, k.flip_cosine};
+    surface_sample s = frame_sampled(f, n);
+    if (any((mask)~k.valid)) {
+        s = (surface_sample){select(k.valid, s.x, zero), select(k.valid, s.y, zero), select(k.valid, s.z, one),
+                             select(k.valid, s.pdf, zero)};
+        weight = select(k.valid, weight, zero);
+    }
+    put(b, 0, g, s.x);
+    put(b, 1, g, s.y);
+    put(b, 2, g, s.z);
+    if (b->write[3])
+        put(b, 3, g, s.pdf);
+    if (b->write[4])
+        put(b, 4, g, weight);
+}
+
+KERNEL void sample(block *b, const vndf_kind kind, const int is_diagonal)
+{
+    kept_frame at[GROUPS];
     table_direction w[GROUPS];
     ggx_view caps[GROUPS];
     beckmann_view laws[GROUPS];
+    beckmann_place p[GROUPS];
     normal_sample n[GROUPS];
-    real weight[GROUPS];
+    real weight[GROUPS], y[GROUPS];
+    uint64_t below = 0;
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g, is_diagonal);
-        at[g].wx = f.wx;
-        at[g].wy = f.wy;
-        at[g].wz = f.wz;
-        at[g].determinant = f.determinant;
-        at[g].max_pdf = f.max_pdf;
-        at[g].flip_cosine = f.flip_cosine;
+        at[g] = (kept_frame){f.wx, f.wy, f.wz, f.max_pdf, f.flip_cosine, valid_at(b, g, f.m)};
+        below |= below_bits(g, f);
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
         else if (kind == VNDF_KIND_GGX)
             caps[g] = ggx_see(f.ux, f.uy, f.uz);
         else
-            laws[g] = beckmann_see(f.ux, f.uy, f.uz);
+            laws[g].law = beckmann_toward(f.ux, f.uy, f.uz);
     }
-    if (kind == VNDF_KIND_TABLE)
+    if (kind == VNDF_KIND_TABLE) {
+        b->below = below;
+        if (!is_one_side(b))
+            return;
         draw(b, w, n, weight, b->write[4] != NULL);
-    for (int g = 0; kind == VNDF_KIND_BECKMANN && g < b->groups; g++) /* long enough for a loop of its own */
-        n[g] = beckmann_draw(laws[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
+    } else if (kind == VNDF_KIND_BECKMANN) {
+        for (int g = 0; g < b->groups; g++)
+            laws[g] = beckmann_view_of(laws[g].law);
+        for (int g = 0; g < b->groups; g++)
+            p[g] = beckmann_start(laws[g], unit_input(b, VNDF_READ_A, g));
+        for (int g = 0; g < b->groups; g++)
+            p[g] = beckmann_step(laws[g].law, p[g], unit_input(b, VNDF_READ_A, g));
+        for (int g = 0; g < b->groups; g++)
+            y[g] = erf_quantile(unit_input(b, VNDF_READ_B, g));
+        for (int g = 0; g < b->groups; g++)
+            n[g] = beckmann_normal(laws[g], p[g], y[g]);
+    } else
+        for (int g = 0; g < b->groups; g++)
+            n[g] = ggx_draw(caps[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
     for (int g = 0; g < b->groups; g++) {
-        frame f = at[g];
-        f.m = map_at(b, g, is_diagonal);
         if (kind == VNDF_KIND_TABLE)
             n[g] = table_turned(w[g].ex, w[g].ey, n[g]);
-        else if (kind == VNDF_KIND_GGX)
-            n[g] = ggx_draw(caps[g], unit_input(b, VNDF_READ_A, g), unit_input(b, VNDF_READ_B, g));
-        surface_sample s = frame_sampled(f, n[g]);
-        put(b, 0, g, s.x);
-        put(b, 1, g, s.y);
-        put(b, 2, g, s.z);
-        if (b->write[3])
-            put(b, 3, g, s.pdf);
-        if (b->write[4])
-            put(b, 4, g, kind == VNDF_KIND_TABLE ? weight[g] : set(1.0f));
+        put_sample(b, g, at[g], is_diagonal, n[g], kind == VNDF_KIND_TABLE && b->write[4] ? weight[g] : set(1.0f));
     }
-}
-
-KERNEL void sample(const block *b, const vndf_kind kind)
-{
-    if (b->is_diagonal) /* once more, where the compiler knows it */
-        sample_as(b, kind, 1);
-    else
-        sample_as(b, kind, 0);
 }
 
 /* The normal of a group in the unit problem, seen or not. */
@@ -378,54 +425,61 @@ KERNEL unit_normal normal_at(const block *b, int g, frame f)
     return frame_normal(f, input(b, VNDF_READ_A, g), input(b, VNDF_READ_B, g), input(b, VNDF_READ_C, g));
 }
 
+/* A density with which a normal is drawn or seen, over the determinant of the surface. */
+KERNEL void put_density(const block *b, int g, frame f, real facing, real density)
+{
+    mask is_seen = both(le(set(0.0f), input(b, VNDF_READ_C, g)), lt(set(0.0f), facing));
+    put(b, 0, g, select(both(is_seen, valid_at(b, g, f.m)), frame_density(f, density), set(0.0f)));
+}
+
 /* The drawn density, or the visible one; for closed forms they are the same. */
-KERNEL void density(const block *b, const vndf_kind kind)
+KERNEL void density(block *b, const vndf_kind kind)
 {
     const int visible = b->task == VNDF_TASK_VISIBLE;
-    frame at[GROUPS]; /* `determinant` and `max_pdf` are needed to the end */
     table_direction w[GROUPS];
     unit_normal n[GROUPS];
     real facing[GROUPS], reach[GROUPS], value[GROUPS], p22[GROUPS];
+    uint64_t below = 0;
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g, b->is_diagonal);
         n[g] = normal_at(b, g, f);
-        facing[g] = n[g].facing;
-        at[g].determinant = f.determinant;
-        at[g].max_pdf = f.max_pdf;
-        if (kind == VNDF_KIND_GGX)
-            value[g] = ggx_density(ggx_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
-        else if (kind == VNDF_KIND_BECKMANN)
-            value[g] = beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
-        else {
+        below |= below_bits(g, f);
+        if (kind == VNDF_KIND_TABLE) {
             w[g] = table_direction_of(f);
+            facing[g] = n[g].facing;
             reach[g] = frame_reach(f);
-            if (b->below && !visible)
-                n[g] = table_unturned(w[g].ex, w[g].ey, n[g]);
             n[g].facing = n[g].facing / reach[g];
+        } else {
+            value[g] = kind == VNDF_KIND_GGX
+                           ? ggx_density(ggx_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing)
+                           : beckmann_density(beckmann_see(f.ux, f.uy, f.uz), n[g].x, n[g].y, n[g].z, n[g].facing);
+            put_density(b, g, f, n[g].facing, value[g] / f.determinant);
         }
     }
-    if (kind == VNDF_KIND_TABLE && visible) {
+    b->below = kind == VNDF_KIND_TABLE ? below : 0;
+    if (kind != VNDF_KIND_TABLE || !is_one_side(b))
+        return;
+    for (int g = 0; b->below && !visible && g < b->groups; g++)
+        n[g] = table_unturned(w[g].ex, w[g].ey, n[g]);
+    if (visible) {
         table_areas(b, w, value);
         p22_table(b, n, p22);
-    } else if (kind == VNDF_KIND_TABLE)
+    } else
         densities(b, w, n, value);
     for (int g = 0; g < b->groups; g++) {
-        real k = value[g] / at[g].determinant;
-        if (kind == VNDF_KIND_TABLE && visible)
-            k = p22[g] / at[g].determinant * (facing[g] / max(value[g] * reach[g], set(1e-37f)));
-        mask seen_at_all = both(le(set(0.0f), input(b, VNDF_READ_C, g)), lt(set(0.0f), facing[g]));
-        put(b, 0, g, select(seen_at_all, frame_density(at[g], k), set(0.0f)));
+        frame f = frame_at(b, g, b->is_diagonal);
+        real k = visible ? p22[g] / f.determinant * (facing[g] / max(value[g] * reach[g], set(1e-37f)))
+                         : value[g] / f.determinant;
+        put_density(b, g, f, facing[g], k);
     }
 }
 
 KERNEL void ndf(const block *b, const vndf_kind kind)
 {
     unit_normal n[GROUPS];
-    real determinant[GROUPS], p22[GROUPS];
+    real p22[GROUPS];
     for (int g = 0; g < b->groups; g++) {
-        frame f = frame_of(map_at(b, g, b->is_diagonal), set(0.0f), set(0.0f), set(1.0f));
-        n[g] = normal_at(b, g, f);
-        determinant[g] = f.determinant;
+        n[g] = normal_at(b, g, frame_of(map_at(b, g, b->is_diagonal), set(0.0f), set(0.0f), set(1.0f)));
         if (kind == VNDF_KIND_GGX)
             p22[g] = ggx_p22(n[g].x, n[g].y, n[g].z);
         else if (kind == VNDF_KIND_BECKMANN)
@@ -434,193 +488,132 @@ KERNEL void ndf(const block *b, const vndf_kind kind)
     if (kind == VNDF_KIND_TABLE)
         p22_table(b, n, p22);
     for (int g = 0; g < b->groups; g++) {
-        real d = min(p22[g] / determinant[g], set(3.40282347e38f));
-        put(b, 0, g, select(le(set(0.0f), input(b, VNDF_READ_C, g)), d, set(0.0f)));
+        affine_map m = map_at(b, g, b->is_diagonal);
+        mask is_seen = both(le(set(0.0f), input(b, VNDF_READ_C, g)), valid_at(b, g, m));
+        put(b, 0, g, select(is_seen, min(p22[g] / abs(m.determinant), set(3.40282347e38f)), set(0.0f)));
     }
 }
 
-/* Areas, and what masking makes of them. */
-KERNEL void areas(const block *b, const vndf_kind kind)
+/* An area of the unit problem as the task wants it. */
+KERNEL void put_area(const block *b, int g, frame f, real area)
+{
+    real all = area * f.size, cosine = f.uz * f.size;
+    mask valid = valid_at(b, g, f.m);
+    if (b->task == VNDF_TASK_DRAWN_AREA)
+        all = select(lt(set(0.0f), f.max_pdf), all, set(0.0f));
+    if (b->task == VNDF_TASK_LAMBDA)
+        all = lambda_of(all, cosine);
+    else if (b->task == VNDF_TASK_G1)
+        all = g1_of(all, cosine);
+    put(b, 0, g, select(valid, all, set(0.0f)));
+    if (b->write[1])
+        put(b, 1, g, select(valid, set(1.0f), set(0.0f)));
+}
+
+KERNEL void areas(block *b, const vndf_kind kind)
 {
     table_direction w[GROUPS];
-    real area[GROUPS], reach[GROUPS], cosine[GROUPS], scale[GROUPS], max_pdf[GROUPS];
+    real area[GROUPS];
+    uint64_t below = 0;
     for (int g = 0; g < b->groups; g++) {
         frame f = frame_at(b, g, b->is_diagonal);
-        cosine[g] = f.uz * f.size;
-        scale[g] = f.size;
-        max_pdf[g] = f.max_pdf;
-        reach[g] = frame_reach(f);
+        below |= below_bits(g, f);
         if (kind == VNDF_KIND_TABLE)
             w[g] = table_direction_of(f);
         else
-            area[g] = kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz);
+            put_area(b, g, f,
+                     kind == VNDF_KIND_GGX ? ggx_area(f.ux, f.uy, f.uz) : beckmann_area(f.ux, f.uy, f.uz));
     }
-    if (kind == VNDF_KIND_TABLE)
-        table_areas(b, w, area);
+    b->below = kind == VNDF_KIND_TABLE ? below : 0;
+    if (kind != VNDF_KIND_TABLE || !is_one_side(b))
+        return;
+    table_areas(b, w, area);
     for (int g = 0; g < b->groups; g++) {
-        real all = (kind == VNDF_KIND_TABLE ? area[g] * reach[g] : area[g]) * scale[g];
-        if (b->task == VNDF_TASK_DRAWN_AREA)
-            all = select(lt(set(0.0f), max_pdf[g]), all, set(0.0f));
-        if (b->task == VNDF_TASK_LAMBDA)
-            all = lambda_of(all, cosine[g]);
-        else if (b->task == VNDF_TASK_G1)
-            all = g1_of(all, cosine[g]);
-        put(b, 0, g, all);
-        if (b->write[1])
-            put(b, 1, g, set(1.0f));
+        frame f = frame_at(b, g, b->is_diagonal);
+        put_area(b, g, f, area[g] * frame_reach(f));
     }
 }
 
-KERNEL void block_of(const block *b, const vndf_kind kind)
+/* Cosines to the mean plane, of surfaces that are not valid too. */
+KERNEL void cosines(const block *b)
+{
+    for (int g = 0; g < b->groups; g++)
+        put(b, 0, g,
+            input(b, VNDF_READ_WI_Z, g) - (input(b, VNDF_READ_WI_X, g) * input(b, VNDF_READ_MEAN_X, g) +
+                                           input(b, VNDF_READ_WI_Y, g) * input(b, VNDF_READ_MEAN_Y, g)));
+}
+
+KERNEL void block_of(block *b, const vndf_kind kind)
 {
     switch (b->task) {
-    case VNDF_TASK_SAMPLE: sample(b, kind); break;
+    case VNDF_TASK_SAMPLE:
+        if (b->is_diagonal)
+            sample(b, kind, 1);
+        else
+            sample(b, kind, 0);
+        break;
     case VNDF_TASK_PDF:
     case VNDF_TASK_VISIBLE: density(b, kind); break;
     case VNDF_TASK_NDF: ndf(b, kind); break;
+    case VNDF_TASK_COSINE: cosines(b); break;
     default: areas(b, kind);
     }
 }
 
-STEP void run_block(const block *b)
+STEP void run_table(block *b)
 {
-    switch (b->kind) {
-    case VNDF_KIND_TABLE: block_of(b, VNDF_KIND_TABLE); break;
-    case VNDF_KIND_GGX: block_of(b, VNDF_KIND_GGX); break;
-    case VNDF_KIND_BECKMANN: block_of(b, VNDF_KIND_BECKMANN); break;
-    }
+    block_of(b, VNDF_KIND_TABLE);
+}
+
+STEP void run_ggx(block *b)
+{
+    block_of(b, VNDF_KIND_GGX);
+}
+
+STEP void run_beckmann(block *b)
+{
+    block_of(b, VNDF_KIND_BECKMANN);
 }
 
 /* ---- blocks ---- */
 
-/* Some elements of a call: `at`, or the first, of its arrays from `first` on. */
-typedef struct elements {
-    size_t first;
-    const int *at;
-    int count;
-} elements;
-
+/* Numbers that all elements share lie there for the whole call. */
 typedef struct copies {
     row read[VNDF_READS], write[VNDF_WRITES];
 } copies;
 
-/* Reads and writes in place, or copies that go on, with the last element, to the last lane. */
-KERNEL void enter(block *b, const vndf_call *call, const elements *e, copies *c)
+/* Runs the elements `some` of a block of `count`, which is at `first`: in place if all lanes are theirs, else in
+ * copies. Results are put back where all are on one side. */
+KERNEL void run_elements(block *b, const vndf_call *call, size_t first, int count, uint64_t some, copies *c)
 {
-    b->groups = (e->count + LANES - 1) / LANES;
-    const int in_place = !e->at && e->count == b->groups * LANES;
-    for (int r = 0; r < VNDF_READS; r++) {
-        if (!call->read[r] || call->shared >> r & 1)
-            continue; /* which is the same for all blocks */
-        const float *from = call->read[r] + e->first;
-        b->read[r] = in_place ? from : c->read[r];
-        for (int i = 0; !in_place && i < e->count; i++)
-            c->read[r][i] = from[e->at ? e->at[i] : i];
-        for (int i = e->count; i < b->groups * LANES; i++)
-            c->read[r][i] = c->read[r][e->count - 1];
+    const int in_place = some == first_bits(count) && count % LANES == 0;
+    const picks p = picks_of(in_place ? 0 : some);
+    b->groups = ((in_place ? count : p.count) + LANES - 1) / LANES;
+    for (int k = 0; k < b->varied; k++) {
+        const int r = b->varies[k];
+        b->read[r] = in_place ? call->read[r] + first : c->read[r];
+        if (!in_place)
+            pack(call->read[r] + first, &p, c->read[r]);
+        for (int i = p.count; !in_place && i % LANES; i++) /* the last one goes on to the last lane */
+            c->read[r][i] = c->read[r][p.count - 1];
     }
     for (int w = 0; w < VNDF_WRITES; w++)
-        b->write[w] = !call->write[w] ? NULL : in_place ? call->write[w] + e->first : c->write[w];
+        b->write[w] = !call->write[w] ? NULL : in_place ? call->write[w] + first : c->write[w];
+    b->below = 0;
+    b->kind == VNDF_KIND_TABLE ? run_table(b) : b->kind == VNDF_KIND_GGX ? run_ggx(b) : run_beckmann(b);
+    for (int w = 0; !in_place && is_one_side(b) && w < VNDF_WRITES; w++)
+        if (call->write[w])
+            unpack(c->write[w], &p, call->write[w] + first);
 }
 
-/* Runs a block that was entered, and puts back what it copied. */
-KERNEL void run_entered(const block *b, const vndf_call *call, const elements *e)
+/* Runs the elements of each side of a block that was not written. */
+STEP void run_sides(block *b, const vndf_call *call, size_t first, int count, uint64_t some, copies *c)
 {
-    run_block(b);
-    for (int w = 0; w < VNDF_WRITES; w++)
-        for (int i = 0; b->write[w] && b->write[w] != call->write[w] + e->first && i < e->count; i++)
-            call->write[w][e->first + (size_t)(e->at ? e->at[i] : i)] = b->write[w][i];
-}
-
-/* Which elements of a group are valid. */
-KERNEL mask valid_at(const block *b, int g)
-{
-    mask valid = affine_is_valid(map_at(b, g, b->is_diagonal));
-    if (b->task != VNDF_TASK_NDF)
-        valid = both(valid, direction_is_valid(input(b, VNDF_READ_WI_X, g), input(b, VNDF_READ_WI_Y, g),
-                                               input(b, VNDF_READ_WI_Z, g)));
-    return valid;
-}
-
-/* Elements above the horizon, those from which a table is seen from below, and those that are not valid; the first two
- * are the values of a block's `below`. */
-enum { ABOVE, BELOW, INVALID, SORTS };
-
-/* Whether all elements are valid and plainly of one side, which b->below becomes: what frames make of the height hangs
- * on no rounding. */
-KERNEL int is_one_sort(block *b, const int sided)
-{
-    const mask none = lt(set(0.0f), set(0.0f));
-    mask good = (mask)~none, below = none, above = none;
-    for (int g = 0; g < b->groups; g++) {
-        real x = input(b, VNDF_READ_WI_X, g), y = input(b, VNDF_READ_WI_Y, g),
-             height = input(b, VNDF_READ_WI_Z, g);
-        if (!b->is_diagonal)
-            height = height - (x * input(b, VNDF_READ_MEAN_X, g) + y * input(b, VNDF_READ_MEAN_Y, g));
-        good = both(good, valid_at(b, g));
-        if (sided)
-            good = both(good, lt(1e-20f * (abs(x) + abs(y)), abs(height)));
-        below = either(below, lt(height, set(0.0f)));
-        above = either(above, lt(set(0.0f), height));
-    }
-    b->below = sided && any(below);
-    return !any((mask)~good) && !(sided && any(below) && any(above));
-}
-
-/* The sort of each element. */
-KERNEL void sort_elements(const block *b, const int sided, int32_t *sorts)
-{
-    for (int g = 0; g < b->groups; g++) {
-        mask below = lt(frame_at(b, g, b->is_diagonal).uz, set(0.0f));
-        integer side = select_int(below, set_int(sided ? BELOW : ABOVE), set_int(ABOVE));
-        integer sort = select_int(valid_at(b, g), side, set_int(INVALID));
-        memcpy(sorts + g * LANES, &sort, sizeof sort);
-    }
-}
-
-/* Gives all elements but those of one sort the unit matrix and a direction on that side, in copies. */
-KERNEL void replace_others(block *b, const int32_t *sorts, int kept, copies *c)
-{
-    const float other[VNDF_READ_A] = {
-        1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, kept == BELOW ? -1.0f : 1.0f};
-    for (int r = 0; r < VNDF_READ_A; r++) {
-        for (int g = 0; g < b->groups; g++) {
-            integer sort;
-            memcpy(&sort, sorts + g * LANES, sizeof sort);
-            store(c->read[r] + g * LANES, select(eq(sort, kept), input(b, r, g), set(other[r])));
-        }
-        b->read[r] = c->read[r];
-    }
-}
-
-/* Runs both sides, each put together; the larger one with all elements in place where that is nearly all of them. */
-STEP void run_sorts(const block *of, const vndf_call *call, elements e, const int sided, copies *c)
-{
-    block b = *of, rest = *of;
-    copies own;
-    int32_t sorts[BLOCK];
-    int list[SORTS][BLOCK], count[SORTS] = {0};
-    sort_elements(&b, sided, sorts);
-    for (int i = 0; i < e.count; i++)
-        list[sorts[i]][count[sorts[i]]++] = e.at ? e.at[i] : i;
-    b.below = count[BELOW] > count[ABOVE];
-    rest.below = !b.below;
-    elements larger = {e.first, list[b.below], count[b.below]},
-             smaller = {e.first, list[rest.below], count[rest.below]};
-    enter(&rest, call, &smaller, &own);
-    if (4 * smaller.count < e.count) {
-        replace_others(&b, sorts, b.below, c);
-        larger = e;
-    } else
-        enter(&b, call, &larger, c);
-    run_entered(&b, call, &larger);
-    if (smaller.count > 0)
-        run_entered(&rest, call, &smaller);
-    for (int i = 0; i < count[INVALID]; i++)
-        for (int w = 0; w < VNDF_WRITES; w++)
-            if (call->write[w])
-                call->write[w][e.first + (size_t)list[INVALID][i]] =
-                    call->task == VNDF_TASK_SAMPLE && w == 2 ? 1.0f : 0.0f;
+    uint64_t below = 0;
+    for (uint64_t left = some; left; left &= left - 1, b->below >>= 1)
+        below |= b->below & 1 ? left & ~(left - 1) : 0;
+    run_elements(b, call, first, count, below, c);
+    run_elements(b, call, first, count, some & ~below, c);
 }
 
 /* ---- calls ---- */
@@ -628,26 +621,24 @@ STEP void run_sorts(const block *of, const vndf_call *call, elements e, const in
 void LANES_ENTRY(const vndf_call *call)
 {
     static const row zeros;
-    row shared[VNDF_READS];
     copies c;
     const vndf_distribution *d = call->distribution;
-    const int sided = d->kind == VNDF_KIND_TABLE && call->task != VNDF_TASK_NDF;
     block b = {.task = call->task, .kind = d->kind, .unit = d->unit, .is_diagonal = call->is_diagonal};
     if (b.kind == VNDF_KIND_TABLE)
         b.t = table_of(d);
     for (int r = 0; r < VNDF_READS; r++) {
-        b.read[r] = call->read[r] ? shared[r] : zeros;
+        b.read[r] = call->read[r] ? c.read[r] : zeros;
+        if (call->read[r] && !(call->shared >> r & 1))
+            b.varies[b.varied++] = r;
         for (int g = 0; call->read[r] && call->shared >> r & 1 && g < GROUPS; g++)
-            store(shared[r] + g * LANES, set(*call->read[r]));
+            store(c.read[r] + g * LANES, set(*call->read[r]));
     }
     for (size_t first = 0; first < call->count; first += BLOCK) {
         const int count = call->count - first < BLOCK ? (int)(call->count - first) : BLOCK;
-        const elements e = {call->at ? 0 : first, call->at ? call->at + first : NULL, count};
-        enter(&b, call, &e, &c);
-        if (is_one_sort(&b, sided))
-            run_entered(&b, call, &e);
-        else
-            run_sorts(&b, call, e, sided, &c);
+        const uint64_t some = call->which & first_bits(count);
+        run_elements(&b, call, first, count, some, &c);
+        if (!is_one_side(&b))
+            run_sides(&b, call, first, count, some, &c);
     }
 }
 

@@ -1,223 +1,236 @@
-/* Batches of mixtures, made of batches of their lobes: areas give the shares, u1 picks lobes, the elements of each lobe
- * are drawn together, and so are the densities that are still missing. Sums are those of mixture.c, where a lobe of
- * weight 0 adds nothing. */
-#include <string.h>
+/* Batches of mixtures in lanes, compiled once for each instruction set, made of batches of their lobes (lanes_block.c):
+ * areas give the shares, u1 picks lobes, the elements of each lobe are drawn together, and the densities of all lobes
+ * are summed. A lobe of weight 0 adds nothing. */
+#ifndef VNDF_LANES
+#define VNDF_LANES 4
+#endif
+#if defined(__GNUC__)
 
+#include "kernel/lanes.h"
+
+#include "kernel/sample.h"
 #include "sampler/batch/call.h"
-#include "sampler/lobes.h"
 
-enum { BLOCK = VNDF_MIXTURES, LOBES = VNDF_MIXTURE_LOBES };
+#if VNDF_LANES == 4
+#  define LANES_ENTRY vndf_lanes_4
+#  define MIXTURES_ENTRY vndf_mixtures_4
+#elif VNDF_LANES == 8
+#  define LANES_ENTRY vndf_lanes_8
+#  define MIXTURES_ENTRY vndf_mixtures_8
+#else
+#  define LANES_ENTRY vndf_lanes_16
+#  define MIXTURES_ENTRY vndf_mixtures_16
+#endif
 
-/* A batch, whose lobes are calls; and of a block of it the weight of each lobe over the sum of all, its share, and what
- * a task found. */
-typedef struct mixed {
-    vndf_lanes *lanes;
-    vndf_call call[LOBES];
-    size_t first;
-    int lobes, count;
-    float weight[LOBES][BLOCK], share[LOBES][BLOCK], value[LOBES][BLOCK];
-    int weighed[BLOCK], valid[BLOCK]; /* whether weights are valid; and surfaces, where these matter */
-} mixed;
+enum { BLOCK = VNDF_BLOCK, GROUPS = BLOCK / LANES, LOBES = VNDF_MIXTURE_LOBES };
 
-/* A task on the elements `at` of a lobe, or on all of them, with these numbers or this normal. */
-static void ask_lobe(const mixed *m, int l, vndf_task task, const int *at, int count, const float *const inputs[3],
-                     float *const write[VNDF_WRITES])
+typedef struct lobe_numbers {
+    real *lobe;
+} lobe_numbers;
+
+KERNEL int lobe_end(int count)
 {
-    vndf_call call = m->call[l];
+    return count;
+}
+
+#include "kernel/shares.h"
+
+/* Numbers of a block, which may be read one by one. */
+typedef real row[GROUPS] __attribute__((may_alias));
+
+/* A block of a batch: of each lobe its share, or its weight; which lobes have a weight above 0, bit by bit, and none if
+ * weights, or surfaces where these matter, are not valid. */
+typedef struct mixtures {
+    const vndf_batch *batch;
+    size_t first;
+    int count, groups;
+    real share[GROUPS][LOBES];
+    integer has[GROUPS];
+} mixtures;
+
+KERNEL mask has_lobe(const mixtures *m, int g, int l)
+{
+    return eq((m->has[g] >> l) & 1, 1);
+}
+
+KERNEL float *numbers(real *of)
+{
+    return (float *)(void *)of;
+}
+
+/* A task on the elements `which` of a lobe. */
+static void ask_lobe(const mixtures *m, int l, vndf_task task, uint64_t which, vndf_arrays a)
+{
+    vndf_call call = vndf_call_of(m->batch, &m->batch->lobe[l].surface, task, &a);
     for (int r = 0; r < VNDF_READ_A; r++)
         if (call.read[r] && !(call.shared >> r & 1))
             call.read[r] += m->first;
-    for (int i = 0; inputs && i < 3; i++)
-        call.read[VNDF_READ_A + i] = inputs[i];
-    memcpy(call.write, write, sizeof call.write);
-    call.task = task;
-    call.at = at;
-    call.count = (size_t)count;
-    if (count > 0)
-        m->lanes(&call);
+    call.which = which;
+    call.count = (size_t)m->count;
+    if (which)
+        LANES_ENTRY(&call);
 }
 
-static void set_shares(mixed *m, vndf_task area)
+static const uint64_t everything = ~(uint64_t)0;
+
+static void set_weights(mixtures *m, real weight[GROUPS][LOBES])
 {
-    float is_valid[BLOCK];
-    for (int l = 0; l < m->lobes; l++) {
-        float *const write[VNDF_WRITES] = {m->share[l], is_valid};
-        ask_lobe(m, l, area, NULL, m->count, NULL, write);
-        for (int i = 0; i < m->count; i++)
-            m->valid[i] &= (is_valid[i] > 0.0f) | !(m->weight[l][i] > 0.0f);
+    const vndf_batch *b = m->batch;
+    for (int l = 0; l < b->lobes; l++) {
+        row of;
+        if (!(b->shared & VNDF_SHARED_WEIGHT))
+            memcpy(of, b->lobe[l].weight + m->first, (size_t)m->count * sizeof(float));
+        for (int g = 0; g < m->groups; g++)
+            weight[g][l] = b->shared & VNDF_SHARED_WEIGHT ? set(*b->lobe[l].weight) : of[g];
     }
-    vndf_share_lobes(m->lobes, m->count, BLOCK, m->weight[0], m->share[0]);
+    for (int g = 0; g < m->groups; g++) {
+        lobe_weights((lobe_numbers){weight[g]}, b->lobes);
+        m->has[g] = set_int(0);
+        for (int l = 0; l < b->lobes; l++)
+            m->has[g] |= select_int(lt(set(0.0f), weight[g][l]), set_int(1 << l), set_int(0));
+    }
 }
 
-/* The sum over the lobes of `by` times what a task finds; what elements are `chosen` for, if any are, is known. */
-static void sum_lobes(mixed *m, vndf_task task, float by[LOBES][BLOCK], const float *const inputs[3],
-                      const int *chosen, const float *known, float *sum)
+static void set_shares(mixtures *m, vndf_task area)
 {
-    int list[BLOCK];
-    for (int i = 0; i < m->count; i++)
-        sum[i] = 0.0f;
-    for (int l = 0; l < m->lobes; l++) {
-        float *const write[VNDF_WRITES] = {m->value[l]};
-        int count = chosen ? 0 : m->count;
-        for (int i = 0; chosen && i < m->count; i++) {
-            list[count] = i;
-            count += (chosen[i] >= 0) & (chosen[i] != l) & (m->weight[l][i] > 0.0f);
-            m->value[l][i] = known[i];
+    real weight[GROUPS][LOBES];
+    row value, valid;
+    set_weights(m, weight);
+    for (int l = 0; l < m->batch->lobes; l++) {
+        ask_lobe(m, l, area, everything, (vndf_arrays){.write = {numbers(value), numbers(valid)}});
+        for (int g = 0; g < m->groups; g++) {
+            m->share[g][l] = value[g];
+            m->has[g] = select_int(both(has_lobe(m, g, l), le(valid[g], set(0.0f))), set_int(0), m->has[g]);
         }
-        ask_lobe(m, l, task, chosen ? list : NULL, count, inputs, write);
-        for (int i = 0; i < m->count; i++) {
-            const float part = by[l][i] * m->value[l][i];
-            sum[i] += m->weight[l][i] > 0.0f ? part : 0.0f;
+    }
+    for (int g = 0; g < m->groups; g++)
+        lobe_shares((lobe_numbers){weight[g]}, (lobe_numbers){m->share[g]}, m->batch->lobes);
+}
+
+KERNEL uint64_t chosen_bits(const mixtures *m, const integer *chosen, int l)
+{
+    uint64_t which = 0;
+    for (int g = 0; g < m->groups; g++)
+        which |= (uint64_t)mask_bits(eq(chosen[g], l)) << g * LANES;
+    return which & ~(uint64_t)0 >> (BLOCK - m->count);
+}
+
+/* The sum over the lobes of their share times what a task finds, `known` of the lobe that was `chosen`; of densities 0
+ * where no lobe has one. */
+static void sum_lobes(const mixtures *m, vndf_task task, vndf_arrays a, const integer *chosen, const real *known,
+                      real *sum)
+{
+    row value, largest;
+    a.write[0] = numbers(value);
+    for (int g = 0; g < m->groups; g++)
+        sum[g] = largest[g] = set(0.0f);
+    for (int l = 0; l < m->batch->lobes; l++) {
+        const uint64_t others = chosen ? ~chosen_bits(m, chosen, l) : everything;
+        ask_lobe(m, l, task, __builtin_popcountll(~others) * 4 < m->count ? everything : others, a);
+        for (int g = 0; g < m->groups; g++) {
+            real of = chosen ? select(eq(chosen[g], l), known[g], value[g]) : value[g];
+            of = select(has_lobe(m, g, l), of, set(0.0f));
+            largest[g] = max(largest[g], of);
+            sum[g] = sum[g] + m->share[g][l] * of;
         }
+    }
+    for (int g = 0; g < m->groups; g++) {
+        real all = task == VNDF_TASK_PDF ? lobe_density(sum[g], largest[g]) : min(sum[g], set(3.4028234e38f));
+        sum[g] = select(eq(m->has[g], 0), set(0.0f), all);
     }
 }
 
 /* ---- tasks ---- */
 
-/* Lobes, -1 of what is invalid, normals and, if they are asked for, densities. */
-static void sample_mixtures(mixed *m, const float *const inputs[3], float to[4][BLOCK], int *chosen, int with_pdf)
+/* Picks lobes, -1 for what is invalid, and stretches u1 to [0, 1] in the interval of each. */
+static void pick_lobes(const mixtures *m, real *u1, integer *chosen)
 {
-    float u1[BLOCK], begin[BLOCK], end[BLOCK], share[BLOCK], sum[BLOCK];
-    int list[BLOCK];
-    const float *const numbers[3] = {u1, inputs[1], NULL}, *const normal[3] = {to[0], to[1], to[2]};
-    for (int i = 0; i < m->count; i++) {
-        u1[i] = vndf_clamp_unit(inputs[0][i]);
-        chosen[i] = -1;
-        begin[i] = end[i] = to[0][i] = to[1][i] = to[3][i] = 0.0f;
-        share[i] = to[2][i] = 1.0f;
-    }
-    for (int l = 0; l < m->lobes; l++)
-        for (int i = 0; i < m->count; i++) { /* the last one takes what rounding leaves */
-            const int takes = m->valid[i] & (m->share[l][i] > 0.0f) & (u1[i] >= end[i]);
-            chosen[i] = takes ? l : chosen[i];
-            share[i] = takes ? m->share[l][i] : share[i];
-            begin[i] = takes ? end[i] : begin[i];
-            end[i] = takes ? end[i] + m->share[l][i] : end[i];
+    for (int g = 0; g < m->groups; g++) {
+        real u = min(max(u1[g], set(0.0f)), set(1.0f)), begin = set(0.0f), end = begin, share = set(1.0f);
+        integer at = set_int(-1);
+        for (int l = 0; l < m->batch->lobes; l++) { /* the last one takes what rounding leaves */
+            real part = m->share[g][l];
+            mask takes = both(both(has_lobe(m, g, l), lt(set(0.0f), part)), le(end, u));
+            at = select_int(takes, set_int(l), at);
+            share = select(takes, part, share);
+            begin = select(takes, end, begin);
+            end = select(takes, end + part, end);
         }
-    for (int i = 0; i < m->count; i++)
-        u1[i] = (u1[i] - begin[i]) / share[i];
-    for (int l = 0; l < m->lobes; l++) {
-        float *const write[VNDF_WRITES] = {to[0], to[1], to[2], to[3]};
-        int count = 0;
-        for (int i = 0; i < m->count; i++) {
-            list[count] = i;
-            count += chosen[i] == l;
-        }
-        ask_lobe(m, l, VNDF_TASK_SAMPLE, list, count, numbers, write);
+        u1[g] = (u - begin) / share;
+        chosen[g] = at;
     }
-    if (!with_pdf)
+}
+
+/* Lobes, normals and, if they are asked for, densities. */
+static void sample_mixtures(const mixtures *m, vndf_arrays given, row to[VNDF_WRITES], integer *chosen)
+{
+    real *const u1 = to[4]; /* a row that is free */
+    const vndf_arrays normals = {{numbers(to[0]), numbers(to[1]), numbers(to[2])}, {NULL}},
+                      drawn = {{numbers(u1), given.given[1]},
+                               {numbers(to[0]), numbers(to[1]), numbers(to[2]), numbers(to[3])}};
+    memcpy(u1, given.given[0], (size_t)m->count * sizeof(float));
+    pick_lobes(m, u1, chosen);
+    for (int g = 0; g < m->groups; g++) {
+        to[0][g] = to[1][g] = to[3][g] = set(0.0f);
+        to[2][g] = set(1.0f);
+    }
+    for (int l = 0; l < m->batch->lobes; l++)
+        ask_lobe(m, l, VNDF_TASK_SAMPLE, chosen_bits(m, chosen, l), drawn);
+    if (!given.write[3] && !given.write[4])
         return;
-    sum_lobes(m, VNDF_TASK_PDF, m->share, normal, chosen, to[3], sum);
-    for (int i = 0; i < m->count; i++)
-        to[3][i] = to[3][i] > 0.0f ? min(max(sum[i], FLT_MIN), FLT_MAX) : 0.0f;
+    sum_lobes(m, VNDF_TASK_PDF, normals, chosen, to[3], u1);
+    for (int g = 0; g < m->groups; g++)
+        to[3][g] = select(lt(set(0.0f), to[3][g]), u1[g], set(0.0f));
 }
 
-/* Lambda or G1 of mixtures with these areas. */
-static void mask_mixtures(const mixed *m, vndf_task task, float *to)
+static void weigh_samples(mixtures *m, row to[VNDF_WRITES])
 {
-    for (int i = 0; i < m->count; i++) {
-        float cosine = 0.0f;
-        for (int l = 0; l < m->lobes; l++) {
-            const vndf_call *call = &m->call[l];
-            const size_t at = m->first + (size_t)i;
-            const float x = vndf_call_number(call, VNDF_READ_WI_X, at),
-                        y = vndf_call_number(call, VNDF_READ_WI_Y, at);
-            const float level = x * vndf_call_number(call, VNDF_READ_MEAN_X, at) +
-                                y * vndf_call_number(call, VNDF_READ_MEAN_Y, at);
-            const float part = m->weight[l][i] * (vndf_call_number(call, VNDF_READ_WI_Z, at) - level);
-            cosine += m->weight[l][i] > 0.0f ? part : 0.0f;
-        }
-        cosine = min(cosine, FLT_MAX);
-        to[i] = task == VNDF_TASK_LAMBDA ? lambda_of(to[i], cosine) : g1_of(to[i], cosine);
-    }
+    const vndf_arrays normals = {{numbers(to[0]), numbers(to[1]), numbers(to[2])}, {NULL}};
+    set_shares(m, VNDF_TASK_AREA);
+    sum_lobes(m, VNDF_TASK_VISIBLE, normals, NULL, NULL, to[4]);
+    for (int g = 0; g < m->groups; g++)
+        to[4][g] = select(lt(set(0.0f), to[3][g]), min(to[4][g] / to[3][g], set(3.4028234e38f)), set(0.0f));
 }
 
-/* Densities, by the shares of lobes: where a lobe sees the normal none is 0. D, areas and what masking makes of them,
- * by the weights. */
-static void sum_mixtures(mixed *m, vndf_task task, const float *const inputs[3], float *to)
+/* What masking makes of areas. */
+static void mask_mixtures(const mixtures *m, vndf_task task, vndf_arrays given, row to[2])
 {
-    const int masks = task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1;
-    sum_lobes(m, masks ? VNDF_TASK_AREA : task, task < VNDF_TASK_NDF ? m->share : m->weight, inputs, NULL, NULL,
-              to);
-    for (int i = 0; i < m->count; i++) {
-        int is_seen = 0;
-        for (int l = 0; l < m->lobes; l++)
-            is_seen |= (m->weight[l][i] > 0.0f) & (m->value[l][i] > 0.0f);
-        if (task == VNDF_TASK_PDF)
-            to[i] = is_seen ? max(to[i], FLT_MIN) : 0.0f;
-        to[i] = min(to[i], FLT_MAX);
-    }
-    if (masks)
-        mask_mixtures(m, task, to);
-    for (int i = 0; i < m->count; i++)
-        to[i] = m->valid[i] ? to[i] : 0.0f;
+    sum_lobes(m, VNDF_TASK_AREA, given, NULL, NULL, to[0]);
+    sum_lobes(m, VNDF_TASK_COSINE, given, NULL, NULL, to[1]);
+    for (int g = 0; g < m->groups; g++)
+        to[0][g] = task == VNDF_TASK_LAMBDA ? lambda_of(to[0][g], to[1][g]) : g1_of(to[0][g], to[1][g]);
 }
 
-/* The numbers that the lobe which draws a normal most often makes it of, one by one. */
-static void invert_mixtures(const mixed *m, const vndf_batch *b, const float *const inputs[3], float to[4][BLOCK])
+void MIXTURES_ENTRY(const vndf_batch *b, vndf_task task, const vndf_arrays *a)
 {
-    for (int i = 0; i < m->count; i++) {
-        const size_t at = m->first + (size_t)i;
-        vndf_mixture of = {.count = m->lobes};
-        for (int l = 0; l < m->lobes; l++)
-            of.lobe[l] = (vndf_mixture_lobe){vndf_call_surface(&m->call[l], at),
-                                             b->lobe[l].weight[b->shared & VNDF_SHARED_WEIGHT ? 0 : at]};
-        const vndf_mixture_view view =
-            vndf_mixture_view_from(&of, vndf_call_vec3(&m->call[0], VNDF_READ_WI_X, at));
-        const vndf_vec3 wm = {inputs[0][i], inputs[1][i], inputs[2][i]};
-        vndf_mixture_invert(&view, wm, -1, &to[0][i], &to[1][i]);
-    }
-}
-
-/* The lobes as calls; a lobe without a distribution makes all mixtures invalid, one by one. */
-static void set_lobes(mixed *m, const vndf_batch *b)
-{
-    m->lobes = b->lobes >= 1 && b->lobes <= LOBES ? b->lobes : 0;
-    m->lanes = vndf_lanes_for(b->count, b->limit);
-    m->call[0] = vndf_call_of(b, &b->lobe[0].surface);
-    for (int l = 0; l < m->lobes; l++) {
-        m->lanes = b->lobe[l].surface.distribution ? m->lanes : vndf_one_by_one;
-        m->call[l] = vndf_call_of(b, &b->lobe[l].surface);
-    }
-}
-
-void vndf_run_mixtures(const vndf_batch *b, vndf_task task, vndf_arrays a)
-{
-    mixed m; /* large: nothing of it is set but what is read */
-    float to[VNDF_WRITES][BLOCK];
-    int chosen[BLOCK];
-    const int one = (b->shared & VNDF_SHARED_WEIGHT) != 0;
-    const float *const normal[3] = {to[0], to[1], to[2]};
-    set_lobes(&m, b);
+    mixtures m; /* of which what is read is set */
+    row to[VNDF_WRITES];
+    integer chosen[GROUPS];
+    m.batch = b;
     for (m.first = 0; m.first < b->count; m.first += BLOCK) {
-        const float *here[3];
-        m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
+        vndf_arrays here = *a;
         for (int i = 0; i < 3; i++)
-            here[i] = a.given[i] ? a.given[i] + m.first : NULL;
-        for (int i = 0; i < m.count && (m.first == 0 || !one); i++) {
-            for (int l = 0; l < m.lobes; l++)
-                m.weight[l][i] = b->lobe[l].weight[one ? 0 : m.first + (size_t)i];
-            m.weighed[i] = vndf_weigh_lobes(m.lobes, BLOCK, &m.weight[0][i]);
-        }
-        memcpy(m.valid, m.weighed, (size_t)m.count * sizeof(int));
-        if (task < VNDF_TASK_NDF)
+            here.given[i] = a->given[i] ? a->given[i] + m.first : NULL;
+        m.count = b->count - m.first < BLOCK ? (int)(b->count - m.first) : BLOCK;
+        m.groups = (m.count + LANES - 1) / LANES;
+        if (task < VNDF_TASK_NDF) /* densities go by shares, all else by weights */
             set_shares(&m, task == VNDF_TASK_VISIBLE ? VNDF_TASK_AREA : VNDF_TASK_DRAWN_AREA);
-        if (task == VNDF_TASK_SAMPLE)
-            sample_mixtures(&m, here, to, chosen, a.write[3] || a.write[4]);
-        else if (task == VNDF_TASK_INVERT)
-            invert_mixtures(&m, b, here, to);
         else
-            sum_mixtures(&m, task, here, to[0]);
-        if (a.write[4]) {
-            set_shares(&m, VNDF_TASK_AREA);
-            sum_mixtures(&m, VNDF_TASK_VISIBLE, normal, to[4]);
-            for (int i = 0; i < m.count; i++)
-                to[4][i] = to[3][i] > 0.0f ? min(to[4][i] / to[3][i], FLT_MAX) : 0.0f;
-        }
+            set_weights(&m, m.share);
+        if (task == VNDF_TASK_SAMPLE)
+            sample_mixtures(&m, here, to, chosen);
+        else if (task == VNDF_TASK_LAMBDA || task == VNDF_TASK_G1)
+            mask_mixtures(&m, task, here, to);
+        else
+            sum_lobes(&m, task, here, NULL, NULL, to[0]);
+        if (a->write[4])
+            weigh_samples(&m, to);
         for (int w = 0; w < VNDF_WRITES; w++)
-            if (a.write[w])
-                memcpy(a.write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
+            if (a->write[w])
+                memcpy(a->write[w] + m.first, to[w], (size_t)m.count * sizeof(float));
         if (task == VNDF_TASK_SAMPLE && b->drawn)
             memcpy(b->drawn + m.first, chosen, (size_t)m.count * sizeof(int));
     }
 }
+
+#endif
