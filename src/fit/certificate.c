@@ -248,7 +248,7 @@ static double rise_to(const survey *s, size_t edge, int back, int side, int figu
  * other, or if they go on halfway as they change beyond both. */
 static int may_be_worse(const survey *s, size_t a, size_t b)
 {
-    const double more = 1.05, tv[2] = {s->to->tv_above, s->to->tv}, weight = (double)s->to->max_weight - 1;
+    const double more = 1.02, tv[2] = {s->to->tv_above, s->to->tv}, weight = (double)s->to->max_weight - 1;
     int may = 0;
     for (int side = 0; side < 2; side++)
         for (int figure = TV; figure <= WEIGHT; figure++) {
