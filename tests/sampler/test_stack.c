@@ -228,18 +228,25 @@ static void test_bsdfs(const vndf_distribution *d)
     static const struct {
         vndf_scattering scattering;
         vndf_shape shape;
-    } is[] = {{VNDF_SCATTERING_SINGLE, VNDF_SHAPE_LEVEL},   {VNDF_SCATTERING_SINGLE, VNDF_SHAPE_TILTED},
-              {VNDF_SCATTERING_SINGLE, VNDF_SHAPE_MIXTURE}, {VNDF_SCATTERING_MULTIPLE, VNDF_SHAPE_LEVEL},
-              {VNDF_SCATTERING_TURQUIN, VNDF_SHAPE_LEVEL},  {VNDF_SCATTERING_KULLA_CONTY, VNDF_SHAPE_LEVEL}};
+        vndf_normals_drawn normals;
+    } is[] = {{.normals = VNDF_NORMALS_BOUNDED},
+              {.shape = VNDF_SHAPE_LEVEL},
+              {.shape = VNDF_SHAPE_TILTED},
+              {.shape = VNDF_SHAPE_MIXTURE},
+              {.scattering = VNDF_SCATTERING_MULTIPLE},
+              {.scattering = VNDF_SCATTERING_TURQUIN},
+              {.scattering = VNDF_SCATTERING_KULLA_CONTY}};
     vndf_albedo *glass = vndf_albedo_build(d, 1.5f, NULL), *mirror = vndf_albedo_build(d, 0.0f, NULL);
     for (size_t k = 0; k < sizeof is / sizeof *is; k++) {
-        const int reflects = is[k].scattering == VNDF_SCATTERING_KULLA_CONTY;
+        const int reflects =
+            is[k].scattering == VNDF_SCATTERING_KULLA_CONTY || is[k].normals == VNDF_NORMALS_BOUNDED;
         const vndf_description material_is = {
             .surface = vndf_rough(d, 0.4f, 0.4f),
             .effects = {.lobes = reflects ? VNDF_LOBES_REFLECTION : VNDF_LOBES_BOTH,
                         .fresnel = reflects ? VNDF_FRESNEL_SCHLICK : VNDF_FRESNEL_DIELECTRIC,
                         .scattering = is[k].scattering,
-                        .shape = is[k].shape},
+                        .shape = is[k].shape,
+                        .normals = is[k].normals},
             .mixture = &mixture,
             .albedo = reflects ? mirror : glass,
             .eta = 1.5f,
