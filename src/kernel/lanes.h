@@ -325,7 +325,7 @@ typedef struct table {
     const float *numbers;
     const vndf_layout *layout;
     int cells, moments, squarings, highest, steps; /* highest: the highest power of two <= cells, 2^(steps - 1) */
-    int levels, stride; /* steps that `level` serves, and what is left for the others: 2^(steps - levels) */
+    int levels, stride; /* search steps in the level arrays; knots per leaf left for the search by rows */
     int copied;         /* registers of a column in pairs: 2 or 4, 0 if there are no columns */
 } table;
 
