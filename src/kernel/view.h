@@ -62,6 +62,8 @@ KERNEL real placed_ndf(int kind, table t, frame f, vec3 wm)
 CALL real vndf_ndf(surface m, vec3 wm)
 {
     const placed p = place(m, vec3(0.0f, 0.0f, 1.0f));
+    if (!any(lt(0.0f, p.f.max_pdf))) /* the surface is not valid */
+        return 0.0f;
     return placed_ndf(p.kind, p.t, p.f, wm);
 }
 
