@@ -186,12 +186,12 @@ KERNEL real bounded_pdf(view s, vec3 wm)
     return frame_density(f, pdf(s, wm) / kept);
 }
 
-/* With the visible density over the drawn one. */
-KERNEL sampled bounded_at(view s, vec3 wm, real density)
+/* A drawn normal with its weight, the visible density over the drawn one; facing = wi . wm. */
+KERNEL sampled weighed_normal(view s, vec3 wm, real facing, real density)
 {
-    real facing = max(facing_of(view_wi(s), wm), 0.0f), weight = 0.0f;
+    real weight = 0.0f;
     if (density > 0.0f)
-        weight = seen_ndf(s, wm) / density * (facing / max(area(s), 1e-37f));
+        weight = seen_ndf(s, wm) / density * (max(facing, 0.0f) / max(area(s), 1e-37f));
     const sampled n = {wm, density, weight};
     return n;
 }
@@ -206,7 +206,7 @@ KERNEL sampled bounded_raised(view s, sampled n)
     const real x = 2.0f * facing * n.wm.x, y = 2.0f * facing * n.wm.y, z = wi.z + 1e-6f,
                per = 1.0f / sqrt(x * x + y * y + z * z);
     const vec3 wm = vec3(x * per, y * per, z * per);
-    return bounded_at(s, wm, bounded_pdf(s, wm));
+    return weighed_normal(s, wm, facing_of(wi, wm), bounded_pdf(s, wm));
 }
 
 /* Draws a visible normal that reflects wi to above the horizon, or of tables of unequal roughness any visible one. */
@@ -218,7 +218,8 @@ KERNEL sampled bounded_sample(view s, real w1, real w2)
     if (is_even_table(s) != 0) {
         const normal_sample m = table_draw_bounded(view_table(s), view_law(s), view_bounds(s), u1, u2);
         const surface_sample n = frame_sampled(view_frame(s), m);
-        return bounded_raised(s, bounded_at(s, vec3(n.x, n.y, n.z), n.pdf));
+        const vec3 wm = vec3(n.x, n.y, n.z);
+        return bounded_raised(s, weighed_normal(s, wm, facing_of(view_wi(s), wm), n.pdf));
     }
     const number_box b = view_box(s);
     sampled d = sample(s, b.begin1 + b.span1 * u1, b.begin2 + b.span2 * u2);

@@ -19,6 +19,12 @@ typedef struct turn {
     real sine, cosine;
 } turn;
 
+/* Of a number in [0, 1]; NaN becomes 0. */
+KERNEL real unit_number(real u)
+{
+    return min(max(u, set(0.0f)), set(1.0f));
+}
+
 /* ---- products ---- */
 
 /* The first half of the digits of a. */

@@ -204,12 +204,6 @@ typedef struct sampled {
     real pdf, weight;
 } sampled;
 
-/* Of a number in [0, 1]; NaN becomes 0. */
-KERNEL real unit_number(real u)
-{
-    return min(max(u, 0.0f), 1.0f);
-}
-
 KERNEL weighted_sample unit_draw(view s, real u1, real u2)
 {
     weighted_sample w;
@@ -221,6 +215,16 @@ KERNEL weighted_sample unit_draw(view s, real u1, real u2)
     else
         w = table_draw_weighed(view_table(s), view_law(s), u1, u2, s.below, view_weighs(s));
     return w;
+}
+
+/* A slope length of all normals, which are those that are visible straight from above, `up`. */
+KERNEL any_slope unit_slope(int kind, table t, frame up, real u2)
+{
+    if (kind == VNDF_GGX)
+        return ggx_slope(u2);
+    if (kind == VNDF_BECKMANN)
+        return beckmann_slope(u2);
+    return table_slope(t, table_view_of(t, up, 0), u2);
 }
 
 KERNEL sampled sample_on(frame f, weighted_sample w)

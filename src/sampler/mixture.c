@@ -20,7 +20,6 @@ typedef struct sampled {
 #define its_count(m) ((m).of->count)
 #define its_view(m, i) (&(m).of->part[i].view)
 #define its_share(m, i) ((m).of->part[i].share)
-#define unit_number(u) vndf_clamp_unit(u)
 #define pdf(v, wm) vndf_pdf(v, vndf_packed(wm))
 #define visible(v, wm) vndf_visible(v, vndf_packed(wm))
 
@@ -130,7 +129,7 @@ int vndf_mixture_invert(const vndf_mixture_view *v, vndf_vec3 wm, int lobe, floa
     if (found_lobe < 0)
         return -1;
     vndf_invert(&v->part[found_lobe].view, wm, u1, u2);
-    *u1 = vndf_clamp_unit(best_begin + *u1 * v->part[found_lobe].share);
+    *u1 = unit_number(best_begin + *u1 * v->part[found_lobe].share);
     return v->part[found_lobe].lobe;
 }
 

@@ -30,10 +30,6 @@ typedef struct vndf_drawn_normal {
 /* Visible normals: vndf_sample_weight; the density is vndf_pdf. */
 vndf_drawn_normal vndf_sample_visible(const vndf_view *view, float u1, float u2);
 
-/* Visible normals that reflect wi to above the horizon (kernel/bounded.h), and their density. */
-vndf_drawn_normal vndf_bounded_sample(const vndf_view *view, float u1, float u2);
-float vndf_bounded_pdf(const vndf_view *view, vndf_vec3 wm);
-
 /* The other normals of vndf_bsdf.h; `weight` is (visible density)/density. All normals have the density D
  * cos(theta_m), those of V-cavities D G1 max(0, wi.wm)/cos_i with G1 = min(1, 2 cos_m cos_i/(wi.wm)). Of valid views of
  * surfaces without a mean slope, wi.z > 0. */

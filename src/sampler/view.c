@@ -89,12 +89,11 @@ VNDF_INLINE int is_direction(vndf_vec3 w)
     return any(direction_is_valid(w.x, w.y, w.z)) != 0;
 }
 
-/* From what is not valid all areas and densities are 0. */
+/* What is not valid has a frame of size 0 whose largest density is 0. */
 VNDF_INLINE placed place(surface m, vec3 w)
 {
-    placed p = {.kind = VNDF_KIND_GGX, .f = {.m = {.xx = 1.0f, .yy = 1.0f, .determinant = 1.0f}, .uz = 1.0f}};
+    placed p = {.kind = VNDF_KIND_GGX, .f = {.uz = 1.0f}};
     vndf_mapped s = mapped(m);
-    p.f.determinant = INFINITY;
     if (!s.distribution || !is_direction(w))
         return p;
     p.kind = (int)s.distribution->kind;
@@ -184,7 +183,7 @@ VNDF_INLINE sampled draw(const vndf_view *v, float w1, float w2, const int weigh
     const sampled none = {{0.0f, 0.0f, 1.0f}, 0.0f, 0.0f};
     if (!v->distribution)
         return none;
-    const float u1 = vndf_clamp_unit(w1), u2 = vndf_clamp_unit(w2);
+    const float u1 = unit_number(w1), u2 = unit_number(w2);
     return sample_on(vndf_state_of(v)->f, vndf_is_below(v) ? unit_draw(vndf_seen(v, 1, weighs), u1, u2)
                                                            : unit_draw(vndf_seen(v, 0, weighs), u1, u2));
 }
@@ -207,26 +206,18 @@ vndf_vec3 vndf_sample_weight(const vndf_view *v, float u1, float u2, float *pdf,
     return vndf_packed(n.wm);
 }
 
-vndf_drawn_normal vndf_sample_visible(const vndf_view *v, float u1, float u2)
+static vndf_drawn_normal drawn_of(sampled n)
 {
-    sampled n = draw(v, u1, u2, 1);
     const vndf_drawn_normal d = {vndf_packed(n.wm), n.pdf, n.weight};
     return d;
 }
 
-vndf_drawn_normal vndf_bounded_sample(const vndf_view *v, float u1, float u2)
+vndf_drawn_normal vndf_sample_visible(const vndf_view *v, float u1, float u2)
 {
-    sampled n = bounded_sample(vndf_seen(v, vndf_is_below(v), 1), u1, u2);
-    const vndf_drawn_normal d = {n.wm, n.pdf, n.weight};
-    return d;
+    return drawn_of(draw(v, u1, u2, 1));
 }
 
 /* ---- given normals ---- */
-
-float vndf_bounded_pdf(const vndf_view *v, vndf_vec3 wm)
-{
-    return bounded_pdf(vndf_seen(v, vndf_is_below(v), 0), wm);
-}
 
 float vndf_pdf(const vndf_view *v, vndf_vec3 wm)
 {
@@ -295,4 +286,31 @@ float vndf_g2_of(float gi, float go, vndf_g2_model model)
 float vndf_g2(const vndf_surface *m, vndf_vec3 wi, vndf_vec3 wo, vndf_g2_model model)
 {
     return vndf_g2_of(vndf_g1(m, wi), vndf_g1(m, wo), model);
+}
+
+/* ---- other normals ---- */
+
+/* V-cavities draw what they draw of all normals, by the mirror twin that wi sees. */
+vndf_drawn_normal vndf_sample_by(const vndf_view *v, vndf_normals_drawn law, float w1, float w2)
+{
+    const view s = vndf_seen(v, vndf_is_below(v), 1);
+    const frame f = view_frame(s), up = frame_of(f.m, 0.0f, 0.0f, 1.0f);
+    const float u1 = unit_number(w1), u2 = unit_number(w2);
+    if (law == VNDF_NORMALS_BOUNDED)
+        return drawn_of(bounded_sample(s, u1, u2));
+    const any_slope r = unit_slope(s.kind, view_table(s), up, u2);
+    const surface_sample n = law == VNDF_NORMALS_V_CAVITY
+                                 ? frame_sampled(f, v_cavity_draw(r, f.ux, f.uy, f.uz, u1))
+                                 : frame_sampled(up, all_normals_draw(r, u1));
+    const double facing = ((double)v->wi.x * n.x + (double)v->wi.y * n.y) + (double)v->wi.z * n.z;
+    return drawn_of(weighed_normal(s, vec3(n.x, n.y, n.z), (float)facing, n.pdf));
+}
+
+float vndf_pdf_by(const vndf_view *v, vndf_normals_drawn law, vndf_vec3 wm)
+{
+    const view s = vndf_seen(v, vndf_is_below(v), 0);
+    const float all = law == VNDF_NORMALS_BOUNDED ? bounded_pdf(s, wm) : seen_ndf(s, wm) * wm.z;
+    if (law == VNDF_NORMALS_V_CAVITY)
+        return all * v_cavity_share(v->wi.x * wm.x + v->wi.y * wm.y, v->wi.z * wm.z);
+    return all;
 }

@@ -259,10 +259,10 @@ static int compare_normal(const record *q, const record *a, double *off, int *ma
     record own;
     vndf_view view = vndf_view_from(&m, wi);
     if (q->n[WO + 1] > 0) {
-        const vndf_drawn_normal n = vndf_bounded_sample(&view, u1, u2);
+        const vndf_drawn_normal n = vndf_sample_by(&view, VNDF_NORMALS_BOUNDED, u1, u2);
         put(own.n, n.wm);
         own.n[3] = n.density;
-        own.n[4] = vndf_bounded_pdf(&view, wm);
+        own.n[4] = vndf_pdf_by(&view, VNDF_NORMALS_BOUNDED, wm);
     } else {
         put(own.n, vndf_sample(&view, u1, u2, &own.n[3]));
         own.n[4] = vndf_pdf(&view, wm);

@@ -49,6 +49,11 @@ typedef struct vndf_arrays {
     float *write[VNDF_WRITES];
 } vndf_arrays;
 
+/* The name of what is compiled for each number of lanes. */
+#define VNDF_OF_LANES(name) VNDF_JOINED(name, VNDF_LANES)
+#define VNDF_JOINED(name, lanes) VNDF_PASTED(name, lanes)
+#define VNDF_PASTED(name, lanes) name##lanes
+
 /* Element i of what they write equals, to the bit, the call for one element. No distribution is NULL, and no task an
  * inverse; those of 8 and 16 are there where the build compiles them. */
 void vndf_lanes_4(const vndf_call *call), vndf_lanes_8(const vndf_call *call),

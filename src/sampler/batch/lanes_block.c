@@ -16,14 +16,6 @@
 #include "kernel/sample.h"
 #include "sampler/batch/call.h"
 
-#if VNDF_LANES == 4
-#  define LANES_ENTRY vndf_lanes_4
-#elif VNDF_LANES == 8
-#  define LANES_ENTRY vndf_lanes_8
-#else
-#  define LANES_ENTRY vndf_lanes_16
-#endif
-
 enum { BLOCK = VNDF_BLOCK, GROUPS = BLOCK / LANES };
 
 /* Steps are not to be inlined into one large function: each has its own part of the stack. */
@@ -49,10 +41,9 @@ KERNEL real input(const block *b, int which, int g)
     return load(b->read[which] + g * LANES);
 }
 
-/* Of the numbers u1 and u2: in [0, 1], 0 for NaN. */
 KERNEL real unit_input(const block *b, int which, int g)
 {
-    return min(max(input(b, which, g), set(0.0f)), set(1.0f));
+    return unit_number(input(b, which, g));
 }
 
 KERNEL void put(const block *b, int which, int g, real x)
@@ -618,7 +609,7 @@ STEP void run_sides(block *b, const vndf_call *call, size_t first, int count, ui
 
 /* ---- calls ---- */
 
-void LANES_ENTRY(const vndf_call *call)
+void VNDF_OF_LANES(vndf_lanes_)(const vndf_call *call)
 {
     static const row zeros;
     copies c;

@@ -11,17 +11,6 @@
 #include "kernel/sample.h"
 #include "sampler/batch/call.h"
 
-#if VNDF_LANES == 4
-#  define LANES_ENTRY vndf_lanes_4
-#  define MIXTURES_ENTRY vndf_mixtures_4
-#elif VNDF_LANES == 8
-#  define LANES_ENTRY vndf_lanes_8
-#  define MIXTURES_ENTRY vndf_mixtures_8
-#else
-#  define LANES_ENTRY vndf_lanes_16
-#  define MIXTURES_ENTRY vndf_mixtures_16
-#endif
-
 enum { BLOCK = VNDF_BLOCK, GROUPS = BLOCK / LANES, LOBES = VNDF_MIXTURE_LOBES };
 
 typedef struct lobe_numbers {
@@ -68,7 +57,7 @@ static void ask_lobe(const mixtures *m, int l, vndf_task task, uint64_t which, v
     call.which = which;
     call.count = (size_t)m->count;
     if (which)
-        LANES_ENTRY(&call);
+        VNDF_OF_LANES(vndf_lanes_)(&call);
 }
 
 static const uint64_t everything = ~(uint64_t)0;
@@ -146,7 +135,7 @@ static void sum_lobes(const mixtures *m, vndf_task task, vndf_arrays a, const in
 static void pick_lobes(const mixtures *m, real *u1, integer *chosen)
 {
     for (int g = 0; g < m->groups; g++) {
-        real u = min(max(u1[g], set(0.0f)), set(1.0f)), begin = set(0.0f), end = begin, share = set(1.0f);
+        real u = unit_number(u1[g]), begin = set(0.0f), end = begin, share = set(1.0f);
         integer at = set_int(-1);
         for (int l = 0; l < m->batch->lobes; l++) { /* the last one takes what rounding leaves */
             real part = m->share[g][l];
@@ -201,7 +190,7 @@ static void mask_mixtures(const mixtures *m, vndf_task task, vndf_arrays given, 
         to[0][g] = task == VNDF_TASK_LAMBDA ? lambda_of(to[0][g], to[1][g]) : g1_of(to[0][g], to[1][g]);
 }
 
-void MIXTURES_ENTRY(const vndf_batch *b, vndf_task task, const vndf_arrays *a)
+void VNDF_OF_LANES(vndf_mixtures_)(const vndf_batch *b, vndf_task task, const vndf_arrays *a)
 {
     mixtures m; /* of which what is read is set */
     row to[VNDF_WRITES];
