@@ -42,7 +42,7 @@ typedef struct survey {
     direction *at;         /* and what is seen from rho at its edge */
     vndf_certificate *to;  /* what is worst so far */
     double furthest;       /* xi in the last cell beyond which all is drawn at one slope */
-    double rarely[RATIOS]; /* what the direction at hand sees, by the ratio in which it is drawn too rarely */
+    double rarely[RATIOS]; /* what the direction at hand sees, by true over drawn density; or all, by error of D */
 } survey;
 
 /* ---- strips ---- */
@@ -89,15 +89,19 @@ static vndf_drawn drawn_in(table t, radial_law v, int i, int below)
     return (vndf_drawn){p.mass, p.e0 * p.mass, p.e1 * p.mass};
 }
 
+/* Adds a part that has a ratio, at least 1. */
+static void add_part(survey *s, double part, double ratio)
+{
+    s->rarely[ratio < 0x1p31 ? (int)(PER_OCTAVE * log2(ratio)) : RATIOS - 1] += part;
+}
+
 /* Notes that some of what is seen is drawn too rarely; `weight` is the largest ratio of a larger part. */
 static void note_ratio(survey *s, double right, double ratio, double *weight)
 {
-    if (ratio <= *weight)
-        return;
-    if (right > LEFT_OUT)
+    if (ratio > *weight && right > LEFT_OUT)
         *weight = ratio;
-    else
-        s->rarely[ratio < 0x1p31 ? (int)(PER_OCTAVE * log2(ratio)) : RATIOS - 1] += right;
+    else if (ratio > *weight)
+        add_part(s, right, ratio);
 }
 
 /* What is seen and what is drawn of both halves of a strip, or of all of it twice: returns the difference, and notes
@@ -176,7 +180,7 @@ static void take(const survey *s, const double *f, double rho, int side)
     c->consistency = fmaxf(c->consistency, (float)f[CONSISTENCY]);
 }
 
-/* One side of rho, which is at this edge or, above the horizon, in its strip. */
+/* Compares on one side of the horizon, and takes what is worst. */
 static void look_at_side(survey *s, double rho, size_t edge, int below, double *figure)
 {
     table t = s->table;
@@ -200,7 +204,7 @@ static double kernel_of(double r, double rho)
     return r > rho ? vndf_profile_kernel(r, rho) : 0;
 }
 
-/* What is seen from rho, which is at an edge or in its strip: of strips, and of that on so many sides. */
+/* Looks from rho, at an edge or in its strip: above the horizon and, if `sides` is 2, below it. */
 static direction look_from(survey *s, double rho, size_t edge, int sides)
 {
     const vndf_strip *at = s->strips.at;
@@ -232,15 +236,13 @@ static void look_from_edge(survey *s, size_t edge)
 
 /* ---- all directions ---- */
 
-/* By how much a figure rises per edge on the way from the last known edge to this one. */
-static double rise_to(const survey *s, size_t edge, int back, int side, int figure)
+/* By how much a figure rises per edge up to this one, from the known edge before it, or behind it if `step` is -1. */
+static double rise_to(const survey *s, size_t edge, int step, int side, int figure)
 {
-    size_t before = edge, steps = 0;
-    do {
-        before += back ? 1 : (size_t)-1;
+    size_t from = edge - (size_t)step, steps = 1;
+    for (; from < s->strips.count && !s->at[from].known; from -= (size_t)step)
         steps++;
-    } while (before < s->strips.count && !s->at[before].known);
-    double rise = before < s->strips.count ? s->at[edge].side[side][figure] - s->at[before].side[side][figure] : 0;
+    double rise = from < s->strips.count ? s->at[edge].side[side][figure] - s->at[from].side[side][figure] : 0;
     return rise / (double)steps;
 }
 
@@ -254,8 +256,8 @@ static int may_be_worse(const survey *s, size_t a, size_t b)
         for (int figure = TV; figure <= WEIGHT; figure++) {
             double one = s->at[a].side[side][figure], other = s->at[b].side[side][figure],
                    half = (double)(b - a) / 2, most = fmax(one, other) + fabs(one - other);
-            most = fmax(most, one + half * rise_to(s, a, 0, side, figure));
-            most = fmax(most, other + half * rise_to(s, b, 1, side, figure));
+            most = fmax(most, one + half * rise_to(s, a, 1, side, figure));
+            most = fmax(most, other + half * rise_to(s, b, -1, side, figure));
             may |= most > more * (figure == TV ? tv[side] : weight);
         }
     return may;
@@ -413,7 +415,7 @@ static double ndf_error(survey *s)
             double error =
                 strip_error(&cell, &s->strips.at[n], &s->in[n], end, i == s->table.cells, next - before) / least;
             if (error >= 1)
-                s->rarely[error < 0x1p31 ? (int)(PER_OCTAVE * log2(error)) : RATIOS - 1] += s->strips.at[n].f;
+                add_part(s, s->strips.at[n].f, error);
         }
     }
     return largest_ratio(s) * least;
