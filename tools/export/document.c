@@ -151,10 +151,9 @@ static const char head[] =
     "// normal wm that faces wi, its density per steradian, and the true density over that. vndf_pdf, vndf_visible\n"
     "// and vndf_ndf are of a given normal, vndf_lambda, vndf_g1, vndf_g2 and vndf_projected_area of directions.\n"
     "// vndf_bounded_sample draws visible normals that reflect wi to above the horizon, vndf_bounded_pdf has their\n"
-    "// density; their weight counts what is left out. A\n"
-    "// vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter. Directions\n"
-    "// are unit and may be below the surface; roughness is alpha. vndf_pdf of a sample is its density within 1e-4\n"
-    "// for 99.99% of samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
+    "// density. A vndf_mixture is up to VNDF_LOBES surfaces; vndf_family_at makes one of a family at a parameter.\n"
+    "// Directions are unit and may be below the surface; roughness is alpha. vndf_pdf of a sample is its density\n"
+    "// within 1e-4 for 99.99% of samples above the horizon and 1e-3 below it, where alpha is at least 0.02.\n//\n";
 
 static const char bsdf_head[] =
     "// vndf_bsdf_at(material, wi), a vndf_material being a surface and its optics, is a hit; vndf_bsdf_sample draws\n"
